@@ -1,0 +1,113 @@
+//! The compiled scenario's file format, `.pitchc`: JSON with a version and a checksum.
+
+use crate::scenario::Scenario;
+use crate::verify::verify;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+
+/// The version this build reads and writes.
+pub const FORMAT_VERSION: u32 = 1;
+/// What the field `format` says.
+const FORMAT_NAME: &str = "setpiece scenario";
+
+/// Why a compiled scenario can't be read or written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FormatError {
+    /// It is not a compiled scenario at all.
+    NotAScenario(String),
+    /// It ends before it should.
+    Truncated,
+    /// It was written by another version.
+    Version(u32),
+    /// Its content is not what was written.
+    Checksum,
+    /// It is well-formed but says something impossible.
+    Corrupt(String),
+    /// It can't be written.
+    Write(String),
+}
+
+impl std::fmt::Display for FormatError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            FormatError::NotAScenario(why) => write!(f, "not a compiled scenario: {why}"),
+            FormatError::Truncated => f.write_str("the compiled scenario is cut off: its end is missing"),
+            FormatError::Version(found) => write!(
+                f,
+                "the compiled scenario has format version {found}; this build reads version {FORMAT_VERSION}: build it again from its source"
+            ),
+            FormatError::Checksum => {
+                f.write_str("the compiled scenario was changed after it was built: its checksum differs; build it again")
+            }
+            FormatError::Corrupt(why) => write!(f, "the compiled scenario is corrupt: {why}"),
+            FormatError::Write(why) => write!(f, "the scenario can't be written: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for FormatError {}
+
+#[derive(Serialize)]
+struct Out<'a> {
+    format: &'a str,
+    version: u32,
+    checksum: String,
+    scenario: &'a RawValue,
+}
+
+#[derive(Deserialize)]
+struct In<'a> {
+    #[serde(borrow)]
+    format: Option<std::borrow::Cow<'a, str>>,
+    version: Option<u32>,
+    #[serde(borrow)]
+    checksum: Option<std::borrow::Cow<'a, str>>,
+    #[serde(borrow)]
+    scenario: Option<&'a RawValue>,
+}
+
+/// Writes a scenario as text.
+///
+/// # Errors
+/// [`FormatError::Write`] where a constant is not finite.
+pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
+    let write = |error: serde_json::Error| FormatError::Write(error.to_string());
+    let body = serde_json::to_string(scenario).map_err(write)?;
+    let checksum = format!("{:016x}", fnv1a(body.as_bytes()));
+    let raw = RawValue::from_string(body).map_err(write)?;
+    let out = Out { format: FORMAT_NAME, version: FORMAT_VERSION, checksum, scenario: &raw };
+    serde_json::to_string(&out).map_err(write)
+}
+
+/// Reads a scenario from text; what it returns is safe to run.
+///
+/// # Errors
+/// [`FormatError`] for anything but an unchanged file of this version.
+pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
+    let envelope: In<'_> = serde_json::from_str(text).map_err(|error| {
+        if error.is_eof() && text.trim_start().starts_with('{') {
+            FormatError::Truncated
+        } else {
+            FormatError::NotAScenario(error.to_string())
+        }
+    })?;
+    if envelope.format.as_deref() != Some(FORMAT_NAME) {
+        return Err(FormatError::NotAScenario(format!("the field `format` is not \"{FORMAT_NAME}\"")));
+    }
+    let version = envelope.version.ok_or_else(|| FormatError::NotAScenario("it has no `version`".to_owned()))?;
+    if version != FORMAT_VERSION {
+        return Err(FormatError::Version(version));
+    }
+    let body = envelope.scenario.ok_or(FormatError::Truncated)?.get();
+    if envelope.checksum.as_deref() != Some(format!("{:016x}", fnv1a(body.as_bytes())).as_str()) {
+        return Err(FormatError::Checksum);
+    }
+    let scenario: Scenario = serde_json::from_str(body).map_err(|error| FormatError::Corrupt(error.to_string()))?;
+    verify(&scenario).map_err(FormatError::Corrupt)?;
+    Ok(scenario)
+}
+
+/// FNV-1a, 64 bit: a checksum against accidents, not against malice ([`verify`] is for that).
+pub fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}

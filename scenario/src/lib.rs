@@ -1,0 +1,25 @@
+//! The compiled scenario: what the compiler writes and the engine runs.
+//!
+//! Plain data. A [`Scenario`] holds everything an episode needs: the roster, the start (a [`Program`] that is run at
+//! every reset), rewards and endings (programs run at every step), scripts, and the parameters, which stay symbolic
+//! until a match binds them. [`vocabulary`] is the one home of every list that the language, the engine, the docs and
+//! Python share. [`file`](mod@file) is the versioned `.pitchc` format.
+
+pub mod file;
+pub mod params;
+pub mod pitch;
+pub mod program;
+pub mod scenario;
+pub mod verify;
+pub mod vocabulary;
+
+pub use file::{FORMAT_VERSION, FormatError};
+pub use params::{Bindings, Param, ParamError};
+pub use program::{BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp, When, Who};
+pub use scenario::{
+    Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Others, PlayerSlot, PlayerStart, Require, Reward,
+    RewardBody, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
+};
+pub use vocabulary::{
+    Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team, Type, Verdict,
+};

@@ -1,0 +1,432 @@
+//! The register program: how everything computed in a scenario is written down.
+//!
+//! A program is straight-line code over `f64` registers. **Instruction `i` writes register `i`** and reads only earlier
+//! ones, so a program needs no register allocation, shares equal subexpressions by construction, and can be checked by
+//! one pass ([`crate::verify`]). The only control flow is [`Instr::Each`], which runs the instructions behind it once
+//! per player or event; it is bounded by the number of players and events, so every program ends.
+//!
+//! - Booleans are 0 and 1, teams 0 (left), 1 (right) and -1 (none), players are ids `team * 11 + index` or -1 (nobody).
+//! - Values are SI in the world frame; a point takes two registers.
+//! - An impossible result (a division by zero, the root of a negative number, a property of nobody, the least of an
+//!   empty set) is NaN. NaN flows through arithmetic, compares false, and is stopped at the effects: a `Give` or
+//!   `Assign` of NaN does nothing and is counted as a fault. Selecting the other branch drops it.
+//! - Temporal instructions and effects own memory *cells*, which live as long as the episode. Every temporal
+//!   instruction runs exactly once per step, whatever guards the effects that use it.
+//! - On the start state of an episode a step program runs once *silently*: temporal instructions see it, effects don't
+//!   happen.
+
+use crate::vocabulary::{EventField, EventKind, Field, Qualifier};
+use serde::{Deserialize, Serialize};
+
+/// A register, named by the instruction that writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Reg(pub u32);
+
+impl Reg {
+    /// The register as an index.
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A program and the memory it needs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Program {
+    /// The instructions, in order.
+    pub code: Vec<Instr>,
+    /// Number of memory cells, all 0 at reset until `init` code assigns them.
+    pub cells: u32,
+}
+
+impl Program {
+    /// Whether a value of the program depends on the agent's player (`me`), so that it must run once per agent.
+    pub fn uses_me(&self) -> bool {
+        self.code.iter().any(|instr| matches!(instr, Instr::Me))
+    }
+}
+
+/// Whether a load reads the present state or the one a step ago.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum When {
+    /// The state after this step.
+    #[default]
+    Now,
+    /// The state at the end of the previous step, after restarts.
+    Prev,
+}
+
+/// One instruction. Instruction `i` writes register `i`; effects write 0 there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Instr {
+    /// A finite constant.
+    Const(f64),
+    /// A bound parameter of the scenario, by its place in [`Scenario::params`](crate::Scenario::params).
+    Param(u32),
+    /// A scenario `let`, by its place in [`Start::lets`](crate::Start::lets); not in the start program itself.
+    Let(u32),
+    /// The episode's index, counted since the last seeded reset.
+    EpisodeIndex,
+    /// One operand.
+    Unary(UnaryOp, Reg),
+    /// Two operands.
+    Binary(BinaryOp, Reg, Reg),
+    /// `if 0 then 1 else 2`.
+    Select(Reg, Reg, Reg),
+    /// The team of the agent that is judged.
+    Us,
+    /// The player that the agent controls now, or -1.
+    Me,
+    /// A number of the match; `of` is a player or team, and absent for the ball and the match.
+    Load {
+        /// What is read.
+        field: Field,
+        /// Of which player or team.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        of: Option<Reg>,
+        /// Now or a step ago.
+        #[serde(default, skip_serializing_if = "is_now")]
+        when: When,
+    },
+    /// A field of the current event of the innermost `Each` over events.
+    Event(EventField),
+    /// A loop; see [`Each`].
+    Each(Each),
+    /// The value of a memory cell.
+    Cell(u32),
+    /// Whether `0` held at every step of the last `seconds`; the cell counts the steps in a row.
+    Held {
+        /// The condition.
+        of: Reg,
+        /// The duration, seconds.
+        seconds: Reg,
+        /// Steps in a row.
+        cell: u32,
+    },
+    /// Whether the condition held at some step so far.
+    Ever {
+        /// The condition.
+        of: Reg,
+        /// 1 once it held.
+        cell: u32,
+    },
+    /// Seconds since the condition last held, infinite before.
+    Since {
+        /// The condition.
+        of: Reg,
+        /// 0 before it ever held, else 1 + the steps since.
+        cell: u32,
+    },
+    /// Whether `of` held at every step until `release` first held (1 while both are undecided).
+    Until {
+        /// What must hold.
+        of: Reg,
+        /// What ends the duty.
+        release: Reg,
+        /// 0 undecided, 1 released, 2 broken.
+        cell: u32,
+    },
+    /// 1 at the first step at which the condition holds, else 0; never on the silent run.
+    Once {
+        /// The condition.
+        of: Reg,
+        /// 1 once it paid.
+        cell: u32,
+    },
+    /// Effect: pays `value` into a term of the reward.
+    Give {
+        /// The term's place in the reward's list.
+        term: u32,
+        /// How much.
+        value: Reg,
+        /// Only where this holds.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        guard: Option<Reg>,
+    },
+    /// Effect: writes a memory cell; later instructions of this step see it.
+    Assign {
+        /// Which cell.
+        cell: u32,
+        /// Its new value.
+        value: Reg,
+        /// Only where this holds.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        guard: Option<Reg>,
+    },
+    /// A random draw; in the start program only.
+    Random(Distribution),
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_now(when: &When) -> bool {
+    *when == When::Now
+}
+
+/// A loop over players or events: runs the next `body` instructions once per element.
+///
+/// While the body runs, the register of the `Each` itself holds the element (a player id, or the event's number);
+/// afterwards it holds the result of the fold. Registers written in the body may be read in the body only.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Each {
+    /// What is gone through, in order: left before right, by index; events as they happened.
+    pub over: Over,
+    /// Number of instructions in the body.
+    pub body: u32,
+    /// What becomes of the elements.
+    pub fold: Fold,
+}
+
+/// What an [`Each`] goes through.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Over {
+    /// The players on the pitch of a team (-1: of both), without one of them.
+    Players {
+        /// The team; -1 for both.
+        team: Reg,
+        /// A player that is left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        except: Option<Reg>,
+    },
+    /// The events of this step that pass a filter.
+    Events(EventFilter),
+}
+
+/// Which events count.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EventFilter {
+    /// The kind.
+    pub kind: EventKind,
+    /// Only with this qualifier. A bare `pass` is written with `attempted` by the compiler; for a bare set piece the
+    /// award counts, for a bare `shot` the moment it is struck: the events without a qualifier.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub qualifier: Option<Qualifier>,
+    /// Only by this team or player.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by: Option<Who>,
+    /// Only to this team or player.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<Who>,
+}
+
+/// A team or a player, as a filter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Who {
+    /// A team.
+    Team(Reg),
+    /// A player.
+    Player(Reg),
+}
+
+/// What becomes of the elements of an [`Each`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fold {
+    /// How values become one.
+    pub kind: FoldKind,
+    /// The value per element; absent for `Count` and `Nothing`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<Reg>,
+    /// Only elements for which this holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub guard: Option<Reg>,
+}
+
+/// How the values of the elements become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FoldKind {
+    /// The loop is run for its effects; the result is 0.
+    Nothing,
+    /// How many.
+    Count,
+    /// The total; 0 for none.
+    Sum,
+    /// The average; NaN for none.
+    Mean,
+    /// The least; NaN for none.
+    Min,
+    /// The greatest; NaN for none.
+    Max,
+    /// Whether a value is true; false for none.
+    Any,
+    /// Whether every value is true; true for none.
+    All,
+    /// The element with the least value, the first of equals; -1 for none.
+    ArgMin,
+    /// The element with the greatest value, the first of equals; -1 for none.
+    ArgMax,
+}
+
+/// An operator of one operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum UnaryOp {
+    /// Minus.
+    Neg,
+    /// Logical not.
+    Not,
+    /// Absolute value.
+    Abs,
+    /// Square root; NaN below 0.
+    Sqrt,
+    /// e to the power.
+    Exp,
+    /// Natural logarithm; NaN at or below 0.
+    Log,
+    /// Rounded down.
+    Floor,
+    /// Rounded up.
+    Ceil,
+    /// To the nearest whole number, halves away from 0.
+    Round,
+    /// Sine of radians.
+    Sin,
+    /// Cosine of radians.
+    Cos,
+    /// +1 for team 0, -1 for team 1, NaN for none: turns own-frame lengths into world ones and back.
+    Side,
+    /// The other team; -1 of none.
+    OtherTeam,
+    /// The team of a player; -1 of nobody.
+    TeamOf,
+    /// Whether a player is somebody on the pitch (not -1 and active).
+    Exists,
+    /// An angle wrapped to -π..π.
+    Wrap,
+}
+
+/// An operator of two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BinaryOp {
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient; NaN for a zero divisor.
+    Div,
+    /// Remainder with the divisor's sign; NaN for a zero divisor.
+    Mod,
+    /// Power.
+    Pow,
+    /// The lesser.
+    Min,
+    /// The greater.
+    Max,
+    /// √(a² + b²).
+    Hypot,
+    /// Angle of the vector (b, a), as in `atan2(a, b)`.
+    Atan2,
+    /// Less than.
+    Lt,
+    /// At most.
+    Le,
+    /// Greater than.
+    Gt,
+    /// At least.
+    Ge,
+    /// Equal; two NaN are not.
+    Eq,
+    /// Not equal; false where one is NaN.
+    Ne,
+    /// Logical and.
+    And,
+    /// Logical or.
+    Or,
+}
+
+/// A distribution of the start program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Distribution {
+    /// Between two ends.
+    Uniform(Reg, Reg),
+    /// Mean and standard deviation.
+    Normal(Reg, Reg),
+    /// Mean, standard deviation, low and high end.
+    TruncatedNormal(Reg, Reg, Reg, Reg),
+    /// A whole number between two ends, both included.
+    Integer(Reg, Reg),
+    /// An index, by weights.
+    Weighted(Vec<Reg>),
+}
+
+impl Instr {
+    /// Calls `f` with every register the instruction reads, but for those of an `Each`'s fold, which lie in its body.
+    pub fn operands(&self, f: &mut dyn FnMut(Reg)) {
+        match self {
+            Instr::Const(_)
+            | Instr::Param(_)
+            | Instr::Let(_)
+            | Instr::EpisodeIndex
+            | Instr::Us
+            | Instr::Me
+            | Instr::Event(_)
+            | Instr::Cell(_) => {}
+            Instr::Unary(_, a) => f(*a),
+            Instr::Binary(_, a, b) => {
+                f(*a);
+                f(*b);
+            }
+            Instr::Select(a, b, c) => {
+                f(*a);
+                f(*b);
+                f(*c);
+            }
+            Instr::Load { of, .. } => of.iter().for_each(|&reg| f(reg)),
+            Instr::Each(each) => match &each.over {
+                Over::Players { team, except } => {
+                    f(*team);
+                    except.iter().for_each(|&reg| f(reg));
+                }
+                Over::Events(filter) => {
+                    for who in filter.by.iter().chain(&filter.to) {
+                        match who {
+                            Who::Team(reg) | Who::Player(reg) => f(*reg),
+                        }
+                    }
+                }
+            },
+            Instr::Held { of, seconds, .. } => {
+                f(*of);
+                f(*seconds);
+            }
+            Instr::Ever { of, .. } | Instr::Since { of, .. } | Instr::Once { of, .. } => f(*of),
+            Instr::Until { of, release, .. } => {
+                f(*of);
+                f(*release);
+            }
+            Instr::Give { value, guard, .. } | Instr::Assign { value, guard, .. } => {
+                f(*value);
+                guard.iter().for_each(|&reg| f(reg));
+            }
+            Instr::Random(distribution) => match distribution {
+                Distribution::Uniform(a, b) | Distribution::Normal(a, b) | Distribution::Integer(a, b) => {
+                    f(*a);
+                    f(*b);
+                }
+                Distribution::TruncatedNormal(a, b, c, d) => [a, b, c, d].into_iter().for_each(|&reg| f(reg)),
+                Distribution::Weighted(weights) => weights.iter().for_each(|&reg| f(reg)),
+            },
+        }
+    }
+
+    /// The memory cell the instruction uses.
+    pub fn cell(&self) -> Option<u32> {
+        match self {
+            Instr::Cell(cell)
+            | Instr::Held { cell, .. }
+            | Instr::Ever { cell, .. }
+            | Instr::Since { cell, .. }
+            | Instr::Until { cell, .. }
+            | Instr::Once { cell, .. }
+            | Instr::Assign { cell, .. } => Some(*cell),
+            _ => None,
+        }
+    }
+}

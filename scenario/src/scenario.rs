@@ -1,0 +1,330 @@
+//! The compiled scenario.
+
+use crate::params::Param;
+use crate::program::{Program, Reg};
+use crate::vocabulary::{Role, Rule, StartKind, Stat, Team, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// A compiled scenario: self-contained, with its parameters still symbolic.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    /// The name in the file.
+    pub name: String,
+    /// The documentation written above it; its first line is the title.
+    #[serde(default)]
+    pub doc: String,
+    /// The parameters, in source order, the parents' first.
+    #[serde(default)]
+    pub params: Vec<Param>,
+    /// Rhai scripts, by the ids that rewards, endings and players use.
+    #[serde(default)]
+    pub scripts: Vec<Script>,
+    /// The roster: the left team's players before the right's, each in source order, at most 11 a team.
+    pub players: Vec<PlayerSlot>,
+    /// Who is played by agents.
+    pub agents: Agents,
+    /// How an episode starts.
+    pub start: Start,
+    /// The rewards that are paid unless the user asks for others.
+    #[serde(default)]
+    pub rewards: Vec<Reward>,
+    /// Further named rewards in scope whose parameters all have defaults: what `--reward NAME` can ask for.
+    #[serde(default)]
+    pub library: Vec<Reward>,
+    /// When an episode ends.
+    pub endings: Endings,
+}
+
+impl Scenario {
+    /// The first line of the documentation.
+    pub fn title(&self) -> &str {
+        self.doc.lines().next().unwrap_or_default()
+    }
+
+    /// The players of a team with their ids (`team * 11 + index`), in source order.
+    pub fn team(&self, team: Team) -> impl Iterator<Item = (usize, &PlayerSlot)> {
+        let base = team.index() * crate::pitch::TEAM_MAX;
+        self.players.iter().filter(move |slot| slot.team == team).enumerate().map(move |(i, slot)| (base + i, slot))
+    }
+
+    /// A reward by its name, among those paid and those in scope.
+    pub fn reward(&self, name: &str) -> Option<&Reward> {
+        self.library.iter().chain(&self.rewards).find(|reward| reward.name == name)
+    }
+}
+
+/// A Rhai script, embedded.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Script {
+    /// The path as written, for messages.
+    pub name: String,
+    /// The text.
+    pub source: String,
+}
+
+/// A player of the roster.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlayerSlot {
+    /// The team.
+    pub team: Team,
+    /// The role.
+    pub role: Role,
+    /// The name before the role, if any: also the id of his agent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Who plays him when no agent does.
+    #[serde(default)]
+    pub ai: Ai,
+    /// Whether an agent may be given him.
+    pub controllable: bool,
+    /// Statistics that replace the table's, each a register of the start program, 0..1.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stats: Vec<(Stat, Reg)>,
+    /// Where and how he starts.
+    pub start: PlayerStart,
+}
+
+/// Who plays a player when no agent does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ai {
+    /// The built-in bot.
+    #[default]
+    Bot,
+    /// Stands still and holds his place, but plays a ball that comes to him.
+    Hold,
+    /// Brakes to a stand and looks at the ball (GRF's `lazy`).
+    Lazy,
+    /// A script's `act` hook.
+    Script(u32),
+}
+
+/// A player's start; every register belongs to the start program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlayerStart {
+    /// World x, metres.
+    pub x: Reg,
+    /// World y, metres.
+    pub y: Reg,
+    /// World heading, radians; towards the ball if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heading: Option<Reg>,
+    /// World velocity, m/s; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<(Reg, Reg)>,
+    /// 0 fresh to 1 exhausted; fresh if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fatigue: Option<Reg>,
+    /// Cards he starts with; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yellow_cards: Option<Reg>,
+    /// His own difficulty; the team's if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub difficulty: Option<Reg>,
+    /// Whether he plays at all: depends on parameters only; always if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub present: Option<Reg>,
+}
+
+/// Who is played by agents, and what the others do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Agents {
+    /// Left and right.
+    pub sides: [SideAgents; 2],
+    /// What team mates without an agent do.
+    #[serde(default)]
+    pub others: Others,
+    /// Whether the controlled player changes.
+    #[serde(default)]
+    pub switching: Switching,
+}
+
+/// The agents of a side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SideAgents {
+    /// So many: a register of the start program that depends on parameters only.
+    Count(Reg),
+    /// One per controllable player.
+    All,
+    /// These players, by their index in the team.
+    Players(Vec<u8>),
+}
+
+/// What team mates without an agent do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Others {
+    /// The bot plays them.
+    #[default]
+    Bot,
+    /// They stand still.
+    Hold,
+}
+
+/// Whether the controlled player changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Switching {
+    /// By GRF's rules where a count below all is asked for, else fixed.
+    #[default]
+    Auto,
+    /// Never.
+    Fixed,
+}
+
+/// How an episode starts: a program run at reset, and what its registers mean.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Start {
+    /// The program; it may draw.
+    pub program: Program,
+    /// The scenario's `let`s, for step programs.
+    #[serde(default)]
+    pub lets: Vec<Reg>,
+    /// The ball.
+    pub ball: BallStart,
+    /// The kind of start.
+    pub kind: StartKind,
+    /// The team that takes it (a team register); the nearest to the ball if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub taker: Option<Reg>,
+    /// Goals at the start, left and right; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub score: Option<(Reg, Reg)>,
+    /// Time on the clock at the start, seconds; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elapsed: Option<Reg>,
+    /// The layouts of kick-offs; without it kick-offs use the start places.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kickoff: Option<Kickoff>,
+    /// The difficulty of both teams' bots, 0..1.
+    pub difficulty: [Reg; 2],
+    /// The rules that differ from their defaults, or may.
+    #[serde(default)]
+    pub rules: Vec<RuleSetting>,
+    /// Truncation after so many seconds; never if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limit: Option<Reg>,
+    /// What a drawn start must meet.
+    #[serde(default)]
+    pub requires: Vec<Require>,
+}
+
+/// The ball's start; every register belongs to the start program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BallStart {
+    /// World x, metres.
+    pub x: Reg,
+    /// World y, metres.
+    pub y: Reg,
+    /// Height of its lowest point above the ground, metres; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Reg>,
+    /// World velocity, m/s; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<(Reg, Reg, Reg)>,
+    /// World spin, rad/s; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spin: Option<(Reg, Reg, Reg)>,
+    /// A player register: who has it at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub owner: Option<Reg>,
+}
+
+/// The layouts of kick-offs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Kickoff {
+    /// The team that kicks off first: a team register. The start places already follow it.
+    pub first: Reg,
+    /// Per player of the roster, in its order.
+    pub places: Vec<KickoffPlaces>,
+}
+
+/// Where a player stands at a kick-off, world metres, as registers of the start program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KickoffPlaces {
+    /// When his team kicks off.
+    pub kicking: (Reg, Reg),
+    /// When the others do.
+    pub receiving: (Reg, Reg),
+}
+
+/// A rule and its value, a register of the start program that depends on parameters only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RuleSetting {
+    /// Which rule.
+    pub rule: Rule,
+    /// Its value; see [`Rule::default_value`].
+    pub value: Reg,
+}
+
+/// A requirement on a drawn start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Require {
+    /// What must hold.
+    pub condition: Reg,
+    /// With which probability it is asked for; always if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub probability: Option<Reg>,
+    /// The author's words: the label, else the text of the condition.
+    pub label: String,
+}
+
+/// A reward, evaluated at each step for each agent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reward {
+    /// The name its terms are reported under: the `as` name, else the reward's own.
+    pub name: String,
+    /// The first lines of its documentation.
+    #[serde(default)]
+    pub doc: String,
+    /// What it does.
+    pub body: RewardBody,
+}
+
+/// What a reward does.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RewardBody {
+    /// Statements of the language. The weight is already multiplied in.
+    Program {
+        /// Run once at reset: assigns the `state` cells.
+        init: Program,
+        /// Run at every step; shares its cells with `init`.
+        step: Program,
+        /// The labels of the terms, in source order.
+        terms: Vec<String>,
+    },
+    /// A script's `reward` hook; its one term is called `script`.
+    Script {
+        /// Which script.
+        script: u32,
+        /// What its result is multiplied by.
+        weight: f64,
+    },
+}
+
+/// When an episode ends: one program, and its conditions in order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Endings {
+    /// Run at every step, from the side that has agents (`us`), or the left one.
+    pub program: Program,
+    /// In source order, the parents' first; the first that holds ends the episode.
+    pub list: Vec<Ending>,
+}
+
+/// One way to end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ending {
+    /// What it says of the episode.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// Its name: what `info["outcome"]` shows.
+    pub label: String,
+    /// The condition, a register of the endings' program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub when: Option<Reg>,
+    /// Or a script's `done` hook.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub script: Option<u32>,
+}

@@ -1,0 +1,210 @@
+//! Checks a scenario that came from a file: after this, no index in it can miss.
+//!
+//! The compiler writes only scenarios that pass. A file may say anything.
+
+use crate::pitch::TEAM_MAX;
+use crate::program::{Fold, Instr, Program, Reg};
+use crate::scenario::{Ai, RewardBody, Scenario, SideAgents};
+use crate::vocabulary::{Owner, Team};
+
+/// Most instructions of one program.
+const CODE_MAX: usize = 100_000;
+
+/// Says what is wrong with a scenario, if anything.
+///
+/// # Errors
+/// One sentence about the first fault found.
+pub fn verify(scenario: &Scenario) -> Result<(), String> {
+    for team in Team::ALL {
+        if scenario.team(*team).count() > TEAM_MAX {
+            return Err(format!("the {team} team has more than {TEAM_MAX} players"));
+        }
+    }
+    if scenario.players.windows(2).any(|pair| pair[0].team > pair[1].team) {
+        return Err("the left team's players must come before the right team's".to_owned());
+    }
+    for param in &scenario.params {
+        param.admit(param.default).map_err(|error| error.to_string())?;
+    }
+    let n_params = scenario.params.len();
+    let n_lets = scenario.start.lets.len();
+    let n_scripts = scenario.scripts.len();
+    let check = |what: &str, program: &Program, place: Place| {
+        verify_program(program, place, n_params, n_lets).map_err(|fault| format!("{what}: {fault}"))
+    };
+    check("the start", &scenario.start.program, Place::Start)?;
+    check("the endings", &scenario.endings.program, Place::Step { terms: 0 })?;
+    for ending in &scenario.endings.list {
+        ending.when.map_or(Ok(()), |reg| visible(&scenario.endings.program, reg))?;
+        ending.script.map_or(Ok(()), |script| below("script", script, n_scripts))?;
+    }
+    for reward in scenario.rewards.iter().chain(&scenario.library) {
+        match &reward.body {
+            RewardBody::Program { init, step, terms } => {
+                check(&reward.name, init, Place::Init)?;
+                check(&reward.name, step, Place::Step { terms: terms.len() })?;
+                if init.cells != step.cells {
+                    return Err(format!("{}: init and step differ in memory", reward.name));
+                }
+            }
+            RewardBody::Script { script, weight } => {
+                below("script", *script, n_scripts)?;
+                if !weight.is_finite() {
+                    return Err(format!("{}: the weight is not finite", reward.name));
+                }
+            }
+        }
+    }
+    verify_start(scenario)
+}
+
+fn verify_start(scenario: &Scenario) -> Result<(), String> {
+    let start = &scenario.start;
+    let mut regs: Vec<Reg> = start.lets.clone();
+    regs.extend(start.difficulty);
+    regs.extend([start.ball.x, start.ball.y]);
+    regs.extend([start.ball.height, start.ball.owner, start.taker, start.elapsed, start.limit].into_iter().flatten());
+    regs.extend(start.ball.velocity.iter().chain(&start.ball.spin).flat_map(|v| [v.0, v.1, v.2]));
+    regs.extend(start.score.iter().flat_map(|s| [s.0, s.1]));
+    regs.extend(start.rules.iter().map(|setting| setting.value));
+    for require in &start.requires {
+        regs.push(require.condition);
+        regs.extend(require.probability);
+    }
+    if let Some(kickoff) = &start.kickoff {
+        if kickoff.places.len() != scenario.players.len() {
+            return Err("the kick-off has not one place per player".to_owned());
+        }
+        regs.push(kickoff.first);
+        for place in &kickoff.places {
+            regs.extend([place.kicking.0, place.kicking.1, place.receiving.0, place.receiving.1]);
+        }
+    }
+    for slot in &scenario.players {
+        let s = &slot.start;
+        regs.extend([s.x, s.y]);
+        regs.extend([s.heading, s.fatigue, s.yellow_cards, s.difficulty, s.present].into_iter().flatten());
+        regs.extend(s.velocity.iter().flat_map(|v| [v.0, v.1]));
+        regs.extend(slot.stats.iter().map(|(_, reg)| *reg));
+        if let Ai::Script(script) = slot.ai {
+            below("script", script, scenario.scripts.len())?;
+        }
+    }
+    for (team, side) in Team::ALL.iter().zip(&scenario.agents.sides) {
+        match side {
+            SideAgents::Count(reg) => regs.push(*reg),
+            SideAgents::All => {}
+            SideAgents::Players(players) => {
+                let n = scenario.team(*team).count();
+                for &player in players {
+                    below("player", u32::from(player), n)?;
+                }
+            }
+        }
+    }
+    regs.into_iter().try_for_each(|reg| visible(&start.program, reg))
+}
+
+/// Where a program stands, which decides what it may contain.
+#[derive(Clone, Copy)]
+enum Place {
+    Start,
+    Init,
+    Step { terms: usize },
+}
+
+fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usize) -> Result<(), String> {
+    if program.code.len() > CODE_MAX || program.cells as usize > CODE_MAX {
+        return Err("too large".to_owned());
+    }
+    // Ends of the bodies around the present instruction, innermost last.
+    let mut open: Vec<(usize, usize, Fold, bool)> = Vec::new();
+    for (at, instr) in program.code.iter().enumerate() {
+        while open.last().is_some_and(|body| body.1 == at) {
+            close_body(program, &mut open)?;
+        }
+        let mut fault = None;
+        instr.operands(&mut |reg| {
+            if reg.index() >= at {
+                fault = Some(format!("instruction {at} reads register {} before it is written", reg.0));
+            }
+        });
+        fault.map_or(Ok(()), Err)?;
+        if instr.cell().is_some_and(|cell| cell >= program.cells) {
+            return Err(format!("instruction {at} uses a memory cell that is not there"));
+        }
+        match (instr, place) {
+            (Instr::Const(value), _) if !value.is_finite() => return Err(format!("constant {at} is not finite")),
+            (Instr::Param(param), _) => below("parameter", *param, n_params)?,
+            (Instr::Let(_), Place::Start) => return Err("a `let` is read in the start itself".to_owned()),
+            (Instr::Let(index), _) => below("let", *index, n_lets)?,
+            (Instr::Load { field, of, .. }, _) => {
+                let wanted = matches!(field.subject(), Owner::Player | Owner::Team);
+                if wanted != of.is_some() {
+                    return Err(format!("instruction {at} loads `{field}` of the wrong thing"));
+                }
+                if !matches!(place, Place::Step { .. }) {
+                    return Err(format!("instruction {at} reads the match before it has begun"));
+                }
+            }
+            (Instr::Event(_), _) if !open.iter().any(|body| body.3) => {
+                return Err(format!("instruction {at} reads an event outside a loop over events"));
+            }
+            (Instr::Give { term, .. }, Place::Step { terms }) => below("term", *term, terms)?,
+            (Instr::Random(_), Place::Start)
+            | (Instr::Assign { .. }, Place::Init | Place::Step { .. })
+            | (Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. }, Place::Step { .. })
+            | (Instr::Until { .. } | Instr::Once { .. } | Instr::Us | Instr::Me, Place::Step { .. })
+            | (Instr::Us, Place::Init) => {}
+            (
+                Instr::Random(_)
+                | Instr::Give { .. }
+                | Instr::Assign { .. }
+                | Instr::Held { .. }
+                | Instr::Ever { .. }
+                | Instr::Since { .. }
+                | Instr::Until { .. }
+                | Instr::Once { .. }
+                | Instr::Us
+                | Instr::Me,
+                _,
+            ) => return Err(format!("instruction {at} has no place there")),
+            (Instr::Each(each), _) => {
+                let end = at + 1 + each.body as usize;
+                let limit = open.last().map_or(program.code.len(), |body| body.1);
+                if end > limit {
+                    return Err(format!("the loop at {at} runs past its end"));
+                }
+                if !matches!(place, Place::Step { .. }) {
+                    return Err(format!("instruction {at} reads the match before it has begun"));
+                }
+                let events = matches!(each.over, crate::program::Over::Events(_));
+                open.push((at, end, each.fold.clone(), events));
+            }
+            _ => {}
+        }
+    }
+    while !open.is_empty() {
+        close_body(program, &mut open)?;
+    }
+    Ok(())
+}
+
+fn close_body(program: &Program, open: &mut Vec<(usize, usize, Fold, bool)>) -> Result<(), String> {
+    if let Some((at, end, fold, _)) = open.pop() {
+        for reg in fold.value.iter().chain(&fold.guard) {
+            if reg.index() >= end || reg.index() >= program.code.len() {
+                return Err(format!("the loop at {at} folds a register behind its end"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn visible(program: &Program, reg: Reg) -> Result<(), String> {
+    below("register", reg.0, program.code.len())
+}
+
+fn below(what: &str, index: u32, n: usize) -> Result<(), String> {
+    if (index as usize) < n { Ok(()) } else { Err(format!("{what} {index} of {n} is not there")) }
+}

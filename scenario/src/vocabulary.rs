@@ -1,0 +1,70 @@
+//! Every word that is listed in more than one place, each list once.
+//!
+//! The compiler checks against these tables, the engine matches their enums exhaustively, and Rhai, the docs and Python
+//! read them. A row carries its name in the language and one line of documentation.
+
+mod action;
+mod event;
+mod function;
+mod places;
+mod property;
+mod role;
+mod rule;
+mod types;
+
+pub use action::{Action, StickyAction};
+pub use event::{EventField, EventKind, Qualifier};
+pub use function::Function;
+pub use places::{Landmark, RegionName};
+pub use property::{Field, Owner, PROPERTIES, Property};
+pub use role::{Role, Stat, Team};
+pub use rule::{GameMode, Rule, StartKind, Verdict};
+pub use types::{Type, Unit};
+
+/// Declares an enum whose variants have a name in the language and a line of documentation.
+macro_rules! words {
+    ($(#[$meta:meta])* $name:ident { $($variant:ident = $word:literal, $doc:literal;)+ }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+        pub enum $name {
+            $(#[doc = $doc] #[serde(rename = $word)] $variant,)+
+        }
+
+        impl $name {
+            /// Every variant, in the table's order.
+            pub const ALL: &'static [$name] = &[$($name::$variant,)+];
+
+            /// The name in the language.
+            pub const fn name(self) -> &'static str {
+                match self { $($name::$variant => $word,)+ }
+            }
+
+            /// One line of documentation.
+            pub const fn doc(self) -> &'static str {
+                match self { $($name::$variant => $doc,)+ }
+            }
+
+            /// Finds a variant by its name in the language.
+            pub fn from_name(name: &str) -> Option<$name> {
+                Self::ALL.iter().copied().find(|word| word.name() == name)
+            }
+
+            /// The variant's place in [`Self::ALL`].
+            pub const fn index(self) -> usize {
+                self as usize
+            }
+
+            /// The variant at a place in [`Self::ALL`].
+            pub fn from_index(index: usize) -> Option<$name> {
+                Self::ALL.get(index).copied()
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+    };
+}
+pub(crate) use words;

@@ -1,0 +1,115 @@
+//! What a program may read of the match, and the names under which the language shows it.
+
+use super::{Type, words};
+
+words! {
+    /// One number that [`Instr::Load`](crate::Instr::Load) reads; SI units, world frame.
+    Field {
+        BallX = "ball_x", "metres";
+        BallY = "ball_y", "metres";
+        BallHeight = "ball_height", "metres above the ground, of the ball's centre";
+        BallVx = "ball_vx", "m/s";
+        BallVy = "ball_vy", "m/s";
+        BallVz = "ball_vz", "m/s";
+        BallOwner = "ball_owner", "player id of who has the ball now, or -1";
+        Possession = "possession", "the team that had the ball last: 0, 1, or -1 before anyone had";
+        PlayerX = "player_x", "metres";
+        PlayerY = "player_y", "metres";
+        PlayerVx = "player_vx", "m/s";
+        PlayerVy = "player_vy", "m/s";
+        PlayerHeading = "player_heading", "radians, 0 towards +x, positive towards +y";
+        PlayerFatigue = "player_fatigue", "0 fresh to 1 exhausted";
+        PlayerYellowCards = "player_yellow_cards", "count";
+        PlayerRole = "player_role", "index of the role";
+        PlayerActive = "player_active", "1 while on the pitch";
+        PlayerControlled = "player_controlled", "1 while an agent controls him";
+        Score = "score", "goals of a team";
+        TeamHasBall = "team_has_ball", "1 while a player of the team has the ball";
+        OffsideLine = "offside_line", "world x of the line beyond which the team's players are offside, metres";
+        Elapsed = "elapsed", "seconds since the episode's start";
+        Remaining = "remaining", "seconds until the episode's limit; infinite without one";
+        GameMode = "game_mode", "index of the game mode";
+        BallDead = "ball_dead", "1 while play is stopped";
+    }
+}
+
+impl Field {
+    /// Whether the load takes a player, a team or nothing as its subject.
+    pub const fn subject(self) -> Owner {
+        match self {
+            Field::PlayerX
+            | Field::PlayerY
+            | Field::PlayerVx
+            | Field::PlayerVy
+            | Field::PlayerHeading
+            | Field::PlayerFatigue
+            | Field::PlayerYellowCards
+            | Field::PlayerRole
+            | Field::PlayerActive
+            | Field::PlayerControlled => Owner::Player,
+            Field::Score | Field::TeamHasBall | Field::OffsideLine => Owner::Team,
+            Field::BallX
+            | Field::BallY
+            | Field::BallHeight
+            | Field::BallVx
+            | Field::BallVy
+            | Field::BallVz
+            | Field::BallOwner => Owner::Ball,
+            _ => Owner::Match,
+        }
+    }
+}
+
+words! {
+    /// What a property belongs to.
+    Owner {
+        Ball = "ball", "the ball";
+        Player = "player", "a player";
+        Team = "team", "a team";
+        Match = "match", "the match";
+    }
+}
+
+/// A property as an author writes it: `ball.height`, `me.fatigue`, `elapsed`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Property {
+    /// What it belongs to.
+    pub owner: Owner,
+    /// The name after the dot (or alone, for the match).
+    pub name: &'static str,
+    /// Its type.
+    pub ty: Type,
+    /// One line of documentation.
+    pub doc: &'static str,
+}
+
+const fn property(owner: Owner, name: &'static str, ty: Type, doc: &'static str) -> Property {
+    Property { owner, name, ty, doc }
+}
+
+/// Every property of the language, by owner.
+pub const PROPERTIES: &[Property] = &[
+    property(Owner::Ball, "x", Type::Number, "normalised x in the reader's frame"),
+    property(Owner::Ball, "y", Type::Number, "normalised y in the reader's frame"),
+    property(Owner::Ball, "height", Type::Length, "of its centre above the ground; 0.11 m at rest"),
+    property(Owner::Ball, "speed", Type::Speed, "in three dimensions"),
+    property(Owner::Ball, "velocity", Type::Vector, "along the ground, m/s"),
+    property(Owner::Ball, "heading", Type::Angle, "direction of its motion in the reader's frame"),
+    property(Owner::Ball, "owner", Type::Player, "who has it now, or nobody"),
+    property(Owner::Player, "x", Type::Number, "normalised x in the reader's frame"),
+    property(Owner::Player, "y", Type::Number, "normalised y in the reader's frame"),
+    property(Owner::Player, "speed", Type::Speed, "along the ground"),
+    property(Owner::Player, "velocity", Type::Vector, "along the ground, m/s"),
+    property(Owner::Player, "heading", Type::Angle, "the way he faces, in the reader's frame"),
+    property(Owner::Player, "fatigue", Type::Number, "0 fresh to 1 exhausted"),
+    property(Owner::Player, "yellow_cards", Type::Int, "cards so far"),
+    property(Owner::Player, "role", Type::Role, "his role"),
+    property(Owner::Player, "team", Type::Team, "his team"),
+    property(Owner::Player, "active", Type::Bool, "still on the pitch"),
+    property(Owner::Player, "controlled", Type::Bool, "an agent controls him now"),
+    property(Owner::Match, "possession", Type::Team, "the team that had the ball last"),
+    property(Owner::Match, "elapsed", Type::Duration, "since the episode's start"),
+    property(Owner::Match, "remaining", Type::Duration, "until the episode's limit"),
+    property(Owner::Match, "game_mode", Type::Mode, "open play or which set piece waits"),
+    property(Owner::Match, "ball_dead", Type::Bool, "play is stopped"),
+];

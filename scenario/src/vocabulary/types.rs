@@ -1,0 +1,70 @@
+//! The types and units of the language.
+
+use super::words;
+
+words! {
+    /// A type of the language. Values are SI inside a program.
+    Type {
+        Number = "number", "a plain number";
+        Int = "int", "a whole number";
+        Bool = "bool", "true or false, on or off";
+        Percent = "percent", "a share, written 60%";
+        Length = "length", "metres";
+        Duration = "duration", "seconds; a step is 0.1 s";
+        Speed = "speed", "metres per second";
+        Angle = "angle", "radians inside, degrees in text";
+        Point = "point", "a place on the pitch";
+        Vector = "vector", "a difference of points";
+        Region = "region", "a part of the pitch";
+        Player = "player", "one player, or nobody";
+        Set = "set", "some players";
+        Team = "team", "left, right or none";
+        Formation = "formation", "eleven places in the own frame";
+        Behavior = "behavior", "a scripted player";
+        String = "string", "a word";
+        Mode = "game_mode", "a game mode";
+        Role = "role", "a player's role";
+    }
+}
+
+words! {
+    /// A unit that touches its number.
+    Unit {
+        MetrePerSecond = "m/s", "metres per second";
+        KilometrePerHour = "km/h", "kilometres per hour";
+        Degree = "deg", "degrees";
+        Radian = "rad", "radians";
+        Millisecond = "ms", "milliseconds";
+        Metre = "m", "metres";
+        Second = "s", "seconds";
+        Percent = "%", "hundredths";
+        Step = "steps", "steps of 0.1 s";
+        Episode = "episodes", "episodes";
+    }
+}
+
+impl Unit {
+    /// The type of a number with this unit.
+    pub const fn ty(self) -> Type {
+        match self {
+            Unit::MetrePerSecond | Unit::KilometrePerHour => Type::Speed,
+            Unit::Degree | Unit::Radian => Type::Angle,
+            Unit::Millisecond | Unit::Second | Unit::Step => Type::Duration,
+            Unit::Metre => Type::Length,
+            Unit::Percent => Type::Percent,
+            Unit::Episode => Type::Int,
+        }
+    }
+
+    /// What a number of this unit is multiplied by to become SI.
+    pub const fn factor(self) -> f64 {
+        match self {
+            Unit::KilometrePerHour => 1.0 / 3.6,
+            Unit::Degree => std::f64::consts::PI / 180.0,
+            Unit::Millisecond => 0.001,
+            Unit::Percent => 0.01,
+            Unit::Step => 0.1,
+            _ => 1.0,
+        }
+    }
+}

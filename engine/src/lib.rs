@@ -1,1 +1,20 @@
-//! engine
+//! The football game that runs a compiled scenario: everything with a tick.
+//!
+//! - [`draw`]: a scenario, its parameters and a seed become one concrete [`start::Drawn`].
+//! - [`state::Match`]: one simulation, plain data; [`physics`], [`football`] and [`control`] move it on.
+//! - [`judge`]: rewards and endings, from the state and its events.
+//! - [`observe`]: the state written into the caller's buffers.
+//! - [`environment`]: one match and its judge, as an agent meets them; `batch`: many.
+
+pub mod control;
+pub mod draw;
+pub mod environment;
+pub mod event;
+pub mod football;
+pub mod judge;
+pub mod math;
+pub mod observe;
+pub mod physics;
+pub mod random;
+pub mod start;
+pub mod state;

@@ -25,6 +25,7 @@ pub use types::{Type, Unit};
 macro_rules! words {
     ($(#[$meta:meta])* $name:ident { $($variant:ident = $word:literal, $doc:literal;)+ }) => {
         $(#[$meta])*
+        #[allow(clippy::doc_markdown, reason = "the rows' text is for people, not for rustdoc")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
         pub enum $name {
             $(#[doc = $doc] #[serde(rename = $word)] $variant,)+

@@ -1,0 +1,200 @@
+//! Problems: facts that a stage finds, each with a stable code, spans and help.
+
+use crate::source::{Source, Span};
+
+/// How bad a problem is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The scenario is compiled all the same.
+    Warning,
+    /// No scenario comes out.
+    Error,
+}
+
+/// A place of a problem and what is to be said about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// Where.
+    pub span: Span,
+    /// What; may be empty for the primary label.
+    pub text: String,
+}
+
+/// A problem. The first label is the primary one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The stable code.
+    pub code: Code,
+    /// One clause, lower case, no full stop, the author's text in backticks.
+    pub message: String,
+    /// Where; the first is the primary one.
+    pub labels: Vec<Label>,
+    /// What to write instead.
+    pub help: Option<String>,
+}
+
+impl Problem {
+    /// A problem with its primary label.
+    pub fn new(code: Code, span: Span, message: impl Into<String>, label: impl Into<String>) -> Problem {
+        Problem { code, message: message.into(), labels: vec![Label { span, text: label.into() }], help: None }
+    }
+
+    /// Adds a further label.
+    #[must_use]
+    pub fn label(mut self, span: Span, text: impl Into<String>) -> Problem {
+        self.labels.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Says what to write instead.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Problem {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Says "did you mean" where one of the candidates is near enough.
+    #[must_use]
+    pub fn did_you_mean<'a>(self, found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Problem {
+        match nearest(found, candidates) {
+            Some(name) => self.help(format!("did you mean `{name}`?")),
+            None => self,
+        }
+    }
+
+    /// How bad it is.
+    pub fn severity(&self) -> Severity {
+        self.code.severity()
+    }
+}
+
+/// The candidate most like `found`, if it is like enough (similarity above 0.6).
+pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let found = found.to_lowercase();
+    let mut best = (0.6, None);
+    for candidate in candidates {
+        let likeness = strsim::normalized_damerau_levenshtein(&found, &candidate.to_lowercase());
+        if likeness > best.0 {
+            best = (likeness, Some(candidate));
+        }
+    }
+    best.1
+}
+
+/// Declares the registry of codes: number, severity, title.
+macro_rules! codes {
+    ($($(#[$meta:meta])* $name:ident = $number:literal $severity:ident $title:literal;)+) => {
+        /// A stable code of a problem: `SP0204`. Never reused.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code {
+            $(#[doc = $title] $name,)+
+        }
+
+        impl Code {
+            /// Every code, in order.
+            pub const ALL: &'static [Code] = &[$(Code::$name,)+];
+
+            /// The number.
+            pub const fn number(self) -> u16 {
+                match self { $(Code::$name => $number,)+ }
+            }
+
+            /// What it is about, in a few words.
+            pub const fn title(self) -> &'static str {
+                match self { $(Code::$name => $title,)+ }
+            }
+
+            /// How bad it is.
+            pub const fn severity(self) -> Severity {
+                match self { $(Code::$name => Severity::$severity,)+ }
+            }
+        }
+    };
+}
+
+codes! {
+    // SP00xx: loading.
+    FileMissing = 1 Error "a file can't be read";
+    FileTooLarge = 2 Error "a file is too large";
+    NotUtf8 = 3 Error "a file is not UTF-8 text";
+    FileEmpty = 4 Error "a file holds no scenario";
+    // SP01xx: syntax.
+    Syntax = 101 Error "something else was expected here";
+    TooDeep = 102 Error "brackets are nested too deeply";
+    BlockAfterGive = 103 Error "a `give` has no block";
+    UnclosedBracket = 104 Error "a bracket is not closed";
+    UnclosedString = 105 Error "a string is not closed";
+    ComparisonChain = 106 Error "comparisons don't chain";
+    ReservedName = 107 Error "a reserved word is used as a name";
+    NotYet = 108 Error "this construct is not supported yet";
+    // SP02xx: names.
+    UnknownName = 201 Error "no such name";
+    DuplicateName = 202 Error "a name is declared twice";
+    UnknownRole = 203 Error "no such role";
+    UnknownMember = 204 Error "no such property";
+    UnknownOption = 205 Error "no such option";
+    UnknownFunction = 206 Error "no such function";
+    UnknownEvent = 207 Error "no such event";
+    UnknownParent = 208 Error "nothing to extend has this name";
+    ImportCycle = 209 Error "files import each other in a circle";
+    ExtendsCycle = 210 Error "things extend each other in a circle";
+    AmbiguousName = 211 Error "a name has two meanings";
+    NothingToRemove = 212 Error "there is nothing to remove";
+    UnusedName = 213 Warning "a name is never used";
+    NoScenario = 214 Error "the file has no scenario to run";
+    WrongScope = 215 Error "this can't be used here";
+    // SP03xx: types and units.
+    WrongType = 301 Error "a value has another type";
+    WrongUnit = 302 Error "units don't agree";
+    WrongArguments = 303 Error "arguments don't match";
+    MixedUnits = 304 Error "a point mixes units";
+    NotConstant = 305 Error "the value must be known before the start";
+    Impossible = 306 Error "the value can't be computed";
+    // SP04xx: football.
+    OffPitch = 401 Error "a player or the ball is off the pitch";
+    SameSpot = 402 Error "two players stand on one spot";
+    TooManyPlayers = 403 Error "a team has more than eleven players";
+    OutOfRange = 404 Error "a value is out of its range";
+    NoBall = 405 Error "the ball has no place";
+    DuplicateOption = 406 Error "an option is given twice";
+    WrongRoster = 407 Error "layouts of a kick-off differ";
+    NoPlace = 408 Error "a player has no place";
+    CyclicPlace = 409 Error "places depend on each other in a circle";
+    BadAgents = 410 Error "agents don't fit the team";
+    NoEnding = 411 Warning "the episode never ends";
+    TwoKeepers = 412 Error "a team has two keepers";
+    // SP05xx: scripts.
+    ScriptSyntax = 501 Error "a script can't be read";
+    ScriptHook = 502 Error "a script lacks its hook";
+    ScriptName = 503 Error "a script uses a name that is not there";
+    // SP06xx: what a dry run finds.
+    EndsAtOnce = 601 Error "the episode ends before its first step";
+    NeverPays = 602 Warning "a reward can never pay";
+    HardToDraw = 603 Warning "requirements are seldom met";
+    ImpossibleToDraw = 604 Error "requirements are never met";
+}
+
+impl std::fmt::Display for Code {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "SP{:04}", self.number())
+    }
+}
+
+/// Checks scripts against the engine's hook API, which the compiler does not know.
+pub trait ScriptApi {
+    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done` or `act`).
+    fn check(&self, script: &Source, hook: &str) -> Vec<ScriptProblem>;
+}
+
+/// A fault of a script.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScriptProblem {
+    /// Which code.
+    pub code: Code,
+    /// Byte range in the script's text.
+    pub range: std::ops::Range<usize>,
+    /// One clause.
+    pub message: String,
+    /// What to write instead.
+    pub help: Option<String>,
+}

@@ -1,0 +1,70 @@
+//! Events: what happened during a step, in order.
+
+use crate::state::PlayerId;
+use glam::Vec3;
+use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
+
+/// Most events of one step; further ones are dropped and counted (a step has ten ticks).
+pub const EVENTS_MAX: usize = 128;
+
+/// Something that happened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// Ticks since the episode's start.
+    pub tick: u32,
+    /// What.
+    pub kind: EventKind,
+    /// A refinement; `pass` is always attempted, completed or intercepted.
+    pub qualifier: Option<Qualifier>,
+    /// The team of who did it, or that it is awarded to.
+    pub team: Option<Team>,
+    /// Who did it.
+    pub by: Option<PlayerId>,
+    /// Whom it reached or hurt.
+    pub to: Option<PlayerId>,
+    /// Where, world metres, before any restart moved things.
+    pub at: Vec3,
+    /// How far the ball travelled, metres; 0 where it says nothing.
+    pub length_m: f32,
+    /// The ball's speed, m/s.
+    pub speed_mps: f32,
+}
+
+/// The events of a step: a buffer that is reused.
+#[derive(Clone, Debug, Default)]
+pub struct Events {
+    list: Vec<Event>,
+    dropped: u32,
+}
+
+impl Events {
+    /// An empty buffer with room for a step.
+    pub fn new() -> Events {
+        Events { list: Vec::with_capacity(EVENTS_MAX), dropped: 0 }
+    }
+
+    /// Forgets the events of the last step.
+    pub fn clear(&mut self) {
+        self.list.clear();
+        self.dropped = 0;
+    }
+
+    /// Adds an event; never allocates beyond [`EVENTS_MAX`].
+    pub fn push(&mut self, event: Event) {
+        if self.list.len() < EVENTS_MAX {
+            self.list.push(event);
+        } else {
+            self.dropped += 1;
+        }
+    }
+
+    /// The events in order.
+    pub fn as_slice(&self) -> &[Event] {
+        &self.list
+    }
+
+    /// How many did not fit.
+    pub fn dropped(&self) -> u32 {
+        self.dropped
+    }
+}

@@ -1,0 +1,55 @@
+//! Transcendental functions, the same bits on every machine: libm in place of the platform's.
+
+pub use glam::{Vec2, Vec3};
+
+/// Sine.
+pub fn sin(x: f32) -> f32 {
+    libm::sinf(x)
+}
+
+/// Cosine.
+pub fn cos(x: f32) -> f32 {
+    libm::cosf(x)
+}
+
+/// Angle of the vector (x, y), -π..π.
+pub fn atan2(y: f32, x: f32) -> f32 {
+    libm::atan2f(y, x)
+}
+
+/// Arc cosine.
+pub fn acos(x: f32) -> f32 {
+    libm::acosf(x)
+}
+
+/// e to the power x.
+pub fn exp(x: f32) -> f32 {
+    libm::expf(x)
+}
+
+/// Natural logarithm.
+pub fn ln(x: f32) -> f32 {
+    libm::logf(x)
+}
+
+/// x to the power y.
+pub fn pow(x: f32, y: f32) -> f32 {
+    libm::powf(x, y)
+}
+
+/// The unit vector of a heading in radians.
+pub fn unit(heading_rad: f32) -> Vec2 {
+    Vec2::new(cos(heading_rad), sin(heading_rad))
+}
+
+/// The heading of a vector, radians, 0 for none.
+pub fn heading(v: Vec2) -> f32 {
+    if v == Vec2::ZERO { 0.0 } else { atan2(v.y, v.x) }
+}
+
+/// An angle wrapped to -π..π.
+pub fn wrap(angle_rad: f32) -> f32 {
+    use std::f32::consts::{PI, TAU};
+    let turned = (angle_rad + PI) % TAU;
+    if turned < 0.0 { turned + PI } else { turned - PI }
+}

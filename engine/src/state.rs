@@ -1,0 +1,198 @@
+//! The match: one simulation, plain data. A copy of it is a snapshot.
+
+use crate::random::Stream;
+use crate::start::Drawn;
+use arrayvec::ArrayVec;
+use glam::{Vec2, Vec3};
+use setpiece_scenario::Ai;
+use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
+use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
+
+/// A player: `team * 11 + index`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+pub struct PlayerId(pub u8);
+
+impl PlayerId {
+    /// The id of a team's player.
+    pub fn new(team: Team, index: usize) -> PlayerId {
+        PlayerId((team.index() * TEAM_MAX + index) as u8)
+    }
+
+    /// As an index into [`Match::players`].
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// His team.
+    pub const fn team(self) -> Team {
+        if self.index() < TEAM_MAX { Team::Left } else { Team::Right }
+    }
+
+    /// His place in the team, source order.
+    pub const fn in_team(self) -> usize {
+        self.index() % TEAM_MAX
+    }
+}
+
+/// The ball: world metres, m/s, rad/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Its centre.
+    pub pos: Vec3,
+    /// Its velocity.
+    pub vel: Vec3,
+    /// Its spin.
+    pub spin: Vec3,
+}
+
+/// One simulation: no heap but the agent list's inline storage, no engine handle; `clone` is a copy.
+#[derive(Clone, Debug)]
+pub struct Match {
+    /// Ticks of 10 ms since the start, dead time not counted.
+    pub tick: u32,
+    /// Steps since the start.
+    pub step: u32,
+    /// Steps on the clock at the start.
+    pub elapsed_at_start: u32,
+    /// Truncation after so many steps.
+    pub limit_steps: Option<u32>,
+    /// Goals, left and right.
+    pub score: [u16; 2],
+    /// The ball.
+    pub ball: Ball,
+    /// Both teams, by [`PlayerId::index`]; slots beyond a team's size are not `present`.
+    pub players: [Player; PLAYERS_MAX],
+    /// Who has the ball now.
+    pub owner: Option<PlayerId>,
+    /// The team that had it last.
+    pub possession: Option<Team>,
+    /// Who touched it last.
+    pub last_touch: Option<PlayerId>,
+    /// Open play, or which set piece waits to be taken.
+    pub mode: GameMode,
+    /// Play was stopped in this step: a goal, the ball out, a foul; the restart comes after judging.
+    pub dead: bool,
+    /// Rules by [`Rule::index`].
+    pub rules: [f64; Rule::ALL.len()],
+    /// The bots' difficulty by team.
+    pub difficulty: [f32; 2],
+    /// The agents, left before right.
+    pub agents: ArrayVec<AgentSlot, PLAYERS_MAX>,
+    /// Noise of play.
+    pub play_random: Stream,
+    /// Decisions of bots.
+    pub bot_random: Stream,
+}
+
+impl Match {
+    /// Whether a rule is on.
+    pub fn rule(&self, rule: Rule) -> bool {
+        self.rules[rule.index()] != 0.0
+    }
+
+    /// The players on the pitch of a team, by id.
+    pub fn team(&self, team: Team) -> impl Iterator<Item = (PlayerId, &Player)> {
+        let base = team.index() * TEAM_MAX;
+        self.players[base..base + TEAM_MAX]
+            .iter()
+            .enumerate()
+            .filter(|(_, player)| player.active)
+            .map(move |(i, player)| (PlayerId((base + i) as u8), player))
+    }
+
+    /// A player.
+    pub fn player(&self, id: PlayerId) -> &Player {
+        &self.players[id.index()]
+    }
+}
+
+/// A player: what everyone may see of him. What `football` needs beside it stands in his `body`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Player {
+    /// Belongs to the roster of this episode.
+    pub present: bool,
+    /// Is on the pitch: present and not sent off.
+    pub active: bool,
+    /// His role.
+    pub role: Role,
+    /// Who plays him without an agent.
+    pub ai: Ai,
+    /// Whether an agent may be given him.
+    pub controllable: bool,
+    /// World metres.
+    pub pos: Vec2,
+    /// m/s.
+    pub vel: Vec2,
+    /// The way he faces, world radians.
+    pub heading_rad: f32,
+    /// 0 fresh to 1 exhausted.
+    pub fatigue: f32,
+    /// Cards so far.
+    pub yellow_cards: u8,
+    /// 0..1.
+    pub difficulty: f32,
+}
+
+/// An agent's slot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AgentSlot {
+    /// Its team.
+    pub team: Team,
+    /// The player it controls now.
+    pub player: Option<PlayerId>,
+    /// Whether it may be given another.
+    pub fixed: bool,
+    /// Held actions as GRF's ten flags, in the own frame: bit i is `StickyAction` i.
+    pub sticky: u16,
+}
+
+impl Match {
+    /// The match that a drawn start begins with; `football::begin` fills in what the game needs.
+    pub fn blank(drawn: &Drawn) -> Match {
+        use crate::random::Purpose;
+        let player = |slot: &Option<crate::start::DrawnPlayer>| {
+            let drawn_player = slot.as_ref();
+            Player {
+                present: drawn_player.is_some(),
+                active: drawn_player.is_some(),
+                role: drawn_player.map_or(Role::GK, |p| p.role),
+                ai: drawn_player.map_or(Ai::Lazy, |p| p.ai),
+                controllable: drawn_player.is_some_and(|p| p.controllable),
+                pos: drawn_player.map_or(Vec2::ZERO, |p| p.pos),
+                vel: drawn_player.map_or(Vec2::ZERO, |p| p.vel),
+                heading_rad: drawn_player.and_then(|p| p.heading_rad).unwrap_or_default(),
+                fatigue: drawn_player.map_or(0.0, |p| p.fatigue),
+                yellow_cards: drawn_player.map_or(0, |p| p.yellow_cards),
+                difficulty: drawn_player.map_or(0.0, |p| p.difficulty),
+            }
+        };
+        Match {
+            tick: 0,
+            step: 0,
+            elapsed_at_start: drawn.elapsed_steps,
+            limit_steps: drawn.limit_steps,
+            score: drawn.score,
+            ball: Ball { pos: drawn.ball_pos, vel: drawn.ball_vel, spin: drawn.ball_spin },
+            players: std::array::from_fn(|i| player(&drawn.players[i])),
+            owner: drawn.owner,
+            possession: drawn.owner.map(PlayerId::team),
+            last_touch: drawn.owner,
+            mode: GameMode::Normal,
+            dead: false,
+            rules: drawn.rules,
+            difficulty: drawn.difficulty,
+            agents: drawn
+                .agents
+                .iter()
+                .map(|agent| AgentSlot {
+                    team: agent.team,
+                    player: agent.fixed,
+                    fixed: agent.fixed.is_some(),
+                    sticky: 0,
+                })
+                .collect(),
+            play_random: Stream::new(drawn.seed, drawn.index, Purpose::Play),
+            bot_random: Stream::new(drawn.seed, drawn.index, Purpose::Bot),
+        }
+    }
+}

@@ -118,6 +118,10 @@ codes! {
     FileTooLarge = 2 Error "a file is too large";
     NotUtf8 = 3 Error "a file is not UTF-8 text";
     FileEmpty = 4 Error "a file holds no scenario";
+    UnknownScenario = 5 Error "no scenario has this name";
+    FileIsDirectory = 6 Error "a directory stands for a file";
+    BadCompiled = 7 Error "a compiled scenario can't be read";
+    BadParameter = 8 Error "a parameter can't be bound";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

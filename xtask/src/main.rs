@@ -1,2 +1,31 @@
-//! c
-fn main() {}
+//! The chores of this repository: `cargo xtask ci` runs everything that must pass, `cargo xtask help` lists the rest.
+#![allow(clippy::print_stdout, reason = "a command talks to its user")]
+
+mod ci;
+mod tidy;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let command = std::env::args().nth(1).unwrap_or_default();
+    let result = match command.as_str() {
+        "ci" => ci::ci(),
+        "test" => ci::rust_tests(),
+        "python" => ci::python(),
+        "tidy" => tidy::tidy(),
+        _ => {
+            println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
+            println!("cargo xtask test    the Rust tests");
+            println!("cargo xtask python  build the wheel and run the Python tests");
+            println!("cargo xtask tidy    the rules of the house: who may use whom, file lengths");
+            return if command.is_empty() || command == "help" { ExitCode::SUCCESS } else { ExitCode::from(2) };
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            println!("xtask {command}: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}

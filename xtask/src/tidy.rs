@@ -1,0 +1,119 @@
+//! The rules of the house that a machine can hold: who may use whom, where files and clocks are read, file lengths.
+
+use crate::ci::root;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Longest source file, lines; tests apart.
+const LINES_MAX: usize = 600;
+
+/// The room, and everything it may depend on.
+const MAY_USE: &[(&str, &[&str])] = &[
+    ("setpiece-grammar", &["pest", "pest_derive"]),
+    ("setpiece-scenario", &["serde", "serde_json"]),
+    (
+        "setpiece-dsl",
+        &["setpiece-grammar", "setpiece-scenario", "miette", "pest", "strsim", "thiserror", "serde", "serde_json"],
+    ),
+    (
+        "setpiece-engine",
+        &[
+            "setpiece-scenario", "arrayvec", "glam", "libm", "rand_core", "rand_pcg", "rapier3d", "rayon", "rhai",
+            "serde", "strsim", "thiserror",
+        ],
+    ),
+    (
+        "setpiece-python",
+        &["setpiece", "setpiece-engine", "setpiece-scenario", "numpy", "pyo3", "serde_json", "rayon"],
+    ),
+];
+
+/// Words that a room's sources must not contain, and why.
+const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
+    ("dsl/src", &["std::fs", "std::env", "std::net"], "sources come through a `SourceLoader`"),
+    ("engine/src", &["std::fs", "std::env", "std::net", "thread_local!", "HashMap", "HashSet"], "the engine is deterministic and reads nothing"),
+    ("engine/src", &["Instant::now", "SystemTime"], "the engine knows no clock"),
+    ("scenario/src", &["std::fs", "std::env", "HashMap"], "the compiled scenario is plain data"),
+    ("python/src", &["rapier3d", "rhai", "pest"], "the binding holds conversions only"),
+];
+
+/// Checks every rule and names each breach.
+pub(crate) fn tidy() -> Result<(), String> {
+    let mut breaches = Vec::new();
+    dependencies(&mut breaches)?;
+    for (folder, words, why) in MUST_NOT_SAY {
+        for file in rust_files(&root().join(folder)) {
+            let text = read(&file)?;
+            // Tests at the end of a file may use what they like.
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            for word in *words {
+                if let Some(line) = code.lines().position(|line| line.contains(word) && !line.trim_start().starts_with("//")) {
+                    breaches.push(format!("{}:{}: `{word}`: {why}", file.display(), line + 1));
+                }
+            }
+        }
+    }
+    for folder in ["grammar/src", "scenario/src", "dsl/src", "engine/src", "setpiece/src", "python/src", "xtask/src"] {
+        for file in rust_files(&root().join(folder)) {
+            let text = read(&file)?;
+            let lines = text.split("#[cfg(test)]").next().unwrap_or_default().lines().count();
+            if lines > LINES_MAX {
+                breaches.push(format!("{}: {lines} lines; split it at {LINES_MAX}", file.display()));
+            }
+            if file.file_name().is_some_and(|name| name == "mod.rs") {
+                breaches.push(format!("{}: write `foo.rs` beside `foo/`", file.display()));
+            }
+        }
+    }
+    if breaches.is_empty() {
+        println!("tidy: the house is in order");
+        Ok(())
+    } else {
+        Err(format!("{} breaches\n  {}", breaches.len(), breaches.join("\n  ")))
+    }
+}
+
+fn dependencies(breaches: &mut Vec<String>) -> Result<(), String> {
+    let output = Command::new("cargo")
+        .args(["metadata", "--format-version", "1", "--no-deps"])
+        .current_dir(root())
+        .output()
+        .map_err(|why| format!("cargo metadata can't be run: {why}"))?;
+    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).map_err(|why| why.to_string())?;
+    let list = |value: &serde_json::Value| value.as_array().cloned().unwrap_or_default();
+    let mut seen = 0;
+    for package in list(&metadata["packages"]) {
+        let name = package["name"].as_str().unwrap_or_default();
+        let Some((_, allowed)) = MAY_USE.iter().find(|(room, _)| *room == name) else { continue };
+        seen += 1;
+        for dependency in list(&package["dependencies"]) {
+            let used = dependency["name"].as_str().unwrap_or_default();
+            // `kind` is null for ordinary dependencies; tests may use more.
+            if dependency["kind"].is_null() && !allowed.contains(&used) {
+                breaches.push(format!("{name} may not use {used}"));
+            }
+        }
+    }
+    if seen == MAY_USE.len() { Ok(()) } else { Err("cargo metadata does not show every room".to_owned()) }
+}
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+fn read(file: &Path) -> Result<String, String> {
+    fs::read_to_string(file).map_err(|why| format!("{}: {why}", file.display()))
+}

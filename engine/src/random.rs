@@ -35,6 +35,11 @@ impl Stream {
         Stream(Pcg32::from_seed(bytes))
     }
 
+    /// The stream of one draw of one attempt: `key` is the draw's own, from the scenario.
+    pub fn of_draw(seed: u64, index: u64, attempt: u32, key: u64) -> Stream {
+        Stream::new(mix(seed ^ mix(key)), index.wrapping_add(u64::from(attempt) << 40), Purpose::Draw)
+    }
+
     /// The next 32 bits.
     pub fn bits(&mut self) -> u32 {
         self.0.next_u32()

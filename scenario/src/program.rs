@@ -156,7 +156,13 @@ pub enum Instr {
         guard: Option<Reg>,
     },
     /// A random draw; in the start program only.
-    Random(Distribution),
+    Random {
+        /// Names the draw's own stream, keyed by (seed, index, attempt, key), so that a new draw shifts no other: a hash
+        /// of what is drawn (the `let`'s name, the player's label or index) and of the draw's ordinal in it.
+        key: u64,
+        /// From what.
+        from: Distribution,
+    },
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
@@ -405,7 +411,7 @@ impl Instr {
                 f(*value);
                 guard.iter().for_each(|&reg| f(reg));
             }
-            Instr::Random(distribution) => match distribution {
+            Instr::Random { from, .. } => match from {
                 Distribution::Uniform(a, b) | Distribution::Normal(a, b) | Distribution::Integer(a, b) => {
                     f(*a);
                     f(*b);

@@ -151,13 +151,13 @@ fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usiz
                 return Err(format!("instruction {at} reads an event outside a loop over events"));
             }
             (Instr::Give { term, .. }, Place::Step { terms }) => below("term", *term, terms)?,
-            (Instr::Random(_), Place::Start)
+            (Instr::Random { .. }, Place::Start)
             | (Instr::Assign { .. }, Place::Init | Place::Step { .. })
             | (Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. }, Place::Step { .. })
             | (Instr::Until { .. } | Instr::Once { .. } | Instr::Us | Instr::Me, Place::Step { .. })
             | (Instr::Us, Place::Init) => {}
             (
-                Instr::Random(_)
+                Instr::Random { .. }
                 | Instr::Give { .. }
                 | Instr::Assign { .. }
                 | Instr::Held { .. }

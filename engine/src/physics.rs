@@ -2,8 +2,16 @@
 //!
 //! Decides how the ball flies, bounces, rolls and rebounds. Leaves to `football` who kicks it and what that means.
 
+pub mod constants;
+pub mod flight;
+pub mod lines;
+pub mod predict;
+
+pub use lines::{Line, crossed_goal_line, left_pitch};
+pub use predict::forecast;
+
 use crate::state::Ball;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 /// A player's body that the ball may meet during a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,12 +46,6 @@ pub struct Scratch {}
 /// `full` runs rapier whatever is near; else it is asked only where the swept ball comes near something hard.
 pub fn advance_ball(ball: &mut Ball, bodies: &[Body], full: bool, scratch: &mut Scratch) -> Option<Contact> {
     let _ = (bodies, full, scratch);
-    let dt = 0.01;
-    ball.vel.z -= 9.81 * dt;
-    ball.pos += ball.vel * dt;
-    if ball.pos.z < 0.11 {
-        ball.pos.z = 0.11;
-        ball.vel = Vec3::new(ball.vel.x, ball.vel.y, 0.0);
-    }
+    flight::fly(ball);
     None
 }

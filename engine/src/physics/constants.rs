@@ -1,0 +1,51 @@
+//! The figures of the ball's world, each with its source.
+//!
+//! "Measured" means: taken from the flight of Google Research Football's ball, `measured.md` § 3 and the series it is
+//! drawn from. "Laws" are the IFAB's Laws of the Game. "Fitted" means: chosen so that the measured series are met.
+
+/// Length of a tick, s: ten to an agent's step.
+pub const TICK_S: f32 = 0.01;
+/// Acceleration of free fall, m/s². Standard gravity.
+pub const GRAVITY: f32 = 9.81;
+/// Radius of the ball, m. Laws: 0.108–0.111.
+pub const BALL_RADIUS: f32 = setpiece_scenario::pitch::BALL_RADIUS_M as f32;
+/// Mass of the ball, kg. Laws: 0.410–0.450.
+pub const BALL_MASS: f32 = 0.43;
+/// Moment of inertia over mass and radius squared. A ball is a thin shell: 2/3.
+pub const BALL_INERTIA_SHARE: f32 = 2.0 / 3.0;
+
+/// Air drag over squared speed, 1/m. Measured at 12–30 m/s. (A smooth sphere of this size with a drag coefficient of
+/// 0.29 has the same: ½ · 1.2 · 0.038 · 0.29 / 0.43.)
+pub const AIR_DRAG: f32 = 0.0155;
+/// Magnus acceleration over speed and the product of spin and velocity, s/m. Fitted: with 15 rad/s of backspin a shot
+/// falls with 7.4 m/s² instead of 9.81, as measured.
+pub const MAGNUS: f32 = 0.00027;
+/// Beyond this spin the Magnus effect grows no more, rad/s: the lift coefficient of a football levels off near 0.3
+/// (Goff and Carré 2009, "Trajectory analysis of a soccer ball").
+pub const MAGNUS_SPIN_MAX: f32 = 60.0;
+/// Beyond this speed the Magnus effect grows only in proportion to speed, m/s.
+pub const MAGNUS_SPEED_MAX: f32 = 37.0;
+/// Share of the spin that the air takes each second. Time constants of balls in flight are 10–20 s.
+pub const SPIN_DECAY: f32 = 0.07;
+
+/// Share of the downward speed that a bounce on grass gives back. Measured: height ratio 0.37.
+pub const BOUNCE: f32 = 0.62;
+/// What soft grass swallows of every bounce besides, m/s. Fitted; it ends the series of ever smaller bounces.
+pub const BOUNCE_LOSS: f32 = 0.065;
+/// Below this downward speed a touch of the ground is rolling, no bounce, m/s.
+pub const BOUNCE_LEAST: f32 = 0.15;
+/// Sliding friction at a bounce. Fitted to low, flat bounces, which lose less than the full share.
+pub const BOUNCE_FRICTION: f32 = 0.40;
+/// The most of the sliding speed that one bounce takes. Measured: horizontal speed × 0.77.
+pub const BOUNCE_GRIP: f32 = 0.23;
+/// Height of the blades that brake a ball, m above the resting centre. Fitted.
+pub const GRASS_DEPTH: f32 = 0.02;
+/// Rolling resistance that does not depend on speed, m/s². Measured: a ≈ −(1.7 + 0.060 v²).
+pub const ROLL_DRAG: f32 = 1.7;
+/// Rolling resistance over squared speed, 1/m: the measured 0.060 less the air's share.
+pub const ROLL_DRAG_SQUARE: f32 = 0.060 - AIR_DRAG;
+/// How much of the angular speed that rolling resistance could bring (a/R · 3/2 for a shell) is brought. Less than one,
+/// so that spin never holds more energy than the roll has lost.
+pub const ROLL_SPIN_SHARE: f32 = 0.9;
+/// Share of the spin about the upright that grass takes each second.
+pub const ROLL_TWIST_DECAY: f32 = 2.0;

@@ -1,0 +1,128 @@
+//! When an episode ends, and what that says of it.
+
+use crate::event::{Event, Events};
+use crate::judge::machine::{Input, Machine, truth};
+use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::state::Match;
+use setpiece_scenario::Endings;
+use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
+use std::sync::Arc;
+
+/// The label of an episode that ran into its limit.
+pub const LIMIT: &str = "limit";
+
+/// How an episode ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// The ending's name; `limit` for the limit.
+    pub label: Arc<str>,
+    /// Success or failure of the side that has agents, where the ending says so.
+    pub verdict: Option<Verdict>,
+    /// By its limit, not by what happened.
+    pub truncated: bool,
+}
+
+/// The endings of an environment.
+#[derive(Clone, Debug)]
+pub struct EndingJudge {
+    endings: Arc<Endings>,
+    labels: Arc<[Arc<str>]>,
+    limit: Arc<str>,
+    regs: Vec<f64>,
+    cells: Vec<f64>,
+    memories: Vec<Memory>,
+    faults: u32,
+}
+
+impl EndingJudge {
+    /// Prepares a scenario's endings.
+    pub fn new(endings: Arc<Endings>) -> EndingJudge {
+        EndingJudge {
+            labels: endings.list.iter().map(|ending| Arc::from(ending.label.as_str())).collect(),
+            limit: Arc::from(LIMIT),
+            regs: vec![0.0; endings.program.code.len()],
+            cells: vec![0.0; endings.program.cells as usize],
+            memories: vec![Memory::default(); endings.list.len()],
+            faults: 0,
+            endings,
+        }
+    }
+
+    /// Begins an episode: `input` shows the start state.
+    pub fn reset(&mut self, input: &Input<'_>) {
+        self.cells.fill(0.0);
+        self.memories.fill(Memory::default());
+        self.faults = 0;
+        self.run(&Input { silent: true, ..*input });
+    }
+
+    /// Judges a step: the first ending that holds, in their order, else the limit.
+    ///
+    /// # Errors
+    /// A `done` hook that failed.
+    pub fn step(
+        &mut self,
+        game: &Match,
+        input: &Input<'_>,
+        scene: Option<(&Scripts, &Arc<Scene>)>,
+    ) -> Result<Option<Outcome>, ScriptError> {
+        self.run(input);
+        for (which, ending) in self.endings.list.iter().enumerate() {
+            let mut label = None;
+            let mut holds = ending.when.is_some_and(|when| truth(self.regs[when.index()]));
+            if let (Some(script), Some((scripts, scene))) = (ending.script, scene) {
+                let perspective = Perspective { us: input.us, me: None, agent: 0 };
+                match scripts.done(script, scene, perspective, &mut self.memories[which])? {
+                    Done::No => {}
+                    Done::Yes => holds = true,
+                    Done::Labelled(own) => {
+                        holds = true;
+                        label = Some(Arc::from(own));
+                    }
+                }
+            }
+            if holds {
+                let label = label.unwrap_or_else(|| self.labels[which].clone());
+                return Ok(Some(Outcome { label, verdict: ending.verdict, truncated: false }));
+            }
+        }
+        let over = game.limit_steps.is_some_and(|limit| game.step >= limit);
+        Ok(over.then(|| Outcome { label: self.limit.clone(), verdict: None, truncated: true }))
+    }
+
+    fn run(&mut self, input: &Input<'_>) {
+        let mut machine = Machine {
+            input: *input,
+            regs: &mut self.regs,
+            cells: &mut self.cells,
+            terms: &mut [],
+            faults: &mut self.faults,
+            random: None,
+        };
+        machine.run(&self.endings.program);
+    }
+}
+
+/// Adds the event that the episode ends.
+pub fn announce(outcome: &Outcome, game: &Match, events: &mut Events) {
+    events.push(Event {
+        tick: game.tick,
+        kind: EventKind::End,
+        qualifier: outcome.verdict.map(|verdict| match verdict {
+            Verdict::Success => Qualifier::Success,
+            Verdict::Failure => Qualifier::Failure,
+        }),
+        team: None,
+        by: None,
+        to: None,
+        at: game.ball.pos,
+        length_m: 0.0,
+        speed_mps: 0.0,
+    });
+}
+
+/// The side that endings are judged for: the one that has agents, the left one where both or none have.
+pub fn judged_side(game: &Match) -> Team {
+    let has = |team: Team| game.agents.iter().any(|agent| agent.team == team);
+    if has(Team::Right) && !has(Team::Left) { Team::Right } else { Team::Left }
+}

@@ -1,0 +1,254 @@
+//! What a scenario pays: its rewards run for each agent, their terms kept apart.
+//!
+//! A reward lives once per agent: its memory and its terms are his. One that reads nothing of `me` gives every agent
+//! of a team the same, so it is run once per team and copied.
+
+use crate::judge::machine::{Input, Machine};
+use crate::judge::script::{Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::state::{Match, PlayerId};
+use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::{Program, Reward, RewardBody};
+use std::sync::Arc;
+
+/// The label of a script's one term.
+const SCRIPT_TERM: &str = "script";
+
+/// The rewards of an environment, and what they have paid.
+#[derive(Clone, Debug)]
+pub struct RewardJudge {
+    rewards: Arc<[Reward]>,
+    names: Arc<[String]>,
+    states: Vec<RewardState>,
+    n_agents: usize,
+    /// Agent by agent, the terms of this step.
+    terms: Vec<f64>,
+    /// Agent by agent, their sums over the episode.
+    sums: Vec<f64>,
+    paid: Vec<f32>,
+    regs: Vec<f64>,
+    faults: u32,
+}
+
+/// The memory of one reward.
+#[derive(Clone, Debug)]
+struct RewardState {
+    /// Its first term's place among all.
+    first_term: usize,
+    n_terms: usize,
+    /// Whether it lives per team rather than per agent.
+    shared: bool,
+    /// Cells per instance.
+    n_cells: usize,
+    /// Instance by instance.
+    cells: Vec<f64>,
+    /// A script's memory, instance by instance.
+    memories: Vec<Memory>,
+}
+
+/// An agent as the judge sees it.
+#[derive(Clone, Copy)]
+struct Judged {
+    agent: usize,
+    team: Team,
+    me: Option<PlayerId>,
+}
+
+impl RewardJudge {
+    /// Prepares rewards for so many agents.
+    pub fn new(rewards: Arc<[Reward]>, scripts: &Scripts, n_agents: usize) -> RewardJudge {
+        let mut names = Vec::new();
+        let mut states = Vec::with_capacity(rewards.len());
+        let mut n_regs = 0;
+        for reward in rewards.iter() {
+            let first_term = names.len();
+            let (shared, n_cells) = match &reward.body {
+                RewardBody::Program { init, step, terms } => {
+                    names.extend(terms.iter().map(|label| format!("{}/{label}", reward.name)));
+                    n_regs = n_regs.max(init.code.len()).max(step.code.len());
+                    (!step.uses_me(), step.cells as usize)
+                }
+                RewardBody::Script { script, .. } => {
+                    names.push(format!("{}/{SCRIPT_TERM}", reward.name));
+                    (!scripts.uses_me(*script), 0)
+                }
+            };
+            let instances = if shared { Team::ALL.len() } else { n_agents };
+            let is_script = matches!(reward.body, RewardBody::Script { .. });
+            states.push(RewardState {
+                first_term,
+                n_terms: names.len() - first_term,
+                shared,
+                n_cells,
+                cells: vec![0.0; instances * n_cells],
+                memories: vec![Memory::default(); if is_script { instances } else { 0 }],
+            });
+        }
+        let n_terms = names.len();
+        RewardJudge {
+            rewards,
+            names: names.into(),
+            states,
+            n_agents,
+            terms: vec![0.0; n_agents * n_terms],
+            sums: vec![0.0; n_agents * n_terms],
+            paid: vec![0.0; n_agents],
+            regs: vec![0.0; n_regs],
+            faults: 0,
+        }
+    }
+
+    /// What each agent was paid in this step.
+    pub fn paid(&self) -> &[f32] {
+        &self.paid
+    }
+
+    /// The terms' names, `reward/label`, in the order of the values.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// An agent's terms of this step; empty for no such agent.
+    pub fn terms(&self, agent: usize) -> &[f64] {
+        let n = self.names.len();
+        self.terms.get(agent * n..(agent + 1) * n).unwrap_or_default()
+    }
+
+    /// An agent's terms, summed over the episode; empty for no such agent.
+    pub fn sums(&self, agent: usize) -> &[f64] {
+        let n = self.names.len();
+        self.sums.get(agent * n..(agent + 1) * n).unwrap_or_default()
+    }
+
+    /// Payments of this episode that were stopped because their value was impossible.
+    pub fn faults(&self) -> u32 {
+        self.faults
+    }
+
+    /// Begins an episode: `input` shows the start state.
+    pub fn reset(&mut self, game: &Match, input: &Input<'_>) {
+        self.faults = 0;
+        self.sums.fill(0.0);
+        self.clear_step();
+        for state in &mut self.states {
+            state.cells.fill(0.0);
+            state.memories.fill(Memory::default());
+        }
+        let rewards = self.rewards.clone();
+        for (which, reward) in rewards.iter().enumerate() {
+            if let RewardBody::Program { init, step, .. } = &reward.body {
+                for judged in self.instances(which, game) {
+                    self.run(which, init, judged, input, false);
+                    self.run(which, step, judged, input, true);
+                }
+            }
+        }
+        self.clear_step();
+    }
+
+    /// Judges a step; `scene` shows it to scripts.
+    ///
+    /// # Errors
+    /// The first hook that failed.
+    pub fn step(&mut self, game: &Match, input: &Input<'_>, scene: Option<(&Scripts, &Arc<Scene>)>) -> Result<(), ScriptError> {
+        self.clear_step();
+        let rewards = self.rewards.clone();
+        for (which, reward) in rewards.iter().enumerate() {
+            for judged in self.instances(which, game) {
+                match (&reward.body, scene) {
+                    (RewardBody::Program { step, .. }, _) => self.run(which, step, judged, input, false),
+                    (RewardBody::Script { script, weight }, Some((scripts, scene))) => {
+                        let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
+                        let instance = self.instance(which, judged);
+                        if let Some(memory) = self.states[which].memories.get_mut(instance) {
+                            let value = scripts.reward(*script, scene, perspective, memory)?;
+                            let at = judged.agent * self.names.len() + self.states[which].first_term;
+                            if value.is_finite() {
+                                self.terms[at] += value * weight;
+                            } else {
+                                self.faults += 1;
+                            }
+                        }
+                    }
+                    (RewardBody::Script { .. }, None) => {}
+                }
+            }
+            if self.states[which].shared {
+                self.share(which, game);
+            }
+        }
+        self.pay();
+        Ok(())
+    }
+
+    fn clear_step(&mut self) {
+        self.terms.fill(0.0);
+        self.paid.fill(0.0);
+    }
+
+    /// The agents a reward runs for: every one, or the first of each team.
+    fn instances(&self, which: usize, game: &Match) -> impl Iterator<Item = Judged> + use<> {
+        let shared = self.states[which].shared;
+        let n_agents = self.n_agents;
+        let agents = game.agents.clone();
+        let active = game.players.each_ref().map(|player| player.active);
+        let first = Team::ALL.iter().map(|team| agents.iter().position(|agent| agent.team == *team));
+        let first: arrayvec::ArrayVec<Option<usize>, 2> = first.collect();
+        agents.into_iter().take(n_agents).enumerate().filter_map(move |(agent, slot)| {
+            (!shared || first.contains(&Some(agent))).then(|| Judged {
+                agent,
+                team: slot.team,
+                me: slot.player.filter(|player| active[player.index()]),
+            })
+        })
+    }
+
+    fn instance(&self, which: usize, judged: Judged) -> usize {
+        if self.states[which].shared { judged.team.index() } else { judged.agent }
+    }
+
+    fn run(&mut self, which: usize, program: &Program, judged: Judged, input: &Input<'_>, silent: bool) {
+        let instance = self.instance(which, judged);
+        let n_all = self.names.len();
+        let state = &mut self.states[which];
+        let at = judged.agent * n_all + state.first_term;
+        let mut machine = Machine {
+            input: Input { us: judged.team, me: judged.me, silent, ..*input },
+            regs: &mut self.regs,
+            cells: &mut state.cells[instance * state.n_cells..(instance + 1) * state.n_cells],
+            terms: &mut self.terms[at..at + state.n_terms],
+            faults: &mut self.faults,
+            random: None,
+        };
+        machine.run(program);
+    }
+
+    /// Copies a shared reward's terms from the first agent of each team to the others.
+    fn share(&mut self, which: usize, game: &Match) {
+        let n_all = self.names.len();
+        let (first_term, n_terms) = (self.states[which].first_term, self.states[which].n_terms);
+        for team in Team::ALL {
+            let mut agents =
+                game.agents.iter().take(self.n_agents).enumerate().filter(|(_, slot)| slot.team == *team).map(|(i, _)| i);
+            if let Some(first) = agents.next() {
+                let from = first * n_all + first_term;
+                for agent in agents {
+                    self.terms.copy_within(from..from + n_terms, agent * n_all + first_term);
+                }
+            }
+        }
+    }
+
+    fn pay(&mut self) {
+        for (sum, term) in self.sums.iter_mut().zip(&self.terms) {
+            *sum += term;
+        }
+        let n = self.names.len();
+        for (agent, paid) in self.paid.iter_mut().enumerate() {
+            let total: f64 = self.terms[agent * n..(agent + 1) * n].iter().sum();
+            *paid = total as f32;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,1 +1,253 @@
-//! draw
+//! A scenario, its parameters and a seed become one concrete start.
+//!
+//! Decides where everybody stands when an episode begins: runs the scenario's start program, checks what the author
+//! requires and what the pitch requires, and redraws everything until all of it holds. What a start means for the game
+//! is `football`'s.
+
+mod place;
+mod roster;
+
+pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
+
+use crate::judge::machine::{DrawKey, Input, Machine, truth};
+use crate::judge::view::{View, player_index, team_of_number};
+use crate::random::Stream;
+use crate::start::{Drawn, DrawnAgent, DrawnPlayer};
+use crate::state::PlayerId;
+use glam::{Vec2, Vec3};
+use setpiece_scenario::pitch::{BALL_RADIUS_M, PLAYERS_MAX, STEPS_PER_S};
+use setpiece_scenario::vocabulary::{Rule, Team};
+use setpiece_scenario::{Bindings, Reg, Scenario};
+
+/// Most attempts at a start that meets its requirements.
+pub const ATTEMPTS_MAX: u32 = 10_000;
+/// The attempt whose streams toss the coins of `require … with P`: tossed once per start, so no attempt is its own.
+const COIN_ATTEMPT: u32 = u32::MAX;
+
+/// No start was found that meets what is required.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no start in {attempts} attempts: `{requirement}` failed in {failures} of them (seed {seed}, episode {index})")]
+pub struct DrawError {
+    /// The requirement that failed most often: the author's words, or the pitch's.
+    pub requirement: String,
+    /// In how many attempts it failed.
+    pub failures: u32,
+    /// How many attempts were made.
+    pub attempts: u32,
+    /// The seed.
+    pub seed: u64,
+    /// The episode's index.
+    pub index: u64,
+}
+
+/// Draws starts of one scenario; keeps its registers, so that a draw allocates little.
+#[derive(Clone, Debug, Default)]
+pub struct Drawer {
+    regs: Vec<f64>,
+    failures: Vec<u32>,
+    /// Whether a register depends on a draw.
+    random: Vec<bool>,
+}
+
+impl Drawer {
+    /// Prepares the draws of a scenario.
+    pub fn new(scenario: &Scenario) -> Drawer {
+        let program = &scenario.start.program;
+        let mut random: Vec<bool> = Vec::with_capacity(program.code.len());
+        for instr in &program.code {
+            let mut tainted = matches!(instr, setpiece_scenario::Instr::Random { .. });
+            instr.operands(&mut |reg| tainted |= random.get(reg.index()).copied().unwrap_or_default());
+            random.push(tainted);
+        }
+        Drawer {
+            regs: vec![0.0; program.code.len()],
+            failures: vec![0; scenario.start.requires.len() + place::Fault::ALL.len()],
+            random,
+        }
+    }
+
+    /// Draws the start of an episode.
+    ///
+    /// # Errors
+    /// [`DrawError`] where no attempt met every requirement.
+    ///
+    /// # Determinism
+    /// Depends on its arguments alone; a new draw in the scenario shifts no other.
+    pub fn draw(
+        &mut self,
+        scenario: &Scenario,
+        bindings: &Bindings,
+        roster: &Roster,
+        seed: u64,
+        index: u64,
+    ) -> Result<Drawn, DrawError> {
+        self.failures.fill(0);
+        let attempts = if self.random.contains(&true) { ATTEMPTS_MAX } else { 1 };
+        for attempt in 0..attempts {
+            self.run(scenario, bindings, DrawKey { seed, index, attempt });
+            match self.failed(scenario, roster, seed, index) {
+                None => return Ok(self.start(scenario, roster, seed, index)),
+                Some(which) => self.failures[which] += 1,
+            }
+        }
+        let (which, failures) = self
+            .failures
+            .iter()
+            .copied()
+            .enumerate()
+            // The first of equals, so that the message is stable.
+            .fold((0, 0), |best, (which, n)| if n > best.1 { (which, n) } else { best });
+        let requirement = match scenario.start.requires.get(which) {
+            Some(require) => require.label.clone(),
+            None => place::Fault::ALL[which - scenario.start.requires.len()].words().to_owned(),
+        };
+        Err(DrawError { requirement, failures, attempts, seed, index })
+    }
+
+    /// A start that was not checked against any requirement: for what is needed before the first episode.
+    pub fn draw_unchecked(&mut self, scenario: &Scenario, bindings: &Bindings, roster: &Roster) -> Drawn {
+        self.run(scenario, bindings, DrawKey { seed: 0, index: 0, attempt: 0 });
+        self.start(scenario, roster, 0, 0)
+    }
+
+    /// Runs the start program once; its values stand in the registers afterwards.
+    fn run(&mut self, scenario: &Scenario, bindings: &Bindings, draws: DrawKey) {
+        let program = &scenario.start.program;
+        self.regs.resize(program.code.len(), 0.0);
+        let mut machine = Machine {
+            input: Input {
+                now: &View::EMPTY,
+                prev: &View::EMPTY,
+                events: &[],
+                params: &bindings.0,
+                lets: &[],
+                index: draws.index,
+                us: Team::Left,
+                me: None,
+                silent: false,
+            },
+            regs: &mut self.regs,
+            cells: &mut [],
+            terms: &mut [],
+            faults: &mut 0,
+            draws: Some(draws),
+        };
+        machine.run(program);
+    }
+
+    /// The requirement that the present attempt fails, if any: the author's come before the pitch's.
+    fn failed(&self, scenario: &Scenario, roster: &Roster, seed: u64, index: u64) -> Option<usize> {
+        let requires = &scenario.start.requires;
+        let own = requires.iter().enumerate().position(|(which, require)| {
+            let asked = require.probability.is_none_or(|probability| {
+                let coin = Stream::of_draw(seed, index, COIN_ATTEMPT, which as u64).unit_f64();
+                coin < self.value(probability)
+            });
+            asked && !truth(self.value(require.condition))
+        });
+        own.or_else(|| self.misplaced(scenario, roster).map(|fault| requires.len() + fault as usize))
+    }
+
+    fn value(&self, reg: Reg) -> f64 {
+        self.regs.get(reg.index()).copied().unwrap_or(f64::NAN)
+    }
+
+    fn optional(&self, reg: Option<Reg>) -> f64 {
+        reg.map_or(0.0, |reg| self.value(reg))
+    }
+
+    fn is_random(&self, reg: Reg) -> bool {
+        self.random.get(reg.index()).copied().unwrap_or_default()
+    }
+
+    fn point(&self, (x, y): (Reg, Reg)) -> Vec2 {
+        Vec2::new(self.value(x) as f32, self.value(y) as f32)
+    }
+
+    fn vector(&self, vector: Option<(Reg, Reg, Reg)>) -> Vec3 {
+        vector
+            .map_or(Vec3::ZERO, |(x, y, z)| Vec3::new(self.value(x) as f32, self.value(y) as f32, self.value(z) as f32))
+    }
+
+    fn share(&self, reg: Reg) -> f32 {
+        let value = self.value(reg) as f32;
+        if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) }
+    }
+
+    fn steps(&self, seconds: Reg) -> u32 {
+        // The cast saturates: nothing below 0, nothing beyond the largest.
+        libm::round(self.value(seconds) * STEPS_PER_S) as u32
+    }
+
+    /// The concrete start that the registers describe.
+    fn start(&self, scenario: &Scenario, roster: &Roster, seed: u64, index: u64) -> Drawn {
+        let start = &scenario.start;
+        let mut rules: [f64; Rule::ALL.len()] = std::array::from_fn(|i| Rule::ALL[i].default_value());
+        for setting in &start.rules {
+            rules[setting.rule.index()] = self.value(setting.value);
+        }
+        let goals = |reg: Reg| self.value(reg) as u16;
+        let height_m = self.optional(start.ball.height) as f32 + BALL_RADIUS_M as f32;
+        let difficulty = start.difficulty.map(|reg| self.share(reg));
+        Drawn {
+            seed,
+            index,
+            players: self.players(scenario, roster, difficulty),
+            ball_pos: self.point((start.ball.x, start.ball.y)).extend(height_m),
+            ball_vel: self.vector(start.ball.velocity),
+            ball_spin: self.vector(start.ball.spin),
+            owner: start.ball.owner.and_then(|owner| {
+                let index = player_index(self.value(owner))?;
+                roster.present[index].then_some(PlayerId(index as u8))
+            }),
+            kind: start.kind,
+            taker: start.taker.and_then(|taker| team_of_number(self.value(taker))),
+            first_kickoff: start.kickoff.as_ref().and_then(|kickoff| team_of_number(self.value(kickoff.first))),
+            score: start.score.map_or([0; 2], |(left, right)| [goals(left), goals(right)]),
+            elapsed_steps: start.elapsed.map_or(0, |elapsed| self.steps(elapsed)),
+            difficulty,
+            rules,
+            limit_steps: start.limit.map(|limit| self.steps(limit)),
+            others: scenario.agents.others,
+            agents: roster.agents.iter().map(|&(team, fixed)| DrawnAgent { team, fixed }).collect(),
+            lets: start.lets.iter().map(|&reg| self.value(reg)).collect(),
+        }
+    }
+
+    fn players(
+        &self,
+        scenario: &Scenario,
+        roster: &Roster,
+        difficulty: [f32; 2],
+    ) -> [Option<DrawnPlayer>; PLAYERS_MAX] {
+        let mut players = [const { None }; PLAYERS_MAX];
+        let mut place_of = scenario.start.kickoff.iter().flat_map(|kickoff| &kickoff.places);
+        for team in Team::ALL {
+            for (id, slot) in scenario.team(*team) {
+                // In roster order, as the places are.
+                let kickoff = place_of.next().map(|at| [self.point(at.kicking), self.point(at.receiving)]);
+                if id >= PLAYERS_MAX || !roster.present[id] {
+                    continue;
+                }
+                let start = &slot.start;
+                players[id] = Some(DrawnPlayer {
+                    role: slot.role,
+                    ai: slot.ai,
+                    controllable: slot.controllable,
+                    pos: self.point((start.x, start.y)),
+                    vel: start.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity)),
+                    heading_rad: start.heading.map(|heading| self.value(heading) as f32),
+                    fatigue: start.fatigue.map_or(0.0, |fatigue| self.share(fatigue)),
+                    yellow_cards: self.optional(start.yellow_cards) as u8,
+                    difficulty: start.difficulty.map_or(difficulty[team.index()], |own| self.share(own)),
+                    stats: slot.stats.iter().map(|&(stat, reg)| (stat, self.share(reg))).collect(),
+                    kickoff,
+                });
+            }
+        }
+        players
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,1 +1,370 @@
-//! environment
+//! One match and its judge, as an agent meets them.
+//!
+//! Decides the order within a step: the agents' actions and ten ticks of play, the judge on the state as it stands, then
+//! the restart that a stop calls for. What is observed afterwards therefore shows the restart; what was judged is the
+//! state before it. Holds what lives as long as an episode; a clone is a snapshot.
+
+mod error;
+
+pub use crate::draw::{AgentsChoice, SideChoice};
+pub use crate::physics::Scratch;
+pub use error::{EnvironmentError, StepError};
+
+use crate::draw::{DrawError, Drawer, Roster};
+use crate::event::{Event, Events};
+use crate::football;
+use crate::judge::script::Scripts;
+use crate::judge::{Judge, Outcome};
+use crate::start::Drawn;
+use crate::state::{AgentSlot, Match, PlayerId};
+use crate::statistics::Statistics;
+use setpiece_scenario::vocabulary::{Action, Rule, Team};
+use setpiece_scenario::{Bindings, Reward, Scenario};
+use std::sync::Arc;
+
+/// What a user asks for beside the scenario.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EnvironmentOptions {
+    /// The parameters; their defaults if absent.
+    pub bindings: Option<Bindings>,
+    /// Named rewards in place of the scenario's own.
+    pub rewards: Option<Vec<String>>,
+    /// How the ball's contacts are found, in place of the scenario's own choice.
+    pub physics: Option<Physics>,
+    /// Agents in place of the scenario's own.
+    pub agents: Option<AgentsChoice>,
+}
+
+/// How the ball's contacts are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Physics {
+    /// Rapier is asked where the ball comes near something hard.
+    Gated,
+    /// Rapier runs on every tick.
+    Full,
+}
+
+/// What became of the episode in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepResult {
+    /// An ending held.
+    pub terminated: bool,
+    /// The limit was reached.
+    pub truncated: bool,
+}
+
+/// One environment.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    scenario: Arc<Scenario>,
+    options: EnvironmentOptions,
+    bindings: Bindings,
+    roster: Roster,
+    ids: Arc<[String]>,
+    drawer: Drawer,
+    drawn: Drawn,
+    game: Match,
+    judge: Judge,
+    events: Events,
+    /// How many of the events belong to the step just played.
+    judged: usize,
+    statistics: Statistics,
+    /// The episode can be stepped.
+    running: bool,
+    begun: bool,
+    outcome: Option<Outcome>,
+    seed: u64,
+    index: u64,
+}
+
+impl Environment {
+    /// Prepares an environment; it must be reset before its first step.
+    ///
+    /// # Errors
+    /// [`EnvironmentError`] for a reward, parameter or number of agents that the scenario doesn't have, or a script
+    /// that is not Rhai.
+    pub fn new(scenario: Arc<Scenario>, options: EnvironmentOptions) -> Result<Environment, EnvironmentError> {
+        let bindings = bound(&scenario, options.bindings.as_ref())?;
+        let scripts = Scripts::compile(&scenario)?;
+        let rewards = chosen_rewards(&scenario, options.rewards.as_deref())?;
+        let roster = Roster::new(&scenario, &bindings, options.agents.as_ref())?;
+        let judge = Judge::new(&scenario, rewards, scripts, roster.agents.len());
+        let mut drawer = Drawer::new(&scenario);
+        let mut drawn = drawer.draw_unchecked(&scenario, &bindings, &roster);
+        apply_physics(&mut drawn, options.physics);
+        Ok(Environment {
+            ids: agent_ids(&scenario, &roster),
+            game: football::begin(&drawn),
+            scenario,
+            options,
+            bindings,
+            roster,
+            drawer,
+            drawn,
+            judge,
+            events: Events::new(),
+            judged: 0,
+            statistics: Statistics::default(),
+            running: false,
+            begun: false,
+            outcome: None,
+            seed: 0,
+            index: 0,
+        })
+    }
+
+    /// Begins an episode.
+    ///
+    /// - `seed`: begins a new count of episodes; without it the seed stays.
+    /// - `index`: which episode of the seed; else 0 after a seed, and the next one without.
+    ///
+    /// # Errors
+    /// [`DrawError`] where no start meets the scenario's requirements; the environment must be reset again then.
+    pub fn reset(&mut self, seed: Option<u64>, index: Option<u64>) -> Result<(), DrawError> {
+        self.index = match (seed, index) {
+            (_, Some(index)) => index,
+            (Some(_), None) => 0,
+            (None, None) if self.begun => self.index.wrapping_add(1),
+            (None, None) => self.index,
+        };
+        self.seed = seed.unwrap_or(self.seed);
+        self.begun = true;
+        self.running = false;
+        self.outcome = None;
+        self.events.clear();
+        self.judged = 0;
+        self.drawn = self.drawer.draw(&self.scenario, &self.bindings, &self.roster, self.seed, self.index)?;
+        apply_physics(&mut self.drawn, self.options.physics);
+        self.game = football::begin(&self.drawn);
+        self.judge.reset(&self.game, &self.drawn, &self.bindings.0);
+        self.statistics = Statistics::begin(&self.game);
+        self.running = true;
+        Ok(())
+    }
+
+    /// Plays one step: `actions[i]` is agent i's, in the own frame of its team.
+    ///
+    /// # Errors
+    /// [`StepError`] where the episode has ended or has not begun, where there is not one action per agent (nothing is
+    /// played then), and where a script failed (which ends the episode).
+    pub fn step(&mut self, actions: &[Action], scratch: &mut Scratch) -> Result<StepResult, StepError> {
+        if !self.running {
+            return Err(StepError::NotRunning { begun: self.begun });
+        }
+        if actions.len() != self.game.agents.len() {
+            return Err(StepError::Actions { found: actions.len(), expected: self.game.agents.len() });
+        }
+        self.events.forget(self.judged);
+        football::play_step(&mut self.game, actions, &mut self.events, scratch);
+        let judged = self.judge.step(&self.game, &mut self.events);
+        self.judged = self.events.as_slice().len();
+        self.statistics.observe(&self.game, self.events.as_slice());
+        let outcome = match judged {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                self.running = false;
+                return Err(StepError::Script(Box::new(error)));
+            }
+        };
+        if self.game.dead {
+            football::restart(&mut self.game, &mut self.events);
+        }
+        self.judge.settle(&self.game);
+        let truncated = outcome.as_ref().is_some_and(|outcome| outcome.truncated);
+        let terminated = outcome.is_some() && !truncated;
+        self.running = outcome.is_none();
+        self.outcome = outcome;
+        Ok(StepResult { terminated, truncated })
+    }
+
+    /// Binds the parameters anew, from the next reset on.
+    ///
+    /// # Errors
+    /// [`EnvironmentError`] where a value is not allowed, or where players or agents would change.
+    pub fn set_bindings(&mut self, bindings: Bindings) -> Result<(), EnvironmentError> {
+        let bindings = bound(&self.scenario, Some(&bindings))?;
+        let roster = Roster::new(&self.scenario, &bindings, self.options.agents.as_ref())?;
+        if roster != self.roster {
+            return Err(EnvironmentError::Roster);
+        }
+        self.bindings = bindings;
+        Ok(())
+    }
+
+    /// The scenario.
+    pub fn scenario(&self) -> &Arc<Scenario> {
+        &self.scenario
+    }
+
+    /// The parameters.
+    pub fn bindings(&self) -> &Bindings {
+        &self.bindings
+    }
+
+    /// Who takes part.
+    pub fn roster(&self) -> &Roster {
+        &self.roster
+    }
+
+    /// How many agents act.
+    pub fn n_agents(&self) -> usize {
+        self.roster.agents.len()
+    }
+
+    /// The agents' ids, in their order: a player's name, else `left_CM_1`; `left_0` where the player changes.
+    pub fn agent_ids(&self) -> &[String] {
+        &self.ids
+    }
+
+    /// The agents' slots: team, player, held actions.
+    pub fn agents(&self) -> &[AgentSlot] {
+        &self.game.agents
+    }
+
+    /// What each agent was paid in the last step.
+    pub fn rewards(&self) -> &[f32] {
+        self.judge.rewards().paid()
+    }
+
+    /// The reward terms' names, `reward/label`.
+    pub fn term_names(&self) -> &[String] {
+        self.judge.rewards().names()
+    }
+
+    /// An agent's terms of the last step, in the order of their names.
+    pub fn terms(&self, agent: usize) -> &[f64] {
+        self.judge.rewards().terms(agent)
+    }
+
+    /// An agent's terms summed over the episode, in the order of their names.
+    pub fn term_sums(&self, agent: usize) -> &[f64] {
+        self.judge.rewards().sums(agent)
+    }
+
+    /// Payments of the episode that were stopped because their value was impossible (a division by zero, a property
+    /// of nobody).
+    pub fn faults(&self) -> u32 {
+        self.judge.rewards().faults()
+    }
+
+    /// The events of the last step, in order.
+    pub fn events(&self) -> &[Event] {
+        self.events.as_slice().get(..self.judged).unwrap_or_default()
+    }
+
+    /// How the episode ended, if it has.
+    pub fn outcome(&self) -> Option<&Outcome> {
+        self.outcome.as_ref()
+    }
+
+    /// Whether the episode can be stepped.
+    pub fn is_running(&self) -> bool {
+        self.running
+    }
+
+    /// The match as it stands, after any restart.
+    pub fn state(&self) -> &Match {
+        &self.game
+    }
+
+    /// The start that was drawn.
+    pub fn start(&self) -> &Drawn {
+        &self.drawn
+    }
+
+    /// Goals, left and right.
+    pub fn score(&self) -> [u16; 2] {
+        self.game.score
+    }
+
+    /// Steps since the episode's start.
+    pub fn steps(&self) -> u32 {
+        self.game.step
+    }
+
+    /// The seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The episode's index.
+    pub fn index(&self) -> u64 {
+        self.index
+    }
+
+    /// Truncation after so many steps.
+    pub fn limit_steps(&self) -> Option<u32> {
+        self.game.limit_steps
+    }
+
+    /// What the episode was like so far.
+    pub fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    /// A fingerprint of the state as it stands.
+    pub fn digest(&self) -> u64 {
+        crate::digest::of_match(&self.game)
+    }
+}
+
+fn bound(scenario: &Scenario, bindings: Option<&Bindings>) -> Result<Bindings, EnvironmentError> {
+    let Some(bindings) = bindings else { return Ok(Bindings::defaults(&scenario.params)) };
+    if bindings.0.len() != scenario.params.len() {
+        let (found, expected) = (bindings.0.len(), scenario.params.len());
+        return Err(EnvironmentError::Bindings { found, expected });
+    }
+    for (param, &value) in scenario.params.iter().zip(&bindings.0) {
+        param.admit(value)?;
+    }
+    Ok(bindings.clone())
+}
+
+fn chosen_rewards(scenario: &Scenario, names: Option<&[String]>) -> Result<Arc<[Reward]>, EnvironmentError> {
+    let Some(names) = names else { return Ok(scenario.rewards.clone().into()) };
+    let chosen = names.iter().map(|name| {
+        scenario.reward(name).cloned().ok_or_else(|| {
+            let mut known: Vec<String> =
+                scenario.library.iter().chain(&scenario.rewards).map(|reward| reward.name.clone()).collect();
+            known.sort();
+            known.dedup();
+            EnvironmentError::Reward { name: name.clone(), known }
+        })
+    });
+    chosen.collect()
+}
+
+fn apply_physics(drawn: &mut Drawn, physics: Option<Physics>) {
+    if let Some(physics) = physics {
+        drawn.rules[Rule::Physics.index()] = match physics {
+            Physics::Gated => 0.0,
+            Physics::Full => 1.0,
+        };
+    }
+}
+
+fn agent_ids(scenario: &Scenario, roster: &Roster) -> Arc<[String]> {
+    let mut roaming = [0usize; 2];
+    let id = |&(team, player): &(Team, Option<PlayerId>)| match player {
+        Some(player) => player_name(scenario, team, player),
+        None => {
+            roaming[team.index()] += 1;
+            format!("{team}_{}", roaming[team.index()] - 1)
+        }
+    };
+    roster.agents.iter().map(id).collect()
+}
+
+/// A player's name, else his team, role and number among its players of that role.
+fn player_name(scenario: &Scenario, team: Team, player: PlayerId) -> String {
+    let Some((_, slot)) = scenario.team(team).find(|(id, _)| *id == player.index()) else {
+        return format!("{team}_{}", player.in_team());
+    };
+    slot.name.clone().unwrap_or_else(|| {
+        let before = scenario.team(team).filter(|(id, other)| *id <= player.index() && other.role == slot.role);
+        format!("{team}_{}_{}", slot.role, before.count())
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -49,6 +49,12 @@ impl Events {
         self.dropped = 0;
     }
 
+    /// Forgets the first `n`: those that were judged. What a restart added after them belongs to the next step.
+    pub fn forget(&mut self, n: usize) {
+        self.list.drain(..n.min(self.list.len()));
+        self.dropped = 0;
+    }
+
     /// Adds an event; never allocates beyond [`EVENTS_MAX`].
     pub fn push(&mut self, event: Event) {
         if self.list.len() < EVENTS_MAX {

@@ -27,7 +27,7 @@ use crate::random::{Purpose, Stream};
 use crate::start::Drawn;
 use crate::state::Match;
 use machine::Input;
-use script::{Scene, Scripts};
+use script::{Params, Scene, Scripts};
 use setpiece_scenario::{Endings, Reward, Scenario};
 use std::sync::Arc;
 
@@ -41,6 +41,8 @@ pub struct Judge {
     scripted: bool,
     random: Stream,
     params: Vec<f64>,
+    /// The same as scripts see them.
+    shown: Params,
     lets: Vec<f64>,
     seed: u64,
     index: u64,
@@ -59,6 +61,7 @@ impl Judge {
             scripts,
             random: Stream::new(0, 0, Purpose::Script),
             params: Vec::new(),
+            shown: Params::default(),
             lets: Vec::new(),
             seed: 0,
             index: 0,
@@ -75,6 +78,9 @@ impl Judge {
     pub fn reset(&mut self, game: &Match, drawn: &Drawn, params: &[f64]) {
         self.params.clear();
         self.params.extend_from_slice(params);
+        if self.scripted {
+            self.shown = self.scripts.params(params);
+        }
         self.lets.clear();
         self.lets.extend_from_slice(&drawn.lets);
         (self.seed, self.index) = (drawn.seed, drawn.index);
@@ -104,10 +110,10 @@ impl Judge {
         let now = View::of(game);
         let us = endings::judged_side(game);
         let mut scene = self.scripted.then(|| self.scene(&now, events));
-        let input = |events| Input {
+        let shared = Input {
             now: &now,
             prev: &self.prev,
-            events,
+            events: &[],
             params: &self.params,
             lets: &self.lets,
             index: self.index,
@@ -116,15 +122,15 @@ impl Judge {
             silent: false,
         };
         let shown = scene.as_ref().map(|scene| (&self.scripts, scene));
-        let outcome = self.endings.step(game, &input(events.as_slice()), shown)?;
+        let outcome = self.endings.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
         if let Some(outcome) = &outcome {
             endings::announce(outcome, game, events);
             scene = scene.map(|scene| Arc::new(scene.with_events(events.as_slice())));
         }
         let shown = scene.as_ref().map(|scene| (&self.scripts, scene));
-        self.rewards.step(game, &input(events.as_slice()), shown)?;
+        self.rewards.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
         if let Some(scene) = scene {
-            self.random = scene.into_random();
+            self.random = scene.random();
         }
         Ok(outcome)
     }
@@ -139,7 +145,7 @@ impl Judge {
             *now,
             self.prev,
             events.as_slice(),
-            self.scripts.params(&self.params),
+            self.shown.clone(),
             self.random.clone(),
             (self.seed, self.index),
         ))

@@ -4,9 +4,12 @@
 //! - [`state::Match`]: one simulation, plain data; [`physics`], [`football`] and [`control`] move it on.
 //! - [`judge`]: rewards and endings, from the state and its events.
 //! - [`observe`]: the state written into the caller's buffers.
-//! - [`environment`]: one match and its judge, as an agent meets them; `batch`: many.
+//! - [`environment`]: one match and its judge, as an agent meets them; [`batch`]: many.
+//! - [`statistics`], [`digest`]: what a match was like, and a fingerprint of its state.
 
+pub mod batch;
 pub mod control;
+pub mod digest;
 pub mod draw;
 pub mod environment;
 pub mod event;
@@ -18,3 +21,4 @@ pub mod physics;
 pub mod random;
 pub mod start;
 pub mod state;
+pub mod statistics;

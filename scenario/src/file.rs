@@ -36,9 +36,9 @@ impl std::fmt::Display for FormatError {
                 f,
                 "the compiled scenario has format version {found}; this build reads version {FORMAT_VERSION}: build it again from its source"
             ),
-            FormatError::Checksum => {
-                f.write_str("the compiled scenario was changed after it was built: its checksum differs; build it again")
-            }
+            FormatError::Checksum => f.write_str(
+                "the compiled scenario was changed after it was built: its checksum differs; build it again",
+            ),
             FormatError::Corrupt(why) => write!(f, "the compiled scenario is corrupt: {why}"),
             FormatError::Write(why) => write!(f, "the scenario can't be written: {why}"),
         }

@@ -15,7 +15,9 @@ pub mod vocabulary;
 
 pub use file::{FORMAT_VERSION, FormatError};
 pub use params::{Bindings, Param, ParamError};
-pub use program::{BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp, When, Who};
+pub use program::{
+    BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp, When, Who,
+};
 pub use scenario::{
     Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Others, PlayerSlot, PlayerStart, Require, Reward,
     RewardBody, RuleSetting, Scenario, Script, SideAgents, Start, Switching,

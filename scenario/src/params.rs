@@ -166,10 +166,8 @@ impl Param {
         if unit.is_empty() {
             return Ok(number);
         }
-        let unit = Unit::ALL
-            .iter()
-            .find(|u| u.name() == unit || (unit == "step" && **u == Unit::Step))
-            .ok_or_else(wrong)?;
+        let unit =
+            Unit::ALL.iter().find(|u| u.name() == unit || (unit == "step" && **u == Unit::Step)).ok_or_else(wrong)?;
         let plain = matches!(self.ty, Type::Number | Type::Percent);
         if unit.ty() == self.ty || (plain && *unit == Unit::Percent) {
             Ok(number * unit.factor())

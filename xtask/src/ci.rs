@@ -15,10 +15,8 @@ pub(crate) fn ci() -> Result<(), String> {
 
 /// The Rust tests, by nextest where it is installed.
 pub(crate) fn rust_tests() -> Result<(), String> {
-    let nextest = Command::new("cargo")
-        .args(["nextest", "--version"])
-        .output()
-        .is_ok_and(|output| output.status.success());
+    let nextest =
+        Command::new("cargo").args(["nextest", "--version"]).output().is_ok_and(|output| output.status.success());
     if nextest {
         cargo(&["nextest", "run", "--workspace", "--no-fail-fast"])?;
         cargo(&["test", "--workspace", "--doc", "--quiet"])

@@ -19,20 +19,31 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "setpiece-engine",
         &[
-            "setpiece-scenario", "arrayvec", "glam", "libm", "rand_core", "rand_pcg", "rapier3d", "rayon", "rhai",
-            "serde", "strsim", "thiserror",
+            "setpiece-scenario",
+            "arrayvec",
+            "glam",
+            "libm",
+            "rand_core",
+            "rand_pcg",
+            "rapier3d",
+            "rayon",
+            "rhai",
+            "serde",
+            "strsim",
+            "thiserror",
         ],
     ),
-    (
-        "setpiece-python",
-        &["setpiece", "setpiece-engine", "setpiece-scenario", "numpy", "pyo3", "serde_json", "rayon"],
-    ),
+    ("setpiece-python", &["setpiece", "setpiece-engine", "setpiece-scenario", "numpy", "pyo3", "serde_json", "rayon"]),
 ];
 
 /// Words that a room's sources must not contain, and why.
 const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
     ("dsl/src", &["std::fs", "std::env", "std::net"], "sources come through a `SourceLoader`"),
-    ("engine/src", &["std::fs", "std::env", "std::net", "thread_local!", "HashMap", "HashSet"], "the engine is deterministic and reads nothing"),
+    (
+        "engine/src",
+        &["std::fs", "std::env", "std::net", "thread_local!", "HashMap", "HashSet"],
+        "the engine is deterministic and reads nothing",
+    ),
     ("engine/src", &["Instant::now", "SystemTime"], "the engine knows no clock"),
     ("scenario/src", &["std::fs", "std::env", "HashMap"], "the compiled scenario is plain data"),
     ("python/src", &["rapier3d", "rhai", "pest"], "the binding holds conversions only"),
@@ -48,7 +59,9 @@ pub(crate) fn tidy() -> Result<(), String> {
             // Tests at the end of a file may use what they like.
             let code = text.split("#[cfg(test)]").next().unwrap_or_default();
             for word in *words {
-                if let Some(line) = code.lines().position(|line| line.contains(word) && !line.trim_start().starts_with("//")) {
+                if let Some(line) =
+                    code.lines().position(|line| line.contains(word) && !line.trim_start().starts_with("//"))
+                {
                     breaches.push(format!("{}:{}: `{word}`: {why}", file.display(), line + 1));
                 }
             }

@@ -97,7 +97,7 @@ impl EndingJudge {
             cells: &mut self.cells,
             terms: &mut [],
             faults: &mut self.faults,
-            random: None,
+            draws: None,
         };
         machine.run(&self.endings.program);
     }

@@ -53,8 +53,19 @@ pub struct Machine<'a> {
     pub terms: &'a mut [f64],
     /// Effects that were stopped because their value was impossible.
     pub faults: &'a mut u32,
-    /// Where draws come from; without it a draw is NaN.
-    pub random: Option<&'a mut Stream>,
+    /// What draws are keyed by; without it a draw is NaN.
+    pub draws: Option<DrawKey>,
+}
+
+/// What the draws of one attempt are keyed by, beside their own names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrawKey {
+    /// The seed.
+    pub seed: u64,
+    /// The episode's index.
+    pub index: u64,
+    /// Which attempt at a start that meets its requirements.
+    pub attempt: u32,
 }
 
 impl Machine<'_> {
@@ -109,9 +120,11 @@ impl Machine<'_> {
             }
             Instr::Event(field) => event.map_or(f64::NAN, |event| event_field(event, *field)),
             Instr::Cell(cell) => self.cells[*cell as usize],
-            Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. } | Instr::Until { .. } | Instr::Once { .. } => {
-                self.temporal(instr)
-            }
+            Instr::Held { .. }
+            | Instr::Ever { .. }
+            | Instr::Since { .. }
+            | Instr::Until { .. }
+            | Instr::Once { .. } => self.temporal(instr),
             Instr::Give { term, value, guard } => {
                 if self.allowed(*guard) {
                     let value = self.value(*value);
@@ -134,7 +147,7 @@ impl Machine<'_> {
                 }
                 0.0
             }
-            Instr::Random(distribution) => self.draw(distribution),
+            Instr::Random { key, from } => self.draw(*key, from),
             // Loops are run by `block`.
             Instr::Each(_) => 0.0,
         }
@@ -245,18 +258,17 @@ impl Machine<'_> {
                 }
             })
             && filter.to.is_none_or(|who| match who {
-                Who::Team(reg) => {
-                    event.to.is_some() && event.to.map(PlayerId::team) == team_of_number(self.value(reg))
-                }
+                Who::Team(reg) => event.to.is_some() && event.to.map(PlayerId::team) == team_of_number(self.value(reg)),
                 Who::Player(reg) => is_player(event.to, self.value(reg)),
             })
     }
 
-    fn draw(&mut self, distribution: &Distribution) -> f64 {
-        let Some(random) = self.random.as_deref_mut() else { return f64::NAN };
+    fn draw(&self, key: u64, from: &Distribution) -> f64 {
+        let Some(draws) = self.draws else { return f64::NAN };
+        let random = &mut Stream::of_draw(draws.seed, draws.index, draws.attempt, key);
         let regs = &*self.regs;
         let value = |reg: &Reg| regs[reg.index()];
-        match distribution {
+        match from {
             Distribution::Uniform(low, high) => {
                 let (low, high) = (value(low), value(high));
                 low + (high - low) * random.unit_f64()
@@ -267,9 +279,11 @@ impl Machine<'_> {
             }
             Distribution::Integer(low, high) => {
                 let (low, high) = (libm::ceil(value(low)), libm::floor(value(high)));
-                // One draw whatever the ends are, so that later draws don't shift.
-                let share = random.unit_f64();
-                if low <= high { (low + libm::floor(share * (high - low + 1.0))).min(high) } else { f64::NAN }
+                if low <= high {
+                    (low + libm::floor(random.unit_f64() * (high - low + 1.0))).min(high)
+                } else {
+                    f64::NAN
+                }
             }
             Distribution::Weighted(weights) => {
                 let weight = |reg: &Reg| value(reg).max(0.0);

@@ -149,7 +149,12 @@ impl RewardJudge {
     ///
     /// # Errors
     /// The first hook that failed.
-    pub fn step(&mut self, game: &Match, input: &Input<'_>, scene: Option<(&Scripts, &Arc<Scene>)>) -> Result<(), ScriptError> {
+    pub fn step(
+        &mut self,
+        game: &Match,
+        input: &Input<'_>,
+        scene: Option<(&Scripts, &Arc<Scene>)>,
+    ) -> Result<(), ScriptError> {
         self.clear_step();
         let rewards = self.rewards.clone();
         for (which, reward) in rewards.iter().enumerate() {
@@ -217,7 +222,7 @@ impl RewardJudge {
             cells: &mut state.cells[instance * state.n_cells..(instance + 1) * state.n_cells],
             terms: &mut self.terms[at..at + state.n_terms],
             faults: &mut self.faults,
-            random: None,
+            draws: None,
         };
         machine.run(program);
     }
@@ -227,8 +232,13 @@ impl RewardJudge {
         let n_all = self.names.len();
         let (first_term, n_terms) = (self.states[which].first_term, self.states[which].n_terms);
         for team in Team::ALL {
-            let mut agents =
-                game.agents.iter().take(self.n_agents).enumerate().filter(|(_, slot)| slot.team == *team).map(|(i, _)| i);
+            let mut agents = game
+                .agents
+                .iter()
+                .take(self.n_agents)
+                .enumerate()
+                .filter(|(_, slot)| slot.team == *team)
+                .map(|(i, _)| i);
             if let Some(first) = agents.next() {
                 let from = first * n_all + first_term;
                 for agent in agents {

@@ -43,8 +43,20 @@ pub(super) fn binary(op: BinaryOp, a: f64, b: f64) -> f64 {
         BinaryOp::Pow => libm::pow(a, b),
         // The standard library's drop a NaN; here it must flow.
         BinaryOp::Min | BinaryOp::Max if a.is_nan() || b.is_nan() => f64::NAN,
-        BinaryOp::Min => if b < a { b } else { a },
-        BinaryOp::Max => if b > a { b } else { a },
+        BinaryOp::Min => {
+            if b < a {
+                b
+            } else {
+                a
+            }
+        }
+        BinaryOp::Max => {
+            if b > a {
+                b
+            } else {
+                a
+            }
+        }
         BinaryOp::Hypot => libm::hypot(a, b),
         BinaryOp::Atan2 => libm::atan2(a, b),
         BinaryOp::Lt => (a < b).into(),

@@ -1,0 +1,61 @@
+//! What can go wrong with an environment.
+
+use crate::draw::RosterError;
+use crate::judge::ScriptError;
+use crate::judge::script::ScriptLoadError;
+use setpiece_scenario::ParamError;
+
+/// Why an environment can't be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EnvironmentError {
+    /// A reward was asked for by a name that is not in scope.
+    #[error("no reward `{name}`; there is `{}`", known.join("`, `"))]
+    Reward {
+        /// The name.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// A parameter's value is not allowed.
+    #[error(transparent)]
+    Param(#[from] ParamError),
+    /// The values don't belong to this scenario.
+    #[error("expected {expected} parameter values, found {found}")]
+    Bindings {
+        /// How many were given.
+        found: usize,
+        /// How many the scenario has.
+        expected: usize,
+    },
+    /// The agents asked for are not there.
+    #[error(transparent)]
+    Agents(#[from] RosterError),
+    /// A script is not Rhai.
+    #[error(transparent)]
+    Script(#[from] ScriptLoadError),
+    /// New parameters would change who takes part.
+    #[error("these parameters change the players or the agents: make a new environment")]
+    Roster,
+}
+
+/// Why a step was not played to its end.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StepError {
+    /// There is nothing to step.
+    #[error("{}: reset the environment first", if *begun { "the episode has ended" } else { "no episode has begun" })]
+    NotRunning {
+        /// Whether there was an episode at all.
+        begun: bool,
+    },
+    /// There is not one action per agent.
+    #[error("expected {expected} actions, found {found}")]
+    Actions {
+        /// How many were given.
+        found: usize,
+        /// How many agents there are.
+        expected: usize,
+    },
+    /// A script failed; the episode has ended.
+    #[error(transparent)]
+    Script(Box<ScriptError>),
+}

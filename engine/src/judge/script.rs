@@ -1,0 +1,255 @@
+//! Rewards and endings by Rhai hooks: the way out for what the language can't say.
+//!
+//! One Rhai engine serves the process, one syntax tree each script of a scenario; both are shared by all matches and
+//! threads. A hook sees the match through the language's own properties, in the frame of the side judged, and can do
+//! nothing else: no files, no clock, no modules, bounded operations, depth and sizes, random numbers from the episode's
+//! seed alone. `this` is the script's memory: a map that lives as long as the episode.
+//!
+//! - `fn reward(ctx, now, prev, events)` gives a number, each step, for each agent.
+//! - `fn done(ctx, now, prev, events)` says whether the episode ends: true, or its label.
+
+mod api;
+mod check;
+mod host;
+mod place;
+
+pub use api::{Member, Perspective, Scene, Subject, functions, members};
+pub use check::{ScriptFault, ScriptFaultKind, check_script};
+
+use api::{Sight, events_of};
+use place::hook_position;
+use rhai::{AST, CallFnOptions, Dynamic, EvalAltResult, Scope};
+use setpiece_scenario::vocabulary::Type;
+use setpiece_scenario::{Param, Scenario};
+use std::sync::Arc;
+
+/// A hook that failed; it ends the episode, not the process.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{script}:{line}:{column}: `{hook}` failed: {message} (seed {seed}, episode {index}, step {step})")]
+pub struct ScriptError {
+    /// The script, as the scenario names it.
+    pub script: String,
+    /// Line, from 1; the hook's own where the failure has no place.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// The hook.
+    pub hook: String,
+    /// The episode's seed.
+    pub seed: u64,
+    /// The episode's index.
+    pub index: u64,
+    /// The step it failed in.
+    pub step: u32,
+    /// What went wrong.
+    pub message: String,
+}
+
+/// A script that can't be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{script}:{line}:{column}: {message}")]
+pub struct ScriptLoadError {
+    /// The script, as the scenario names it.
+    pub script: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// What is wrong with it.
+    pub message: String,
+}
+
+/// A script's memory of the episode.
+#[derive(Clone, Debug)]
+pub struct Memory(Dynamic);
+
+impl Default for Memory {
+    fn default() -> Memory {
+        Memory(Dynamic::from_map(rhai::Map::new()))
+    }
+}
+
+/// What a `done` hook says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Done {
+    /// The episode goes on.
+    No,
+    /// It ends.
+    Yes,
+    /// It ends, under this name.
+    Labelled(String),
+}
+
+/// A scenario's parameters as scripts see them.
+pub type Params = Arc<rhai::Map>;
+
+/// The scripts of a scenario, compiled.
+#[derive(Clone, Debug)]
+pub struct Scripts {
+    list: Arc<[Compiled]>,
+    params: Arc<[Param]>,
+}
+
+#[derive(Debug)]
+struct Compiled {
+    name: String,
+    source: String,
+    ast: AST,
+    uses_me: bool,
+}
+
+impl Scripts {
+    /// Compiles a scenario's scripts.
+    ///
+    /// # Errors
+    /// The first that is not Rhai.
+    pub fn compile(scenario: &Scenario) -> Result<Scripts, ScriptLoadError> {
+        let compile = |script: &setpiece_scenario::Script| {
+            let ast = host::engine().compile(&script.source).map_err(|error| ScriptLoadError {
+                script: script.name.clone(),
+                line: error.position().line().unwrap_or(1),
+                column: error.position().position().unwrap_or(1),
+                message: host::parse_message(&error),
+            })?;
+            Ok(Compiled {
+                name: script.name.clone(),
+                source: script.source.clone(),
+                uses_me: check::mentions_me(&ast),
+                ast,
+            })
+        };
+        Ok(Scripts {
+            list: scenario.scripts.iter().map(compile).collect::<Result<_, _>>()?,
+            params: scenario.params.clone().into(),
+        })
+    }
+
+    /// Whether a script asks about the agent's own player, so that it must be run for each agent.
+    pub fn uses_me(&self, script: u32) -> bool {
+        self.list.get(script as usize).is_some_and(|compiled| compiled.uses_me)
+    }
+
+    /// The scenario's parameters under these values, as scripts see them.
+    pub fn params(&self, values: &[f64]) -> Params {
+        let map =
+            self.params.iter().zip(values).map(|(param, &value)| (param.name.as_str().into(), shown(param, value)));
+        Arc::new(map.collect())
+    }
+
+    /// Calls a script's `reward` hook.
+    ///
+    /// # Errors
+    /// [`ScriptError`] where the hook fails or gives no number.
+    pub fn reward(
+        &self,
+        script: u32,
+        scene: &Arc<Scene>,
+        perspective: Perspective,
+        memory: &mut Memory,
+    ) -> Result<f64, ScriptError> {
+        let value = self.call(script, "reward", scene, perspective, memory)?;
+        match value.as_float() {
+            Ok(number) => Ok(number),
+            Err(_) => value
+                .as_int()
+                .map(|whole| whole as f64)
+                .map_err(|found| self.wrong_type(script, "reward", "a number", found, scene)),
+        }
+    }
+
+    /// Calls a script's `done` hook.
+    ///
+    /// # Errors
+    /// [`ScriptError`] where the hook fails or gives neither a truth value nor a label.
+    pub fn done(
+        &self,
+        script: u32,
+        scene: &Arc<Scene>,
+        perspective: Perspective,
+        memory: &mut Memory,
+    ) -> Result<Done, ScriptError> {
+        let value = self.call(script, "done", scene, perspective, memory)?;
+        match value.as_bool() {
+            Ok(true) => Ok(Done::Yes),
+            Ok(false) => Ok(Done::No),
+            Err(_) => value
+                .into_string()
+                .map(Done::Labelled)
+                .map_err(|found| self.wrong_type(script, "done", "true, false or a label", found, scene)),
+        }
+    }
+
+    fn call(
+        &self,
+        script: u32,
+        hook: &str,
+        scene: &Arc<Scene>,
+        perspective: Perspective,
+        memory: &mut Memory,
+    ) -> Result<Dynamic, ScriptError> {
+        let Some(compiled) = self.list.get(script as usize) else { return Ok(Dynamic::UNIT) };
+        let now = Sight::now(scene, perspective);
+        let arguments = (now.ctx(), now.clone(), Sight::prev(scene, perspective), events_of(&now));
+        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.0);
+        host::engine()
+            .call_fn_with_options::<Dynamic>(options, &mut Scope::new(), &compiled.ast, hook, arguments)
+            .map_err(|error| compiled.fault(hook, error, scene))
+    }
+
+    fn wrong_type(&self, script: u32, hook: &str, expected: &str, found: &str, scene: &Scene) -> ScriptError {
+        let message = format!("expected {expected}, found {}", host::type_words(found));
+        match self.list.get(script as usize) {
+            Some(compiled) => compiled.error(hook, None, message, scene),
+            None => ScriptError {
+                script: String::new(),
+                line: 1,
+                column: 1,
+                hook: hook.to_owned(),
+                seed: scene.seed,
+                index: scene.index,
+                step: scene.step(),
+                message,
+            },
+        }
+    }
+}
+
+impl Compiled {
+    fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &Scene) -> ScriptError {
+        let (position, message) = host::explain(error);
+        self.error(hook, position, message, scene)
+    }
+
+    fn error(&self, hook: &str, position: Option<(usize, usize)>, message: String, scene: &Scene) -> ScriptError {
+        let (line, column) = position.unwrap_or_else(|| hook_position(&self.source, hook));
+        ScriptError {
+            script: self.name.clone(),
+            line,
+            column,
+            hook: hook.to_owned(),
+            seed: scene.seed,
+            index: scene.index,
+            step: scene.step(),
+            message,
+        }
+    }
+}
+
+/// A parameter's value as a script sees it: words and teams by name, else numbers in SI units.
+fn shown(param: &Param, value: f64) -> Dynamic {
+    if let Some(word) = param.choices.get(value as usize) {
+        return word.clone().into();
+    }
+    match param.ty {
+        Type::Bool => (value != 0.0).into(),
+        Type::Int => (value as i64).into(),
+        Type::Team => match crate::judge::view::team_of_number(value) {
+            Some(team) => team.name().into(),
+            None => "none".into(),
+        },
+        _ => value.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

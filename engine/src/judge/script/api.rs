@@ -1,0 +1,185 @@
+//! What a hook can read: the language's properties, by the language's names, in the frame of the side judged.
+//!
+//! The tables of this file and `vocabulary::PROPERTIES` together are the whole interface: the getters are registered
+//! from them, and the check of a script's names reads them.
+
+mod functions;
+mod getters;
+mod table;
+
+pub use functions::functions;
+pub use table::{Member, Subject, members};
+
+use crate::event::Event;
+use crate::judge::script::Params;
+use crate::judge::view::{PlayerView, View};
+use crate::random::Stream;
+use crate::state::PlayerId;
+use rhai::{Array, Dynamic, Engine};
+use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
+use setpiece_scenario::vocabulary::Team;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What the hooks of one step share.
+#[derive(Debug)]
+pub struct Scene {
+    now: View,
+    prev: View,
+    events: Vec<Event>,
+    params: Params,
+    random: Mutex<Stream>,
+    /// The episode's seed.
+    pub seed: u64,
+    /// The episode's index.
+    pub index: u64,
+}
+
+impl Scene {
+    /// The scene of a step; `key` is the episode's seed and index.
+    pub fn new(now: View, prev: View, events: &[Event], params: Params, random: Stream, key: (u64, u64)) -> Scene {
+        Scene { now, prev, events: events.to_vec(), params, random: Mutex::new(random), seed: key.0, index: key.1 }
+    }
+
+    /// The same scene after further events.
+    #[must_use]
+    pub fn with_events(&self, events: &[Event]) -> Scene {
+        let key = (self.seed, self.index);
+        Scene::new(self.now, self.prev, events, self.params.clone(), self.random(), key)
+    }
+
+    /// The stream of random numbers as the hooks left it.
+    pub fn random(&self) -> Stream {
+        self.random.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// The step, counted from the episode's start.
+    pub fn step(&self) -> u32 {
+        self.now.step
+    }
+}
+
+/// Whom a hook is called for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Perspective {
+    /// The side judged.
+    pub us: Team,
+    /// The agent's player, if he is on the pitch.
+    pub me: Option<PlayerId>,
+    /// The agent's place among the agents.
+    pub agent: usize,
+}
+
+/// `now` or `prev`.
+#[derive(Clone)]
+pub(super) struct Sight {
+    scene: Arc<Scene>,
+    perspective: Perspective,
+    past: bool,
+}
+
+/// `ctx`.
+#[derive(Clone)]
+pub(super) struct Ctx(Sight);
+/// The ball.
+#[derive(Clone)]
+pub(super) struct Ball(Sight);
+/// A player.
+#[derive(Clone)]
+pub(super) struct Player(Sight, PlayerId);
+/// `us` or `them`.
+#[derive(Clone)]
+pub(super) struct Side(Sight, Team);
+/// The score.
+#[derive(Clone)]
+pub(super) struct Score(Sight);
+/// An event.
+#[derive(Clone)]
+pub(super) struct Happening(Sight, Event);
+/// A place; world metres, shown in the reader's frame.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct Point {
+    metres: [f64; 2],
+    side: f64,
+}
+/// A velocity in the reader's frame, m/s.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct Vector {
+    own: [f64; 2],
+}
+
+impl Sight {
+    pub(super) fn now(scene: &Arc<Scene>, perspective: Perspective) -> Sight {
+        Sight { scene: scene.clone(), perspective, past: false }
+    }
+
+    pub(super) fn prev(scene: &Arc<Scene>, perspective: Perspective) -> Sight {
+        Sight { scene: scene.clone(), perspective, past: true }
+    }
+
+    pub(super) fn ctx(&self) -> Ctx {
+        Ctx(self.clone())
+    }
+
+    fn view(&self) -> &View {
+        if self.past { &self.scene.prev } else { &self.scene.now }
+    }
+
+    fn player(&self, id: PlayerId) -> &PlayerView {
+        &self.view().players[id.index()]
+    }
+
+    fn side(&self) -> f64 {
+        self.perspective.us.side()
+    }
+
+    fn point(&self, metres: [f32; 2]) -> Point {
+        Point { metres: metres.map(f64::from), side: self.side() }
+    }
+
+    /// A team as seen from the side judged.
+    fn team_word(&self, team: Option<Team>) -> Dynamic {
+        match team {
+            None => "none".into(),
+            Some(team) if team == self.perspective.us => "us".into(),
+            Some(_) => "them".into(),
+        }
+    }
+
+    /// A player, or `()` for nobody.
+    fn somebody(&self, id: Option<PlayerId>) -> Dynamic {
+        id.map_or(Dynamic::UNIT, |id| Dynamic::from(Player(self.clone(), id)))
+    }
+
+    fn players(&self, team: Option<Team>) -> Dynamic {
+        let list: Array =
+            self.view().on_pitch(team).map(|(id, _)| Dynamic::from(Player(self.clone(), PlayerId(id as u8)))).collect();
+        list.into()
+    }
+}
+
+impl Point {
+    /// Normalised, in the reader's frame.
+    fn own(self) -> [f64; 2] {
+        [self.side * self.metres[0] / X_SCALE_M, self.side * self.metres[1] / Y_SCALE_M]
+    }
+}
+
+/// This step's events, as an array.
+pub(super) fn events_of(now: &Sight) -> Array {
+    now.scene.events.iter().map(|event| Dynamic::from(Happening(now.clone(), *event))).collect()
+}
+
+/// Registers types, getters and functions.
+pub(super) fn register(engine: &mut Engine) {
+    engine.register_type_with_name::<Sight>("state of the match");
+    engine.register_type_with_name::<Ctx>("context");
+    engine.register_type_with_name::<Ball>("ball");
+    engine.register_type_with_name::<Player>("player");
+    engine.register_type_with_name::<Side>("team");
+    engine.register_type_with_name::<Score>("score");
+    engine.register_type_with_name::<Happening>("event");
+    engine.register_type_with_name::<Point>("point");
+    engine.register_type_with_name::<Vector>("vector");
+    getters::register(engine);
+    functions::register(engine);
+}

@@ -1,0 +1,290 @@
+//! The functions of the interface, and every other function that a script can call.
+
+use super::{Ball, Ctx, Happening, Player, Point, Side, Sight, Vector};
+use crate::judge::view::PlayerView;
+use crate::state::PlayerId;
+use rhai::{Array, Dynamic, Engine, EvalAltResult};
+use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
+
+/// The interface's own functions, with their documentation.
+const OWN: &[(&str, &str)] = &[
+    ("random", "ctx.random(): a number in 0..1, from the episode's seed"),
+    ("distance", "distance(a, b): metres along the ground, between players, points and the ball"),
+    ("grf_distance", "grf_distance(a, b): in normalised units"),
+    ("angle", "angle(a, b): the heading from a to b in the reader's frame, radians"),
+    ("nearest", "nearest(players, to): the player nearest to a place, or ()"),
+    ("pressed", "pressed(player, within): an opponent is nearer than so many metres"),
+    ("speed", "speed(x): of a player or the ball, m/s"),
+    ("point", "now.point(x, y): a place from normalised coordinates of the reader's frame"),
+    ("count", "count(events, kind), count(events, kind, team): how many; team is \"us\" or \"them\""),
+    ("clamp", "clamp(x, low, high): x held between low and high"),
+    ("smoothstep", "smoothstep(low, high, x): 0 below low, 1 above high, smooth between"),
+    ("pow", "pow(x, y): x to the power y"),
+];
+
+/// What Rhai itself brings, of the packages that scripts have.
+const RHAI: &[&str] = &[
+    "E",
+    "PI",
+    "abs",
+    "acos",
+    "acosh",
+    "all",
+    "append",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "bits",
+    "bytes",
+    "call",
+    "ceiling",
+    "chars",
+    "chop",
+    "clear",
+    "concat",
+    "contains",
+    "cos",
+    "cosh",
+    "crop",
+    "curry",
+    "dedup",
+    "drain",
+    "end",
+    "ends_with",
+    "exp",
+    "extract",
+    "fill_with",
+    "filter",
+    "find",
+    "find_map",
+    "floor",
+    "for_each",
+    "fraction",
+    "get",
+    "get_bit",
+    "get_bits",
+    "hypot",
+    "index_of",
+    "insert",
+    "int",
+    "is_def_fn",
+    "is_def_var",
+    "is_empty",
+    "is_even",
+    "is_exclusive",
+    "is_finite",
+    "is_inclusive",
+    "is_infinite",
+    "is_nan",
+    "is_odd",
+    "is_shared",
+    "is_zero",
+    "keys",
+    "len",
+    "ln",
+    "log",
+    "log10",
+    "make_lower",
+    "make_upper",
+    "map",
+    "max",
+    "min",
+    "mixin",
+    "order",
+    "order_by",
+    "order_desc",
+    "pad",
+    "parse_float",
+    "parse_int",
+    "pop",
+    "push",
+    "range",
+    "reduce",
+    "reduce_rev",
+    "remove",
+    "replace",
+    "retain",
+    "reverse",
+    "round",
+    "rsplit",
+    "set",
+    "set_bit",
+    "set_bits",
+    "shift",
+    "sign",
+    "sin",
+    "sinh",
+    "some",
+    "sort",
+    "sort_by",
+    "sort_desc",
+    "splice",
+    "split",
+    "split_rev",
+    "sqrt",
+    "start",
+    "starts_with",
+    "sub_string",
+    "tan",
+    "tanh",
+    "to_binary",
+    "to_chars",
+    "to_debug",
+    "to_degrees",
+    "to_float",
+    "to_hex",
+    "to_int",
+    "to_json",
+    "to_lower",
+    "to_octal",
+    "to_radians",
+    "to_string",
+    "to_upper",
+    "trim",
+    "truncate",
+    "type_of",
+    "values",
+    "zip",
+    "Fn",
+];
+
+/// The names of every function that a script can call.
+pub fn functions() -> impl Iterator<Item = &'static str> {
+    OWN.iter().map(|(name, _)| *name).chain(RHAI.iter().copied())
+}
+
+type Failable<T> = Result<T, Box<EvalAltResult>>;
+
+pub(super) fn register(engine: &mut Engine) {
+    engine.register_fn("random", |ctx: &mut Ctx| {
+        let mut random = ctx.0.scene.random.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        random.unit_f64()
+    });
+    engine.register_fn("distance", |a: Dynamic, b: Dynamic| -> Failable<f64> {
+        let (a, b) = (place(&a)?, place(&b)?);
+        Ok(libm::hypot(a.metres[0] - b.metres[0], a.metres[1] - b.metres[1]))
+    });
+    engine.register_fn("grf_distance", |a: Dynamic, b: Dynamic| -> Failable<f64> {
+        let (a, b) = (place(&a)?, place(&b)?);
+        Ok(libm::hypot((a.metres[0] - b.metres[0]) / X_SCALE_M, (a.metres[1] - b.metres[1]) / Y_SCALE_M))
+    });
+    engine.register_fn("angle", |a: Dynamic, b: Dynamic| -> Failable<f64> {
+        let (a, b) = (place(&a)?, place(&b)?);
+        Ok(libm::atan2(a.side * (b.metres[1] - a.metres[1]), a.side * (b.metres[0] - a.metres[0])))
+    });
+    engine.register_fn("nearest", nearest);
+    engine.register_fn("pressed", |player: Player, within: f64| player.nearest_opponent_m() < within);
+    engine.register_fn("pressed", |player: Player, within: i64| player.nearest_opponent_m() < within as f64);
+    engine.register_fn("speed", |player: Player| {
+        let [x, y] = player.view().vel.map(f64::from);
+        libm::hypot(x, y)
+    });
+    engine.register_fn("speed", |ball: Ball| {
+        let [x, y, z] = ball.0.view().ball_vel.map(f64::from);
+        libm::sqrt(x * x + y * y + z * z)
+    });
+    engine.register_fn("point", |now: Sight, x: f64, y: f64| {
+        let side = now.side();
+        Point { metres: [side * x * X_SCALE_M, side * y * Y_SCALE_M], side }
+    });
+    engine.register_fn("count", |events: Array, kind: &str| count(&events, kind, None));
+    engine.register_fn("count", |events: Array, kind: &str, team: &str| count(&events, kind, Some(team)));
+    register_equality(engine);
+}
+
+/// Things are equal when they are the same thing, whenever they were looked at.
+fn register_equality(engine: &mut Engine) {
+    engine.register_fn("==", |a: Player, b: Player| a.1 == b.1);
+    engine.register_fn("!=", |a: Player, b: Player| a.1 != b.1);
+    engine.register_fn("==", |_: Player, (): ()| false);
+    engine.register_fn("!=", |_: Player, (): ()| true);
+    engine.register_fn("==", |(): (), _: Player| false);
+    engine.register_fn("!=", |(): (), _: Player| true);
+    engine.register_fn("==", |a: Side, b: Side| a.1 == b.1);
+    engine.register_fn("!=", |a: Side, b: Side| a.1 != b.1);
+    engine.register_fn("==", |word: &str, team: Side| team.is_called(word));
+    engine.register_fn("!=", |word: &str, team: Side| !team.is_called(word));
+    engine.register_fn("==", |team: Side, word: &str| team.is_called(word));
+    engine.register_fn("!=", |team: Side, word: &str| !team.is_called(word));
+    engine.register_fn("==", |a: Point, b: Point| a == b);
+    engine.register_fn("!=", |a: Point, b: Point| a != b);
+    engine.register_fn("==", |a: Vector, b: Vector| a == b);
+    engine.register_fn("!=", |a: Vector, b: Vector| a != b);
+}
+
+impl Side {
+    fn is_called(&self, word: &str) -> bool {
+        word == if self.1 == self.0.perspective.us { "us" } else { "them" }
+    }
+}
+
+impl Player {
+    pub(super) fn view(&self) -> &PlayerView {
+        self.0.player(self.1)
+    }
+
+    pub(super) fn point(&self) -> Point {
+        self.0.point(self.view().pos)
+    }
+
+    fn nearest_opponent_m(&self) -> f64 {
+        let at = self.point();
+        let opponents = self.0.view().on_pitch(Some(self.1.team().other()));
+        opponents
+            .map(|(_, other)| apart_m(at, self.0.point(other.pos)))
+            .fold(f64::INFINITY, |a, b| if b < a { b } else { a })
+    }
+}
+
+fn apart_m(a: Point, b: Point) -> f64 {
+    libm::hypot(a.metres[0] - b.metres[0], a.metres[1] - b.metres[1])
+}
+
+/// The place of a player, the ball, an event or a point.
+fn place(of: &Dynamic) -> Failable<Point> {
+    if let Some(point) = of.read_lock::<Point>() {
+        return Ok(*point);
+    }
+    if let Some(player) = of.read_lock::<Player>() {
+        return Ok(player.point());
+    }
+    if let Some(ball) = of.read_lock::<Ball>() {
+        let [x, y, _] = ball.0.view().ball;
+        return Ok(ball.0.point([x, y]));
+    }
+    if let Some(event) = of.read_lock::<Happening>() {
+        return Ok(event.0.point([event.1.at.x, event.1.at.y]));
+    }
+    let found = if of.is_unit() { "nobody" } else { of.type_name() };
+    Err(format!("expected a player, a point or the ball, found {found}").into())
+}
+
+#[allow(clippy::needless_pass_by_value, reason = "Rhai passes arguments by value")]
+fn nearest(players: Array, to: Dynamic) -> Failable<Dynamic> {
+    let to = place(&to)?;
+    let mut best: Option<(f64, PlayerId, Player)> = None;
+    for player in players {
+        if let Some(player) = player.try_cast::<Player>() {
+            let apart = apart_m(player.point(), to);
+            if best.as_ref().is_none_or(|best| apart < best.0) {
+                best = Some((apart, player.1, player));
+            }
+        }
+    }
+    Ok(best.map_or(Dynamic::UNIT, |(_, _, player)| Dynamic::from(player)))
+}
+
+fn count(events: &Array, kind: &str, team: Option<&str>) -> i64 {
+    let matching = events.iter().filter(|event| {
+        event.read_lock::<Happening>().is_some_and(|event| {
+            let of_team = |word: &str| match event.1.team {
+                None => false,
+                Some(team) => word == if team == event.0.perspective.us { "us" } else { "them" },
+            };
+            event.1.kind.name() == kind && team.is_none_or(of_team)
+        })
+    });
+    matching.count() as i64
+}

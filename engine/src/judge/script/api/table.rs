@@ -1,0 +1,130 @@
+//! The names that scripts can read, by what they belong to.
+
+use setpiece_scenario::vocabulary::{Owner, PROPERTIES, Type};
+
+/// What a name belongs to, and what kind of thing it gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// `ctx`.
+    Ctx,
+    /// `now` and `prev`.
+    State,
+    /// The ball.
+    Ball,
+    /// A player.
+    Player,
+    /// `us`, `them`.
+    Team,
+    /// The score.
+    Score,
+    /// An event.
+    Event,
+    /// A place.
+    Point,
+    /// A velocity.
+    Vector,
+    /// An array of players.
+    Players,
+    /// An array of events.
+    Events,
+    /// The scenario's parameters, by their names.
+    Params,
+    /// A number, word or truth value.
+    Plain,
+}
+
+impl Subject {
+    /// The subject in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Subject::Ctx => "the context",
+            Subject::State => "the state of the match",
+            Subject::Ball => "the ball",
+            Subject::Player => "a player",
+            Subject::Team => "a team",
+            Subject::Score => "the score",
+            Subject::Event => "an event",
+            Subject::Point => "a point",
+            Subject::Vector => "a vector",
+            Subject::Players => "an array of players",
+            Subject::Events => "an array of events",
+            Subject::Params => "the parameters",
+            Subject::Plain => "a plain value",
+        }
+    }
+}
+
+/// A name that scripts can read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Member {
+    /// What it belongs to.
+    pub of: Subject,
+    /// The name after the dot.
+    pub name: &'static str,
+    /// What it gives.
+    pub gives: Subject,
+    /// One line of documentation.
+    pub doc: &'static str,
+}
+
+const fn row(of: Subject, name: &'static str, gives: Subject, doc: &'static str) -> Member {
+    Member { of, name, gives, doc }
+}
+
+/// What scripts need beside the language's properties.
+const EXTRA: &[Member] = &[
+    row(Subject::Ctx, "params", Subject::Params, "the scenario's parameters, SI units"),
+    row(Subject::Ctx, "side", Subject::Plain, "the side judged: left or right"),
+    row(Subject::Ctx, "agent", Subject::Plain, "the agent's place among the agents, from 0"),
+    row(Subject::Ctx, "index", Subject::Plain, "the episode's index"),
+    row(Subject::Ctx, "step", Subject::Plain, "steps since the episode's start"),
+    row(Subject::State, "ball", Subject::Ball, "the ball"),
+    row(Subject::State, "us", Subject::Team, "the side judged"),
+    row(Subject::State, "them", Subject::Team, "its opponents"),
+    row(Subject::State, "me", Subject::Player, "the agent's player, or () while he is off the pitch"),
+    row(Subject::State, "players", Subject::Players, "the players on the pitch of both teams"),
+    row(Subject::State, "score", Subject::Score, "the goals"),
+    row(Subject::Score, "us", Subject::Plain, "our goals"),
+    row(Subject::Score, "them", Subject::Plain, "their goals"),
+    row(Subject::Ball, "at", Subject::Point, "where it is"),
+    row(Subject::Player, "at", Subject::Point, "where he is"),
+    row(Subject::Player, "has_ball", Subject::Plain, "he has the ball now"),
+    row(Subject::Team, "players", Subject::Players, "the team's players on the pitch"),
+    row(Subject::Team, "goal", Subject::Point, "the middle of the team's own goal"),
+    row(Subject::Team, "score", Subject::Plain, "the team's goals"),
+    row(Subject::Team, "has_ball", Subject::Plain, "a player of the team has the ball now"),
+    row(Subject::Team, "offside_line", Subject::Plain, "normalised x of the line beyond which its players are offside"),
+    row(Subject::Event, "kind", Subject::Plain, "the event's name"),
+    row(Subject::Event, "qualifier", Subject::Plain, "completed, taken, …; empty without one"),
+    row(Subject::Event, "team", Subject::Plain, "us, them or none: whose it is"),
+    row(Subject::Event, "by", Subject::Player, "who did it, or ()"),
+    row(Subject::Event, "to", Subject::Player, "whom it reached or hurt, or ()"),
+    row(Subject::Event, "at", Subject::Point, "where"),
+    row(Subject::Event, "length", Subject::Plain, "how far the ball travelled, metres"),
+    row(Subject::Event, "speed", Subject::Plain, "the ball's speed, m/s"),
+    row(Subject::Point, "x", Subject::Plain, "normalised x"),
+    row(Subject::Point, "y", Subject::Plain, "normalised y"),
+    row(Subject::Vector, "x", Subject::Plain, "m/s forward"),
+    row(Subject::Vector, "y", Subject::Plain, "m/s to the right of an attacker"),
+];
+
+/// Every name that scripts can read.
+pub fn members() -> impl Iterator<Item = Member> {
+    let properties = PROPERTIES.iter().map(|property| Member {
+        of: match property.owner {
+            Owner::Ball => Subject::Ball,
+            Owner::Player => Subject::Player,
+            Owner::Team => Subject::Team,
+            Owner::Match => Subject::State,
+        },
+        name: property.name,
+        gives: match property.ty {
+            Type::Vector => Subject::Vector,
+            Type::Player => Subject::Player,
+            Type::Point => Subject::Point,
+            _ => Subject::Plain,
+        },
+        doc: property.doc,
+    });
+    properties.chain(EXTRA.iter().copied())
+}

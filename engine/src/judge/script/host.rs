@@ -1,0 +1,167 @@
+//! The one Rhai engine of the process: what a script may use, and how much.
+
+use super::api;
+use rhai::packages::{
+    ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage, BasicStringPackage,
+    LogicPackage, MoreStringPackage, Package,
+};
+use rhai::{Engine, EvalAltResult, OptimizationLevel, ParseError, ParseErrorType, Position};
+use std::sync::OnceLock;
+
+/// Most operations of one call of a hook, a few milliseconds.
+pub(super) const OPERATIONS_MAX: u64 = 200_000;
+const CALL_LEVELS_MAX: usize = 24;
+const EXPRESSION_DEPTH_MAX: usize = 48;
+const STRING_MAX: usize = 4_096;
+const ARRAY_MAX: usize = 4_096;
+const MAP_MAX: usize = 512;
+const VARIABLES_MAX: usize = 256;
+const FUNCTIONS_MAX: usize = 256;
+
+/// Words of the language that would open a door.
+const DISABLED: &[&str] = &["eval", "import", "export", "print", "debug", "**", "**="];
+
+/// The engine; built at the first use.
+pub(super) fn engine() -> &'static Engine {
+    static ENGINE: OnceLock<Engine> = OnceLock::new();
+    ENGINE.get_or_init(build)
+}
+
+fn build() -> Engine {
+    let mut engine = Engine::new_raw();
+    ArithmeticPackage::new().register_into_engine(&mut engine);
+    LogicPackage::new().register_into_engine(&mut engine);
+    BasicMathPackage::new().register_into_engine(&mut engine);
+    BasicStringPackage::new().register_into_engine(&mut engine);
+    MoreStringPackage::new().register_into_engine(&mut engine);
+    BasicIteratorPackage::new().register_into_engine(&mut engine);
+    BasicArrayPackage::new().register_into_engine(&mut engine);
+    BasicMapPackage::new().register_into_engine(&mut engine);
+    register_maths(&mut engine);
+    api::register(&mut engine);
+    for word in DISABLED {
+        engine.disable_symbol(*word);
+    }
+    engine.set_strict_variables(true);
+    // Never higher: the optimiser would fold a call of `ctx.random()`.
+    engine.set_optimization_level(OptimizationLevel::Simple);
+    engine.set_max_operations(OPERATIONS_MAX);
+    engine.set_max_call_levels(CALL_LEVELS_MAX);
+    engine.set_max_expr_depths(EXPRESSION_DEPTH_MAX, EXPRESSION_DEPTH_MAX);
+    engine.set_max_string_size(STRING_MAX);
+    engine.set_max_array_size(ARRAY_MAX);
+    engine.set_max_map_size(MAP_MAX);
+    engine.set_max_variables(VARIABLES_MAX);
+    engine.set_max_functions(FUNCTIONS_MAX);
+    engine.set_max_modules(0);
+    engine
+}
+
+/// Puts libm's functions in place of the platform's, whose last bits differ.
+fn register_maths(engine: &mut Engine) {
+    engine.register_fn("sin", libm::sin).register_fn("cos", libm::cos).register_fn("tan", libm::tan);
+    engine.register_fn("asin", libm::asin).register_fn("acos", libm::acos).register_fn("atan", libm::atan);
+    engine.register_fn("sinh", libm::sinh).register_fn("cosh", libm::cosh).register_fn("tanh", libm::tanh);
+    engine.register_fn("asinh", libm::asinh).register_fn("acosh", libm::acosh).register_fn("atanh", libm::atanh);
+    engine.register_fn("atan", libm::atan2).register_fn("atan2", libm::atan2).register_fn("hypot", libm::hypot);
+    engine.register_fn("exp", libm::exp).register_fn("ln", libm::log).register_fn("log", libm::log);
+    engine.register_fn("log", |x: f64, base: f64| libm::log(x) / libm::log(base));
+    engine.register_fn("sqrt", libm::sqrt).register_fn("pow", libm::pow);
+    engine.register_fn("pow", |x: f64, y: i64| libm::pow(x, y as f64));
+    engine.register_fn("pow", |x: i64, y: i64| libm::pow(x as f64, y as f64));
+    engine.register_fn("pow", |x: i64, y: f64| libm::pow(x as f64, y));
+    engine.register_fn("exp", |x: i64| libm::exp(x as f64)).register_fn("sqrt", |x: i64| libm::sqrt(x as f64));
+    engine.register_fn("clamp", |x: f64, low: f64, high: f64| {
+        if x < low {
+            low
+        } else if x > high {
+            high
+        } else {
+            x
+        }
+    });
+    engine.register_fn("smoothstep", |low: f64, high: f64, x: f64| {
+        let t = if x <= low {
+            0.0
+        } else if x >= high {
+            1.0
+        } else {
+            (x - low) / (high - low)
+        };
+        t * t * (3.0 - 2.0 * t)
+    });
+}
+
+/// Line and column of a position, if it has any.
+pub(super) fn line_column(position: Position) -> Option<(usize, usize)> {
+    position.line().map(|line| (line, position.position().unwrap_or(1)))
+}
+
+/// Where and why a call failed.
+pub(super) fn explain(error: Box<EvalAltResult>) -> (Option<(usize, usize)>, String) {
+    let mut error = error;
+    let mut place = None;
+    // The innermost place is the line that failed.
+    loop {
+        let here = line_column(error.position());
+        match *error {
+            EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => {
+                place = here.or(place);
+                error = inner;
+            }
+            other => {
+                let place = here.or(place);
+                return (place, runtime_message(other));
+            }
+        }
+    }
+}
+
+fn runtime_message(error: EvalAltResult) -> String {
+    match error {
+        EvalAltResult::ErrorTooManyOperations(_) => {
+            format!("more than {OPERATIONS_MAX} operations in one call: a loop doesn't end")
+        }
+        EvalAltResult::ErrorStackOverflow(_) => format!("calls nest deeper than {CALL_LEVELS_MAX}"),
+        EvalAltResult::ErrorDotExpr(message, _) if !message.is_empty() => lower_first(&message),
+        EvalAltResult::ErrorRuntime(value, _) => format!("the script threw `{value}`"),
+        EvalAltResult::ErrorPropertyNotFound(name, _) => format!("unknown property `{name}`"),
+        EvalAltResult::ErrorVariableNotFound(name, _) => format!("unknown variable `{name}`"),
+        EvalAltResult::ErrorFunctionNotFound(signature, _) => format!("no function `{}`", tidy(&signature)),
+        mut other => {
+            let _ = other.take_position();
+            lower_first(&other.to_string())
+        }
+    }
+}
+
+/// What a script's text has wrong, in one clause.
+pub(super) fn parse_message(error: &ParseError) -> String {
+    match error.err_type() {
+        ParseErrorType::VariableUndefined(name) => format!("unknown variable `{name}`"),
+        ParseErrorType::Reserved(word) if DISABLED.contains(&word.as_str()) => {
+            format!("`{word}` is not available in a script")
+        }
+        other => lower_first(&other.to_string()),
+    }
+}
+
+/// Rhai's name of a type in plain words.
+pub(super) fn type_words(name: &str) -> String {
+    match name {
+        "()" => "nothing".to_owned(),
+        "string" | "map" | "array" | "bool" | "char" => format!("a {name}"),
+        other => format!("`{}`", tidy(other)),
+    }
+}
+
+/// Drops the paths of Rust types from Rhai's words.
+fn tidy(words: &str) -> String {
+    let short = words.replace("rhai::types::immutable_string::", "").replace("alloc::vec::", "");
+    short.split_inclusive([' ', ',', '(']).map(|part| part.rsplit("::").next().unwrap_or(part)).collect()
+}
+
+fn lower_first(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
+}

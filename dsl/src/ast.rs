@@ -109,7 +109,7 @@ pub struct ParamDecl {
     pub doc: String,
     /// Its name.
     pub name: Ident,
-    /// Its type, if written.
+    /// Its type, if written; `player?` keeps its question mark.
     pub ty: Option<Ident>,
     /// Its default.
     pub default: Option<Expr>,
@@ -183,6 +183,13 @@ pub enum ScenarioStmtKind {
     Param(ParamDecl),
     /// `let …`
     Let(Binding),
+    /// `let (a, b, c) = shuffle(p, q, r)`
+    LetTuple {
+        /// The names, two or more.
+        names: Vec<Ident>,
+        /// What they share out.
+        value: Expr,
+    },
     /// `const …`
     Const(Binding),
     /// `region …`

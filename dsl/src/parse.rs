@@ -1,0 +1,63 @@
+//! Parsing: text to a syntax tree. Never fails: what can't be read becomes `Broken` and a problem.
+//!
+//! 1. `scan` looks at brackets, strings and comments alone, reports the unclosed and mends them in a copy of the same
+//!    length, so that every later offset holds for the author's text.
+//! 2. One run of the grammar reads the whole file; lists of statements take junk where no statement can be read.
+//! 3. The pairs become the tree (one file here per construct); `recover` re-reads junk to say what was expected.
+
+mod event;
+mod expr;
+mod field;
+mod item;
+mod reader;
+mod recover;
+mod reward;
+mod scan;
+mod scenario;
+mod team;
+
+use crate::ast;
+use crate::problem::{Code, Problem};
+use crate::source::{FileId, Source, Span};
+use pest::Parser;
+use reader::Reader;
+use setpiece_grammar::{PitchParser, Rule};
+
+/// Brackets may be nested this deep.
+pub const MAX_BRACKETS: usize = 64;
+
+/// An expression may have this many operators and calls on the way from its root to a leaf.
+pub const MAX_OPERATORS: u32 = 256;
+
+/// Blocks and `else when`s may be nested this deep.
+pub const MAX_BLOCKS: u32 = 64;
+
+/// A stage of parsing tells no more problems of one file.
+pub const MAX_PROBLEMS: usize = 500;
+
+/// Parses a file; says everything that could not be read in `problems`.
+pub fn parse(source: &Source, id: FileId, problems: &mut Vec<Problem>) -> ast::File {
+    let scan = scan::scan(&source.text, id);
+    let mut reader = Reader::new(id, &source.text, &scan);
+    let items = match PitchParser::parse(Rule::file, &scan.text) {
+        Ok(pairs) => reader.file(pairs),
+        Err(error) => {
+            let at = reader.offset_of(&error.location);
+            reader.push(
+                Problem::new(Code::TooDeep, reader.at(at), "this is nested too deeply", "too deep from here")
+                    .help("give parts of it names with `let` or `fn`"),
+            );
+            Vec::new()
+        }
+    };
+    let mut found = reader.into_problems();
+    found.extend(scan.problems);
+    found.sort_by_key(|problem| (problem.labels.first().map_or(0, |label| label.span.start), problem.code));
+    problems.extend(found);
+    ast::File { id, items }
+}
+
+/// A span of a file from offsets.
+fn span(file: FileId, start: usize, end: usize) -> Span {
+    Span { file, start: start as u32, end: end.max(start) as u32 }
+}

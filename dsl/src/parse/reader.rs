@@ -1,0 +1,242 @@
+//! What every conversion from pairs to the tree shares: spans, names, problems and depth.
+
+use super::scan::Scan;
+use super::{MAX_BLOCKS, MAX_PROBLEMS, span};
+use crate::ast::{Ident, Spanned};
+use crate::problem::{Code, Problem};
+use crate::source::{FileId, Span};
+use pest::error::InputLocation;
+use pest::iterators::{Pair, Pairs};
+use setpiece_grammar::Rule;
+use setpiece_scenario::vocabulary::EventKind;
+use std::iter::Peekable;
+use std::ops::Range;
+
+/// A node of the concrete tree.
+pub(super) type Node<'i> = Pair<'i, Rule>;
+
+/// The children of a node.
+pub(super) struct Nodes<'i>(Peekable<Pairs<'i, Rule>>);
+
+impl<'i> Nodes<'i> {
+    /// The children of a node.
+    pub(super) fn of(node: Node<'i>) -> Nodes<'i> {
+        Nodes(node.into_inner().peekable())
+    }
+
+    /// The next child, if it is of this rule.
+    pub(super) fn want(&mut self, rule: Rule) -> Option<Node<'i>> {
+        self.0.next_if(|node| node.as_rule() == rule)
+    }
+
+    /// Whether the next child is of this rule; takes it.
+    pub(super) fn eat(&mut self, rule: Rule) -> bool {
+        self.want(rule).is_some()
+    }
+
+    /// The first child of this rule; those before it are dropped.
+    pub(super) fn seek(&mut self, rule: Rule) -> Option<Node<'i>> {
+        self.0.find(|node| node.as_rule() == rule)
+    }
+
+    /// The rule of the next child.
+    pub(super) fn peek(&mut self) -> Option<Rule> {
+        self.0.peek().map(Pair::as_rule)
+    }
+
+    /// The range of the next child, blanks included, from where its text begins.
+    pub(super) fn peek_range(&mut self) -> Option<Range<usize>> {
+        self.0.peek().map(|node| node.as_span().start()..node.as_span().end())
+    }
+}
+
+impl<'i> Iterator for Nodes<'i> {
+    type Item = Node<'i>;
+
+    fn next(&mut self) -> Option<Node<'i>> {
+        self.0.next()
+    }
+}
+
+/// Turns pairs into the tree and collects what is wrong.
+pub(super) struct Reader<'t> {
+    file: FileId,
+    /// The author's text.
+    original: &'t str,
+    /// The mended text that the pairs come from.
+    pub(super) text: &'t str,
+    comments: &'t [Range<usize>],
+    /// Disjoint and in order.
+    told: Vec<Range<usize>>,
+    problems: Vec<Problem>,
+    /// Where the text under conversion begins: 0 but for re-read parts.
+    pub(super) base: usize,
+    /// Operators on the way from the root of the current expression.
+    pub(super) operators: u32,
+    /// Blocks around the current statement.
+    blocks: u32,
+}
+
+impl<'t> Reader<'t> {
+    pub(super) fn new(file: FileId, original: &'t str, scan: &'t Scan<'_>) -> Reader<'t> {
+        let (text, comments) = (&*scan.text, &*scan.comments);
+        let (told, problems) = (disjoint(scan.told.clone()), Vec::new());
+        Reader { file, original, text, comments, told, problems, base: 0, operators: 0, blocks: 0 }
+    }
+
+    pub(super) fn into_problems(self) -> Vec<Problem> {
+        self.problems
+    }
+
+    /// Reports a problem, unless one that explains it was told before.
+    pub(super) fn push(&mut self, problem: Problem) {
+        let start = problem.labels.first().map_or(0, |label| label.span.start as usize);
+        let index = self.told.partition_point(|told| told.end <= start);
+        let told = self.told.get(index).is_some_and(|told| told.contains(&start));
+        if !told && self.problems.len() < MAX_PROBLEMS {
+            self.problems.push(problem);
+        }
+    }
+
+    /// A node's range in the text, without the blanks and comments that its last optional parts swallowed.
+    pub(super) fn range(&self, node: &Node<'_>) -> Range<usize> {
+        let (start, end) = (node.as_span().start() + self.base, node.as_span().end() + self.base);
+        start..self.trimmed_end(start, end)
+    }
+
+    /// The end of `start..end` without trailing blanks and comments.
+    pub(super) fn trimmed_end(&self, start: usize, mut end: usize) -> usize {
+        loop {
+            let text = self.text.get(start..end).unwrap_or_default();
+            let trimmed = start + text.trim_end_matches([' ', '\t', '\r', '\n', ';', '\u{FEFF}', '\u{A0}']).len();
+            let index = self.comments.partition_point(|comment| comment.end < trimmed);
+            match self.comments.get(index) {
+                Some(comment) if comment.end == trimmed && comment.start > start => end = comment.start,
+                _ => return trimmed,
+            }
+        }
+    }
+
+    /// A node's span.
+    pub(super) fn span(&self, node: &Node<'_>) -> Span {
+        let range = self.range(node);
+        self.between(range.start, range.end)
+    }
+
+    /// A span of the author's text, cut where the mended text is longer.
+    pub(super) fn between(&self, start: usize, end: usize) -> Span {
+        let len = self.original.len();
+        let (mut start, mut end) = (start.min(len), end.min(len));
+        while !self.original.is_char_boundary(start) {
+            start -= 1;
+        }
+        while !self.original.is_char_boundary(end) {
+            end += 1;
+        }
+        span(self.file, start, end)
+    }
+
+    /// The span of the word or sign at an offset.
+    pub(super) fn at(&self, at: usize) -> Span {
+        let rest = self.original.get(at..).unwrap_or_default();
+        self.between(at, at + token(rest).len())
+    }
+
+    /// The author's text.
+    pub(super) fn original(&self) -> &'t str {
+        self.original
+    }
+
+    /// The end of the comment that begins at an offset.
+    pub(super) fn comment_at(&self, at: usize) -> Option<usize> {
+        let index = self.comments.partition_point(|comment| comment.start < at);
+        self.comments.get(index).filter(|comment| comment.start == at).map(|comment| comment.end)
+    }
+
+    /// Where pest met its error.
+    pub(super) fn offset_of(&self, location: &InputLocation) -> usize {
+        let (InputLocation::Pos(at) | InputLocation::Span((at, _))) = location;
+        at + self.base
+    }
+
+    /// A name as written.
+    pub(super) fn ident(&self, node: &Node<'_>) -> Ident {
+        Ident { node: node.as_str().to_owned(), span: self.span(node) }
+    }
+
+    /// A name that expressions may use: it can't be an event's.
+    pub(super) fn value_name(&mut self, node: &Node<'_>) -> Ident {
+        let name = self.ident(node);
+        if EventKind::from_name(&name.node).is_some() {
+            self.push(reserved(&name.node, name.span, "events"));
+        }
+        name
+    }
+
+    /// The words between quotes.
+    pub(super) fn string(&self, node: &Node<'_>) -> Spanned<String> {
+        let text = node.as_str();
+        let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
+        let mut words = String::with_capacity(inner.len());
+        let mut chars = inner.chars().peekable();
+        while let Some(char) = chars.next() {
+            match (char, chars.peek()) {
+                ('\\', Some(&escaped @ ('"' | '\\'))) => {
+                    words.push(escaped);
+                    chars.next();
+                }
+                _ => words.push(char),
+            }
+        }
+        Spanned { node: words, span: self.span(node) }
+    }
+
+    /// Runs `read` one block deeper, or reports that this is too deep.
+    pub(super) fn nested<T>(&mut self, at: Span, read: impl FnOnce(&mut Self) -> T) -> Option<T> {
+        if self.blocks >= MAX_BLOCKS {
+            let message = format!("blocks are nested more than {MAX_BLOCKS} deep");
+            self.push(Problem::new(Code::TooDeep, at, message, "one too many").help("split the reward in two"));
+            return None;
+        }
+        self.blocks += 1;
+        let result = read(self);
+        self.blocks -= 1;
+        Some(result)
+    }
+}
+
+/// Ranges in order, those that overlap or touch made one.
+fn disjoint(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
+    ranges.sort_by_key(|range| range.start);
+    let mut merged: Vec<Range<usize>> = Vec::new();
+    for range in ranges {
+        match merged.last_mut() {
+            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+            _ => merged.push(range),
+        }
+    }
+    merged
+}
+
+/// A reserved word used as a name.
+pub(super) fn reserved(name: &str, span: Span, whose: &str) -> Problem {
+    Problem::new(Code::ReservedName, span, format!("`{name}` is a word of the language and can't be a name"), format!("belongs to {whose}"))
+        .help(format!("choose another name, for example `my_{}`", name.to_lowercase()))
+}
+
+/// The word, number or sign at the start of a text.
+pub(super) fn token(text: &str) -> &str {
+    let word = |char: char| char.is_alphanumeric() || char == '_';
+    let end = match text.chars().next() {
+        Some(first) if word(first) => text.find(|char| !word(char)).unwrap_or(text.len()),
+        Some(first) => {
+            if text.starts_with("///") {
+                return "///";
+            }
+            let two = ["==", "!=", "<=", ">=", "..", "->", "//", "&&", "||", "**"].iter().any(|sign| text.starts_with(sign));
+            if two { 2 } else { first.len_utf8() }
+        }
+        None => 0,
+    };
+    text.get(..end).unwrap_or_default()
+}

@@ -1,0 +1,84 @@
+//! The lists of statements and the words with which their statements begin.
+
+use setpiece_grammar::Rule;
+
+/// A list of statements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::parse) enum Context {
+    /// A file.
+    File,
+    /// A scenario.
+    Scenario,
+    /// A team or formation.
+    Team,
+    /// A reward or a block in it.
+    Reward,
+    /// Options.
+    Fields,
+}
+
+impl Context {
+    /// Every list.
+    pub(super) const ALL: [Context; 5] = [Context::File, Context::Scenario, Context::Team, Context::Reward, Context::Fields];
+
+    /// The rule of a statement.
+    pub(super) const fn statement(self) -> Rule {
+        match self {
+            Context::File => Rule::item,
+            Context::Scenario => Rule::scen_stmt,
+            Context::Team => Rule::team_stmt,
+            Context::Reward => Rule::reward_stmt,
+            Context::Fields => Rule::field,
+        }
+    }
+
+    /// The rule that reads statements to the end and takes no junk.
+    pub(super) const fn probe(self) -> Rule {
+        match self {
+            Context::File => Rule::file_probe,
+            Context::Scenario => Rule::scenario_probe,
+            Context::Team => Rule::team_probe,
+            Context::Reward => Rule::reward_probe,
+            Context::Fields => Rule::fields_probe,
+        }
+    }
+
+    /// Where one is, with its article.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Context::File => "a file, outside of everything",
+            Context::Scenario => "a scenario",
+            Context::Team => "a team",
+            Context::Reward => "a reward",
+            Context::Fields => "options",
+        }
+    }
+
+    /// The words with which a statement may begin.
+    pub(super) const fn keywords(self) -> &'static [&'static str] {
+        match self {
+            Context::File => &[
+                "import", "abstract", "scenario", "reward", "formation", "const", "fn", "region", "ending", "behavior",
+                "curriculum", "suite", "check",
+            ],
+            Context::Scenario => &[
+                "param", "let", "const", "region", "rules", "agents", "ball", "team", "kickoff", "start", "reward", "end",
+                "require", "record", "remove", "mirror", "observe",
+            ],
+            Context::Team => &["place", "each"],
+            Context::Reward => &["state", "let", "give", "on", "when"],
+            Context::Fields => &[],
+        }
+    }
+
+    /// The rule of the block that belongs to a keyword.
+    pub(super) fn block_of(self, keyword: &str) -> Option<Rule> {
+        Some(match (self, keyword) {
+            (Context::File, "scenario" | "abstract") => Rule::scenario_body,
+            (Context::File | Context::Scenario, "reward") | (Context::Reward, "on" | "when") => Rule::reward_body,
+            (Context::File, "formation") | (Context::Scenario, "team") => Rule::team_body,
+            (Context::Scenario, "rules" | "agents" | "ball" | "start" | "kickoff") => Rule::fields,
+            _ => return None,
+        })
+    }
+}

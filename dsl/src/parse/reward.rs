@@ -1,0 +1,147 @@
+//! Statements of a reward.
+
+use super::reader::{Node, Nodes, Reader};
+use super::recover::Context;
+use crate::ast::{Expr, ExprKind, GiveStmt, RewardStmt, RewardStmtKind};
+use crate::problem::{Code, Problem};
+use crate::source::Span;
+use setpiece_grammar::Rule;
+
+impl Reader<'_> {
+    /// The statements between a reward's or block's braces.
+    pub(super) fn reward_body(&mut self, node: Node<'_>) -> Vec<RewardStmt> {
+        let span = self.span(&node);
+        let read = |reader: &mut Self| {
+            reader.list(node, Context::Reward, Self::reward_stmt, |span, _| RewardStmt { span, kind: RewardStmtKind::Broken })
+        };
+        let body = self.nested(span, read).unwrap_or_default();
+        self.find_blocks_after_give(&body);
+        body
+    }
+
+    /// `give 1 on goal by us { … }` reads as a `give` of every step and a block: surely not what was meant.
+    fn find_blocks_after_give(&mut self, body: &[RewardStmt]) {
+        for pair in body.windows(2) {
+            let [give, block] = pair else { continue };
+            let head = match &block.kind {
+                RewardStmtKind::On { .. } => "on …",
+                RewardStmtKind::When { .. } => "when …",
+                _ => continue,
+            };
+            let between = self.original().get(give.span.end as usize..block.span.start as usize).unwrap_or_default();
+            if matches!(give.kind, RewardStmtKind::Give(_)) && !between.contains(['\n', ';']) {
+                self.push(
+                    Problem::new(Code::BlockAfterGive, block.span.head(self.original()), "a `give` has no block", "this opens a block")
+                        .label(give.span, "so this is given at every step")
+                        .help(format!("put `{head} {{` on its own line, with the `give` inside it")),
+                );
+            }
+        }
+    }
+
+    fn reward_stmt(&mut self, node: Node<'_>, span: Span, _doc: String) -> RewardStmt {
+        let kind = node.into_inner().next().and_then(|node| self.reward_stmt_kind(node));
+        RewardStmt { span, kind: kind.unwrap_or(RewardStmtKind::Broken) }
+    }
+
+    fn reward_stmt_kind(&mut self, node: Node<'_>) -> Option<RewardStmtKind> {
+        let rule = node.as_rule();
+        match rule {
+            Rule::state => return self.binding(node).map(RewardStmtKind::State),
+            Rule::let_stmt => return self.binding(node).map(RewardStmtKind::Let),
+            Rule::give => return self.give(node).map(RewardStmtKind::Give),
+            _ => {}
+        }
+        let mut nodes = Nodes::of(node);
+        Some(match rule {
+            Rule::on_block => {
+                let events = nodes.seek(Rule::events).map(|events| self.events(events))?;
+                let when = nodes.want(Rule::block_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
+                let when = when.map(|when| self.expr(when));
+                let body = nodes.want(Rule::reward_body)?;
+                RewardStmtKind::On { events, when, body: self.reward_body(body) }
+            }
+            Rule::when_block => return self.when_block(nodes),
+            _ => {
+                let name = nodes.want(Rule::ident)?;
+                let name = self.value_name(&name);
+                nodes.eat(Rule::equals);
+                RewardStmtKind::Assign { name, value: nodes.next().map(|value| self.expr(value))? }
+            }
+        })
+    }
+
+    /// The arms of `else when` hang in each other, so they count as depth.
+    fn when_block(&mut self, mut nodes: Nodes<'_>) -> Option<RewardStmtKind> {
+        let condition = nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
+        let then = nodes.want(Rule::reward_body).map(|body| self.reward_body(body))?;
+        let otherwise = match nodes.peek() {
+            Some(Rule::else_when) => {
+                let first = nodes.peek_range()?;
+                let span = self.between(first.start + self.base, first.end + self.base);
+                self.nested(span, |reader| reader.else_when(nodes)).map(|inner| inner.into_iter().collect())
+            }
+            Some(_) => Nodes::of(nodes.next()?).seek(Rule::reward_body).map(|body| self.reward_body(body)),
+            None => None,
+        };
+        Some(RewardStmtKind::When { condition, then, otherwise })
+    }
+
+    /// An `else when …` and all that follows it, as one statement.
+    fn else_when(&mut self, mut nodes: Nodes<'_>) -> Option<RewardStmt> {
+        let arm = nodes.next()?;
+        let span = self.span(&arm);
+        let mut inner = Nodes::of(arm);
+        let condition = inner.seek(Rule::condition).map(|condition| self.expr(condition))?;
+        let then = inner.want(Rule::reward_body).map(|body| self.reward_body(body))?;
+        let (mut span, mut otherwise) = (span, None);
+        match nodes.peek() {
+            Some(Rule::else_when) => {
+                let next = self.nested(span, |reader| reader.else_when(nodes)).flatten();
+                if let Some(next) = &next {
+                    span = span.to(next.span);
+                }
+                otherwise = next.map(|next| vec![next]);
+            }
+            Some(_) => {
+                let last = nodes.next()?;
+                span = span.to(self.span(&last));
+                otherwise = Nodes::of(last).seek(Rule::reward_body).map(|body| self.reward_body(body));
+            }
+            None => {}
+        }
+        Some(RewardStmt { span, kind: RewardStmtKind::When { condition, then, otherwise } })
+    }
+
+    fn give(&mut self, node: Node<'_>) -> Option<GiveStmt> {
+        let mut nodes = Nodes::of(node);
+        nodes.eat(Rule::kw_give);
+        let value = nodes.next()?;
+        let value = if value.as_rule() == Rule::script {
+            let span = self.span(&value);
+            self.push(
+                Problem::new(Code::NotYet, span, "a `give` of a script is not supported yet", "a script's value")
+                    .help("use the script as a reward of its own: `reward script \"file.rhai\"`"),
+            );
+            Expr { span, kind: ExprKind::Broken }
+        } else {
+            self.expr(value)
+        };
+        let per_second = nodes.eat(Rule::per_second);
+        let once = nodes.want(Rule::kw_once).map(|once| self.span(&once));
+        let on = nodes.want(Rule::give_on).and_then(|on| Nodes::of(on).seek(Rule::events));
+        let on = on.map(|on| self.events(on)).unwrap_or_default();
+        let when = nodes.want(Rule::give_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
+        let when = when.map(|when| self.expr(when));
+        Some(GiveStmt { value, per_second, once, on, when, label: self.label(&mut nodes) })
+    }
+}
+
+impl Span {
+    /// The part up to the first `{`: a block's head.
+    fn head(self, text: &str) -> Span {
+        let own = text.get(self.start as usize..self.end as usize).unwrap_or_default();
+        let head = own.split('{').next().unwrap_or_default().trim_end().len();
+        Span { end: self.start + head as u32, ..self }
+    }
+}

@@ -1,0 +1,148 @@
+//! Statements of a scenario.
+
+use super::reader::{Node, Nodes, Reader};
+use super::recover::Context;
+use crate::ast::{BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt, ScenarioStmtKind, Spanned};
+use crate::source::Span;
+use setpiece_grammar::Rule;
+
+impl Reader<'_> {
+    /// The statements between a scenario's braces.
+    pub(super) fn scenario_body(&mut self, node: Node<'_>) -> Vec<ScenarioStmt> {
+        self.list(node, Context::Scenario, Self::scenario_stmt, |span, doc| ScenarioStmt {
+            doc,
+            span,
+            kind: ScenarioStmtKind::Broken,
+        })
+    }
+
+    fn scenario_stmt(&mut self, node: Node<'_>, span: Span, mut doc: String) -> ScenarioStmt {
+        let kind = node.into_inner().next().and_then(|node| self.scenario_stmt_kind(node, &doc));
+        if let Some(ScenarioStmtKind::Param(_)) = &kind {
+            doc.clear();
+        }
+        ScenarioStmt { doc, span, kind: kind.unwrap_or(ScenarioStmtKind::Broken) }
+    }
+
+    fn scenario_stmt_kind(&mut self, node: Node<'_>, doc: &str) -> Option<ScenarioStmtKind> {
+        let rule = node.as_rule();
+        match rule {
+            Rule::let_stmt => return self.binding(node).map(ScenarioStmtKind::Let),
+            Rule::constant => return self.binding(node).map(ScenarioStmtKind::Const),
+            Rule::record => return self.record(node).map(ScenarioStmtKind::Record),
+            Rule::region => return self.function(node).map(ScenarioStmtKind::Region),
+            _ => {}
+        }
+        let mut nodes = Nodes::of(node);
+        let keyword = nodes.next()?;
+        Some(match rule {
+            Rule::param_stmt => {
+                let param = nodes.want(Rule::param)?;
+                ScenarioStmtKind::Param(self.param(param, doc.to_owned())?)
+            }
+            Rule::tuple_let => {
+                let mut names = Vec::new();
+                while nodes.peek().is_some_and(|rule| rule != Rule::equals) {
+                    if let Some(name) = nodes.next().filter(|node| node.as_rule() == Rule::ident) {
+                        names.push(self.value_name(&name));
+                    }
+                }
+                ScenarioStmtKind::LetTuple { names, value: nodes.seek(Rule::expr).map(|value| self.expr(value))? }
+            }
+            Rule::rules => ScenarioStmtKind::Rules(self.take_fields(&mut nodes)),
+            Rule::agents => ScenarioStmtKind::Agents(self.take_fields(&mut nodes)),
+            Rule::ball => {
+                let place = nodes.want(Rule::place)?;
+                let place = self.place(place)?;
+                let jitter = self.jitter(&mut nodes);
+                ScenarioStmtKind::Ball(BallStmt { place, jitter, fields: self.take_fields(&mut nodes) })
+            }
+            Rule::team => {
+                let team = nodes.next().map(|team| self.ident(&team))?;
+                let body = nodes.want(Rule::team_body)?;
+                ScenarioStmtKind::Team { team, body: self.team_body(body) }
+            }
+            Rule::kickoff => ScenarioStmtKind::Kickoff {
+                first: self.take_expr(&mut nodes, Rule::expr)?,
+                fields: self.take_fields(&mut nodes),
+            },
+            Rule::start => {
+                let kind = nodes.want(Rule::ident).map(|kind| self.ident(&kind))?;
+                let team = if nodes.eat(Rule::kw_for) { self.take_expr(&mut nodes, Rule::actor) } else { None };
+                let at = if nodes.eat(Rule::kw_at) { self.take_expr(&mut nodes, Rule::point) } else { None };
+                ScenarioStmtKind::Start { kind, team, at, fields: self.take_fields(&mut nodes) }
+            }
+            Rule::reward_use => self.reward_use(&mut nodes)?,
+            Rule::end => ScenarioStmtKind::End(self.end(nodes.next()?)?),
+            Rule::require => {
+                let condition = self.take_expr(&mut nodes, Rule::condition)?;
+                let probability = if nodes.eat(Rule::kw_with) { self.take_expr(&mut nodes, Rule::factor) } else { None };
+                ScenarioStmtKind::Require { condition, probability, label: self.label(&mut nodes) }
+            }
+            Rule::remove => {
+                let what = nodes.next().map(|what| self.ident(&what))?;
+                ScenarioStmtKind::Remove { what, name: nodes.want(Rule::ident).map(|name| self.ident(&name)) }
+            }
+            Rule::mirror => ScenarioStmtKind::Mirror(nodes.seek(Rule::ident).map(|what| self.ident(&what))?),
+            Rule::observe => {
+                debug_assert_eq!(keyword.as_rule(), Rule::kw_observe, "the keyword stands first");
+                let observed = nodes.filter(|node| node.as_rule() == Rule::observed);
+                ScenarioStmtKind::Observe(observed.filter_map(|node| self.observed(node)).collect())
+            }
+            _ => return None,
+        })
+    }
+
+    /// `record NAME = expr`: its name lives apart from values.
+    fn record(&mut self, node: Node<'_>) -> Option<crate::ast::Binding> {
+        let mut nodes = Nodes::of(node);
+        let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;
+        let value = nodes.seek(Rule::expr).map(|value| self.expr(value))?;
+        Some(crate::ast::Binding { name, ty: None, value })
+    }
+
+    fn observed(&mut self, node: Node<'_>) -> Option<(Expr, Option<Spanned<String>>)> {
+        let mut nodes = Nodes::of(node);
+        let value = self.take_expr(&mut nodes, Rule::expr)?;
+        Some((value, self.label(&mut nodes)))
+    }
+
+    /// `as "x"`
+    pub(super) fn label(&self, nodes: &mut Nodes<'_>) -> Option<Spanned<String>> {
+        let label = nodes.want(Rule::label)?;
+        Nodes::of(label).seek(Rule::string).map(|words| self.string(&words))
+    }
+
+    fn reward_use(&mut self, nodes: &mut Nodes<'_>) -> Option<ScenarioStmtKind> {
+        let node = nodes.next()?;
+        let what = match node.as_rule() {
+            Rule::script => RewardUseKind::Script(self.script(node)?),
+            Rule::reference => RewardUseKind::Named(self.reference(node)?),
+            _ => {
+                let mut inner = Nodes::of(node);
+                let name = inner.want(Rule::ident).map(|name| self.ident(&name))?;
+                let body = inner.want(Rule::reward_body)?;
+                RewardUseKind::Inline { name, body: self.reward_body(body) }
+            }
+        };
+        let label = self.label(nodes);
+        let weight = nodes.want(Rule::weight).and_then(|weight| Nodes::of(weight).seek(Rule::factor));
+        Some(ScenarioStmtKind::Reward(RewardUse { what, label, weight: weight.map(|weight| self.expr(weight)) }))
+    }
+
+    fn end(&mut self, node: Node<'_>) -> Option<EndStmt> {
+        let limit = node.as_rule() == Rule::end_limit;
+        let mut nodes = Nodes::of(node);
+        if limit {
+            return nodes.seek(Rule::sum).map(|limit| EndStmt::Limit(self.expr(limit)));
+        }
+        let verdict = nodes.want(Rule::verdict).map(|verdict| self.ident(&verdict));
+        let label = nodes.want(Rule::reference).and_then(|label| self.reference(label));
+        let condition = match nodes.want(Rule::trigger).and_then(|trigger| Nodes::of(trigger).last()) {
+            Some(script) if script.as_rule() == Rule::script => Some(EndCondition::Script(self.script(script)?)),
+            Some(condition) => Some(EndCondition::Expr(self.expr(condition))),
+            None => None,
+        };
+        Some(EndStmt::When { verdict, label, condition })
+    }
+}

@@ -1,0 +1,115 @@
+//! Teams, formations, players and places.
+
+use super::reader::{Node, Nodes, Reader};
+use super::recover::Context;
+use crate::ast::{Expr, Facing, Place, PlaceKind, PlayerStmt, Spanned, TeamStmt, TeamStmtKind};
+use crate::problem::{Code, Problem};
+use crate::source::Span;
+use setpiece_grammar::Rule;
+use setpiece_scenario::vocabulary::Role;
+
+impl Reader<'_> {
+    /// The statements between a team's or formation's braces.
+    pub(super) fn team_body(&mut self, node: Node<'_>) -> Vec<TeamStmt> {
+        self.list(node, Context::Team, Self::team_stmt, |span, _| TeamStmt { span, kind: TeamStmtKind::Broken })
+    }
+
+    fn team_stmt(&mut self, node: Node<'_>, span: Span, _doc: String) -> TeamStmt {
+        let kind = node.into_inner().next().and_then(|node| self.team_stmt_kind(node));
+        TeamStmt { span, kind: kind.unwrap_or(TeamStmtKind::Broken) }
+    }
+
+    fn team_stmt_kind(&mut self, node: Node<'_>) -> Option<TeamStmtKind> {
+        let rule = node.as_rule();
+        if rule == Rule::field {
+            return self.field(node).map(TeamStmtKind::Field);
+        }
+        let mut nodes = Nodes::of(node);
+        Some(match rule {
+            Rule::moved => {
+                nodes.eat(Rule::kw_place);
+                let who = nodes.next()?;
+                // A name stands for a player whose role only the resolver knows.
+                let role = Role::from_name(who.as_str()).unwrap_or(Role::CM);
+                let role = Spanned { node: role, span: self.span(&who) };
+                let who = self.ident(&who);
+                TeamStmtKind::Override { who, change: self.player_rest(&mut nodes, role) }
+            }
+            Rule::each => {
+                nodes.eat(Rule::kw_each);
+                let who = nodes.next().map(|who| self.ident(&who))?;
+                TeamStmtKind::Each { who, fields: self.take_fields(&mut nodes) }
+            }
+            Rule::absent => TeamStmtKind::Absent(self.role(&nodes.next()?)?),
+            _ => {
+                let name = nodes.want(Rule::ident).map(|name| self.value_name(&name));
+                nodes.eat(Rule::colon);
+                let count = nodes.want(Rule::count).and_then(|count| self.count(&count));
+                let role = nodes.want(Rule::role).and_then(|role| self.role(&role))?;
+                let player = self.player_rest(&mut nodes, role);
+                TeamStmtKind::Player(PlayerStmt { name, count, ..player })
+            }
+        })
+    }
+
+    fn role(&self, node: &Node<'_>) -> Option<Spanned<Role>> {
+        Role::from_name(node.as_str()).map(|role| Spanned { node: role, span: self.span(node) })
+    }
+
+    fn count(&mut self, node: &Node<'_>) -> Option<Spanned<u32>> {
+        let span = self.span(node);
+        let Ok(count) = node.as_str().parse() else {
+            let message = format!("`{}` players are too many", node.as_str().get(..20).unwrap_or(node.as_str()));
+            self.push(Problem::new(Code::TooManyPlayers, span, message, "a team has at most 11"));
+            return None;
+        };
+        Some(Spanned { node: count, span })
+    }
+
+    /// What follows a player's role.
+    fn player_rest(&mut self, nodes: &mut Nodes<'_>, role: Spanned<Role>) -> PlayerStmt {
+        let place = nodes.want(Rule::place).and_then(|place| self.place(place));
+        let facing = nodes.want(Rule::facing).and_then(|facing| self.facing(facing));
+        let jitter = self.jitter(nodes);
+        let when = nodes.want(Rule::player_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
+        let when = when.map(|when| self.expr(when));
+        PlayerStmt { name: None, count: None, role, place, facing, jitter, when, fields: self.take_fields(nodes) }
+    }
+
+    /// `jitter 1m`
+    pub(super) fn jitter(&mut self, nodes: &mut Nodes<'_>) -> Option<Expr> {
+        let jitter = nodes.want(Rule::jitter)?;
+        Nodes::of(jitter).seek(Rule::length).map(|length| self.expr(length))
+    }
+
+    fn facing(&mut self, node: Node<'_>) -> Option<Facing> {
+        let mut nodes = Nodes::of(node);
+        nodes.eat(Rule::kw_facing);
+        let away = nodes.eat(Rule::kw_away);
+        let target = nodes.seek(Rule::direction).map(|target| self.expr(target))?;
+        Some(Facing { away, target })
+    }
+
+    /// A place.
+    pub(super) fn place(&mut self, node: Node<'_>) -> Option<Place> {
+        let span = self.span(&node);
+        let form = node.into_inner().next()?;
+        let rule = form.as_rule();
+        let first = form.clone().into_inner().next()?;
+        let operands = form.into_inner().filter(|part| {
+            matches!(part.as_rule(), Rule::point | Rule::area | Rule::length | Rule::direction | Rule::share)
+        });
+        let mut operands = operands.map(|operand| self.expr(operand)).collect::<Vec<_>>().into_iter();
+        let kind = match rule {
+            Rule::place_at => PlaceKind::At(operands.next()?),
+            Rule::place_in => PlaceKind::In(operands.next()?),
+            Rule::relative => {
+                PlaceKind::Relative { direction: self.ident(&first), of: operands.next()?, by: operands.next()? }
+            }
+            Rule::between => PlaceKind::Between { a: operands.next()?, b: operands.next()?, at: operands.next() },
+            Rule::beyond => PlaceKind::Beyond { of: operands.next()?, by: operands.next()?, from: operands.next()? },
+            _ => PlaceKind::Offset { from: operands.next()?, along: operands.next()?, by: operands.next()? },
+        };
+        Some(Place { span, kind })
+    }
+}

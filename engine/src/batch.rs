@@ -1,1 +1,263 @@
-//! Many environments at once.
+//! Many environments at once, on a few threads.
+//!
+//! Parallel over matches, never inside one: what an episode gives depends on its seed and index alone, so results are the
+//! same on any number of threads, and come in the order of the episodes.
+
+use crate::draw::DrawError;
+use crate::environment::{Environment, Scratch, StepError, StepResult};
+use crate::statistics::MatchStatistics;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use setpiece_scenario::vocabulary::{Action, Verdict};
+use std::ops::Range;
+
+/// Whoever chooses an environment's actions.
+pub trait Policy {
+    /// An episode has begun.
+    fn begin(&mut self, environment: &Environment) {
+        let _ = environment;
+    }
+
+    /// The action of an agent.
+    fn act(&mut self, environment: &Environment, agent: usize) -> Action;
+}
+
+impl<F: FnMut(&Environment, usize) -> Action> Policy for F {
+    fn act(&mut self, environment: &Environment, agent: usize) -> Action {
+        self(environment, agent)
+    }
+}
+
+/// What an episode was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EpisodeSummary {
+    /// Its index.
+    pub index: u64,
+    /// The name of its ending.
+    pub outcome: String,
+    /// Success or failure, where the ending says so.
+    pub verdict: Option<Verdict>,
+    /// It ran into its limit.
+    pub truncated: bool,
+    /// Steps.
+    pub length: u32,
+    /// Goals, left and right.
+    pub score: [u16; 2],
+    /// What each agent was paid.
+    pub returns: Vec<f64>,
+    /// Agent by agent, the sums of the terms, in the order of [`Environment::term_names`].
+    pub terms: Vec<Vec<f64>>,
+    /// Payments that were stopped because their value was impossible.
+    pub faults: u32,
+    /// The fingerprint of its last state.
+    pub digest: u64,
+    /// What it was like.
+    pub statistics: MatchStatistics,
+}
+
+/// Why an episode was not played to its end.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EpisodeError {
+    /// It has no start.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// It failed on its way.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// Neither an ending nor a limit came within a day of play.
+    #[error("the episode has no end: none in {0} steps")]
+    Endless(u32),
+}
+
+/// Steps after which an episode without a limit is given up: a day of play.
+pub const STEPS_MAX: u32 = 864_000;
+
+/// The threads could not be started.
+#[derive(Debug, thiserror::Error)]
+#[error("{threads} threads can't be started: {source}")]
+pub struct BatchError {
+    threads: usize,
+    source: rayon::ThreadPoolBuildError,
+}
+
+fn pool(threads: usize) -> Result<ThreadPool, BatchError> {
+    ThreadPoolBuilder::new().num_threads(threads).build().map_err(|source| BatchError { threads, source })
+}
+
+/// Plays one episode to its end.
+///
+/// # Errors
+/// [`EpisodeError`] where it has no start, a script fails, or nothing ends it.
+pub fn run_episode(
+    environment: &mut Environment,
+    seed: u64,
+    index: u64,
+    policy: &mut impl Policy,
+    scratch: &mut Scratch,
+) -> Result<EpisodeSummary, EpisodeError> {
+    environment.reset(Some(seed), Some(index))?;
+    policy.begin(environment);
+    let n_agents = environment.n_agents();
+    let mut actions = vec![Action::Idle; n_agents];
+    while environment.is_running() {
+        for (agent, action) in actions.iter_mut().enumerate() {
+            *action = policy.act(environment, agent);
+        }
+        environment.step(&actions, scratch)?;
+        if environment.is_running() && environment.steps() >= STEPS_MAX {
+            return Err(EpisodeError::Endless(STEPS_MAX));
+        }
+    }
+    let outcome = environment.outcome();
+    let terms: Vec<Vec<f64>> = (0..n_agents).map(|agent| environment.term_sums(agent).to_vec()).collect();
+    Ok(EpisodeSummary {
+        index,
+        outcome: outcome.map(|outcome| outcome.label.to_string()).unwrap_or_default(),
+        verdict: outcome.and_then(|outcome| outcome.verdict),
+        truncated: outcome.is_some_and(|outcome| outcome.truncated),
+        length: environment.steps(),
+        score: environment.score(),
+        returns: terms.iter().map(|terms| terms.iter().sum()).collect(),
+        terms,
+        faults: environment.faults(),
+        digest: environment.digest(),
+        statistics: environment.statistics().summary(),
+    })
+}
+
+/// Plays episodes on a pool of threads of its own.
+///
+/// - `prototype`: the environment that every worker plays a copy of.
+/// - `episodes`: their indices under `seed`.
+/// - `policy`: makes a worker's policy; what it does must depend on the environment alone (its seed and index too).
+/// - `after`: is told of every episode as it ends, from any thread, in no order.
+/// - returns: one result per episode, in the order of the indices.
+///
+/// # Errors
+/// [`BatchError`] where the threads can't be started.
+pub fn run_episodes<P: Policy>(
+    prototype: &Environment,
+    seed: u64,
+    episodes: Range<u64>,
+    threads: usize,
+    policy: impl Fn() -> P + Sync,
+    after: impl Fn(&Result<EpisodeSummary, EpisodeError>) + Sync,
+) -> Result<Vec<Result<EpisodeSummary, EpisodeError>>, BatchError> {
+    let worker = || (prototype.clone(), Scratch::default(), policy());
+    let play = |(environment, scratch, policy): &mut (Environment, Scratch, P), index| {
+        let result = run_episode(environment, seed, index, policy, scratch);
+        after(&result);
+        result
+    };
+    if threads <= 1 {
+        let mut worker = worker();
+        return Ok(episodes.map(|index| play(&mut worker, index)).collect());
+    }
+    Ok(pool(threads)?.install(|| episodes.into_par_iter().map_init(worker, play).collect()))
+}
+
+/// A number of environments that are stepped together.
+pub struct Batch {
+    environments: Vec<Environment>,
+    scratches: Vec<Scratch>,
+    pool: ThreadPool,
+    results: Vec<Result<StepResult, StepError>>,
+}
+
+impl Batch {
+    /// So many copies of an environment on so many threads.
+    ///
+    /// # Errors
+    /// [`BatchError`] where the threads can't be started.
+    pub fn new(prototype: &Environment, n: usize, threads: usize) -> Result<Batch, BatchError> {
+        let threads = threads.clamp(1, n.max(1));
+        Ok(Batch {
+            environments: vec![prototype.clone(); n],
+            scratches: std::iter::repeat_with(Scratch::default).take(threads).collect(),
+            pool: pool(threads)?,
+            results: vec![Ok(StepResult::default()); n],
+        })
+    }
+
+    /// The environments.
+    pub fn environments(&self) -> &[Environment] {
+        &self.environments
+    }
+
+    /// The environments, to reset.
+    pub fn environments_mut(&mut self) -> &mut [Environment] {
+        &mut self.environments
+    }
+
+    /// Steps every environment that is running; `actions` are all agents' of the first environment, then of the second…
+    /// Each environment's result stands at its place; one that isn't running has [`StepError::NotRunning`].
+    pub fn step(&mut self, actions: &[Action]) -> &[Result<StepResult, StepError>] {
+        let n_agents = self.environments.first().map_or(0, Environment::n_agents);
+        let chunk = self.environments.len().div_ceil(self.scratches.len()).max(1);
+        let environments = self.environments.par_chunks_mut(chunk);
+        let results = self.results.par_chunks_mut(chunk);
+        let work = environments.zip(results).zip(self.scratches.par_iter_mut()).enumerate();
+        self.pool.install(|| {
+            work.for_each(|(which, ((environments, results), scratch))| {
+                for (i, (environment, result)) in environments.iter_mut().zip(results).enumerate() {
+                    let first = (which * chunk + i) * n_agents;
+                    let own = actions.get(first..first + n_agents).unwrap_or_default();
+                    *result = environment.step(own, scratch);
+                }
+            });
+        });
+        &self.results
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::environment::EnvironmentOptions;
+    use crate::random::{Purpose, Stream};
+    use crate::testing::{scenario, scoring};
+    use setpiece_scenario::vocabulary::{Role, Team};
+    use std::sync::Arc;
+
+    /// Acts at random from the episode's seed.
+    struct Random(Stream);
+
+    impl Policy for Random {
+        fn begin(&mut self, environment: &Environment) {
+            self.0 = Stream::new(environment.seed(), environment.index(), Purpose::Agent);
+        }
+
+        fn act(&mut self, _: &Environment, _: usize) -> Action {
+            Action::ALL[self.0.below(19) as usize]
+        }
+    }
+
+    fn prototype() -> Environment {
+        let mut scenario = scenario(&[(Team::Left, Role::CF, 0.5, 0.0), (Team::Right, Role::GK, 50.0, 0.0)]);
+        scenario.players[0].controllable = true;
+        scenario.rewards.push(scoring());
+        Environment::new(Arc::new(scenario), EnvironmentOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn threads_change_nothing() {
+        let random = || Random(Stream::new(0, 0, Purpose::Agent));
+        let run = |threads| run_episodes(&prototype(), 7, 0..8, threads, random, |_| ()).unwrap();
+        let (one, three) = (run(1), run(3));
+        assert_eq!(one, three);
+        let summaries: Vec<_> = one.into_iter().map(Result::unwrap).collect();
+        assert!(summaries.iter().enumerate().all(|(k, summary)| summary.index == k as u64 && summary.length <= 50));
+    }
+
+    #[test]
+    fn a_batch_steps_each_with_its_own_actions() {
+        let mut batch = Batch::new(&prototype(), 5, 2).unwrap();
+        for (k, environment) in batch.environments_mut().iter_mut().enumerate().skip(1) {
+            environment.reset(Some(1), Some(k as u64)).unwrap();
+        }
+        let results = batch.step(&[Action::Idle; 5]);
+        assert_eq!(results[0], Err(StepError::NotRunning { begun: false }));
+        assert!(results[1..].iter().all(Result::is_ok));
+        assert!(batch.environments()[1..].iter().all(|environment| environment.steps() == 1));
+    }
+}

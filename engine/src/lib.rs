@@ -22,3 +22,5 @@ pub mod random;
 pub mod start;
 pub mod state;
 pub mod statistics;
+#[cfg(test)]
+mod testing;

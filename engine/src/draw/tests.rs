@@ -1,1 +1,143 @@
-//! Tests.
+use super::*;
+use crate::testing::scenario;
+use setpiece_scenario::vocabulary::Role;
+use setpiece_scenario::{BinaryOp, Distribution, Instr, Require, SideAgents};
+
+fn push(scenario: &mut Scenario, instr: Instr) -> Reg {
+    scenario.start.program.code.push(instr);
+    Reg(scenario.start.program.code.len() as u32 - 1)
+}
+
+fn uniform(scenario: &mut Scenario, key: u64, low: f64, high: f64) -> Reg {
+    let (low, high) = (push(scenario, Instr::Const(low)), push(scenario, Instr::Const(high)));
+    push(scenario, Instr::Random { key, from: Distribution::Uniform(low, high) })
+}
+
+/// A striker between two ends along the middle line, and a keeper.
+fn striker(low: f64, high: f64) -> Scenario {
+    let mut scenario = scenario(&[
+        (Team::Left, Role::CF, 0.0, 0.0),
+        (Team::Left, Role::GK, -50.0, 0.0),
+        (Team::Right, Role::GK, 50.0, 0.0),
+    ]);
+    scenario.players[0].start.x = uniform(&mut scenario, 1, low, high);
+    scenario
+}
+
+fn draw(scenario: &Scenario, seed: u64, index: u64) -> Result<Drawn, DrawError> {
+    setpiece_scenario::verify::verify(scenario).unwrap();
+    let bindings = Bindings::defaults(&scenario.params);
+    let roster = Roster::new(scenario, &bindings, None).unwrap();
+    Drawer::new(scenario).draw(scenario, &bindings, &roster, seed, index)
+}
+
+fn x(drawn: &Drawn) -> f32 {
+    drawn.players[0].as_ref().unwrap().pos.x
+}
+
+#[test]
+fn the_seed_and_index_decide() {
+    let scenario = striker(-20.0, 20.0);
+    let first = draw(&scenario, 5, 0).unwrap();
+    assert_eq!(first, draw(&scenario, 5, 0).unwrap());
+    assert_ne!(x(&first), x(&draw(&scenario, 5, 1).unwrap()));
+    assert_ne!(x(&first), x(&draw(&scenario, 6, 0).unwrap()));
+}
+
+#[test]
+fn a_new_draw_shifts_no_other() {
+    let plain = striker(-20.0, 20.0);
+    let mut more = scenario(&[
+        (Team::Left, Role::CF, 0.0, 0.0),
+        (Team::Left, Role::GK, -50.0, 0.0),
+        (Team::Right, Role::GK, 50.0, 0.0),
+    ]);
+    // The other draw comes before.
+    more.start.ball.y = uniform(&mut more, 77, -3.0, 3.0);
+    more.players[0].start.x = uniform(&mut more, 1, -20.0, 20.0);
+    assert_eq!(x(&draw(&plain, 9, 4).unwrap()), x(&draw(&more, 9, 4).unwrap()));
+}
+
+#[test]
+fn what_is_required_holds() {
+    let mut scenario = striker(-20.0, 20.0);
+    let at = scenario.players[0].start.x;
+    let least = push(&mut scenario, Instr::Const(15.0));
+    let condition = push(&mut scenario, Instr::Binary(BinaryOp::Gt, at, least));
+    scenario.start.requires.push(Require { condition, probability: None, label: "far up".to_owned() });
+    for index in 0..50 {
+        assert!(x(&draw(&scenario, 1, index).unwrap()) > 15.0);
+    }
+}
+
+#[test]
+fn a_required_share_is_not_biased_by_redraws() {
+    let mut scenario = striker(-20.0, 20.0);
+    let at = scenario.players[0].start.x;
+    let zero = push(&mut scenario, Instr::Const(0.0));
+    let condition = push(&mut scenario, Instr::Binary(BinaryOp::Gt, at, zero));
+    let probability = Some(push(&mut scenario, Instr::Const(0.6)));
+    scenario.start.requires.push(Require { condition, probability, label: "ahead".to_owned() });
+    let ahead = (0..2000).filter(|&index| x(&draw(&scenario, 3, index).unwrap()) > 0.0).count();
+    // 0.6 + 0.4 / 2 of them.
+    assert!((1540..1660).contains(&ahead), "{ahead}");
+}
+
+#[test]
+fn the_requirement_that_fails_most_is_named() {
+    let mut scenario = striker(-20.0, 20.0);
+    let at = scenario.players[0].start.x;
+    let (far, never) = (push(&mut scenario, Instr::Const(10.0)), push(&mut scenario, Instr::Const(0.0)));
+    let up = push(&mut scenario, Instr::Binary(BinaryOp::Gt, at, far));
+    scenario.start.requires.push(Require { condition: up, probability: None, label: "up".to_owned() });
+    scenario.start.requires.push(Require { condition: never, probability: None, label: "impossible".to_owned() });
+    let error = draw(&scenario, 1, 0).unwrap_err();
+    assert_eq!(error.attempts, ATTEMPTS_MAX);
+    assert_eq!(error.requirement, "up");
+    assert!(error.failures > ATTEMPTS_MAX / 2, "{error}");
+}
+
+#[test]
+fn random_players_stay_on_the_pitch_and_apart() {
+    let off = draw(&striker(70.0, 80.0), 1, 0).unwrap_err();
+    assert!(off.requirement.contains("on the pitch"), "{off}");
+    let crowded = draw(&striker(49.9, 50.1), 1, 0).unwrap_err();
+    assert!(crowded.requirement.contains("0.6 m"), "{crowded}");
+    // Fixed places may coincide.
+    let fixed = scenario(&[(Team::Left, Role::CF, 1.0, 1.0), (Team::Left, Role::CF, 1.0, 1.0)]);
+    assert!(draw(&fixed, 1, 0).is_ok());
+}
+
+#[test]
+fn without_a_draw_one_attempt_is_enough() {
+    let mut scenario = scenario(&[(Team::Left, Role::CF, 100.0, 0.0)]);
+    assert_eq!(draw(&scenario, 1, 0).unwrap_err().attempts, 1);
+    scenario.players[0].start.x = push(&mut scenario, Instr::Const(3.0));
+    let drawn = draw(&scenario, 1, 0).unwrap();
+    assert_eq!((x(&drawn), drawn.limit_steps, drawn.ball_pos.z), (3.0, Some(50), BALL_RADIUS_M as f32));
+}
+
+#[test]
+fn agents_are_given_players() {
+    let mut scenario = scenario(&[
+        (Team::Left, Role::GK, -50.0, 0.0),
+        (Team::Left, Role::CM, 0.0, 0.0),
+        (Team::Left, Role::CF, 9.0, 0.0),
+        (Team::Right, Role::GK, 50.0, 0.0),
+    ]);
+    scenario.players[0].controllable = true;
+    let bindings = Bindings::default();
+    let roster =
+        |scenario: &Scenario, choice: Option<&AgentsChoice>| Roster::new(scenario, &bindings, choice).unwrap().agents;
+    let left = |id: u8| (Team::Left, Some(PlayerId(id)));
+    assert_eq!(roster(&scenario, None), [(Team::Left, None)]);
+    let count = |n, fixed| AgentsChoice { sides: [SideChoice::Count(n), SideChoice::Scenario], fixed };
+    // The keeper comes last.
+    assert_eq!(roster(&scenario, Some(&count(2, true))), [left(1), left(2)]);
+    // Everybody: in source order, whatever was asked of switching.
+    assert_eq!(roster(&scenario, Some(&count(3, false))), [left(0), left(1), left(2)]);
+    scenario.agents.sides[0] = SideAgents::Players(vec![2, 0]);
+    assert_eq!(roster(&scenario, None), [left(2), left(0)]);
+    let error = Roster::new(&scenario, &bindings, Some(&count(4, true))).unwrap_err();
+    assert_eq!(error.to_string(), "4 agents on the left side, which has 3 controllable players");
+}

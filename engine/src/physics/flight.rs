@@ -52,11 +52,8 @@ pub(super) fn push(ball: &mut Ball) {
 /// The sideways pull on a spinning ball, m/s².
 fn magnus(spin: Vec3, vel: Vec3, speed: f32) -> Vec3 {
     let spin_squared = spin.length_squared();
-    let share = if spin_squared > MAGNUS_SPIN_MAX * MAGNUS_SPIN_MAX {
-        MAGNUS_SPIN_MAX / spin_squared.sqrt()
-    } else {
-        1.0
-    };
+    let share =
+        if spin_squared > MAGNUS_SPIN_MAX * MAGNUS_SPIN_MAX { MAGNUS_SPIN_MAX / spin_squared.sqrt() } else { 1.0 };
     spin.cross(vel) * (MAGNUS * share * speed.min(MAGNUS_SPEED_MAX))
 }
 

@@ -183,3 +183,9 @@ pub(super) fn register(engine: &mut Engine) {
     getters::register(engine);
     functions::register(engine);
 }
+
+/// Whether a name of the tables has its getter.
+#[cfg(test)]
+pub(super) fn getters_complete(member: &Member) -> bool {
+    getters::is_registered(member.of, member.name)
+}

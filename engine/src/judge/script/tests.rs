@@ -1,1 +1,224 @@
-//! Tests.
+use super::api::getters_complete;
+use super::*;
+use crate::event::Event;
+use crate::random::{Purpose, Stream};
+use crate::state::PlayerId;
+use crate::testing::{event, scenario, view};
+use setpiece_scenario::Script;
+use setpiece_scenario::vocabulary::{EventKind, Team};
+
+fn scene(events: &[Event]) -> Arc<Scene> {
+    let prev = view([0.0, 0.0], [20.0, 0.0], [0.0, 0.0, 0.11]);
+    let mut now = view([27.2, 8.36], [30.2, 12.36], [27.2, -8.36, 0.5]);
+    now.owner = Some(PlayerId(1));
+    now.possession = Some(Team::Left);
+    now.score = [2, 1];
+    now.step = 30;
+    now.players[1].vel = [3.0, 4.0];
+    let mut params = rhai::Map::new();
+    params.insert("width".into(), 4.5.into());
+    Arc::new(Scene::new(now, prev, events, Arc::new(params), Stream::new(1, 2, Purpose::Script), (1, 2)))
+}
+
+fn scripts(source: &str) -> Scripts {
+    let mut scenario = scenario(&[]);
+    scenario.scripts.push(Script { name: "own.rhai".to_owned(), source: source.to_owned() });
+    Scripts::compile(&scenario).unwrap()
+}
+
+fn pay_for(body: &str, us: Team, events: &[Event]) -> Result<f64, ScriptError> {
+    let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
+    let me = Some(if us == Team::Left { PlayerId(1) } else { PlayerId(12) });
+    let perspective = Perspective { us, me, agent: 0 };
+    scripts(&source).reward(0, &scene(events), perspective, &mut Memory::default())
+}
+
+fn pay(body: &str) -> f64 {
+    pay_for(body, Team::Left, &[]).unwrap()
+}
+
+fn fail(body: &str) -> ScriptError {
+    pay_for(body, Team::Left, &[]).unwrap_err()
+}
+
+fn near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-5, "{found} for {expected}");
+}
+
+#[test]
+fn every_name_has_its_getter() {
+    let missing: Vec<Member> = members().filter(|member| !getters_complete(member)).collect();
+    assert_eq!(missing, []);
+}
+
+#[test]
+fn properties_bear_the_languages_names() {
+    near(pay("now.ball.x"), 0.5);
+    near(pay("now.ball.y"), -0.1);
+    near(pay("now.ball.height"), 0.5);
+    near(pay("prev.ball.x"), 0.0);
+    near(pay("now.us.players[1].speed"), 5.0);
+    near(pay("now.me.speed + now.me.velocity.x"), 8.0);
+    near(pay("now.score.us - now.score.them"), 1.0);
+    near(pay("now.elapsed"), 3.0);
+    near(pay("ctx.params.width"), 4.5);
+    near(pay("if now.possession == \"us\" && now.ball.owner == now.me { 1.0 } else { 0.0 }"), 1.0);
+    near(pay("if now.possession == now.us && now.possession != now.them { 1.0 } else { 0.0 }"), 1.0);
+    near(pay("if prev.ball.owner == () && now.ball.owner != () { 1 } else { 0 }"), 1.0);
+    near(pay("now.players.len + now.them.players.len"), 4.0);
+    assert_eq!(pay("now.remaining"), f64::INFINITY);
+    near(pay("if now.game_mode == \"normal\" && now.me.role == \"CM\" { 1 } else { 0 }"), 1.0);
+}
+
+#[test]
+fn the_right_side_reads_its_own_frame() {
+    let pay = |body| pay_for(body, Team::Right, &[]).unwrap();
+    near(pay("now.ball.x"), -0.5);
+    near(pay("now.them.players[1].velocity.x"), -3.0);
+    near(pay("now.us.goal.x"), -55.0 / 54.4);
+    near(pay("now.score.us"), 1.0);
+    near(pay("if now.possession == \"them\" { 1 } else { 0 }"), 1.0);
+    near(pay("now.me.x"), -30.2 / 54.4);
+    near(pay("now.point(-0.5, 0.1).x - now.ball.x"), 0.0);
+}
+
+#[test]
+fn helpers_measure() {
+    near(pay("distance(now.me, now.ball)"), 16.72);
+    near(pay("distance(now.me, now.them.players[0])"), 5.0);
+    near(pay("grf_distance(now.ball, now.point(1.0, 0.0))"), (0.25f64 + 0.01).sqrt());
+    near(pay("angle(now.me, now.ball)"), -std::f64::consts::FRAC_PI_2);
+    near(pay("nearest(now.us.players, now.ball).x"), 0.5);
+    near(pay("if pressed(now.me, 5.1) && !pressed(now.me, 4) { 1 } else { 0 }"), 1.0);
+    near(pay("pow(2, 3) + sqrt(9) + clamp(5.0, 0.0, 1.0) + smoothstep(0.0, 1.0, 0.5)"), 12.5);
+    assert!(fail("distance(now.me, prev.ball.owner)").message.contains("found nobody"));
+}
+
+#[test]
+fn events_are_an_array() {
+    let events = [event(EventKind::Goal, Some(Team::Left), Some(1)), event(EventKind::Corner, Some(Team::Right), None)];
+    let pay = |body| pay_for(body, Team::Left, &events).unwrap();
+    near(pay("count(events, \"goal\", \"us\") + 10 * count(events, \"goal\", \"them\")"), 1.0);
+    let body = "let n = 0.0; for e in events { if e.kind == \"goal\" && e.by == now.me { n += 1.0; } } n";
+    near(pay(body), 1.0);
+    near(pay("if events[1].by == () && events[1].team == \"them\" { 1 } else { 0 }"), 1.0);
+}
+
+#[test]
+fn memory_lasts_and_random_numbers_are_seeded() {
+    let scripts = scripts("fn reward(ctx, now, prev, events) { this.n = (this.n ?? 0) + 1; this.n + ctx.random() }");
+    let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
+    let run = || {
+        let (mut memory, scene) = (Memory::default(), scene(&[]));
+        let mut pay = || scripts.reward(0, &scene, perspective, &mut memory).unwrap();
+        [pay(), pay(), pay()]
+    };
+    let paid = run();
+    assert_eq!(paid, run());
+    assert_eq!(paid.map(f64::trunc), [1.0, 2.0, 3.0]);
+    assert_ne!(paid[0].fract(), paid[1].fract());
+    assert_eq!(pay("if ctx.random() == ctx.random() { 1 } else { 0 }"), 0.0);
+}
+
+#[test]
+fn the_sandbox_holds() {
+    for body in [
+        "loop { }",
+        "let x = 0; while true { x += 1; } x",
+        "let a = [1]; loop { a += a; }",
+        "let s = \"x\"; loop { s += s; }",
+    ] {
+        let error = fail(body);
+        assert!(!error.message.is_empty() && error.line >= 1, "{body}: {error}");
+    }
+    let recursion = "fn f(n) { f(n + 1) }\nfn reward(ctx, now, prev, events) { f(0) }";
+    let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
+    let error = scripts(recursion).reward(0, &scene(&[]), perspective, &mut Memory::default()).unwrap_err();
+    assert!(error.message.contains("deeper"), "{error}");
+    for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
+        let faults = check_script(&format!("fn reward(ctx, now, prev, events) {{ {text} }}"), "reward");
+        assert!(!faults.is_empty(), "{text}");
+    }
+    for call in ["timestamp()", "sleep(1)", "exit()", "parse_json(\"1\")"] {
+        assert!(fail(call).message.starts_with("no function"), "{}", fail(call));
+        assert_eq!(faults(call).len(), 1, "{call}");
+    }
+}
+
+#[test]
+fn failures_name_their_place() {
+    let error = fail("let x = 1;\n  now.ball.heigth");
+    assert_eq!((error.script.as_str(), error.line, error.hook.as_str()), ("own.rhai", 3, "reward"));
+    assert!(error.message.contains("heigth"), "{error}");
+    let error = fail("\"far\"");
+    assert_eq!(error.message, "expected a number, found a string");
+    assert_eq!((error.line, error.column), (1, 4));
+    assert_eq!(fail("if false { 1.0 }").message, "expected a number, found nothing");
+    assert!(fail("throw \"no\"").message.contains("no"));
+    assert!(fail("let a = [1]; a[5]").line == 2);
+}
+
+fn faults(body: &str) -> Vec<(ScriptFaultKind, String, Option<String>)> {
+    let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
+    let of = |fault: ScriptFault| (fault.kind, source[fault.range].to_owned(), fault.help);
+    check_script(&source, "reward").into_iter().map(of).collect()
+}
+
+#[test]
+fn right_scripts_have_no_fault() {
+    let bodies = [
+        "now.ball.x",
+        "let best = nearest(now.us.players, now.ball); best.speed",
+        "let n = 0; for p in now.them.players { if p.x > now.ball.x && distance(p, now.ball) < 5.0 { n += 1; } } n * 0.1",
+        "this.last = #{ x: now.ball.x, taken: false }; this.last.taken = true; if this.last.taken { 1.0 } else { 0.0 }",
+        "now.us.players.filter(|p| p.role != \"GK\").len() * 0.1",
+        "let m = #{ width: 2 }; m.width + ctx.params.anything",
+        "now.us.players[0].velocity.x + now.us.players[0].at.y",
+        "if events.is_empty() { 0 } else { events[0].by.speed }",
+        "let own = now.ball; own.height.floor() + min(1.0, 2.0) + `${now.ball.x}`.len",
+        "switch now.game_mode { \"corner\" => 1.0, _ => 0.0 }",
+    ];
+    for body in bodies {
+        assert_eq!(faults(body), [], "{body}");
+    }
+}
+
+#[test]
+fn wrong_names_are_found_with_their_place() {
+    let name = |word: &str, suggestion: &str| {
+        (ScriptFaultKind::Name, word.to_owned(), Some(format!("did you mean `{suggestion}`?")))
+    };
+    assert_eq!(faults("now.ball.heigth"), [name("heigth", "height")]);
+    assert_eq!(faults("now.us.players[0].sped"), [name("sped", "speed")]);
+    assert_eq!(faults("for p in now.players { p.fatigu; } 0"), [name("fatigu", "fatigue")]);
+    assert_eq!(faults("let b = now.ball; b.hight"), [name("hight", "height")]);
+    assert_eq!(faults("distnce(now.me, now.ball)"), [name("distnce", "distance")]);
+    assert_eq!(faults("now.posession"), [name("posession", "possession")]);
+    assert_eq!(faults("noww.ball.x"), [name("noww", "now")]);
+    let several = faults("now.ball.heigth + prev.me.sped\n+ distnce(1, 2)");
+    assert_eq!(several.len(), 3);
+    // A player's property is none of the ball's.
+    assert_eq!(faults("now.ball.fatigue")[0].1, "fatigue");
+}
+
+#[test]
+fn hooks_are_checked() {
+    let missing = check_script("fn rewards(ctx, now, prev, events) { 0 }", "reward");
+    assert_eq!((missing.len(), missing[0].kind), (1, ScriptFaultKind::Hook));
+    assert_eq!(missing[0].help.as_deref(), Some("write `fn reward(ctx, now, prev, events) { … }`"));
+    let source = "\n fn reward(now) { 0 }";
+    let few = check_script(source, "reward");
+    assert_eq!((few[0].kind, &source[few[0].range.clone()]), (ScriptFaultKind::Hook, "reward"));
+    assert_eq!(few[0].message, "`reward` takes 4 arguments, found 1");
+    let source = "fn reward(ctx, now, prev, events) {\n    1 + \n}";
+    let broken = check_script(source, "reward");
+    assert_eq!(broken[0].kind, ScriptFaultKind::Syntax);
+    assert_eq!(&source[broken[0].range.clone()], "}");
+    assert_eq!(check_script("", "reward")[0].kind, ScriptFaultKind::Hook);
+}
+
+#[test]
+fn only_scripts_that_ask_run_for_each_agent() {
+    assert!(scripts("fn reward(ctx, now, prev, events) { now.me.x }").uses_me(0));
+    assert!(!scripts("fn reward(ctx, now, prev, events) { now.ball.x }").uses_me(0));
+}

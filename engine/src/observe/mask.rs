@@ -1,0 +1,44 @@
+//! Which actions can change anything.
+
+use super::{ObserveError, slot};
+use crate::state::Match;
+use setpiece_scenario::vocabulary::{Action, StickyAction};
+
+/// Which of the 19 actions of GRF's `default` set can change something for agent `agent`; `idle` always may be chosen.
+///
+/// Masked are: what is held already and the release of what isn't held; sliding while the own player has the ball;
+/// passes and shots while an opponent has it; everything but `idle` for an agent without a player on the pitch.
+///
+/// # Errors
+/// [`ObserveError::Agent`] for no such agent.
+pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::DEFAULT_SET], ObserveError> {
+    let slot = slot(game, agent)?;
+    let mut mask = [false; Action::DEFAULT_SET];
+    mask[Action::Idle.index()] = true;
+    let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
+    let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;
+    let directions = &StickyAction::ALL[..StickyAction::Sprint.index()];
+    let ours = game.owner == Some(player);
+    let theirs = game.owner.is_some_and(|owner| owner.team() != slot.team);
+    for (action, open) in Action::ALL.iter().zip(&mut mask) {
+        *open = match action {
+            Action::Idle | Action::BuiltinAi => true,
+            Action::Left
+            | Action::TopLeft
+            | Action::Top
+            | Action::TopRight
+            | Action::Right
+            | Action::BottomRight
+            | Action::Bottom
+            | Action::BottomLeft => StickyAction::from_name(action.name()).is_some_and(|direction| !held(direction)),
+            Action::ReleaseDirection => directions.iter().any(|direction| held(*direction)),
+            Action::Sprint => !held(StickyAction::Sprint),
+            Action::ReleaseSprint => held(StickyAction::Sprint),
+            Action::Dribble => !held(StickyAction::Dribble),
+            Action::ReleaseDribble => held(StickyAction::Dribble),
+            Action::LongPass | Action::HighPass | Action::ShortPass | Action::Shot => !theirs,
+            Action::Sliding => !ours,
+        };
+    }
+    Ok(mask)
+}

@@ -1,0 +1,47 @@
+//! `simple115v2`: 115 numbers.
+
+use super::frame::Frame;
+use super::layout::SIMPLE115;
+use super::{ObserveError, check_size, slot};
+use crate::state::Match;
+use setpiece_scenario::pitch::TEAM_MAX;
+
+/// What stands for a player who is missing.
+const MISSING: f32 = -1.0;
+
+/// Writes agent `agent`'s `simple115v2` observation; the blocks are [`super::layout::SIMPLE115_BLOCKS`].
+///
+/// # Errors
+/// [`ObserveError`] for no such agent, or a buffer that has not 115 numbers; nothing is written then.
+pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+    let slot = slot(game, agent)?;
+    check_size(out.len(), SIMPLE115)?;
+    let frame = Frame { game, us: slot.team };
+    out.fill(0.0);
+    for (block, team) in frame.teams().into_iter().enumerate() {
+        let base = block * 4 * TEAM_MAX;
+        out[base..base + 4 * TEAM_MAX].fill(MISSING);
+        for (place, (_, player)) in frame.roster(team).enumerate().filter(|(_, (_, player))| player.active) {
+            let at = base + 2 * place;
+            write(&mut out[at..at + 2], &frame.place_of(player.pos), &[2.0, 1.5]);
+            let at = at + 2 * TEAM_MAX;
+            write(&mut out[at..at + 2], &frame.stride_of(player.vel), &[1.0, 1.0]);
+        }
+    }
+    write(&mut out[88..91], &frame.ball(), &[2.0, 1.5, 100.0]);
+    out[90] = out[90].max(0.0);
+    write(&mut out[91..94], &frame.ball_stride(), &[1.0, 1.0, 10.0]);
+    out[94 + frame.owner().map_or(0, |(team, _)| 1 + team)] = 1.0;
+    if let Some(place) = slot.player.and_then(|player| frame.place(player)) {
+        out[97 + place] = 1.0;
+    }
+    out[108 + game.mode.index()] = 1.0;
+    Ok(())
+}
+
+/// Writes numbers, held within ± the bounds of their space.
+fn write(out: &mut [f32], values: &[f64], bounds: &[f32]) {
+    for ((out, value), bound) in out.iter_mut().zip(values).zip(bounds) {
+        *out = (*value as f32).clamp(-bound, *bound);
+    }
+}

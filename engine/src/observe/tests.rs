@@ -1,0 +1,146 @@
+use super::*;
+use crate::state::PlayerId;
+use crate::testing::scenario;
+use glam::{Vec2, Vec3};
+use setpiece_scenario::vocabulary::{Action, GameMode, Role, StickyAction, Team};
+
+/// Two against one; agent 0 plays the left striker, agent 1 the right keeper.
+fn game() -> Match {
+    let scenario = scenario(&[
+        (Team::Left, Role::GK, -54.4, 0.0),
+        (Team::Left, Role::CF, 27.2, 8.36),
+        (Team::Right, Role::GK, 54.4, 0.0),
+    ]);
+    let bindings = setpiece_scenario::Bindings::default();
+    let roster = crate::draw::Roster::new(&scenario, &bindings, None).unwrap();
+    let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
+    let mut game = Match::blank(&drawn);
+    game.agents.clear();
+    for (team, player) in [(Team::Left, 1), (Team::Right, 11)] {
+        game.agents.push(AgentSlot { team, player: Some(PlayerId(player)), fixed: true, sticky: 0 });
+    }
+    game.players[1].vel = Vec2::new(5.44, -8.36);
+    game.ball.pos = Vec3::new(27.2, -8.36, 0.5);
+    game.ball.vel = Vec3::new(0.0, 8.36, 2.0);
+    game.owner = Some(PlayerId(1));
+    game.score = [2, 1];
+    game.mode = GameMode::Corner;
+    game
+}
+
+fn near(found: &[f32], expected: &[f32]) {
+    assert_eq!(found.len(), expected.len());
+    for (at, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert!((found - expected).abs() < 1e-5, "{at}: {found} for {expected}");
+    }
+}
+
+#[test]
+fn simple115_has_its_blocks() {
+    let mut out = [9.0; layout::SIMPLE115];
+    simple115(&game(), 0, &mut out).unwrap();
+    near(&out[0..6], &[-1.0, 0.0, 0.5, 0.1, -1.0, -1.0]);
+    near(&out[22..28], &[0.0, 0.0, 0.01, -0.01, -1.0, -1.0]);
+    near(&out[44..48], &[1.0, 0.0, -1.0, -1.0]);
+    near(&out[66..70], &[0.0, 0.0, -1.0, -1.0]);
+    near(&out[88..97], &[0.5, -0.1, 0.5, 0.0, 0.01, 0.2, 0.0, 1.0, 0.0]);
+    near(&out[97..100], &[0.0, 1.0, 0.0]);
+    near(&out[108..115], &[0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn the_right_team_sees_itself_on_the_left() {
+    let mut out = [9.0; layout::SIMPLE115];
+    simple115(&game(), 1, &mut out).unwrap();
+    near(&out[0..4], &[-1.0, 0.0, -1.0, -1.0]);
+    near(&out[44..48], &[1.0, 0.0, -0.5, -0.1]);
+    near(&out[66..70], &[0.0, 0.0, -0.01, 0.01]);
+    near(&out[88..97], &[-0.5, 0.1, 0.5, 0.0, -0.01, 0.2, 0.0, 0.0, 1.0]);
+    near(&out[97..100], &[1.0, 0.0, 0.0]);
+    let raw = raw(&game(), 1).unwrap();
+    assert_eq!((raw.score, raw.ball_owned_team, raw.ball_owned_player, raw.active), ([1, 2], 1, 1, 0));
+    assert!(out.iter().all(|value| value.to_bits() != (-0.0f32).to_bits()));
+}
+
+#[test]
+fn who_is_sent_off_is_missing() {
+    let mut game = game();
+    game.players[1].active = false;
+    let mut out = [9.0; layout::SIMPLE115];
+    simple115(&game, 0, &mut out).unwrap();
+    near(&out[0..4], &[-1.0, 0.0, -1.0, -1.0]);
+    let raw = raw(&game, 0).unwrap();
+    assert_eq!(&raw.left.active[..], [true, false]);
+    assert!((raw.left.places[1][0] - 0.5).abs() < 1e-6);
+}
+
+#[test]
+fn blocks_cover_the_vector_and_bounds_hold() {
+    let mut next = 0;
+    for block in layout::SIMPLE115_BLOCKS {
+        assert_eq!(block.start, next);
+        next += block.len;
+    }
+    assert_eq!(next, layout::SIMPLE115);
+    let (low, high) = layout::simple115_bounds();
+    let mut game = game();
+    game.ball.pos = Vec3::new(1e6, -1e6, 1e6);
+    game.ball.vel = Vec3::splat(-1e6);
+    let mut out = [0.0; layout::SIMPLE115];
+    simple115(&game, 0, &mut out).unwrap();
+    for (at, value) in out.iter().enumerate() {
+        assert!((low[at]..=high[at]).contains(value), "{at}: {value}");
+    }
+}
+
+#[test]
+fn the_map_has_four_planes() {
+    let mut out = vec![7; smm_size(SMM_WIDTH, SMM_HEIGHT)];
+    smm(&game(), 0, SMM_WIDTH, SMM_HEIGHT, &mut out).unwrap();
+    let at = |column: usize, row: usize| &out[(row * SMM_WIDTH + column) * 4..][..4];
+    // (0.5, 0.1): column 0.75 * 96, row (0.1 + 4/9) / (8/9) * 72 = 44.1.
+    assert_eq!(at(72, 44), [255, 0, 0, 255]);
+    assert_eq!(at(72, 27), [0, 0, 255, 0]);
+    assert_eq!(at(0, 36), [255, 0, 0, 0]);
+    assert_eq!(at(95, 36), [0, 255, 0, 0]);
+    assert_eq!(out.iter().filter(|byte| **byte == 255).count(), 5);
+    assert!(out.iter().all(|byte| matches!(byte, 0 | 255)));
+}
+
+#[test]
+fn raw_tells_everything() {
+    let mut game = game();
+    game.agents[0].sticky = 1 << StickyAction::Sprint.index();
+    let raw = raw(&game, 0).unwrap();
+    assert_eq!(raw.left.places.len(), 2);
+    assert_eq!(raw.right.roles[0], 0);
+    assert_eq!(raw.left.roles[1], 9);
+    assert_eq!((raw.active, raw.designated, raw.game_mode, raw.steps_left), (1, 1, 4, 50));
+    assert_eq!(raw.sticky_actions, [0, 0, 0, 0, 0, 0, 0, 0, 1, 0]);
+    assert!((raw.ball_direction[1] - 0.01).abs() < 1e-6 && (raw.ball_direction[2] - 0.2).abs() < 1e-6);
+}
+
+#[test]
+fn sizes_and_agents_are_checked() {
+    let game = game();
+    assert_eq!(simple115(&game, 0, &mut [0.0; 3]), Err(ObserveError::Size { expected: 115, found: 3 }));
+    assert_eq!(simple115(&game, 2, &mut [0.0; 115]), Err(ObserveError::Agent { agent: 2, n_agents: 2 }));
+    assert!(smm(&game, 0, 96, 72, &mut [0; 5]).is_err());
+    assert!(raw(&game, 5).is_err() && action_mask(&game, 5).is_err());
+}
+
+#[test]
+fn the_mask_leaves_what_can_matter() {
+    let mut game = game();
+    game.agents[0].sticky = 1 << StickyAction::Right.index() | 1 << StickyAction::Sprint.index();
+    let mask = action_mask(&game, 0).unwrap();
+    let open = |action: Action| mask[action.index()];
+    assert!(open(Action::Idle) && open(Action::Left) && open(Action::ReleaseDirection) && open(Action::Shot));
+    assert!(!open(Action::Right) && !open(Action::Sprint) && open(Action::ReleaseSprint));
+    assert!(open(Action::Dribble) && !open(Action::ReleaseDribble) && !open(Action::Sliding));
+    // The keeper of the other side has no ball to pass.
+    let mask = action_mask(&game, 1).unwrap();
+    assert!(!mask[Action::ShortPass.index()] && mask[Action::Sliding.index()]);
+    game.players[1].active = false;
+    assert_eq!(action_mask(&game, 0).unwrap().iter().filter(|open| **open).count(), 1);
+}

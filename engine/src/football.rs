@@ -1,25 +1,74 @@
 //! The game: players, touches, kicks, the referee.
+//!
+//! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
+//! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
+//! [`movement`] and [`separation`] move bodies; [`reach`] says who is at the ball first; [`touch`], [`duel`],
+//! [`slide`], [`kick`] and [`keeper`] play it; [`flight`] says what that means; [`referee`], [`offside`], [`foul`] stop
+//! play and [`restart`] goes on.
 
+pub mod begin;
+pub mod body;
+pub mod clock;
+pub mod duel;
+pub mod fatigue;
+pub mod flight;
+pub mod forecast;
+pub mod foul;
+pub mod keeper;
+pub mod kick;
+pub mod movement;
+pub mod noise;
+pub mod offside;
+pub mod pass_target;
+pub mod play;
+pub mod possession;
+pub mod reach;
+pub mod referee;
+pub mod report;
+pub mod restart;
+pub mod separation;
+pub mod set_piece;
+pub mod shot;
+pub mod slide;
+pub mod stats;
+pub mod tick;
+pub mod touch;
+
+use crate::control;
 use crate::event::Events;
 use crate::physics::Scratch;
 use crate::start::Drawn;
 use crate::state::Match;
+use setpiece_scenario::pitch::TICKS_PER_STEP;
 use setpiece_scenario::vocabulary::Action;
 
 /// The match that a drawn start begins with.
 pub fn begin(drawn: &Drawn) -> Match {
-    Match::blank(drawn)
+    begin::begin(drawn)
 }
 
 /// Plays one step of 100 ms: `actions[i]` is slot i's, in the own frame of its team. Stops early when play stops
 /// (`Match::dead`), so that goals and the ball out of play are judged where they happened.
 pub fn play_step(game: &mut Match, actions: &[Action], events: &mut Events, scratch: &mut Scratch) {
-    let _ = (actions, events, scratch);
-    game.step += 1;
+    let from = game.tick;
+    if !game.dead {
+        control::command(game, actions, events);
+        for _ in 0..TICKS_PER_STEP {
+            tick::advance(game, events, scratch);
+            if game.dead {
+                break;
+            }
+        }
+        for player in game.players.iter_mut().filter(|p| p.active) {
+            player.heading_rad = crate::math::heading(player.body.facing);
+        }
+        possession::remember(game);
+        fatigue::tire(game, game.tick - from);
+    }
+    clock::end_step(game, events);
 }
 
 /// Applies the restart that a stop of play calls for: ball and players are placed, `dead` ends. Dead time costs no step.
 pub fn restart(game: &mut Match, events: &mut Events) {
-    let _ = events;
-    game.dead = false;
+    restart::apply(game, events);
 }

@@ -1,5 +1,7 @@
 //! The match: one simulation, plain data. A copy of it is a snapshot.
 
+use crate::football::body::Body;
+use crate::football::play::Play;
 use crate::random::Stream;
 use crate::start::Drawn;
 use arrayvec::ArrayVec;
@@ -82,6 +84,8 @@ pub struct Match {
     pub play_random: Stream,
     /// Decisions of bots.
     pub bot_random: Stream,
+    /// What the game keeps beside that: flights, set pieces, the teams' plans.
+    pub play: Play,
 }
 
 impl Match {
@@ -131,6 +135,8 @@ pub struct Player {
     pub yellow_cards: u8,
     /// 0..1.
     pub difficulty: f32,
+    /// What `football` and `control` keep of him.
+    pub body: Body,
 }
 
 /// An agent's slot.
@@ -164,6 +170,7 @@ impl Match {
                 fatigue: drawn_player.map_or(0.0, |p| p.fatigue),
                 yellow_cards: drawn_player.map_or(0, |p| p.yellow_cards),
                 difficulty: drawn_player.map_or(0.0, |p| p.difficulty),
+                body: Body::blank(),
             }
         };
         Match {
@@ -193,6 +200,7 @@ impl Match {
                 .collect(),
             play_random: Stream::new(drawn.seed, drawn.index, Purpose::Play),
             bot_random: Stream::new(drawn.seed, drawn.index, Purpose::Bot),
+            play: Play::blank(),
         }
     }
 }

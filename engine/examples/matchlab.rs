@@ -1,0 +1,190 @@
+//! Plays matches and scenarios without a scenario file and prints their statistics: the bench on which the game is tuned.
+//!
+//! `cargo run -p setpiece-engine --example matchlab -- [full|scenarios|look|curves] [N] [LEFT RIGHT]`
+
+#[path = "matchlab/layouts.rs"]
+mod layouts;
+#[path = "matchlab/tally.rs"]
+mod tally;
+
+use layouts::{Layout, drawn};
+use setpiece_engine::control::agents::Agent;
+use setpiece_engine::event::Events;
+use setpiece_engine::football;
+use setpiece_engine::physics::Scratch;
+use setpiece_engine::random::Stream;
+use setpiece_engine::state::Match;
+use setpiece_scenario::vocabulary::{Action, EventKind};
+use tally::Tally;
+
+fn main() {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let count = args.get(1).and_then(|n| n.parse().ok()).unwrap_or(20);
+    let level = |i: usize, default: f32| args.get(i).and_then(|n| n.parse().ok()).unwrap_or(default);
+    match args.first().map_or("full", String::as_str) {
+        "full" => full(count, level(2, 1.0), level(3, 0.6)),
+        "scenarios" => scenarios(count),
+        "look" => look(count as u64, level(2, 1.0), level(3, 0.6)),
+        "curves" => curves(),
+        other => eprintln!("unknown mode {other}"),
+    }
+}
+
+fn full(count: usize, left: f32, right: f32) {
+    let mut total = Tally::default();
+    for i in 0..count {
+        let mut start = drawn(Layout::Eleven, i as u64);
+        layouts::set_level(&mut start, [left, right]);
+        let mut game = football::begin(&start);
+        let (mut events, mut scratch) = (Events::new(), Scratch::default());
+        for _ in 0..3000 {
+            events.clear();
+            football::play_step(&mut game, &[Action::BuiltinAi], &mut events, &mut scratch);
+            total.step(&game, &events);
+            if game.dead {
+                football::restart(&mut game, &mut events);
+            }
+        }
+        total.matched(&game);
+    }
+    println!("{left} v {right}\n{total}");
+}
+
+/// Plays an Academy scenario to its end: 1 a goal by left, -1 one by right, 0 else; and the length.
+fn episode(layout: Layout, agent: Agent, seed: u64) -> (i32, u32, &'static str) {
+    let start = drawn(layout, seed);
+    let mut game = football::begin(&start);
+    let (mut events, mut scratch) = (Events::new(), Scratch::default());
+    let mut stream = Stream::new(seed, 0, setpiece_engine::random::Purpose::Agent);
+    let mut held = None;
+    for step in 1..=400 {
+        let action = agent.act(&game, 0, &mut stream);
+        events.clear();
+        football::play_step(&mut game, &[action], &mut events, &mut scratch);
+        if game.score != [0, 0] {
+            return (i32::from(game.score[0]) - i32::from(game.score[1]), step, "goal");
+        }
+        if events.as_slice().iter().any(|e| e.kind == EventKind::OutOfPlay) || game.dead {
+            return (0, step, "out");
+        }
+        if let Some(owner) = game.owner {
+            if held.is_some_and(|team| team != owner.team()) {
+                return (0, step, "lost");
+            }
+            held = Some(owner.team());
+        }
+    }
+    (0, 400, "limit")
+}
+
+fn scenarios(count: usize) {
+    for layout in Layout::ACADEMY {
+        for agent in [Agent::RunAndShoot, Agent::Idle, Agent::Random] {
+            let (mut score, mut wins, mut length) = (0, 0, 0);
+            let mut ends = std::collections::BTreeMap::new();
+            for i in 0..count {
+                let (goal, steps, end) = episode(*layout, agent, i as u64);
+                score += goal;
+                wins += i32::from(goal > 0);
+                length += steps;
+                *ends.entry(end).or_insert(0) += 1;
+            }
+            let n = count as f32;
+            println!(
+                "{layout:?} {agent:?}: success {:.3} score {:+.3} length {:.1} {ends:?}",
+                wins as f32 / n,
+                score as f32 / n,
+                length as f32 / n
+            );
+        }
+    }
+}
+
+fn look(seed: u64, left: f32, right: f32) {
+    let mut start = drawn(Layout::Eleven, seed);
+    layouts::set_level(&mut start, [left, right]);
+    let mut game = football::begin(&start);
+    let (mut events, mut scratch) = (Events::new(), Scratch::default());
+    for step in 0..600 {
+        events.clear();
+        football::play_step(&mut game, &[Action::BuiltinAi], &mut events, &mut scratch);
+        for e in events.as_slice() {
+            if !matches!(e.kind, EventKind::Touch) {
+                println!(
+                    "  {step:4} {:?} {:?} by {:?} to {:?} at {:.1} v {:.1}",
+                    e.kind,
+                    e.qualifier,
+                    e.by.map(|p| p.0),
+                    e.to.map(|p| p.0),
+                    e.at,
+                    e.speed_mps
+                );
+            }
+        }
+        if step % 15 == 0 {
+            print_pitch(&game);
+        }
+        if game.dead {
+            football::restart(&mut game, &mut events);
+        }
+    }
+}
+
+fn print_pitch(game: &Match) {
+    const W: usize = 112;
+    const H: usize = 37;
+    let mut rows = vec![vec![' '; W]; H];
+    let mut put = |x: f32, y: f32, c: char| {
+        let col = ((x + 56.0).clamp(0.0, 111.0)) as usize;
+        let row = (((y + 37.0) / 2.0).clamp(0.0, 36.0)) as usize;
+        rows[row][col] = c;
+    };
+    for (i, p) in game.players.iter().enumerate().filter(|(_, p)| p.active) {
+        let c = if i < 11 { char::from(b'a' + i as u8) } else { char::from(b'A' + (i - 11) as u8) };
+        put(p.pos.x, p.pos.y, c);
+    }
+    put(game.ball.pos.x, game.ball.pos.y, '*');
+    println!(
+        "step {} score {:?} owner {:?} ball {:.1} v {:.1}",
+        game.step,
+        game.score,
+        game.owner.map(|p| p.0),
+        game.ball.pos,
+        game.ball.vel
+    );
+    for row in rows {
+        println!("|{}|", row.into_iter().collect::<String>());
+    }
+}
+
+fn curves() {
+    for (name, keys, with_ball) in [
+        ("sprint", vec![Action::Right, Action::Sprint], false),
+        ("walk", vec![Action::Right], false),
+        ("dribble", vec![Action::Right, Action::Dribble], false),
+        ("sprint+ball", vec![Action::Right, Action::Sprint], true),
+        ("walk+ball", vec![Action::Right], true),
+        ("dribble+ball", vec![Action::Right, Action::Dribble], true),
+    ] {
+        let start = drawn(if with_ball { Layout::AloneWithBall } else { Layout::Alone }, 0);
+        let mut game = football::begin(&start);
+        let (mut events, mut scratch) = (Events::new(), Scratch::default());
+        let mut line = String::new();
+        let id = game.agents[0].player.unwrap();
+        let mut before = game.player(id).pos;
+        for step in 0..60 {
+            let action = keys.get(step).copied().unwrap_or(Action::Idle);
+            events.clear();
+            football::play_step(&mut game, &[action], &mut events, &mut scratch);
+            let now = game.player(id).pos;
+            if step < 24 || step % 6 == 0 {
+                line += &format!("{:.2} ", now.distance(before) * 10.0);
+            }
+            before = now;
+            if game.dead {
+                break;
+            }
+        }
+        println!("{name}: {line} owner {:?} pos {:.1} ball {:.1}", game.owner, before, game.ball.pos);
+    }
+}

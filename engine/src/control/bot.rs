@@ -1,0 +1,231 @@
+//! The built-in bot: it plays everyone whom no agent drives.
+//!
+//! Decides in this order: a set piece that is his, the ball in his hands or at his feet ([`on_ball`]), going for the
+//! ball ([`press`]), marking ([`mark`]), support ([`support`]), else his place in the block ([`formation`]); keepers by
+//! [`keeper`]. Decisions are staggered: the ball's neighbourhood every step, the rest every fourth.
+
+pub mod formation;
+pub mod keeper;
+pub mod mark;
+pub mod on_ball;
+pub mod press;
+pub mod support;
+pub mod taker;
+
+use crate::control::agents;
+use crate::event::Events;
+use crate::football::body::{Intent, KickKind};
+use crate::football::touch;
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{Action, Role, Rule, StickyAction, Team};
+use setpiece_scenario::{Ai, Others};
+
+/// Steps between two decisions of a player far from the ball.
+const STAGGER: u32 = 4;
+
+/// What a team's bots know of the game in a step.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// Whose.
+    pub team: Team,
+    /// +1 if the team attacks towards +x.
+    pub side: f32,
+    /// The ball, own frame, metres.
+    pub ball: Vec2,
+    /// Whoever has the ball or dribbles it.
+    pub owner: Option<PlayerId>,
+    /// 0 the others have it, 1 we have it, smoothed.
+    pub bias: f32,
+    /// The offside line for us, own frame x, metres.
+    pub line_x: f32,
+    /// The block.
+    pub block: formation::Block,
+}
+
+impl View {
+    /// What a team knows now.
+    pub fn of(game: &Match, team: Team) -> View {
+        let side = team.side() as f32;
+        let owner = game.owner.or_else(|| touch::controller(game));
+        let share = if team == Team::Left { game.play.share } else { 1.0 - game.play.share };
+        let bias = formation::bias(share, game.play.ball_mean.x * side);
+        View {
+            team,
+            side,
+            ball: game.ball.pos.truncate() * side,
+            owner,
+            bias,
+            line_x: crate::football::offside::line(game, team),
+            block: formation::block(game, team, bias),
+        }
+    }
+
+    /// Whether the team has the ball or is about to.
+    pub fn attacks(&self, game: &Match) -> bool {
+        if let Some(owner) = self.owner {
+            return owner.team() == self.team;
+        }
+        if let Some(pass) = game.play.pass {
+            return pass.by.team() == self.team;
+        }
+        game.possession == Some(self.team)
+    }
+}
+
+/// Lets the bot decide for everyone whom no agent drives.
+pub fn think(game: &mut Match, events: &mut Events) {
+    if game.play.set_piece.is_some() {
+        taker::think(game);
+        return;
+    }
+    let views = [View::of(game, Team::Left), View::of(game, Team::Right)];
+    for team in [Team::Left, Team::Right] {
+        if game.step.is_multiple_of(STAGGER) {
+            mark::assign(game, &views[team.index()]);
+        }
+    }
+    for i in 0..PLAYERS_MAX {
+        let id = PlayerId(i as u8);
+        let driven = game.play.driven & (1 << i) != 0;
+        if !game.players[i].active || driven {
+            continue;
+        }
+        match ai_of(game, id) {
+            Ai::Lazy => game.players[i].body.intent = Intent::Stand,
+            Ai::Hold => hold(game, id),
+            Ai::Bot | Ai::Script(_) => decide(game, events, &views[id.team().index()], id),
+        }
+    }
+}
+
+/// Who plays him now: his own `ai`, or what the scenario says of an agent's mates.
+fn ai_of(game: &Match, id: PlayerId) -> Ai {
+    let ai = game.player(id).ai;
+    let mates_hold = game.play.others == Others::Hold && game.play.led[id.team().index()];
+    if ai == Ai::Bot && mates_hold { Ai::Hold } else { ai }
+}
+
+/// Stands, but plays a ball that comes to him.
+fn hold(game: &mut Match, id: PlayerId) {
+    let near = game.player(id).pos.distance_squared(game.ball.pos.truncate()) < 36.0;
+    let his = game.play.chaser[id.team().index()] == Some(id) && near;
+    let body = &mut game.players[id.index()].body;
+    body.dribble = Vec2::ZERO;
+    body.intent = if his { Intent::Ball(5.0) } else { Intent::Stand };
+}
+
+/// One player's decision.
+fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
+    let index = id.team().index();
+    let has_ball = view.owner == Some(id);
+    if game.player(id).role == Role::GK && !has_ball && keeper::stands(game, view, id) {
+        return;
+    }
+    if has_ball {
+        if may_decide(game, id) {
+            on_ball::decide(game, view, id);
+        } else {
+            keep(game, id);
+        }
+        return;
+    }
+    if game.play.chaser[index] == Some(id) || game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
+        press::first(game, events, view, id);
+        return;
+    }
+    let due = (game.step + u32::from(id.0)).is_multiple_of(STAGGER);
+    if game.play.second[index] == Some(id) && !view.attacks(game) {
+        press::second(game, view, id);
+        return;
+    }
+    let was_on_ball = matches!(game.player(id).body.intent, Intent::Ball(_));
+    if !due && !was_on_ball {
+        return;
+    }
+    game.players[id.index()].body.kick = None;
+    if view.attacks(game) {
+        support::place(game, view, id);
+    } else {
+        mark::place(game, view, id);
+    }
+}
+
+/// Whether the bot may pass and shoot for him: not for the mates of an agent who can be given to it.
+fn may_decide(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    let team = id.team();
+    let switches = game.agents.iter().any(|slot| slot.team == team && !slot.fixed);
+    !game.play.led[team.index()] || player.role == Role::GK || !player.controllable || !switches
+}
+
+/// Keeps the ball where it is.
+fn keep(game: &mut Match, id: PlayerId) {
+    let body = &mut game.players[id.index()].body;
+    body.dribble = Vec2::ZERO;
+    body.intent = Intent::Ball(3.5);
+}
+
+/// Sends a player to a point of the own frame.
+pub fn send(game: &mut Match, view: &View, id: PlayerId, to: Vec2, speed: f32) {
+    let to = to.clamp(Vec2::new(-54.5, -35.5), Vec2::new(54.5, 35.5)) * view.side;
+    let body = &mut game.players[id.index()].body;
+    body.dribble = Vec2::ZERO;
+    body.intent = Intent::Go(to, speed);
+}
+
+/// The bot's choice for a player as an agent's action: the kick it plans, else the direction it runs, else its gait.
+///
+/// The match is not changed. A player without a slot is judged as one that holds nothing.
+pub fn bot_action(game: &Match, id: PlayerId) -> Action {
+    let mut copy = game.clone();
+    copy.play.driven &= !(1 << id.0);
+    copy.play.led = [false; 2];
+    copy.players[id.index()].body.kick = None;
+    copy.players[id.index()].body.mind.decide_at_step = 0;
+    let mut events = Events::new();
+    if copy.play.set_piece.is_some() {
+        taker::think(&mut copy);
+    } else {
+        let view = View::of(&copy, id.team());
+        decide(&mut copy, &mut events, &view, id);
+    }
+    let side = id.team().side() as f32;
+    let player = copy.player(id);
+    if let Some(plan) = player.body.kick {
+        return match plan.kind {
+            KickKind::Short => Action::ShortPass,
+            KickKind::Long => Action::LongPass,
+            KickKind::High | KickKind::Clear => Action::HighPass,
+            KickKind::Shot => Action::Shot,
+        };
+    }
+    let (way, speed) = match player.body.intent {
+        Intent::Stand => (Vec2::ZERO, 0.0),
+        Intent::Run(velocity) => (velocity, velocity.length()),
+        Intent::Go(to, speed) => (to - player.pos, speed),
+        Intent::Ball(speed) if player.body.dribble != Vec2::ZERO => (player.body.dribble, speed),
+        Intent::Ball(speed) => (player.body.meet - player.pos, speed),
+    };
+    let held = game.agents.iter().find(|slot| slot.player == Some(id)).map_or(0, |slot| slot.sticky);
+    if way.length() < 0.5 {
+        return if held & 0xff != 0 { Action::ReleaseDirection } else { Action::Idle };
+    }
+    let wanted = agents::direction_action(way * side);
+    let sprint = 1 << StickyAction::Sprint.index();
+    if held & (1 << (wanted.index() - Action::Left.index())) == 0 {
+        wanted
+    } else if speed > 6.0 && held & sprint == 0 {
+        Action::Sprint
+    } else if speed < 5.5 && held & sprint != 0 {
+        Action::ReleaseSprint
+    } else {
+        Action::Idle
+    }
+}
+
+/// Whether chance is on for the bots of a match.
+pub fn whimsical(game: &Match) -> bool {
+    game.rule(Rule::Stochastic)
+}

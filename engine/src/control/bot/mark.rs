@@ -1,0 +1,83 @@
+//! Defending without the ball: the most dangerous opponents are marked, the rest keep the block.
+
+use crate::control::bot::{View, formation, send};
+use crate::football::movement::{RUN_MPS, SPRINT_MPS};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::Role;
+
+/// How many opponents are marked.
+const MARKED: usize = 4;
+
+/// Gives the most dangerous opponents a marker each.
+pub fn assign(game: &mut Match, view: &View) {
+    for i in 0..game.players.len() {
+        if PlayerId(i as u8).team() == view.team {
+            game.players[i].body.mind.mark = None;
+        }
+    }
+    let goal = Vec2::new(-53.0, 0.0);
+    let mut taken = 0u32;
+    for _ in 0..MARKED {
+        let mut worst: Option<(f32, PlayerId, Vec2)> = None;
+        for (rival, other) in game.team(view.team.other()) {
+            let pos = other.pos * view.side;
+            let danger = 110.0 - pos.distance(goal) * 0.8 - pos.distance(view.ball) * 0.2;
+            let open = taken & (1 << rival.0) == 0 && view.owner != Some(rival) && other.role != Role::GK;
+            if open && pos.x < 15.0 && worst.is_none_or(|(most, _, _)| danger > most) {
+                worst = Some((danger, rival, pos));
+            }
+        }
+        let Some((_, rival, pos)) = worst else { return };
+        taken |= 1 << rival.0;
+        let post = goal_side(pos);
+        let mut best: Option<(f32, PlayerId)> = None;
+        for (id, player) in game.team(view.team) {
+            let busy = game.play.chaser[view.team.index()] == Some(id) || player.body.mind.mark.is_some();
+            if player.role == Role::GK || busy || player.body.mind.mindset > 0.7 {
+                continue;
+            }
+            let own = player.pos * view.side;
+            let distance = own.distance(post) + 6.0 * player.body.mind.mindset + if own.x > pos.x { 4.0 } else { 0.0 };
+            if best.is_none_or(|(least, _)| distance < least) {
+                best = Some((distance, id));
+            }
+        }
+        if let Some((distance, id)) = best
+            && distance < 22.0
+        {
+            game.players[id.index()].body.mind.mark = Some(rival);
+        }
+    }
+}
+
+/// Where a marker stands: between his man and the goal, nearer to him the nearer the goal.
+fn goal_side(pos: Vec2) -> Vec2 {
+    let goal = Vec2::new(-54.0, 0.0);
+    let way = goal - pos;
+    let length = way.length().max(1.0);
+    pos + way * ((length * 0.1).clamp(1.2, 4.5) / length)
+}
+
+/// Sends a defender to his man, or to his place.
+pub fn place(game: &mut Match, view: &View, id: PlayerId) {
+    let player = *game.player(id);
+    let own = player.pos * view.side;
+    let mut to = formation::place(game, view, id);
+    let mut speed: f32 = RUN_MPS;
+    if let Some(rival) = player.body.mind.mark {
+        let other = game.player(rival);
+        let man = other.pos * view.side;
+        let post = goal_side(man + other.vel * view.side * 0.4);
+        // The nearer to the own goal, the tighter.
+        let weight = (0.85 - (man.x + 55.0) / 110.0 * 0.7).clamp(0.15, 0.85);
+        to += (post - to) * weight;
+        speed = 6.5;
+    }
+    // Whoever is caught up the pitch runs back.
+    let behind = own.x - to.x;
+    if behind > 8.0 || (behind > 3.0 && own.x > view.ball.x) {
+        speed = SPRINT_MPS;
+    }
+    send(game, view, id, to, speed);
+}

@@ -1,0 +1,369 @@
+//! With the ball: shoot, pass, clear or run on.
+//!
+//! Every choice is rated on one scale, about the chance that it leads to a goal; the best one is taken, with a little
+//! whim and more of it at a low level.
+
+use crate::control::bot::View;
+use crate::football::body::{Intent, KickKind, KickPlan};
+use crate::football::movement::SPRINT_MPS;
+use crate::football::{kick, noise, pass_target};
+use crate::math;
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::{Role, Rule, Stat};
+
+/// A choice and what it is worth.
+#[derive(Clone, Copy, Debug)]
+struct Choice {
+    worth: f32,
+    act: Act,
+}
+
+/// What to do.
+#[derive(Clone, Copy, Debug)]
+enum Act {
+    Shoot(Vec2),
+    Pass(PlayerId, KickKind),
+    Clear,
+    Run(Vec2, f32),
+}
+
+/// Steps between two thoughts.
+const PAUSE_STEPS: u32 = 2;
+
+/// Decides for the player on the ball.
+pub fn decide(game: &mut Match, view: &View, id: PlayerId) {
+    let now = game.step;
+    if let Some((keeper, since)) = game.play.hands
+        && keeper == id
+    {
+        release(game, view, id, since);
+        return;
+    }
+    let player = *game.player(id);
+    game.players[id.index()].body.intent = Intent::Ball(SPRINT_MPS);
+    if player.body.kick.is_some() || now < player.body.mind.decide_at_step {
+        return;
+    }
+    let slow = if player.body.level < 0.6 { 1 } else { 0 };
+    game.players[id.index()].body.mind.decide_at_step = now + PAUSE_STEPS + slow;
+    let choice = best(game, view, id, true);
+    perform(game, view, id, choice);
+}
+
+/// A first-time kick: he decides just before the ball comes.
+pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
+    let player = *game.player(id);
+    if player.body.kick.is_some() || game.play.led[view.team.index()] {
+        return;
+    }
+    let own = player.body.meet * view.side;
+    let crowded = nearest_rival(game, id, player.body.meet) < 2.5;
+    let close = own.distance(Vec2::new(54.0, 0.0)) < 15.0;
+    let danger = own.x < -38.0 && crowded;
+    if !close && !danger {
+        return;
+    }
+    let choice = best(game, view, id, false);
+    if matches!(choice.act, Act::Shoot(_) | Act::Clear) {
+        perform(game, view, id, choice);
+    }
+}
+
+/// The best of all choices.
+fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
+    let player = *game.player(id);
+    let fickle = 0.012 + 0.05 * (1.0 - player.body.level);
+    let mut best = Choice { worth: f32::MIN, act: Act::Clear };
+    let mut offer = |game: &mut Match, worth: f32, act: Act| {
+        let worth = worth + (noise::whim(game) - 0.5) * 2.0 * fickle;
+        if worth > best.worth {
+            best = Choice { worth, act };
+        }
+    };
+    let own = player.pos * view.side;
+    let (chance, target) = shot_chance(game, view, id);
+    if chance > 0.045 {
+        offer(game, chance * 1.5, Act::Shoot(target));
+    }
+    let mates: arrayvec::ArrayVec<PlayerId, 11> =
+        game.team(view.team).map(|(mate, _)| mate).filter(|mate| *mate != id).collect();
+    for mate in mates {
+        let (worth, kind) = pass_worth(game, view, id, mate);
+        offer(game, worth, Act::Pass(mate, kind));
+    }
+    if with_run {
+        for step in 0..8u8 {
+            let angle = f32::from(step) * std::f32::consts::FRAC_PI_4;
+            let way = math::unit(angle);
+            let (worth, speed) = run_worth(game, view, id, way);
+            offer(game, worth, Act::Run(way, speed));
+        }
+    }
+    let crowded = nearest_rival(game, id, player.pos) < 2.5;
+    if own.x < -30.0 && crowded {
+        offer(game, value(own) + 0.012, Act::Clear);
+    }
+    best
+}
+
+/// Turns the choice into an intent or a kick.
+fn perform(game: &mut Match, view: &View, id: PlayerId, choice: Choice) {
+    let now = game.tick as i32;
+    let body = &mut game.players[id.index()].body;
+    body.intent = Intent::Ball(SPRINT_MPS);
+    let plan = KickPlan {
+        kind: KickKind::Short,
+        dir: None,
+        mate: None,
+        point: None,
+        power: 0.0,
+        ready_at: now + 14,
+        until: now + 70,
+    };
+    match choice.act {
+        Act::Shoot(point) => {
+            let luck = noise::whim(game);
+            let plan =
+                KickPlan { kind: KickKind::Shot, point: Some(point * view.side), power: 0.55 + 0.4 * luck, ..plan };
+            game.players[id.index()].body.kick = Some(plan);
+        }
+        Act::Pass(mate, kind) => {
+            body.dribble = Vec2::ZERO;
+            body.kick = Some(KickPlan { kind, mate: Some(mate), ..plan });
+        }
+        Act::Clear => {
+            let own = body.meet * view.side;
+            let wide = if own.y < 0.0 { -0.7 } else { 0.7 };
+            let dir = Vec2::new(1.0, wide).normalize_or_zero() * view.side;
+            body.kick = Some(KickPlan { kind: KickKind::Clear, dir: Some(dir), ..plan });
+        }
+        Act::Run(way, speed) => body.dribble = way * (speed * view.side),
+    }
+}
+
+/// The keeper lets the ball go: soon if a mate is free, in any case after four seconds.
+fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
+    game.players[id.index()].body.intent = Intent::Stand;
+    let held_ticks = game.tick.saturating_sub(since);
+    if held_ticks < 60 || game.player(id).body.kick.is_some() {
+        return;
+    }
+    let player = *game.player(id);
+    let mut best: Option<(f32, PlayerId)> = None;
+    for (mate, other) in game.team(view.team) {
+        let distance = other.pos.distance(player.pos);
+        if mate == id || !(8.0..45.0).contains(&distance) {
+            continue;
+        }
+        let free = lane(game, view, player.pos, pass_target::lead(other, distance), 15.0);
+        let room = nearest_rival(game, mate, other.pos).min(10.0) / 10.0;
+        let worth = free * room - (distance - 15.0).max(0.0) * 0.012;
+        if best.is_none_or(|(most, _)| worth > most) {
+            best = Some((worth, mate));
+        }
+    }
+    let now = game.tick as i32;
+    let plan = |kind, mate, point: Option<Vec2>| KickPlan {
+        kind,
+        dir: None,
+        mate,
+        point,
+        power: 0.0,
+        ready_at: now + 10,
+        until: now + kick::PATIENCE_TICKS,
+    };
+    let choice = match best {
+        Some((worth, mate)) if worth > 0.45 => plan(KickKind::Short, Some(mate), None),
+        _ if held_ticks > 250 => {
+            let y = (noise::whim(game) * 2.0 - 1.0) * 20.0;
+            let point = Vec2::new(2.0, y) * view.side;
+            plan(KickKind::High, None, Some(point))
+        }
+        _ => return,
+    };
+    game.players[id.index()].body.kick = Some(choice);
+}
+
+/// What having the ball at a place is worth: the chance of a goal from there, roughly. Own frame, metres.
+fn value(own: Vec2) -> f32 {
+    let forward = ((own.x + 55.0) / 110.0).clamp(0.0, 1.0);
+    let goal = own.distance(Vec2::new(54.0, 0.0));
+    let near = (1.0 - goal / 32.0).max(0.0);
+    let wing = (own.y.abs() / 36.0).powi(2) * 0.012;
+    0.012 + 0.065 * forward * forward + 0.20 * near * near - wing
+}
+
+/// The chance that a shot from here goes in, and the point it should aim at (own frame).
+fn shot_chance(game: &Match, view: &View, id: PlayerId) -> (f32, Vec2) {
+    let player = game.player(id);
+    let own = player.pos * view.side;
+    let goal = Vec2::new(55.0, 0.0);
+    let distance = own.distance(goal);
+    if distance > 30.0 || own.x > 54.0 {
+        return (0.0, goal);
+    }
+    let keeper =
+        game.team(view.team.other()).find(|(_, rival)| rival.role == Role::GK).map(|(_, rival)| rival.pos * view.side);
+    let ways = [Vec2::new(55.0, -2.9), Vec2::new(55.0, 2.9)];
+    let open = |post: Vec2| {
+        let line = (post - own).normalize_or_zero();
+        let off = keeper.map_or(4.0, |keeper| line.perp_dot(keeper - own).abs());
+        (off, post)
+    };
+    let (first, second) = (open(ways[0]), open(ways[1]));
+    let (off, target) = if first.0 >= second.0 { first } else { second };
+    // How wide the goal looks from here, radians.
+    let wide = math::wrap(math::heading(Vec2::new(55.0, 3.7) - own) - math::heading(Vec2::new(55.0, -3.7) - own)).abs();
+    let mut chance = (wide / 0.6).min(1.0) * (1.0 - distance / 34.0).max(0.0) * (0.30 + 0.16 * off.min(3.0));
+    let way = (goal - own).normalize_or_zero();
+    for (_, rival) in game.team(view.team.other()) {
+        let to = rival.pos * view.side - own;
+        let along = to.dot(way);
+        let aside = way.perp_dot(to).abs();
+        if rival.role != Role::GK && along > 0.3 && along < distance && aside < 0.5 + 0.06 * along {
+            chance *= 0.6;
+        }
+    }
+    (chance * (0.5 + 0.5 * player.skill(Stat::Shot)), target)
+}
+
+/// How free the lane of a pass is, 0..1: the time that rivals miss to cut it out. World points.
+fn lane(game: &Match, view: &View, from: Vec2, to: Vec2, speed: f32) -> f32 {
+    let way = to - from;
+    let length = way.length().max(0.5);
+    let along = way / length;
+    let mut free = 1.0f32;
+    for (_, rival) in game.team(view.team.other()) {
+        let place = rival.pos + rival.vel * 0.2;
+        let t = (place - from).dot(along);
+        if t < -1.0 || t > length + 4.0 {
+            continue;
+        }
+        let t = t.clamp(0.0, length);
+        let off = (from + along * t).distance(place);
+        let time = t / speed + 0.12;
+        let reach = 0.8 + 5.0 * (time - 0.1).max(0.0);
+        let spare = off / reach.max(0.6);
+        free = free.min(((spare - 0.45) / 0.9).clamp(0.0, 1.0));
+        if free <= 0.0 {
+            return 0.0;
+        }
+    }
+    free
+}
+
+/// What a pass to a mate is worth, and which kind is best.
+fn pass_worth(game: &Match, view: &View, id: PlayerId, mate: PlayerId) -> (f32, KickKind) {
+    let (player, other) = (game.player(id), game.player(mate));
+    let distance = other.pos.distance(player.pos);
+    let nothing = (f32::MIN, KickKind::Short);
+    if !(4.0..48.0).contains(&distance) {
+        return nothing;
+    }
+    let own_mate = other.pos * view.side;
+    if game.rule(Rule::Offside) && own_mate.x > view.line_x {
+        return nothing;
+    }
+    let own = player.pos * view.side;
+    let target = pass_target::lead(other, distance);
+    let loss = 0.10 * (1.0 - value_share(own)) + 0.012;
+    let rate = |free: f32, room: f32, at: Vec2, skill: f32, hard: f32| {
+        let odds = (0.12 + 0.86 * free) * (0.55 + 0.45 * room) * (1.0 - hard * (1.1 - skill));
+        odds * (value(at) + 0.012 * room) - (1.0 - odds) * loss
+    };
+    let rivals = nearest_rival(game, mate, target);
+    let room = (rivals / 5.0).min(1.0);
+    let ground_speed = (12.0 + distance * 0.4).min(20.0);
+    let short = rate(
+        lane(game, view, player.pos, target, ground_speed),
+        room,
+        target * view.side,
+        player.skill(Stat::ShortPass),
+        0.1 + distance * 0.006,
+    ) - (distance - 28.0).max(0.0) * 0.01;
+    let keeper = if other.role == Role::GK { 0.02 } else { 0.0 };
+    let mut best = (short - keeper, KickKind::Short);
+    // Ahead of a mate who runs at goal.
+    let running = other.vel.x * view.side > 3.0;
+    if running && distance < 32.0 && distance > 7.0 {
+        let goal = Vec2::new(55.0 * view.side, 0.0);
+        let ahead = target + (goal - target).normalize_or_zero() * (0.2 * distance).min(10.0);
+        let room = (nearest_rival(game, mate, ahead) / 5.0).min(1.0);
+        let free = lane(game, view, player.pos, ahead, ground_speed);
+        let worth = rate(free, room, ahead * view.side, player.skill(Stat::ShortPass), 0.15 + distance * 0.008);
+        if worth > best.0 {
+            best = (worth - keeper, KickKind::Long);
+        }
+    }
+    if distance > 18.0 {
+        let odds = 0.3 + 0.4 * (rivals / 7.0).min(1.0);
+        let at = target * view.side;
+        let cross = if own.y.abs() > 16.0 && own.x > 32.0 && at.x > 40.0 && at.y.abs() < 12.0 { 0.03 } else { 0.0 };
+        let worth = odds * player.skill(Stat::HighPass) * (value(at) + 0.01) - (1.0 - odds) * loss + cross;
+        if worth > best.0 {
+            best = (worth - keeper, KickKind::High);
+        }
+    }
+    best
+}
+
+/// The value of a place against the best, 0..1.
+fn value_share(own: Vec2) -> f32 {
+    ((own.x + 55.0) / 110.0).clamp(0.0, 1.0)
+}
+
+/// What running on in a direction of the own frame is worth, and how fast to run.
+fn run_worth(game: &Match, view: &View, id: PlayerId, way: Vec2) -> (f32, f32) {
+    let player = game.player(id);
+    let own = player.pos * view.side;
+    let to = own + way * 6.0;
+    if to.x.abs() > 53.5 || to.y.abs() > 35.0 {
+        return (f32::MIN, 0.0);
+    }
+    let mut free = 1.0f32;
+    let mut ahead_m = 20.0f32;
+    for (_, rival) in game.team(view.team.other()) {
+        let place = (rival.pos + rival.vel * 0.25) * view.side;
+        let to_rival = place - own;
+        let distance = to_rival.length();
+        if distance > 14.0 {
+            continue;
+        }
+        let cos = if distance > 0.1 { to_rival.dot(way) / distance } else { 1.0 };
+        let threat = if cos > 0.0 {
+            (1.0 - distance / (4.0 + 8.0 * cos)).max(0.0)
+        } else {
+            (1.0 - distance / 2.5).max(0.0) * 0.5
+        };
+        free = free.min(1.0 - threat);
+        if cos > 0.75 {
+            ahead_m = ahead_m.min(distance);
+        }
+    }
+    let dribble = player.skill(Stat::Dribble);
+    let keep = (0.50 + 0.48 * free) * (0.93 + 0.05 * dribble);
+    let loss = 0.10 * (1.0 - value_share(own)) + 0.012;
+    // Turning back costs the time that the others use.
+    let turn = if player.vel.length_squared() > 9.0 {
+        (1.0 - player.vel.normalize_or_zero().dot(way * view.side)) * 0.004
+    } else {
+        0.0
+    };
+    let worth = keep * value(to) - (1.0 - keep) * loss - turn;
+    let speed = if ahead_m > 9.0 && way.x > -0.2 {
+        SPRINT_MPS
+    } else if ahead_m > 4.0 {
+        5.0
+    } else {
+        3.8
+    };
+    (worth, speed)
+}
+
+/// Distance of the nearest opponent of a player from a world point, metres.
+pub fn nearest_rival(game: &Match, id: PlayerId, point: Vec2) -> f32 {
+    let least =
+        game.team(id.team().other()).fold(f32::MAX, |least, (_, rival)| least.min(rival.pos.distance_squared(point)));
+    libm::sqrtf(least)
+}

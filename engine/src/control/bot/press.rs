@@ -1,0 +1,108 @@
+//! Going for the ball: the first man chases or presses, the second covers behind him.
+
+use crate::control::bot::{View, on_ball, send};
+use crate::event::Events;
+use crate::football::body::Intent;
+use crate::football::movement::{RUN_MPS, SPRINT_MPS};
+use crate::football::{noise, slide};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::{Role, Stat};
+
+/// The first man.
+pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
+    let rival = view.owner.filter(|owner| owner.team() != view.team);
+    let held = game.play.hands.is_some_and(|(keeper, _)| keeper.team() != view.team);
+    let player = *game.player(id);
+    let own = player.pos * view.side;
+    if held {
+        send(game, view, id, Vec2::new(view.ball.x - 18.0, view.ball.y * 0.5), RUN_MPS);
+        return;
+    }
+    let Some(rival) = rival else {
+        let receives = game.play.pass.is_some_and(|pass| pass.by.team() == view.team);
+        let beaten = game.play.chaser[view.team.other().index()].map_or(9.0, |other| game.player(other).body.meet_s)
+            + 1.2
+            < player.body.meet_s;
+        if beaten && !receives && own.x > view.ball.x {
+            cover(game, view, id);
+            return;
+        }
+        let to_ball = player.body.meet - player.pos;
+        let body = &mut game.players[id.index()].body;
+        body.intent = Intent::Ball(SPRINT_MPS);
+        body.dribble = to_ball.clamp_length_max(2.0);
+        if player.body.meet_s < 0.7 {
+            on_ball::before_touch(game, view, id);
+        }
+        return;
+    };
+    let carrier = *game.player(rival);
+    let gap = player.pos.distance(carrier.pos);
+    let deep = (own.x + 55.0).max(0.0);
+    let zeal = (24.0 + 10.0 * player.body.mind.mindset.min(0.6)) * player.body.level * (1.0 - 0.3 * player.fatigue);
+    let goal_near = view.ball.x < -20.0;
+    if gap > zeal && !goal_near && deep < 95.0 {
+        cover(game, view, id);
+        return;
+    }
+    let body = &mut game.players[id.index()].body;
+    body.dribble = Vec2::new(2.0 * view.side, 0.0);
+    // Goal-side he goes straight in; chasing from behind he runs to where the carrier is going.
+    let goal_side = own.x < view.ball.x + 0.5;
+    if goal_side && gap < 2.2 && carrier.vel.length() > 4.0 && gap > 1.2 {
+        let ahead = game.ball.pos.truncate() + carrier.vel * 0.25;
+        let body = &mut game.players[id.index()].body;
+        body.intent = Intent::Go(ahead, SPRINT_MPS);
+        if gap < 1.0 {
+            body.intent = Intent::Ball(SPRINT_MPS);
+        }
+    } else {
+        game.players[id.index()].body.intent = Intent::Ball(SPRINT_MPS);
+    }
+    maybe_slide(game, events, view, id, rival);
+}
+
+/// Slides where a standing tackle comes too late.
+fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, rival: PlayerId) {
+    if game.play.led[view.team.index()] || game.player(id).role == Role::GK {
+        return;
+    }
+    let player = game.player(id);
+    let ball = game.ball.pos.truncate();
+    let gap = player.pos.distance(ball);
+    let fast = game.player(rival).vel.length() > 4.5;
+    let tackler = player.skill(Stat::SlidingTackle);
+    if !(1.0..2.0).contains(&gap) || !fast || game.ball.pos.z > 0.4 {
+        return;
+    }
+    if noise::whim(game) < 0.035 * (0.4 + tackler) {
+        slide::begin(game, events, id, None);
+    }
+}
+
+/// The second man.
+pub fn second(game: &mut Match, view: &View, id: PlayerId) {
+    if view.owner.is_none() && game.player(id).body.meet_s < 1.0 && game.play.pass.is_none() {
+        let body = &mut game.players[id.index()].body;
+        body.intent = Intent::Ball(SPRINT_MPS);
+        body.dribble = Vec2::ZERO;
+        return;
+    }
+    cover(game, view, id);
+}
+
+/// Stands between the ball and the own goal, some metres off.
+pub fn cover(game: &mut Match, view: &View, id: PlayerId) {
+    let goal = Vec2::new(-54.0, 0.0);
+    let way = goal - view.ball;
+    let length = way.length().max(1.0);
+    let off = (length * 0.25).clamp(3.5, 8.0);
+    let own = game.player(id).pos * view.side;
+    let block = super::formation::place(game, view, id);
+    let spot = view.ball + way * (off / length);
+    let weight = if own.distance(view.ball) < 25.0 || view.ball.x < -15.0 { 0.75 } else { 0.4 };
+    let to = block + (spot - block) * weight;
+    let speed = if own.x > view.ball.x - 1.0 { SPRINT_MPS } else { 6.5 };
+    send(game, view, id, to, speed);
+}

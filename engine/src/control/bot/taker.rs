@@ -1,0 +1,84 @@
+//! Set pieces by the bot: what the taker plays, and when.
+
+use crate::football::body::{Intent, KickKind, KickPlan};
+use crate::football::kick;
+use crate::football::noise;
+use crate::football::play::SetPiece;
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::GameMode;
+
+/// Steps that a bot waits before it plays a set piece.
+const WAIT_STEPS: u16 = 3;
+
+/// Everyone stands; a bot that is to take it plans its kick.
+pub fn think(game: &mut Match) {
+    let Some(set_piece) = game.play.set_piece else { return };
+    for i in 0..PLAYERS_MAX {
+        if game.play.driven & (1 << i) == 0 {
+            game.players[i].body.intent = Intent::Stand;
+        }
+    }
+    let taker = set_piece.taker;
+    let driven = game.play.driven & (1 << taker.0) != 0;
+    if driven || set_piece.waited_steps < WAIT_STEPS || game.player(taker).body.kick.is_some() {
+        return;
+    }
+    let plan = choose(game, set_piece);
+    game.players[taker.index()].body.kick = Some(plan);
+}
+
+/// What the taker plays.
+fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
+    let side = set_piece.team.side() as f32;
+    let own = set_piece.spot * side;
+    let luck = noise::whim(game);
+    let spread = noise::whim(game) * 2.0 - 1.0;
+    let now = game.tick as i32;
+    let base = KickPlan {
+        kind: KickKind::Short,
+        dir: None,
+        mate: None,
+        point: None,
+        power: 0.0,
+        ready_at: now + 10,
+        until: now + kick::PATIENCE_TICKS,
+    };
+    let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);
+    match set_piece.mode {
+        GameMode::Penalty => KickPlan {
+            kind: KickKind::Shot,
+            point: Some(Vec2::new(55.0 * side, spread * 3.2)),
+            power: 0.3 + 0.5 * luck,
+            ..base
+        },
+        GameMode::Corner if luck < 0.75 => {
+            let point = Vec2::new(46.5, spread * 7.0);
+            KickPlan { kind: KickKind::High, mate: near(point.x, point.y), point: Some(point * side), ..base }
+        }
+        GameMode::GoalKick if luck < 0.45 => KickPlan { kind: KickKind::High, mate: near(5.0, spread * 22.0), ..base },
+        GameMode::GoalKick => KickPlan { mate: near(-35.0, spread.signum() * 18.0), ..base },
+        GameMode::FreeKick if own.x > 29.0 && own.y.abs() < 16.0 => {
+            KickPlan { kind: KickKind::Shot, point: Some(Vec2::new(55.0 * side, spread * 3.3)), power: 0.5, ..base }
+        }
+        GameMode::FreeKick if own.x > 22.0 => {
+            let point = Vec2::new(46.0, spread * 8.0);
+            KickPlan { kind: KickKind::High, mate: near(point.x, point.y), point: Some(point * side), ..base }
+        }
+        GameMode::ThrowIn => KickPlan { mate: nearest(game, set_piece.taker, set_piece.spot), ..base },
+        _ => KickPlan { mate: near(own.x + 10.0, own.y * 0.7), ..base },
+    }
+}
+
+/// The mate nearest to a world point, the taker left out.
+fn nearest(game: &Match, taker: PlayerId, point: Vec2) -> Option<PlayerId> {
+    let mut best: Option<(f32, PlayerId)> = None;
+    for (mate, other) in game.team(taker.team()) {
+        let distance = other.pos.distance_squared(point);
+        if mate != taker && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, mate));
+        }
+    }
+    best.map(|(_, mate)| mate)
+}

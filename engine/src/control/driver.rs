@@ -1,0 +1,76 @@
+//! An agent's actions become what its player wants.
+
+use crate::control::{assist, sticky};
+use crate::event::Events;
+use crate::football::body::{Intent, KickKind, KickPlan};
+use crate::football::movement::{DRIBBLE_MPS, RUN_MPS, SPRINT_MPS};
+use crate::football::{kick, slide, touch};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::{Action, GameMode};
+
+/// Sets the intent and the planned kick of an agent's player.
+pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: u16, action: Action) {
+    let side = id.team().side() as f32;
+    let direction = sticky::direction(held).map(|dir| dir * side);
+    let gait = if sticky::sprints(held) {
+        SPRINT_MPS
+    } else if sticky::dribbles(held) {
+        DRIBBLE_MPS
+    } else {
+        RUN_MPS
+    };
+    let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
+    let wish = direction.unwrap_or(Vec2::ZERO) * gait;
+    let fetch = has_ball || game.player(id).body.kick.is_some() || assist::ball_is_his(game, id);
+    let body = &mut game.players[id.index()].body;
+    body.dribble = wish;
+    body.intent = if fetch {
+        Intent::Ball(if has_ball { gait.max(if direction.is_some() { 0.0 } else { RUN_MPS }) } else { SPRINT_MPS })
+    } else {
+        Intent::Run(wish)
+    };
+    match action {
+        Action::ShortPass => arm(game, id, KickKind::Short, direction),
+        Action::LongPass => arm(game, id, KickKind::Long, direction),
+        Action::HighPass => arm(game, id, KickKind::High, direction),
+        Action::Shot => arm(game, id, KickKind::Shot, direction),
+        Action::Sliding if !has_ball => slide::begin(game, events, id, direction),
+        _ => {}
+    }
+}
+
+/// Arms a kick, where the ball is his side's to play.
+fn arm(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>) {
+    if !may_arm(game, id) {
+        return;
+    }
+    let thrown = game.play.set_piece.is_some_and(|s| s.taker == id && s.mode == GameMode::ThrowIn);
+    if thrown && matches!(kind, KickKind::High | KickKind::Shot) {
+        return;
+    }
+    let now = game.tick as i32;
+    let body = &mut game.players[id.index()].body;
+    // A second press changes the kick, not its swing.
+    let ready_at = body.kick.map_or(now + kick::swing(kind), |plan| plan.ready_at);
+    body.kick =
+        Some(KickPlan { kind, dir, mate: None, point: None, power: 0.0, ready_at, until: now + kick::PATIENCE_TICKS });
+}
+
+/// Whether a kick can be asked for: he has the ball, or is nearer to it than every rival.
+pub fn may_arm(game: &Match, id: PlayerId) -> bool {
+    if let Some(set_piece) = game.play.set_piece {
+        return set_piece.taker == id;
+    }
+    if game.owner == Some(id) {
+        return true;
+    }
+    let team = id.team();
+    match touch::controller(game) {
+        Some(owner) => owner == id,
+        None => {
+            let rival = game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+            game.player(id).body.meet_s <= rival + 0.1 && game.play.hands.is_none()
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The first moment of a match.
+
+use crate::football::body::Body;
+use crate::football::play::Restart;
+use crate::football::{forecast, reach, restart, stats};
+use crate::start::Drawn;
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
+use setpiece_scenario::vocabulary::{GameMode, Rule, StartKind, Stat, Team};
+
+/// The match that a drawn start begins with.
+pub fn begin(drawn: &Drawn) -> Match {
+    let mut game = Match::blank(drawn);
+    for i in 0..PLAYERS_MAX {
+        let Some(start) = &drawn.players[i] else { continue };
+        let index = PlayerId(i as u8).in_team();
+        let player = &mut game.players[i];
+        let mut body = Body::blank();
+        body.stats = stats::stats_of(index, start);
+        body.level = 0.3 + 0.7 * start.difficulty.clamp(0.0, 1.0);
+        body.speed_top_mps = stats::speed_top(body.stats[Stat::Speed.index()]);
+        body.height_m = stats::height_of(index);
+        body.kickoff = start.kickoff.unwrap_or([start.pos; 2]);
+        let to_ball = (drawn.ball_pos.truncate() - start.pos).normalize_or(Vec2::X);
+        body.facing = start.heading_rad.map_or(to_ball, crate::math::unit);
+        player.body = body;
+        player.heading_rad = start.heading_rad.unwrap_or_else(|| crate::math::heading(to_ball));
+    }
+    crate::control::bot::formation::assign_slots(&mut game);
+    game.play.others = drawn.others;
+    game.play.ball_mean = drawn.ball_pos.truncate();
+    let nearest = nearest_team(&game);
+    game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
+    let half_time = game.rules[Rule::HalfTime.index()];
+    game.play.second_half = half_time > 0.0 && f64::from(drawn.elapsed_steps) >= half_time;
+    game.possession = drawn.owner.map(PlayerId::team);
+    forecast::renew(&mut game);
+    reach::assess(&mut game);
+    start_of(&mut game, drawn, nearest);
+    crate::control::switching::reassign(&mut game);
+    game
+}
+
+/// Sets up a start that isn't open play.
+fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
+    let team = drawn.taker.unwrap_or(nearest);
+    let side = team.side() as f32;
+    let ball = drawn.ball_pos.truncate();
+    let (half_x, half_y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+    let top = if ball.y < 0.0 { -1.0 } else { 1.0 };
+    let (mode, spot) = match drawn.kind {
+        StartKind::Open => return,
+        StartKind::Kickoff => (GameMode::KickOff, Vec2::ZERO),
+        StartKind::Corner => (GameMode::Corner, Vec2::new(half_x * side, half_y * top)),
+        StartKind::FreeKick => (GameMode::FreeKick, ball),
+        StartKind::ThrowIn => (GameMode::ThrowIn, Vec2::new(ball.x, half_y * top)),
+        StartKind::GoalKick => (GameMode::GoalKick, Vec2::new(-0.92 * half_x * side, 0.0)),
+        StartKind::Penalty => (GameMode::Penalty, Vec2::new((half_x - PENALTY_SPOT_M as f32) * side, 0.0)),
+    };
+    let placed: [Vec2; PLAYERS_MAX] = std::array::from_fn(|i| game.players[i].pos);
+    restart::place(game, Restart { mode, team, spot });
+    // The scenario's own places stand, but for the taker's.
+    let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
+    if mode != GameMode::KickOff {
+        for (i, place) in placed.into_iter().enumerate() {
+            if taker.is_none_or(|id| id.index() != i) {
+                game.players[i].pos = place;
+            }
+        }
+        restart::face_ball(game);
+        reach::assess(game);
+    }
+}
+
+/// The team whose nearest player is nearer to the ball.
+fn nearest_team(game: &Match) -> Team {
+    let ball = game.ball.pos.truncate();
+    let least =
+        |team| game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.pos.distance_squared(ball)));
+    if least(Team::Right) < least(Team::Left) { Team::Right } else { Team::Left }
+}

@@ -1,0 +1,165 @@
+//! What the game keeps of a player beside what everyone may see: his statistics, what he wants, what his body does.
+
+use crate::state::{Player, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::Stat;
+
+/// A tick long before every match.
+pub const NEVER: i32 = -100_000;
+
+/// A player's inner state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Raw statistics by [`Stat::index`], 0..1.
+    pub stats: [f32; Stat::ALL.len()],
+    /// 0.3 + 0.7 · difficulty: the share of his statistics that he shows.
+    pub level: f32,
+    /// Top speed without the ball, m/s.
+    pub speed_top_mps: f32,
+    /// Metres.
+    pub height_m: f32,
+    /// Where he stands when his own team kicks off, and when the others do.
+    pub kickoff: [Vec2; 2],
+    /// The unit vector he faces, world.
+    pub facing: Vec2,
+    /// Where he wants to go.
+    pub intent: Intent,
+    /// The velocity he wants to have with the ball at his feet, world m/s.
+    pub dribble: Vec2,
+    /// A kick that he wants to make, as soon as he can.
+    pub kick: Option<KickPlan>,
+    /// What his body does.
+    pub pose: Pose,
+    /// Ticks until the pose ends.
+    pub pose_ticks: u8,
+    /// Ticks spent on getting off a standstill.
+    pub lag_ticks: u8,
+    /// Tick of his last touch.
+    pub touched_at: i32,
+    /// Tick before which he may not try the ball.
+    pub ready_at: i32,
+    /// Where he can first meet the ball.
+    pub meet: Vec2,
+    /// In how many seconds.
+    pub meet_s: f32,
+    /// What the bot has in mind for him.
+    pub mind: Mind,
+}
+
+/// Where a player wants to go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Intent {
+    /// Brakes to a stand.
+    Stand,
+    /// Runs at a world velocity, m/s.
+    Run(Vec2),
+    /// Runs to a world point with at most so many m/s and stops there.
+    Go(Vec2, f32),
+    /// Runs to the ball with at most so many m/s, and dribbles when he has it.
+    Ball(f32),
+}
+
+/// What a body does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pose {
+    /// On his feet.
+    Up,
+    /// Sliding along the ground.
+    Sliding,
+    /// Lying after a fall, a slide or a dive.
+    Down,
+    /// A keeper in the air.
+    Diving,
+}
+
+/// A kind of kick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KickKind {
+    /// On the ground, to a mate's feet.
+    Short,
+    /// On the ground, ahead of a mate.
+    Long,
+    /// Lofted.
+    High,
+    /// At goal.
+    Shot,
+    /// Away, anywhere forward.
+    Clear,
+}
+
+/// A kick that waits for the ball and for the swing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KickPlan {
+    /// What kind.
+    pub kind: KickKind,
+    /// The direction held when it was called for, world, unit.
+    pub dir: Option<Vec2>,
+    /// The mate it is meant for, where the bot has chosen one.
+    pub mate: Option<PlayerId>,
+    /// The point it is meant for, where the bot has chosen one.
+    pub point: Option<Vec2>,
+    /// 0..1 of the power that a bot gives a shot; agents' is fixed.
+    pub power: f32,
+    /// First tick at which the foot can meet the ball.
+    pub ready_at: i32,
+    /// Tick after which it is forgotten.
+    pub until: i32,
+}
+
+/// What the bot has in mind for a player.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mind {
+    /// His slot in the team's block, own frame: x -1 (back) to 1 (front), y -1..1 (+ is down the picture).
+    pub slot: Vec2,
+    /// 0 defends to 1 attacks.
+    pub mindset: f32,
+    /// The opponent he marks.
+    pub mark: Option<PlayerId>,
+    /// World velocity of the run that he makes forward, and until which step.
+    pub run_until_step: u32,
+    /// Step of his next decision with the ball.
+    pub decide_at_step: u32,
+}
+
+impl Body {
+    /// A body before `begin` has filled it in.
+    pub const fn blank() -> Body {
+        Body {
+            stats: [0.75; Stat::ALL.len()],
+            level: 1.0,
+            speed_top_mps: 7.8,
+            height_m: 1.8,
+            kickoff: [Vec2::ZERO; 2],
+            facing: Vec2::X,
+            intent: Intent::Stand,
+            dribble: Vec2::ZERO,
+            kick: None,
+            pose: Pose::Up,
+            pose_ticks: 0,
+            lag_ticks: 0,
+            touched_at: NEVER,
+            ready_at: NEVER,
+            meet: Vec2::ZERO,
+            meet_s: 9.0,
+            mind: Mind { slot: Vec2::ZERO, mindset: 0.5, mark: None, run_until_step: 0, decide_at_step: 0 },
+        }
+    }
+
+    /// Takes a pose for so many ticks.
+    pub fn strike_pose(&mut self, pose: Pose, ticks: u8) {
+        self.pose = pose;
+        self.pose_ticks = ticks;
+    }
+}
+
+impl Player {
+    /// A statistic as it counts now: raw · (0.3 + 0.7 difficulty) · (0.7 + 0.3 freshness).
+    pub fn skill(&self, stat: Stat) -> f32 {
+        self.body.stats[stat.index()] * self.body.level * (1.0 - 0.3 * self.fatigue)
+    }
+
+    /// Whether he stands on his feet on the pitch.
+    pub fn is_up(&self) -> bool {
+        self.active && self.body.pose == Pose::Up
+    }
+}

@@ -1,0 +1,66 @@
+//! Challenging the player on the ball: automatic standing tackles, and what a lost one costs.
+
+use crate::event::Events;
+use crate::football::body::Pose;
+use crate::football::{foul, noise, report, touch};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::{EventKind, Stat};
+
+/// How near the ball the tackler's foot must come, metres.
+const TACKLE_M: f32 = 0.85;
+/// Ticks between two tries of one player.
+const RETRY_TICKS: i32 = 32;
+
+/// A player within reach of the ball that a rival controls tries to win it.
+pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, near: f32) {
+    if near > TACKLE_M || game.ball.pos.z > 1.0 {
+        return;
+    }
+    let (tackler, victim) = (*game.player(id), *game.player(rival));
+    let ball = game.ball.pos.truncate();
+    // Who has less way to the ball, from which side, and who is the better.
+    let victim_m = victim.pos.distance(ball);
+    let exposed = ((victim_m - near) * 0.55).clamp(-0.3, 0.45);
+    let tackle = tackler.skill(Stat::StandingTackle);
+    let keep =
+        0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
+    let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
+    let chance = (0.34 + exposed + 0.30 * (tackle - keep) - 0.16 * behind.max(0.0)).clamp(0.04, 0.9);
+    let now = game.tick as i32;
+    if noise::roll(game) < chance {
+        win(game, events, id, rival, ball);
+        game.players[rival.index()].body.ready_at = now + 25;
+        return;
+    }
+    game.players[id.index()].body.ready_at = now + RETRY_TICKS;
+    // Beaten: he is wrong-footed for a moment.
+    game.players[id.index()].vel *= 0.45;
+    if near < 0.7 && foul::trips(game, id, rival) {
+        game.players[rival.index()].body.strike_pose(Pose::Down, 45);
+        foul::call(game, events, id, rival, noise_severity(behind));
+    }
+}
+
+/// How bad a standing foul is: from behind is worse.
+fn noise_severity(behind: f32) -> f32 {
+    1.05 + 0.3 * behind.max(0.0)
+}
+
+/// The tackler takes the ball along, or pokes it away.
+fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, ball: Vec2) {
+    let tackler = *game.player(id);
+    let clean = noise::roll(game) < 0.35 + 0.4 * tackler.skill(Stat::BallControl);
+    let away = (ball - tackler.pos).normalize_or_zero();
+    let side = id.team().side() as f32;
+    let velocity = if clean {
+        tackler.vel * 0.6 + (away + Vec2::new(side * 0.4, 0.0)) * 1.8
+    } else {
+        tackler.vel * 0.4 + away * 4.5 + Vec2::new(-away.y, away.x) * (noise::bell(game) * 1.5)
+    };
+    let hop = if clean { 0.0 } else { 0.6 + 0.6 * noise::roll(game) };
+    report::did(game, events, EventKind::Tackle, id, Some(rival));
+    touch::push(game, events, id, velocity, hop);
+    // A poke is no deliberate kick: the keeper may pick it up.
+    game.play.kicked_by = None;
+}

@@ -1,0 +1,21 @@
+//! Tiredness: running uses freshness up.
+
+use crate::football::movement::DT;
+use crate::state::Match;
+use setpiece_scenario::vocabulary::{Rule, Stat};
+
+/// Freshness lost per metre at stamina 1 (0.00003 · 18.05 of the fact sheet).
+const PER_METRE: f32 = 0.000_03 * 18.05;
+
+/// Adds the tiredness of a step of so many ticks.
+pub fn tire(game: &mut Match, ticks: u32) {
+    if !game.rule(Rule::Fatigue) {
+        return;
+    }
+    let seconds = ticks as f32 * DT;
+    for player in game.players.iter_mut().filter(|p| p.active) {
+        let metres = player.vel.length() * seconds;
+        let stamina = player.body.stats[Stat::Stamina.index()];
+        player.fatigue = (player.fatigue + metres * PER_METRE * (2.0 - stamina)).min(0.99);
+    }
+}

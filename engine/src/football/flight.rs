@@ -1,0 +1,96 @@
+//! What a touch of the ball means: passes completed and cut out, shots blocked, offside.
+
+use crate::event::Events;
+use crate::football::play::Flight;
+use crate::football::{offside, report, touch};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role};
+
+/// Records that a player touches the ball; false if that was an offence that stops play.
+pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) -> bool {
+    if offside::caught(game, events, by) {
+        return false;
+    }
+    report::did(game, events, touch::kind_of_touch(game.ball.pos.z), by, None);
+    settle(game, events, by);
+    note(game, by, false);
+    game.play.kicked_by = (kick && game.ball.pos.z < 1.2).then_some(by);
+    true
+}
+
+/// Records that the ball sprang off a player.
+pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
+    if game.play.shot.is_some_and(|shot| shot.by.team() != by.team()) {
+        let role = game.player(by).role;
+        if let Some(shot) = game.play.shot.take() {
+            if role == Role::GK {
+                report::did(game, events, EventKind::Save, by, Some(shot.by));
+            }
+            let verdict = if role == Role::GK { Qualifier::OnTarget } else { Qualifier::Blocked };
+            events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(verdict));
+        }
+    }
+    report::did(game, events, EventKind::Touch, by, None);
+    note(game, by, false);
+    game.play.kicked_by = None;
+}
+
+/// Ends the pass or shot under way at its next touch.
+fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
+    let ball = game.ball.pos.truncate();
+    if let Some(pass) = game.play.pass {
+        if pass.by != by {
+            let (qualifier, mate) = if pass.by.team() == by.team() {
+                (Qualifier::Completed, true)
+            } else {
+                (Qualifier::Intercepted, false)
+            };
+            let length = ball.distance(pass.from);
+            events.push(
+                report::event(game, EventKind::Pass).by(pass.by).to(Some(by)).qualified(qualifier).length(length),
+            );
+            if !mate {
+                report::did(game, events, EventKind::Interception, by, Some(pass.by));
+            }
+            game.play.pass = None;
+        } else if game.tick > pass.tick + 20 {
+            game.play.pass = None;
+        }
+    }
+    if let Some(shot) = game.play.shot {
+        if shot.by.team() != by.team() {
+            events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::Blocked));
+            game.play.shot = None;
+        } else if shot.by != by || game.tick > shot.tick + 20 {
+            game.play.shot = None;
+        }
+    }
+}
+
+/// Notes the last toucher and who is offside from now on.
+pub fn note(game: &mut Match, by: PlayerId, exempt: bool) {
+    game.last_touch = Some(by);
+    game.players[by.index()].body.touched_at = game.tick as i32;
+    game.play.circle = None;
+    game.play.offside = if exempt { 0 } else { offside::positions(game, by) };
+    game.play.save = [None; 2];
+}
+
+/// A pass has been struck.
+pub fn pass_struck(game: &mut Match, events: &mut Events, by: PlayerId, to: Option<PlayerId>, from: Vec2) {
+    let speed = game.ball.vel.length();
+    let length = to.map_or(0.0, |to| game.player(to).pos.distance(from));
+    game.play.pass = Some(Flight { by, to, from, tick: game.tick, speed_mps: speed });
+    game.play.shot = None;
+    events.push(report::event(game, EventKind::Pass).by(by).to(to).qualified(Qualifier::Attempted).length(length));
+}
+
+/// A shot has been struck.
+pub fn shot_struck(game: &mut Match, events: &mut Events, by: PlayerId, from: Vec2) {
+    let speed = game.ball.vel.length();
+    game.play.pass = None;
+    game.play.shot = Some(Flight { by, to: None, from, tick: game.tick, speed_mps: speed });
+    let goal = Vec2::new(55.0 * by.team().side() as f32, 0.0);
+    events.push(report::event(game, EventKind::Shot).by(by).length(goal.distance(from)));
+}

@@ -1,0 +1,242 @@
+//! The keeper's hands: saves, catches, the ball held and let go.
+//!
+//! Decides whether he reaches a ball and whether he holds it; leaves where he stands to `control::bot::keeper`.
+
+use crate::event::Events;
+use crate::football::body::Pose;
+use crate::football::play::{Save, ticks_since};
+use crate::football::{flight, forecast, foul, noise, report, touch};
+use crate::state::{Match, PlayerId};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Role, Rule, Stat, Team};
+
+/// How high his hands reach, metres.
+const HANDS_M: f32 = 2.55;
+/// How near a slow ball must be to be picked up, metres.
+const PICK_M: f32 = 1.0;
+/// No save for balls slower than this, m/s: they are picked up.
+const SHOT_MPS: f32 = 7.0;
+
+/// Lets both keepers use their hands.
+pub fn use_hands(game: &mut Match, events: &mut Events) {
+    if game.dead || game.play.set_piece.is_some() {
+        return;
+    }
+    if let Some((id, _)) = game.play.hands {
+        hold(game, id);
+        return;
+    }
+    for team in [Team::Left, Team::Right] {
+        let side = team.side() as f32;
+        // Only a ball in his own end concerns him.
+        if game.ball.pos.x * side > -20.0 {
+            continue;
+        }
+        let keeper = game.team(team).find(|(_, player)| player.role == Role::GK).map(|(id, _)| id);
+        let Some(id) = keeper.filter(|&id| touch::may_handle(game, id)) else { continue };
+        save(game, events, id);
+        if game.play.hands.is_none() {
+            pick_up(game, events, id);
+        }
+    }
+}
+
+/// Plans and makes a save.
+fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let team = id.team();
+    let index = team.index();
+    if game.play.save[index].is_none() {
+        game.play.save[index] = Some(plan(game, id));
+    }
+    let Some(save) = game.play.save[index] else { return };
+    if save.at_tick == u32::MAX || game.tick < save.from_tick {
+        return;
+    }
+    let player = game.players[id.index()];
+    if game.tick < save.at_tick {
+        let left = (save.at_tick - game.tick) as f32 * 0.01;
+        let way = save.point - player.pos;
+        let most = if save.reaches { 8.0 } else { 5.0 };
+        if player.body.pose == Pose::Up && way.length() > 0.5 {
+            let ticks = ((save.at_tick - game.tick) + 35).min(120) as u8;
+            game.players[id.index()].body.strike_pose(Pose::Diving, ticks);
+        }
+        game.players[id.index()].vel = (way / left.max(0.05)).clamp_length_max(most);
+        return;
+    }
+    game.play.save[index] = Some(Save { at_tick: u32::MAX, ..save });
+    let near = player.pos.distance_squared(game.ball.pos.truncate()) < 2.9 * 2.9;
+    if save.reaches && near && game.ball.pos.z < HANDS_M + 0.3 {
+        meet_shot(game, events, id, save.holds);
+    }
+}
+
+/// The plan that names no moment: nothing to save.
+const IDLE: Save = Save { at_tick: u32::MAX, from_tick: u32::MAX, point: Vec2::ZERO, reaches: false, holds: false };
+
+/// Judges whether the ball is on its way into the goal, and whether he gets there.
+fn plan(game: &mut Match, id: PlayerId) -> Save {
+    let team = id.team();
+    let side = team.side() as f32;
+    let speed = game.ball.vel.length();
+    let ours = game.last_touch.is_some_and(|last| last == id)
+        || game.play.kicked_by.is_some_and(|last| last.team() == team && game.rule(Rule::BackPass));
+    if speed < SHOT_MPS || game.ball.vel.x * side > -3.0 || ours {
+        return IDLE;
+    }
+    let goal_x = -(HALF_LENGTH_M as f32) * side;
+    let panic = GOAL_HALF_WIDTH_M as f32 + 0.5;
+    let player = *game.player(id);
+    let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));
+    let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let react_s = (reaction - since as f32 * 0.01).max(0.02);
+    let mut best: Option<(f32, f32, Vec3)> = None;
+    let mut enters = false;
+    let mut before: Option<Vec3> = None;
+    for (time_s, point) in game.play.forecast.from(game.tick) {
+        if let Some(last) = before {
+            consider(&player, react_s, time_s - 0.025, (last + point) * 0.5, team, &mut best);
+        }
+        consider(&player, react_s, time_s, point, team, &mut best);
+        if (point.x - goal_x) * side < 0.0 {
+            enters = point.y.abs() < panic && point.z < 2.9;
+            break;
+        }
+        before = Some(point);
+    }
+    let Some((ratio, time_s, point)) = best.filter(|_| enters) else { return IDLE };
+    let skill = 0.6 + 0.4 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
+    let spare = (time_s - react_s).max(0.0);
+    let timely = (0.30 + 1.5 * spare).min(0.97);
+    let chance = if ratio < 1.0 { (1.0 - 0.45 * ratio * ratio) * timely * skill } else { 0.0 };
+    let reaches = noise::roll(game) < chance;
+    let at_hand = game.ball.vel.length();
+    let holds = noise::roll(game) < (1.2 - at_hand / 30.0 - 0.5 * ratio).clamp(0.05, 0.95);
+    Save {
+        at_tick: game.tick + ((time_s * 100.0) as u32).max(1),
+        from_tick: game.tick + (react_s * 100.0) as u32,
+        point: point.truncate(),
+        reaches,
+        holds,
+    }
+}
+
+/// Weighs a point of the ball's path: the share of his reach that it takes.
+fn consider(
+    player: &crate::state::Player,
+    react_s: f32,
+    time_s: f32,
+    point: Vec3,
+    team: Team,
+    best: &mut Option<(f32, f32, Vec3)>,
+) {
+    if !foul::in_box(point.truncate(), team) || point.z > HANDS_M {
+        return;
+    }
+    let spare = (time_s - react_s).max(0.0);
+    let high = (point.z - 1.6).max(0.0) * 0.7;
+    let reach = (0.42 + spare.min(0.5) * 4.2 + (spare - 0.5).max(0.0) * 4.0 - high).max(0.2);
+    let ratio = point.truncate().distance(player.pos) / reach;
+    if best.is_none_or(|(least, _, _)| ratio < least) {
+        *best = Some((ratio, time_s, point));
+    }
+}
+
+/// Meets the ball with his hands: holds it or pushes it away.
+fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
+    let shot = game.play.shot.take();
+    if let Some(shot) = shot.filter(|shot| shot.by.team() != id.team()) {
+        events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OnTarget));
+        report::did(game, events, EventKind::Save, id, Some(shot.by));
+    }
+    if holds && foul::in_box(game.ball.pos.truncate(), id.team()) {
+        take(game, events, id);
+        return;
+    }
+    report::did(game, events, EventKind::Parry, id, shot.map(|shot| shot.by));
+    if !flight::touched(game, events, id, false) {
+        return;
+    }
+    let side = id.team().side() as f32;
+    let speed = game.ball.vel.length();
+    let y = game.ball.pos.y;
+    let wide = if y.abs() < 0.2 { noise::bell(game).signum() } else { y.signum() };
+    let out_wide = noise::roll(game) < 0.2 + 0.12 * y.abs();
+    let way =
+        if out_wide { Vec2::new(-0.25 * side, wide) } else { Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game))) };
+    let away = way.normalize_or_zero() * (0.3 * speed + 2.5);
+    game.ball.vel = away.extend(1.2 + noise::roll(game));
+    game.ball.spin = Vec3::ZERO;
+    game.players[id.index()].body.ready_at = game.tick as i32 + 45;
+    forecast::renew(game);
+}
+
+/// Picks up a ball that is near and slow enough.
+fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let ball = game.ball.pos;
+    let flat = ball.truncate();
+    let near = player.pos.distance_squared(flat);
+    let team = id.team();
+    if near > PICK_M * PICK_M || ball.z > HANDS_M - 0.2 || player.body.pose == Pose::Down || !foul::in_box(flat, team) {
+        return;
+    }
+    if (game.tick as i32) < player.body.ready_at || game.last_touch == Some(id) {
+        return;
+    }
+    let back_pass = game.rule(Rule::BackPass) && game.play.kicked_by.is_some_and(|last| last.team() == team);
+    let mate = touch::controller(game).is_some_and(|owner| owner.team() == team);
+    if back_pass || mate {
+        return;
+    }
+    let speed = (game.ball.vel - player.vel.extend(0.0)).length();
+    let rival = touch::controller(game).filter(|owner| owner.team() != team);
+    let brave = if rival.is_some() { 0.45 } else { 1.0 };
+    let chance = (1.25 - speed / 22.0).clamp(0.1, 1.0) * brave * (0.6 + 0.4 * player.body.level);
+    if noise::roll(game) < chance {
+        if let Some(shot) = game.play.shot.take().filter(|shot| shot.by.team() != team) {
+            events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OnTarget));
+            report::did(game, events, EventKind::Save, id, Some(shot.by));
+        }
+        take(game, events, id);
+    } else {
+        game.players[id.index()].body.ready_at = game.tick as i32 + 30;
+    }
+}
+
+/// Takes the ball into his hands.
+pub fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
+    if !flight::touched(game, events, id, false) {
+        return;
+    }
+    report::did(game, events, EventKind::Catch, id, None);
+    game.play.hands = Some((id, game.tick));
+    game.play.offside = 0;
+    let player = &mut game.players[id.index()];
+    player.vel *= 0.2;
+    player.body.kick = None;
+    player.body.dribble = Vec2::ZERO;
+    player.body.mind.decide_at_step = game.step + 8;
+    game.mode = GameMode::Normal;
+    hold(game, id);
+}
+
+/// Carries the ball in his hands.
+fn hold(game: &mut Match, id: PlayerId) {
+    let side = id.team().side() as f32;
+    let player = &mut game.players[id.index()];
+    // He keeps to his box, and looks up the pitch.
+    let line = HALF_LENGTH_M as f32;
+    let x = (player.pos.x * side).clamp(-line + 0.6, -line + 15.5) * side;
+    player.pos = Vec2::new(x, player.pos.y.clamp(-19.0, 19.0));
+    player.body.facing = Vec2::new(side, 0.0);
+    if player.body.pose == Pose::Diving {
+        player.body.strike_pose(Pose::Down, 30);
+    }
+    let vel = player.vel;
+    let at = player.pos + player.body.facing * 0.35;
+    game.ball.pos = at.extend(1.0);
+    game.ball.vel = vel.extend(0.0);
+    game.ball.spin = Vec3::ZERO;
+}

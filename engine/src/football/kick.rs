@@ -1,0 +1,185 @@
+//! Kicks: when the foot meets the ball, and how the ball leaves it.
+//!
+//! Decides the ball's velocity and spin; leaves whom a pass is for to `pass_target`, where a shot goes to `shot`.
+
+use crate::event::Events;
+use crate::football::body::{KickKind, KickPlan, NEVER};
+use crate::football::{flight, forecast, noise, pass_target, report, shot, touch};
+use crate::state::{Match, Player, PlayerId};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
+
+/// Ticks from the press to the contact: a pass on the ground, a lofted one, a shot.
+pub const SWING_TICKS: [i32; 3] = [26, 22, 20];
+/// Ticks that a kick waits for the ball.
+pub const PATIENCE_TICKS: i32 = 200;
+/// How near the ball must be to be kicked, metres.
+const KICK_M: f32 = 0.85;
+/// Highest ball that can be volleyed, metres.
+const VOLLEY_M: f32 = 1.2;
+
+/// The swing's length for a kind of kick, ticks.
+pub fn swing(kind: KickKind) -> i32 {
+    match kind {
+        KickKind::Short | KickKind::Long => SWING_TICKS[0],
+        KickKind::High => SWING_TICKS[1],
+        KickKind::Shot | KickKind::Clear => SWING_TICKS[2],
+    }
+}
+
+/// Kicks the ball for whoever has a kick ready and the ball in reach; at most one kick a tick.
+pub fn kick_ball(game: &mut Match, events: &mut Events) {
+    let now = game.tick as i32;
+    for i in 0..PLAYERS_MAX {
+        let Some(plan) = game.players[i].body.kick else { continue };
+        let id = PlayerId(i as u8);
+        if now > plan.until || !game.players[i].active {
+            game.players[i].body.kick = None;
+            continue;
+        }
+        if now >= plan.ready_at && can_kick(game, id) {
+            game.players[i].body.kick = None;
+            launch(game, events, id, plan);
+            return;
+        }
+    }
+}
+
+/// Whether the ball is at his foot, and his to kick.
+fn can_kick(game: &Match, id: PlayerId) -> bool {
+    if game.dead || !game.player(id).is_up() {
+        return false;
+    }
+    if let Some(set_piece) = game.play.set_piece {
+        return set_piece.taker == id;
+    }
+    if let Some((keeper, _)) = game.play.hands {
+        return keeper == id;
+    }
+    let player = game.player(id);
+    let ball = game.ball.pos;
+    if ball.z > VOLLEY_M || player.pos.distance_squared(ball.truncate()) > KICK_M * KICK_M {
+        return false;
+    }
+    if (game.tick as i32) < player.body.ready_at {
+        return false;
+    }
+    // A rival who dribbles the ball must be tackled first.
+    touch::controller(game).is_none_or(|owner| owner.team() == id.team())
+}
+
+/// Kicks.
+fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
+    let set_piece = game.play.set_piece;
+    let from_hands = game.play.hands.is_some();
+    let from = game.ball.pos.truncate();
+    if !from_hands && !flight::touched(game, events, id, true) {
+        return;
+    }
+    if from_hands {
+        report::did(game, events, EventKind::Touch, id, None);
+    }
+    let mode = set_piece.map(|s| s.mode);
+    let thrown = mode == Some(GameMode::ThrowIn);
+    game.play.hands = None;
+    game.play.set_piece = None;
+    let exempt = matches!(mode, Some(GameMode::ThrowIn | GameMode::Corner | GameMode::GoalKick));
+    let plan = if thrown { KickPlan { kind: KickKind::Short, ..plan } } else { plan };
+    let rough = roughness(game.player(id), game);
+    let mut receiver = None;
+    match plan.kind {
+        KickKind::Shot => {
+            let velocity = shot::velocity(game, id, &plan, rough);
+            send(game, velocity, Vec3::ZERO);
+        }
+        KickKind::Clear => {
+            let side = id.team().side() as f32;
+            let way = plan.dir.unwrap_or(Vec2::new(side, 0.0));
+            let way = way + Vec2::new(-way.y, way.x) * (noise::bell(game) * 0.25);
+            send(game, (way * 21.0).extend(10.0), Vec3::ZERO);
+        }
+        kind => {
+            let target = pass_target::choose(game, id, &plan);
+            receiver = target.mate;
+            let velocity = pass_velocity(game, id, kind, target.point, rough, thrown || from_hands);
+            let spin = if kind == KickKind::High { backspin(velocity) } else { Vec3::ZERO };
+            send(game, velocity, spin);
+        }
+    }
+    flight::note(game, id, exempt);
+    // The kicker does not meet his own ball again at once.
+    game.players[id.index()].body.ready_at = game.tick as i32 + 30;
+    game.mode = GameMode::Normal;
+    if let Some(mode) = mode {
+        let kind = crate::football::restart::event_of(mode);
+        events.push(report::event(game, kind).by(id).qualified(Qualifier::Taken));
+    }
+    match plan.kind {
+        KickKind::Shot => flight::shot_struck(game, events, id, from),
+        _ => flight::pass_struck(game, events, id, receiver, from),
+    }
+    forecast::renew(game);
+    if let Some(receiver) = receiver {
+        crate::control::switching::hand_to(game, receiver);
+    }
+    game.players[id.index()].body.touched_at = if exempt { NEVER } else { game.tick as i32 };
+}
+
+/// Gives the ball a velocity and spin.
+fn send(game: &mut Match, velocity: Vec3, spin: Vec3) {
+    game.ball.pos.z = game.ball.pos.z.max(0.13);
+    game.ball.vel = velocity;
+    game.ball.spin = spin;
+}
+
+/// How awkward the kick is, 0..1: a fast, high or far ball, an opponent near.
+fn roughness(player: &Player, game: &Match) -> f32 {
+    if game.play.set_piece.is_some() || game.play.hands.is_some() {
+        return 0.0;
+    }
+    let relative = (game.ball.vel - player.vel.extend(0.0)).length();
+    let far = (player.pos.distance(game.ball.pos.truncate()) - 0.5).max(0.0);
+    let high = (game.ball.pos.z - 0.3).max(0.0);
+    let near = game
+        .players
+        .iter()
+        .filter(|rival| rival.active && rival.pos.distance_squared(player.pos) < 1.6 * 1.6)
+        .count()
+        .saturating_sub(1);
+    (((relative - 4.0) / 25.0).clamp(0.0, 0.7) + far * 0.5 + high * 0.4 + near as f32 * 0.12).clamp(0.0, 1.0)
+}
+
+/// The velocity of a pass to a point.
+///
+/// Speeds and rises are fitted to the measured kicks: 15 m/s over 11 m, 24 m/s from 22 m on; lofted 13 to 33 m/s.
+fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, rough: f32, by_hand: bool) -> Vec3 {
+    let player = *game.player(id);
+    let stat = if kind == KickKind::High { Stat::HighPass } else { Stat::ShortPass };
+    let skill = player.skill(stat);
+    let way = point - game.ball.pos.truncate();
+    let distance = way.length().clamp(1.0, 60.0);
+    let far = libm::powf(distance / 60.0, 1.4);
+    let (level, rise) = if kind == KickKind::High {
+        let rise = 0.385 - 0.15 * distance / 60.0;
+        let speed = (0.9 * 36.0 * (1.15 * far + 0.3)).min(36.0);
+        (speed / libm::sqrtf(1.0 + rise * rise), rise)
+    } else {
+        let speed = (0.9 * 36.0 * (1.8 * far + 0.3)).min(24.3);
+        let speed = if by_hand { speed.min(15.0) } else { speed };
+        (speed, 0.11 + 0.005 * (distance - 12.0).max(0.0))
+    };
+    // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
+    let wild = (0.012 + 0.20 * rough + 0.05 * (1.0 - player.body.level)) * (1.35 - skill);
+    let aside = noise::bell(game) * wild;
+    let power = 1.0 + noise::bell(game) * wild * 0.8;
+    let ahead = way.normalize_or(player.body.facing);
+    let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
+    flat.extend(level * rise * (1.0 + noise::bell(game) * wild))
+}
+
+/// The backspin that lifts a lofted pass, rad/s.
+fn backspin(velocity: Vec3) -> Vec3 {
+    let flat = velocity.truncate().normalize_or_zero();
+    Vec3::new(flat.y, -flat.x, 0.0) * 40.0
+}

@@ -1,0 +1,49 @@
+//! Offside: who stands beyond the line when the ball is touched, and who is caught when he touches it next.
+
+use crate::event::Events;
+use crate::football::{referee, report};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Team};
+
+/// The offside line of the attackers, own frame x of theirs, metres: the second-last opponent or the ball, never in
+/// their own half.
+pub fn line(game: &Match, attackers: Team) -> f32 {
+    let side = attackers.side() as f32;
+    let (mut last, mut second) = (f32::MIN, f32::MIN);
+    for (_, rival) in game.team(attackers.other()) {
+        let x = rival.pos.x * side;
+        if x > last {
+            second = last;
+            last = x;
+        } else if x > second {
+            second = x;
+        }
+    }
+    second.max(game.ball.pos.x * side).max(0.0)
+}
+
+/// The mates of the toucher who are beyond the line now, a bit each.
+pub fn positions(game: &Match, toucher: PlayerId) -> u32 {
+    if !game.rule(Rule::Offside) {
+        return 0;
+    }
+    let team = toucher.team();
+    let side = team.side() as f32;
+    let line = line(game, team);
+    game.team(team)
+        .filter(|(id, player)| *id != toucher && player.pos.x * side > line)
+        .fold(0, |bits, (id, _)| bits | 1 << id.0)
+}
+
+/// Calls offside if the toucher stood in an offside position; play stops then.
+pub fn caught(game: &mut Match, events: &mut Events, by: PlayerId) -> bool {
+    let several = game.team(by.team().other()).count() > 1;
+    if game.play.offside & (1 << by.0) == 0 || !several || !game.rule(Rule::Offside) {
+        return false;
+    }
+    report::did(game, events, EventKind::Offside, by, None);
+    let spot = game.player(by).pos.clamp(Vec2::new(-52.0, -34.0), Vec2::new(52.0, 34.0));
+    referee::stop(game, events, GameMode::FreeKick, by.team().other(), spot);
+    true
+}

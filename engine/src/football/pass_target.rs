@@ -1,0 +1,89 @@
+//! Whom a pass is for, and the point it is played to.
+
+use crate::football::body::{KickKind, KickPlan};
+use crate::math;
+use crate::state::{Match, Player, PlayerId};
+use glam::Vec2;
+
+/// Where a pass goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassTarget {
+    /// Whom it is for.
+    pub mate: Option<PlayerId>,
+    /// The point it is played to.
+    pub point: Vec2,
+}
+
+/// How far ahead the input looks for a mate, metres: short, long, high.
+fn look_ahead_m(kind: KickKind) -> f32 {
+    match kind {
+        KickKind::Long => 7.7,
+        KickKind::High => 10.6,
+        _ => 6.6,
+    }
+}
+
+/// Where a player will be when a pass over a distance reaches him.
+pub fn lead(mate: &Player, distance_m: f32) -> Vec2 {
+    let time = (0.3 + 0.05 * distance_m).clamp(0.0, 1.0);
+    mate.pos + mate.vel * (0.7 * libm::powf(time, 0.7))
+}
+
+/// Chooses the mate by GRF's rule (near the point that the input looks at, and in its direction) or takes the bot's.
+pub fn choose(game: &Match, id: PlayerId, plan: &KickPlan) -> PassTarget {
+    let player = game.player(id);
+    let side = id.team().side() as f32;
+    let mate = plan
+        .mate
+        .filter(|mate| game.player(*mate).active)
+        .or_else(|| if plan.point.is_some() { None } else { best_mate(game, id, plan) });
+    let point = match (plan.point, mate) {
+        (Some(point), _) => point,
+        (None, Some(mate)) => {
+            let distance = game.player(mate).pos.distance(player.pos);
+            let target = lead(game.player(mate), distance);
+            if plan.kind == KickKind::Long {
+                let goal = Vec2::new(55.0 * side, 0.0);
+                target + (goal - target).normalize_or_zero() * (0.2 * distance).min(10.0)
+            } else {
+                target
+            }
+        }
+        (None, None) => player.pos + plan.dir.unwrap_or(player.body.facing) * 25.0,
+    };
+    PassTarget { mate: mate.or_else(|| nearest_mate(game, id, point)), point }
+}
+
+/// The mate whom the input means.
+fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
+    let player = game.player(id);
+    let input = plan.dir.unwrap_or(Vec2::ZERO);
+    let look = player.pos + player.body.facing * 0.2 + input * look_ahead_m(plan.kind);
+    let mut best: Option<(f32, PlayerId)> = None;
+    for (mate, other) in game.team(id.team()) {
+        if mate == id {
+            continue;
+        }
+        let target = lead(other, other.pos.distance(player.pos));
+        let far = libm::powf((target.distance(look) / 70.0).clamp(0.0, 1.0), 0.8);
+        let way = (target - player.pos).normalize_or_zero();
+        let angle = if input == Vec2::ZERO { 0.0 } else { math::acos(way.dot(input).clamp(-1.0, 1.0)) };
+        let rating = 0.8 * far + angle / std::f32::consts::PI;
+        if best.is_none_or(|(least, _)| rating < least) {
+            best = Some((rating, mate));
+        }
+    }
+    best.map(|(_, mate)| mate)
+}
+
+/// The mate nearest to a point.
+fn nearest_mate(game: &Match, id: PlayerId, point: Vec2) -> Option<PlayerId> {
+    let mut best: Option<(f32, PlayerId)> = None;
+    for (mate, other) in game.team(id.team()) {
+        let distance = other.pos.distance_squared(point);
+        if mate != id && distance < 20.0 * 20.0 && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, mate));
+        }
+    }
+    best.map(|(_, mate)| mate)
+}

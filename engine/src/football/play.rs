@@ -1,0 +1,142 @@
+//! What the game keeps of a match beside what everyone may see.
+
+use crate::football::body::NEVER;
+use crate::football::forecast::Forecast;
+use crate::state::PlayerId;
+use glam::Vec2;
+use setpiece_scenario::Others;
+use setpiece_scenario::vocabulary::{GameMode, Team};
+
+/// The game's own memory of a match.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Play {
+    /// Where the ball will be.
+    pub forecast: Forecast,
+    /// What team mates of an agent do without an agent.
+    pub others: Others,
+    /// The set piece that waits.
+    pub set_piece: Option<SetPiece>,
+    /// The restart that a stop of play calls for.
+    pub pending: Option<Restart>,
+    /// The pass under way.
+    pub pass: Option<Flight>,
+    /// The shot under way.
+    pub shot: Option<Flight>,
+    /// The keeper who holds the ball in his hands, and since which tick.
+    pub hands: Option<(PlayerId, u32)>,
+    /// Who kicked the ball on purpose last (the back-pass rule), by foot.
+    pub kicked_by: Option<PlayerId>,
+    /// Players in an offside position when the ball was last touched, a bit each.
+    pub offside: u32,
+    /// Nearest to the ball in time, by team: the player who goes for it.
+    pub chaser: [Option<PlayerId>; 2],
+    /// Second nearest.
+    pub second: [Option<PlayerId>; 2],
+    /// Share of the ball that the left team had lately, 0..1.
+    pub share: f32,
+    /// The ball's place, averaged over about two seconds.
+    pub ball_mean: Vec2,
+    /// The team whose opponents keep out of the centre circle until the ball moves.
+    pub circle: Option<Team>,
+    /// The team that kicked off first.
+    pub first_kickoff: Team,
+    /// Whether half-time has been.
+    pub second_half: bool,
+    /// Which teams are led by an agent in this step (not handed to the bot).
+    pub led: [bool; 2],
+    /// Players whom an agent drives in this step, a bit each.
+    pub driven: u32,
+    /// Agents' slots by turn: the next to be given a player.
+    pub next_slot: [u8; 2],
+    /// The keeper's plan against the ball on its way.
+    pub save: [Option<Save>; 2],
+}
+
+/// A set piece that waits to be taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SetPiece {
+    /// Which.
+    pub mode: GameMode,
+    /// Whose.
+    pub team: Team,
+    /// Who takes it.
+    pub taker: PlayerId,
+    /// Where the ball lies.
+    pub spot: Vec2,
+    /// Steps it has waited.
+    pub waited_steps: u16,
+}
+
+/// A restart that a stop of play calls for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Restart {
+    /// Which.
+    pub mode: GameMode,
+    /// Whose.
+    pub team: Team,
+    /// Where.
+    pub spot: Vec2,
+}
+
+/// A kick under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flight {
+    /// Who kicked.
+    pub by: PlayerId,
+    /// Whom it is meant for.
+    pub to: Option<PlayerId>,
+    /// From where.
+    pub from: Vec2,
+    /// When, ticks.
+    pub tick: u32,
+    /// m/s.
+    pub speed_mps: f32,
+}
+
+/// A keeper's plan against a ball on its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Save {
+    /// The tick at which the ball meets his hands.
+    pub at_tick: u32,
+    /// The tick at which he moves.
+    pub from_tick: u32,
+    /// Where, in the ground plane.
+    pub point: Vec2,
+    /// Whether he will get there.
+    pub reaches: bool,
+    /// Whether he will hold it.
+    pub holds: bool,
+}
+
+impl Play {
+    /// Before `begin` has filled it in.
+    pub const fn blank() -> Play {
+        Play {
+            forecast: Forecast::blank(),
+            others: Others::Bot,
+            set_piece: None,
+            pending: None,
+            pass: None,
+            shot: None,
+            hands: None,
+            kicked_by: None,
+            offside: 0,
+            chaser: [None; 2],
+            second: [None; 2],
+            share: 0.5,
+            ball_mean: Vec2::ZERO,
+            circle: None,
+            first_kickoff: Team::Left,
+            second_half: false,
+            led: [false; 2],
+            driven: 0,
+            next_slot: [0; 2],
+            save: [None; 2],
+        }
+    }
+}
+
+/// Ticks since a moment that may be [`NEVER`].
+pub fn ticks_since(now: u32, moment: i32) -> i32 {
+    (now as i32).saturating_sub(moment.max(NEVER))
+}

@@ -1,0 +1,54 @@
+//! Who has the ball now, and which team had it last.
+
+use crate::event::Events;
+use crate::football::report;
+use crate::state::{Match, PlayerId};
+use setpiece_scenario::vocabulary::{EventKind, Team};
+
+/// Whether a player has the ball at his feet: near, low and about as fast as he.
+pub fn has_ball(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    if !player.active || game.ball.pos.z > 0.5 {
+        return false;
+    }
+    let centre = player.pos + player.vel * 0.05 + player.body.facing * 0.1;
+    centre.distance_squared(game.ball.pos.truncate()) <= 1.0
+        && (game.ball.vel.truncate() - player.vel).length_squared() <= 36.0
+}
+
+/// Reckons the owner again: the last toucher, while he has the ball; the keeper, while he holds it.
+pub fn update(game: &mut Match, events: &mut Events) {
+    let owner = match (game.play.hands, game.play.set_piece) {
+        (Some((keeper, _)), _) => Some(keeper),
+        (_, Some(set_piece)) => Some(set_piece.taker),
+        _ => game.last_touch.filter(|&id| has_ball(game, id)),
+    };
+    if owner.is_some() && owner != game.owner {
+        let team = owner.map(PlayerId::team);
+        if team != game.possession && game.play.set_piece.is_none() {
+            won(game, events, owner);
+        }
+        game.possession = team;
+    }
+    game.owner = owner;
+}
+
+/// Reports that the ball changed sides.
+fn won(game: &Match, events: &mut Events, owner: Option<PlayerId>) {
+    let Some(winner) = owner else { return };
+    let Some(before) = game.possession else { return };
+    events.push(report::event(game, EventKind::BallWon).by(winner));
+    events.push(report::event(game, EventKind::BallLost).team(before));
+}
+
+/// Renews the share of the ball that the left team had lately.
+pub fn remember(game: &mut Match) {
+    let now = match game.possession {
+        Some(Team::Left) => 1.0,
+        Some(Team::Right) => 0.0,
+        None => 0.5,
+    };
+    game.play.share += (now - game.play.share) * 0.06;
+    let ball = game.ball.pos.truncate();
+    game.play.ball_mean += (ball - game.play.ball_mean) * 0.06;
+}

@@ -1,0 +1,91 @@
+//! Who can be at the ball first: time to the ball for everyone, and the player of each team who goes for it.
+
+use crate::football::forecast::Forecast;
+use crate::state::{Match, Player, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::{Role, Team};
+
+/// Highest ball that a player can play without his hands, metres.
+pub const PLAYABLE_M: f32 = 1.9;
+/// How near the ball must come to be played, metres.
+const REACH_M: f32 = 0.45;
+
+/// Where and when a player can first meet the ball.
+pub fn meeting(player: &Player, forecast: &Forecast, tick: u32) -> (Vec2, f32) {
+    let speed = 0.94 * player.body.speed_top_mps;
+    let from = player.pos + player.vel * 0.12;
+    let mut last = (player.pos, 0.0);
+    for (time_s, point) in forecast.from(tick) {
+        let flat = point.truncate();
+        last = (flat, time_s);
+        if point.z > PLAYABLE_M {
+            continue;
+        }
+        let radius = REACH_M + speed * (time_s - 0.12).max(0.0);
+        if flat.distance_squared(from) <= radius * radius {
+            return (flat, time_s);
+        }
+    }
+    let (flat, time_s) = last;
+    (flat, time_s + ((flat.distance(from) - speed * time_s) / speed).max(0.0))
+}
+
+/// Reckons everyone's meeting with the ball, and who goes for it.
+pub fn assess(game: &mut Match) {
+    let (forecast, tick) = (game.play.forecast, game.tick);
+    for player in game.players.iter_mut().filter(|p| p.active) {
+        let (meet, meet_s) = meeting(player, &forecast, tick);
+        player.body.meet = meet;
+        player.body.meet_s = meet_s;
+    }
+    for team in [Team::Left, Team::Right] {
+        choose(game, team);
+    }
+}
+
+/// Renews the meetings of those who are going for the ball.
+pub fn refresh(game: &mut Match) {
+    let (forecast, tick) = (game.play.forecast, game.tick);
+    for player in &mut game.players {
+        if player.active && matches!(player.body.intent, crate::football::body::Intent::Ball(_)) {
+            let (meet, meet_s) = meeting(player, &forecast, tick);
+            player.body.meet = meet;
+            player.body.meet_s = meet_s;
+        }
+    }
+}
+
+/// Chooses the player of a team who goes for the ball, and the next.
+fn choose(game: &mut Match, team: Team) {
+    let index = team.index();
+    let current = game.play.chaser[index];
+    let receiver = game.play.pass.and_then(|pass| pass.to);
+    let owner = game.owner;
+    let mut best: [(f32, Option<PlayerId>); 2] = [(f32::MAX, None); 2];
+    for (id, player) in game.team(team) {
+        let mut time = player.body.meet_s + 0.1;
+        if Some(id) == current {
+            time *= 0.85;
+        }
+        if Some(id) == receiver {
+            time = time * 0.6 - 0.2;
+        }
+        if Some(id) == owner {
+            time *= 0.3;
+        }
+        if player.role == Role::GK && Some(id) != owner {
+            time = time * 1.4 + 0.4;
+        }
+        if game.play.pass.is_some_and(|pass| pass.by == id) && Some(id) != owner {
+            time += 0.6;
+        }
+        if time < best[0].0 {
+            best[1] = best[0];
+            best[0] = (time, Some(id));
+        } else if time < best[1].0 {
+            best[1] = (time, Some(id));
+        }
+    }
+    game.play.chaser[index] = best[0].1;
+    game.play.second[index] = best[1].1;
+}

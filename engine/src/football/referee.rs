@@ -1,0 +1,82 @@
+//! The referee: goals and the ball out of play. Stops play and says which restart follows.
+
+use crate::event::Events;
+use crate::football::play::Restart;
+use crate::football::{report, restart};
+use crate::physics::{self, Line};
+use crate::state::{Match, PlayerId};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
+
+/// Judges the tick in which the ball came from `before`.
+pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
+    if game.dead || game.play.set_piece.is_some() {
+        return;
+    }
+    if let Some(goal_of) = physics::crossed_goal_line(before, game.ball.pos) {
+        goal(game, events, goal_of.other());
+    } else if let Some(line) = physics::left_pitch(game.ball.pos) {
+        out(game, events, line);
+    }
+}
+
+/// A goal.
+fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
+    if let Some(shot) = game.play.shot.take()
+        && shot.by.team() == scorers
+    {
+        events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OnTarget));
+    }
+    let scorer = game.last_touch;
+    let score = &mut game.score[scorers.index()];
+    *score = score.saturating_add(1);
+    let base = report::event(game, EventKind::Goal).team(scorers);
+    if let Some(id) = scorer.filter(|id| id.team() != scorers) {
+        let own = report::event(game, EventKind::OwnGoal).team(scorers);
+        events.push(own.by(id));
+    }
+    events.push(match scorer {
+        Some(id) => base.by(id),
+        None => base,
+    });
+    stop(game, events, GameMode::KickOff, scorers.other(), Vec2::ZERO);
+}
+
+/// The ball is out of play.
+fn out(game: &mut Match, events: &mut Events, line: Line) {
+    let ball = game.ball.pos;
+    if let Some(shot) = game.play.shot.take() {
+        events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OffTarget));
+    }
+    let last = game.last_touch.map_or(Team::Left, PlayerId::team);
+    let out = report::event(game, EventKind::OutOfPlay);
+    events.push(match game.last_touch {
+        Some(id) => out.by(id),
+        None => out,
+    });
+    if let Line::Goal(defenders) = line {
+        if last == defenders {
+            let top = if ball.y < 0.0 { -1.0 } else { 1.0 };
+            let corner = Vec2::new(HALF_LENGTH_M as f32 * ball.x.signum(), HALF_WIDTH_M as f32 * top);
+            stop(game, events, GameMode::Corner, defenders.other(), corner);
+        } else {
+            let spot = Vec2::new(0.92 * HALF_LENGTH_M as f32 * ball.x.signum(), 0.0);
+            stop(game, events, GameMode::GoalKick, defenders, spot);
+        }
+    } else {
+        let spot = Vec2::new(ball.x.clamp(-54.4, 54.4), HALF_WIDTH_M as f32 * ball.y.signum());
+        stop(game, events, GameMode::ThrowIn, last.other(), spot);
+    }
+}
+
+/// Stops play; a restart follows.
+pub fn stop(game: &mut Match, events: &mut Events, mode: GameMode, team: Team, spot: Vec2) {
+    if game.dead {
+        return;
+    }
+    game.dead = true;
+    game.owner = None;
+    game.play.pending = Some(Restart { mode, team, spot });
+    events.push(report::event(game, restart::event_of(mode)).team(team));
+}

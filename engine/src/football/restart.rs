@@ -1,0 +1,139 @@
+//! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
+
+use crate::event::Events;
+use crate::football::body::{Body, Intent, NEVER, Pose};
+use crate::football::play::{Restart, SetPiece};
+use crate::football::{forecast, reach, set_piece};
+use crate::state::{Ball, Match, PlayerId};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::pitch::{BALL_RADIUS_M, CIRCLE_RADIUS_M};
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Team};
+
+/// The event that awards a set piece.
+pub fn event_of(mode: GameMode) -> EventKind {
+    match mode {
+        GameMode::Normal | GameMode::KickOff => EventKind::Kickoff,
+        GameMode::GoalKick => EventKind::GoalKick,
+        GameMode::FreeKick => EventKind::FreeKick,
+        GameMode::Corner => EventKind::Corner,
+        GameMode::ThrowIn => EventKind::ThrowIn,
+        GameMode::Penalty => EventKind::Penalty,
+    }
+}
+
+/// Places everyone for the restart that waits, and ends the stop.
+pub fn apply(game: &mut Match, events: &mut Events) {
+    let _ = events;
+    let Some(restart) = game.play.pending.take() else {
+        game.dead = false;
+        return;
+    };
+    game.dead = false;
+    place(game, restart);
+}
+
+/// Sets up a set piece.
+pub fn place(game: &mut Match, restart: Restart) {
+    calm(game);
+    lay_ball(game, restart.spot);
+    if restart.mode == GameMode::KickOff {
+        kick_off(game, restart.team, restart.spot);
+    } else {
+        let taker = set_piece::taker(game, restart);
+        set_piece::arrange(game, restart, taker);
+        game.play.set_piece =
+            Some(SetPiece { mode: restart.mode, team: restart.team, taker, spot: restart.spot, waited_steps: 0 });
+        game.mode = restart.mode;
+        game.owner = Some(taker);
+        game.possession = Some(restart.team);
+        game.last_touch = Some(taker);
+    }
+    face_ball(game);
+    forecast::renew(game);
+    reach::assess(game);
+    crate::control::switching::reassign(game);
+}
+
+/// Everyone to his place of the kick-off; play is on at once.
+fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
+    for (i, player) in game.players.iter_mut().enumerate() {
+        let own = PlayerId(i as u8).team() == team;
+        player.pos = player.body.kickoff[usize::from(!own)];
+    }
+    game.mode = GameMode::Normal;
+    game.owner = None;
+    game.possession = Some(team);
+    game.last_touch = None;
+    if game.rule(Rule::KickoffCircle) {
+        game.play.circle = Some(team);
+        let side = team.other().side() as f32;
+        for (i, player) in game.players.iter_mut().enumerate() {
+            if PlayerId(i as u8).team() != team && player.pos.distance(spot) < CIRCLE_RADIUS_M as f32 {
+                let away = (player.pos - spot).normalize_or(Vec2::new(-side, 0.0));
+                let away = if away.x * side > 0.0 { Vec2::new(-side, 0.0) } else { away };
+                player.pos = spot + away * (CIRCLE_RADIUS_M as f32 + 0.3);
+            }
+        }
+    }
+    bring_kicker(game, team, spot);
+}
+
+/// Someone of the team that kicks off must stand by the ball.
+fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) {
+    let mut best: Option<(f32, PlayerId)> = None;
+    for (id, player) in game.team(team) {
+        let keeper = if player.role == Role::GK { 1.0e4 } else { 0.0 };
+        let distance = player.pos.distance(spot) + keeper;
+        if best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, id));
+        }
+    }
+    if let Some((distance, id)) = best
+        && distance > 2.5
+        && distance < 9.0e3
+    {
+        game.players[id.index()].pos = spot - Vec2::new(0.9 * team.side() as f32, 0.0);
+    }
+}
+
+/// Ends everything under way: flights, poses, wishes.
+fn calm(game: &mut Match) {
+    game.play.pass = None;
+    game.play.shot = None;
+    game.play.hands = None;
+    game.play.set_piece = None;
+    game.play.kicked_by = None;
+    game.play.offside = 0;
+    game.play.circle = None;
+    game.play.save = [None; 2];
+    for player in &mut game.players {
+        player.vel = Vec2::ZERO;
+        let blank = Body::blank();
+        player.body.pose = Pose::Up;
+        player.body.pose_ticks = 0;
+        player.body.lag_ticks = 0;
+        player.body.kick = None;
+        player.body.dribble = Vec2::ZERO;
+        player.body.intent = Intent::Stand;
+        player.body.touched_at = NEVER;
+        player.body.ready_at = NEVER;
+        player.body.mind.mark = blank.mind.mark;
+        player.body.mind.run_until_step = 0;
+        player.body.mind.decide_at_step = game.step;
+    }
+}
+
+/// Lays the ball down.
+fn lay_ball(game: &mut Match, spot: Vec2) {
+    game.ball = Ball { pos: spot.extend(BALL_RADIUS_M as f32), vel: Vec3::ZERO, spin: Vec3::ZERO };
+    game.play.ball_mean = spot;
+}
+
+/// Everyone looks at the ball.
+pub fn face_ball(game: &mut Match) {
+    let ball = game.ball.pos.truncate();
+    for player in &mut game.players {
+        player.body.facing = (ball - player.pos).normalize_or(player.body.facing);
+        player.heading_rad = crate::math::heading(player.body.facing);
+    }
+}

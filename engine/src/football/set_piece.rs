@@ -1,0 +1,111 @@
+//! Set pieces: who takes one and where everybody stands.
+
+use crate::football::play::Restart;
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::{
+    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX,
+};
+use setpiece_scenario::vocabulary::{GameMode, Role, Team};
+
+/// Who takes a set piece: the nearest, but the keeper for goal kicks and nobody but an outfielder else.
+pub fn taker(game: &Match, restart: Restart) -> PlayerId {
+    let mut best: Option<(f32, PlayerId)> = None;
+    for (id, player) in game.team(restart.team) {
+        let keeper = player.role == Role::GK;
+        let misplaced = if keeper == (restart.mode == GameMode::GoalKick) { 0.0 } else { 1.0e4 };
+        let distance = player.pos.distance(restart.spot) + misplaced;
+        if best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, id));
+        }
+    }
+    best.map_or(PlayerId::new(restart.team, 0), |(_, id)| id)
+}
+
+/// Places everyone for a set piece other than a kick-off.
+pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
+    for i in 0..PLAYERS_MAX {
+        let id = PlayerId(i as u8);
+        let player = &game.players[i];
+        if !player.active || id == taker {
+            continue;
+        }
+        let own = id.team() == restart.team;
+        let place = if player.role == Role::GK {
+            Vec2::new(-53.9 * id.team().side() as f32, 0.0)
+        } else {
+            place_of(restart, id.team(), own, player.body.mind.slot, i)
+        };
+        game.players[i].pos = place;
+    }
+    keep_distance(game, restart);
+    let side = restart.team.side() as f32;
+    let behind = match restart.mode {
+        GameMode::ThrowIn => Vec2::new(0.0, 0.35 * restart.spot.y.signum()),
+        GameMode::Corner => Vec2::new(0.35 * side, 0.35 * restart.spot.y.signum()),
+        _ => Vec2::new(-0.7 * side, 0.0),
+    };
+    game.players[taker.index()].pos = restart.spot + behind;
+}
+
+/// Where a player of a slot stands: his slot stretched over the part of the pitch that the set piece is about.
+fn place_of(restart: Restart, team: Team, own: bool, slot: Vec2, index: usize) -> Vec2 {
+    let side = team.side() as f32;
+    let (half_x, half_y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+    // The ball in the own frame of the player's team.
+    let ball = restart.spot * side;
+    let share = (slot.x + 1.0) * 0.5;
+    let (back, front, width, pull_x, focus_x, pull_y) = match restart.mode {
+        GameMode::GoalKick if own => (-0.62 * half_x, 0.15 * half_x, 0.85, 0.0, 0.0, 0.0),
+        GameMode::GoalKick => (-0.45 * half_x, 0.40 * half_x, 0.7, 0.0, 0.0, 0.0),
+        GameMode::Corner if own => (0.05 * half_x, 0.88 * half_x, 0.45, 0.55, 0.84 * half_x, 0.1),
+        GameMode::Corner => (-0.95 * half_x, -0.55 * half_x, 0.42, 0.7, -0.88 * half_x, 0.1),
+        GameMode::ThrowIn if own => (ball.x - 30.0, ball.x + 20.0, 0.8, 0.25, ball.x + 4.0, 0.45),
+        GameMode::ThrowIn => (ball.x - 30.0, ball.x + 15.0, 0.8, 0.25, ball.x - 10.0, 0.4),
+        GameMode::Penalty if own => (-0.2 * half_x, 0.65 * half_x, 0.7, 0.0, 0.0, 0.0),
+        GameMode::Penalty => (-0.66 * half_x, 0.2 * half_x, 0.7, 0.0, 0.0, 0.0),
+        _ if own => (ball.x - 32.0, ball.x + 22.0, 0.8, 0.1, ball.x + 8.0, 0.25),
+        _ => (ball.x - 34.0, ball.x + 12.0, 0.75, 0.2, ball.x - 14.0, 0.3),
+    };
+    let x = back + share * (front - back);
+    let x = x + (focus_x - x) * pull_x;
+    let y = slot.y * width * half_y;
+    let y = y + (ball.y - y) * pull_y;
+    // Two men of one slot stand a little apart.
+    let apart = ((index * 7) % 5) as f32 * 0.35 - 0.7;
+    let place = Vec2::new(x.clamp(-half_x + 1.0, half_x - 1.0), (y + apart).clamp(-half_y + 1.0, half_y - 1.0));
+    place * side
+}
+
+/// Opponents keep their distance; at a penalty everyone keeps out of the box.
+fn keep_distance(game: &mut Match, restart: Restart) {
+    let apart = match restart.mode {
+        GameMode::ThrowIn => 3.0,
+        _ => CIRCLE_RADIUS_M as f32,
+    };
+    let line = (HALF_LENGTH_M - BOX_DEPTH_M) as f32;
+    for (i, player) in game.players.iter_mut().enumerate() {
+        if !player.active || player.role == Role::GK {
+            continue;
+        }
+        let own = PlayerId(i as u8).team() == restart.team;
+        let least = if own { 2.5 } else { apart };
+        let away = player.pos - restart.spot;
+        if away.length() < least {
+            let inward = Vec2::new(-restart.spot.x, -restart.spot.y).normalize_or(Vec2::X);
+            player.pos = restart.spot + away.normalize_or(inward) * least;
+            let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+            if player.pos.x.abs() > x || player.pos.y.abs() > y {
+                player.pos = restart.spot + inward * least;
+            }
+        }
+        let in_box = player.pos.x.abs() > line - 0.5 && player.pos.y.abs() < BOX_HALF_WIDTH_M as f32 + 0.5;
+        let that_box = player.pos.x * restart.spot.x > 0.0;
+        if restart.mode == GameMode::Penalty && in_box && that_box {
+            player.pos.x = (line - 1.0) * restart.spot.x.signum();
+        }
+        if restart.mode == GameMode::GoalKick && !own && in_box && that_box {
+            player.pos.x = (line - 1.0) * restart.spot.x.signum();
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Slide tackles: the slide itself, the ball or the legs it meets.
+
+use crate::event::Events;
+use crate::football::body::Pose;
+use crate::football::play::ticks_since;
+use crate::football::{foul, noise, report, touch};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{EventKind, Stat};
+
+/// Ticks of a slide.
+const SLIDE_TICKS: u8 = 60;
+/// Ticks after which a slide has lost its force.
+const FORCE_TICKS: u8 = 42;
+/// m/s at its start.
+const SLIDE_MPS: f32 = 6.5;
+/// How near a sliding foot must come to the ball, metres.
+const REACH_M: f32 = 1.0;
+/// How near a slide must come to bring a rival down, metres.
+const LEGS_M: f32 = 0.75;
+
+/// Throws a player into a slide tackle, in the way he runs or towards the ball.
+pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Vec2>) {
+    if !game.player(id).is_up() || game.owner == Some(id) || game.play.set_piece.is_some() || game.play.hands.is_some()
+    {
+        return;
+    }
+    let ball = game.ball.pos.truncate();
+    let player = &mut game.players[id.index()];
+    let to_ball = ball - player.pos;
+    let near = to_ball.length_squared() < 3.0 * 3.0;
+    let way = if near { to_ball } else { dir.unwrap_or(player.body.facing) };
+    let way = way.normalize_or(player.body.facing);
+    player.body.facing = way;
+    player.vel = way * SLIDE_MPS.max(player.vel.length().min(7.5));
+    player.body.kick = None;
+    player.body.strike_pose(Pose::Sliding, SLIDE_TICKS);
+    report::did(game, events, EventKind::Slide, id, None);
+}
+
+/// Lets every sliding player meet the ball or a rival.
+pub fn resolve(game: &mut Match, events: &mut Events) {
+    for i in 0..PLAYERS_MAX {
+        let player = game.players[i];
+        if !player.active || player.body.pose != Pose::Sliding || player.body.pose_ticks < SLIDE_TICKS - FORCE_TICKS {
+            continue;
+        }
+        if game.dead || game.play.hands.is_some() {
+            return;
+        }
+        let id = PlayerId(i as u8);
+        let fresh = ticks_since(game.tick, player.body.touched_at) > 60;
+        let foot = player.pos + player.body.facing * 0.5;
+        let ball = game.ball.pos;
+        if fresh && ball.z < 0.5 && foot.distance_squared(ball.truncate()) < REACH_M * REACH_M {
+            let chance = 0.30 + 0.6 * player.skill(Stat::SlidingTackle);
+            if noise::roll(game) < chance {
+                take(game, events, id);
+                continue;
+            }
+            game.players[i].body.touched_at = game.tick as i32 - 30;
+            continue;
+        }
+        if fresh {
+            meet_legs(game, events, id);
+        }
+    }
+}
+
+/// The sliding foot meets the ball.
+fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let rival = game.owner.filter(|owner| owner.team() != id.team());
+    if rival.is_some() {
+        report::did(game, events, EventKind::Tackle, id, rival);
+    }
+    let aside = noise::bell(game) * 0.3;
+    let way = player.body.facing + Vec2::new(-player.body.facing.y, player.body.facing.x) * aside;
+    touch::push(game, events, id, way * 6.0 - player.vel * 0.28, 1.0);
+    game.play.kicked_by = None;
+    if let Some(rival) = rival {
+        game.players[rival.index()].body.ready_at = game.tick as i32 + 40;
+    }
+}
+
+/// The slide meets a rival's legs.
+fn meet_legs(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let ball = game.ball.pos.truncate();
+    let foot = player.pos + player.body.facing * 0.35;
+    let hit = game.team(id.team().other()).find_map(|(rival, other)| {
+        let up = other.body.pose == Pose::Up;
+        (up && other.pos.distance_squared(foot) < LEGS_M * LEGS_M).then_some((rival, other.pos, other.body.facing))
+    });
+    let Some((rival, pos, facing)) = hit else { return };
+    game.players[rival.index()].body.strike_pose(Pose::Down, 60);
+    game.players[rival.index()].vel *= 0.5;
+    if pos.distance_squared(ball) > 8.0 * 8.0 {
+        return;
+    }
+    // Far from the ball and from behind is worse.
+    let off = 0.5 * (foot.distance(ball) / 2.0).clamp(0.0, 1.0);
+    let behind = 0.5 + 0.5 * facing.dot(player.body.facing);
+    let severity = 0.5 + off + 0.75 * behind + 0.25 * noise::roll(game);
+    foul::call(game, events, id, rival, severity);
+}

@@ -1,0 +1,104 @@
+//! One tick of 10 ms, in order.
+
+use crate::event::Events;
+use crate::football::play::ticks_since;
+use crate::football::{
+    flight, forecast, keeper, kick, movement, possession, reach, referee, report, separation, slide, touch,
+};
+use crate::physics::{self, Body, Contact, Scratch};
+use crate::state::{Match, PlayerId};
+use arrayvec::ArrayVec;
+use glam::{Vec2, Vec3};
+use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, PLAYERS_MAX};
+use setpiece_scenario::vocabulary::{EventKind, Rule};
+
+/// Most bodies that a tick shows to the ball.
+const BODIES_MAX: usize = 8;
+
+/// Plays one tick.
+pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
+    forecast::refresh(game);
+    if game.tick.is_multiple_of(2) {
+        reach::refresh(game);
+        separation::separate(game);
+    }
+    movement::advance(game);
+    keep_circle(game);
+    keeper::use_hands(game, events);
+    slide::resolve(game, events);
+    kick::kick_ball(game, events);
+    touch::play_ball(game, events);
+    if !game.dead {
+        let before = game.ball.pos;
+        move_ball(game, events, scratch);
+        possession::update(game, events);
+        referee::judge(game, events, before);
+    }
+    game.tick += 1;
+}
+
+/// Moves a ball that nobody holds.
+fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
+    if game.play.hands.is_some() {
+        return;
+    }
+    if let Some(set_piece) = game.play.set_piece {
+        game.ball.pos = set_piece.spot.extend(game.ball.pos.z);
+        game.ball.vel = Vec3::ZERO;
+        return;
+    }
+    let bodies = near_bodies(game);
+    let full = game.rule(Rule::Physics);
+    match physics::advance_ball(&mut game.ball, &bodies, full, scratch) {
+        Some(Contact::Woodwork) => {
+            let event = report::event(game, EventKind::Woodwork);
+            events.push(match game.last_touch {
+                Some(id) => event.by(id),
+                None => event,
+            });
+            game.play.save = [None; 2];
+        }
+        Some(Contact::Body(i)) if (i as usize) < PLAYERS_MAX => {
+            flight::deflected(game, events, PlayerId(i));
+            forecast::renew(game);
+        }
+        _ => {}
+    }
+}
+
+/// The bodies that a free, fast ball may meet in this tick.
+fn near_bodies(game: &Match) -> ArrayVec<Body, BODIES_MAX> {
+    let mut bodies = ArrayVec::new();
+    let ball = game.ball;
+    if ball.vel.length_squared() < 25.0 || ball.pos.z > 2.3 || touch::controller(game).is_some() {
+        return bodies;
+    }
+    let flat = ball.pos.truncate();
+    for (i, player) in game.players.iter().enumerate() {
+        if !player.active || player.pos.distance_squared(flat) > 1.3 * 1.3 || bodies.is_full() {
+            continue;
+        }
+        let lately = ticks_since(game.tick, player.body.touched_at) < 30;
+        let beaten = game.play.save[PlayerId(i as u8).team().index()].is_some_and(|save| !save.reaches)
+            && player.role == setpiece_scenario::vocabulary::Role::GK;
+        if !lately && !beaten {
+            bodies.push(Body { id: i as u8, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
+        }
+    }
+    bodies
+}
+
+/// Keeps opponents out of the centre circle until the kick-off has been taken.
+fn keep_circle(game: &mut Match) {
+    let Some(team) = game.play.circle else { return };
+    let radius = CIRCLE_RADIUS_M as f32;
+    for (i, player) in game.players.iter_mut().enumerate() {
+        if !player.active || PlayerId(i as u8).team() == team {
+            continue;
+        }
+        let distance = player.pos.length();
+        if distance < radius {
+            player.pos = player.pos.normalize_or(Vec2::new(-(team.other().side() as f32), 0.0)) * radius;
+        }
+    }
+}

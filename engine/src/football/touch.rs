@@ -1,0 +1,239 @@
+//! Playing the ball without kicking it away: first touches, the touches of a dribble, headers on.
+//!
+//! Decides who touches a ball within reach and where it goes then; leaves duels for an owned ball to `duel`, hands to
+//! `keeper`, what a touch means (passes, offside) to `flight` and `offside`.
+
+use crate::event::Events;
+use crate::football::body::{Intent, KickKind};
+use crate::football::play::ticks_since;
+use crate::football::{duel, flight, forecast, noise};
+use crate::state::{Match, Player, PlayerId};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::Ai;
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{EventKind, Rule, Stat};
+
+/// How near his foot the ball must be for a dribbling touch, metres.
+const FOOT_M: f32 = 0.65;
+/// How near a player must be to take a free ball, metres.
+const TRAP_M: f32 = 0.75;
+/// Ticks between two touches of one player.
+const PAUSE_TICKS: i32 = 14;
+
+/// Lets whoever can and will play the ball do so; at most one touch a tick.
+pub fn play_ball(game: &mut Match, events: &mut Events) {
+    if game.dead || game.play.hands.is_some() || game.play.set_piece.is_some() {
+        return;
+    }
+    let ball = game.ball.pos;
+    let flat = ball.truncate();
+    let mut nearest: Option<(f32, PlayerId)> = None;
+    for i in 0..PLAYERS_MAX {
+        let player = &game.players[i];
+        let distance = player.pos.distance_squared(flat);
+        if distance > 1.1 * 1.1 || !player.is_up() || ball.z > player.body.height_m + 0.35 {
+            continue;
+        }
+        let id = PlayerId(i as u8);
+        if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
+            nearest = Some((distance, id));
+        }
+    }
+    let Some((distance, id)) = nearest else { return };
+    let near = libm::sqrtf(distance);
+    let owner = game.owner.or_else(|| controller(game));
+    if owner == Some(id) {
+        if near <= FOOT_M && ball.z < 0.9 {
+            dribble(game, events, id);
+        }
+    } else if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
+        duel::challenge(game, events, id, rival, near);
+    } else if near <= TRAP_M {
+        trap(game, events, id);
+    }
+}
+
+/// Whoever is dribbling the ball though it rolls free between two touches.
+pub fn controller(game: &Match) -> Option<PlayerId> {
+    let id = game.last_touch?;
+    let player = game.player(id);
+    let near = player.pos.distance_squared(game.ball.pos.truncate()) < 2.2 * 2.2;
+    let own = game.play.pass.is_none() && game.play.shot.is_none();
+    (player.active && near && own && game.ball.pos.z < 0.9).then_some(id)
+}
+
+/// Whether a player would play the ball that is near him.
+fn wants_ball(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    if (game.tick as i32) < player.body.ready_at {
+        return false;
+    }
+    let driven = game.play.driven & (1 << id.0) != 0;
+    if player.ai == Ai::Lazy && !driven {
+        return false;
+    }
+    if game.last_touch == Some(id) {
+        return ticks_since(game.tick, player.body.touched_at) >= PAUSE_TICKS;
+    }
+    let Some(last) = game.last_touch else { return true };
+    if last.team() != id.team() {
+        return true;
+    }
+    // A mate's dribble and a mate's pass to somebody else are left alone.
+    if controller(game) == Some(last) {
+        return false;
+    }
+    match game.play.pass.and_then(|pass| pass.to) {
+        Some(to) if to != id => game.play.chaser[id.team().index()] == Some(id),
+        _ => game.play.shot.is_none() || matches!(player.body.intent, Intent::Ball(_)),
+    }
+}
+
+/// Pushes the ball on in the way he wants to run, where it isn't rolling that way already.
+fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let ball_vel = game.ball.vel.truncate();
+    let armed = player.body.kick.is_some();
+    let wish = if armed { player.body.dribble.clamp_length_max(2.5) } else { player.body.dribble };
+    let speed = wish.length();
+    let to_ball = game.ball.pos.truncate() - player.pos;
+    if speed < 0.3 {
+        if (ball_vel - player.vel * 0.5).length_squared() > 0.8 * 0.8 {
+            let rest = player.vel * 0.35 + (player.body.facing * 0.35 - to_ball) * 1.2;
+            push(game, events, id, rest, 0.0);
+        }
+        return;
+    }
+    let mut ahead = wish / speed;
+    let rolling = ball_vel.length();
+    if rolling > 1.0 {
+        let cos = ball_vel.dot(ahead) / rolling;
+        if cos > 0.94 && to_ball.dot(ahead) > 0.15 && ball_vel.dot(ahead) > player.vel.dot(ahead) + 0.2 {
+            return;
+        }
+        if speed > 6.0 && player.vel.length() > 5.5 && cos < 0.9 && cos > -0.6 {
+            // At a sprint the ball is bent round by small angles.
+            let left = if ball_vel.perp_dot(ahead) < 0.0 { -0.45 } else { 0.45 };
+            let on = ball_vel / rolling;
+            ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
+        }
+    }
+    let velocity = touch_ahead(&player, to_ball, ahead, speed, pressed(game, id));
+    let wild = 0.09 * (1.15 - player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
+    let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
+    push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
+}
+
+/// The ball's velocity with which he meets it again a moment later, running at `speed` along `ahead`.
+fn touch_ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, pressed: bool) -> Vec2 {
+    let own = player.vel.dot(ahead).max(0.0);
+    let gait = speed / 8.0;
+    let shy = if pressed { 0.8 } else { 1.0 };
+    let time = (0.25 + 0.5 * gait * gait) * shy;
+    let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
+    let place = ahead * (mean * time + 0.42 + 0.03 * speed);
+    let way = place - to_ball;
+    let distance = way.length();
+    let average = distance / time;
+    let start = average + 0.5 * (1.7 + 0.06 * average * average) * time;
+    if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
+}
+
+/// Whether an opponent is about to get at him.
+pub fn pressed(game: &Match, id: PlayerId) -> bool {
+    let pos = game.player(id).pos;
+    game.team(id.team().other()).any(|(_, rival)| rival.pos.distance_squared(pos) < 2.0 * 2.0)
+}
+
+/// Takes a free ball: how much of its speed stays is a matter of ball control.
+fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let ball = game.ball;
+    let meeting = (ball.vel - player.vel.extend(0.0)).length();
+    let taken_from_rival = game.play.pass.is_some_and(|pass| pass.by.team() != id.team());
+    if taken_from_rival || game.play.shot.is_some() {
+        // A ball struck by the others: the faster, the harder to read.
+        let chance = (1.12 - 0.026 * meeting) * (0.45 + 0.55 * player.skill(Stat::Reaction));
+        if noise::roll(game) > chance {
+            game.players[id.index()].body.ready_at = game.tick as i32 + 40;
+            return;
+        }
+    }
+    if ball.pos.z > 1.2 {
+        header(game, events, id);
+        return;
+    }
+    let control = player.skill(Stat::BallControl);
+    let wildness = noise::roll(game);
+    let keep = ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (1.15 - control) * (0.15 + 0.75 * wildness);
+    let wish = player.body.dribble;
+    let to_ball = ball.pos.truncate() - player.pos;
+    let soft = if wish.length_squared() > 0.25 {
+        touch_ahead(&player, to_ball, wish.normalize_or_zero(), wish.length().min(5.5), false) * 0.85
+    } else {
+        player.vel * 0.5
+    };
+    let aside = noise::bell(game) * keep * 0.5;
+    let left_over = ball.vel.truncate() * keep;
+    let velocity = soft * (1.0 - keep) + left_over + Vec2::new(-left_over.y, left_over.x) * aside;
+    let hop = if meeting > 8.0 { keep * 3.0 } else { 0.0 };
+    push(game, events, id, velocity, hop);
+}
+
+/// Heads a high ball: on towards what he had in mind, else down in front of him.
+fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let side = id.team().side() as f32;
+    let skill = player.skill(Stat::Header);
+    let goal = Vec2::new(55.0 * side, 0.0);
+    let own_third = player.pos.x * side < -20.0;
+    let plan = player.body.kick;
+    let aimed = match plan.map(|plan| plan.kind) {
+        Some(KickKind::Shot) => Some((goal, 15.0)),
+        Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
+        None if own_third => Some((player.pos + Vec2::new(side * 20.0, player.pos.y.signum() * 8.0), 13.0)),
+        None => None,
+    };
+    let (target, speed) = aimed.unwrap_or((player.pos + player.body.facing * 3.0, 3.5));
+    let way = (target - player.pos).normalize_or_zero();
+    let aside = noise::bell(game) * 0.25 * (1.3 - skill);
+    let flat = (way + Vec2::new(-way.y, way.x) * aside) * speed;
+    let rise = if speed > 10.0 { 1.5 + noise::bell(game) } else { -1.0 };
+    let shot = plan.is_some_and(|plan| plan.kind == KickKind::Shot);
+    let from = game.ball.pos;
+    if !flight::touched(game, events, id, true) {
+        return;
+    }
+    game.players[id.index()].body.kick = None;
+    game.ball.vel = Vec3::new(flat.x, flat.y, if shot { -0.5 } else { rise });
+    game.ball.spin = Vec3::ZERO;
+    if shot {
+        flight::shot_struck(game, events, id, from.truncate());
+    }
+    forecast::renew(game);
+}
+
+/// Touches the ball so that it leaves with a velocity.
+pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2, hop: f32) {
+    if !flight::touched(game, events, id, false) {
+        return;
+    }
+    let velocity = velocity.clamp_length_max(14.0);
+    game.ball.vel = velocity.extend(hop);
+    game.ball.pos.z = game.ball.pos.z.max(0.11);
+    // Rolling: the spin that belongs to the speed.
+    game.ball.spin = Vec3::new(-velocity.y, velocity.x, 0.0) / 0.11;
+    forecast::renew(game);
+}
+
+/// What the rules and statistics say of a keeper's hands.
+pub fn may_handle(game: &Match, id: PlayerId) -> bool {
+    let driven = game.play.driven & (1 << id.0) != 0;
+    let lazy = game.player(id).ai == Ai::Lazy && !driven;
+    !lazy && !(driven && game.rule(Rule::GrfKeeper)) && game.player(id).active
+}
+
+/// The event of a touch, by its height.
+pub fn kind_of_touch(height_m: f32) -> EventKind {
+    if height_m > 1.5 { EventKind::Header } else { EventKind::Touch }
+}

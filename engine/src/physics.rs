@@ -4,14 +4,19 @@
 
 pub mod constants;
 pub mod flight;
+mod gate;
 pub mod lines;
 pub mod predict;
+mod scene;
+mod scratch;
 
 pub use lines::{Line, crossed_goal_line, left_pitch};
 pub use predict::forecast;
+pub use scratch::Scratch;
 
 use crate::state::Ball;
-use glam::Vec2;
+use constants::{BALL_RADIUS, REST_SPEED, ROLL_DRAG, TICK_S};
+use glam::{Vec2, Vec3};
 
 /// A player's body that the ball may meet during a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,15 +42,46 @@ pub enum Contact {
     Body(u8),
 }
 
-/// Memory that one worker lends to one tick: the scratch rapier world and its template.
-#[derive(Default)]
-pub struct Scratch {}
-
 /// Moves the ball on by one tick of 10 ms: flight, bounce, roll, and rigid contact with woodwork, nets and bodies.
 ///
 /// `full` runs rapier whatever is near; else it is asked only where the swept ball comes near something hard.
 pub fn advance_ball(ball: &mut Ball, bodies: &[Body], full: bool, scratch: &mut Scratch) -> Option<Contact> {
-    let _ = (bodies, full, scratch);
-    flight::fly(ball);
-    None
+    let bodies = gate::near_bodies(ball, bodies);
+    if bodies.is_empty() && flight::lies_still(ball) {
+        return None;
+    }
+    let before = *ball;
+    flight::push(ball);
+    if !full && bodies.is_empty() && !gate::near_goal(ball) {
+        ball.pos += ball.vel * TICK_S;
+        flight::land(ball);
+        return None;
+    }
+    let touch = scratch.meet(ball, &bodies);
+    flight::land(ball);
+    let touch = touch?;
+    settle(ball, &before, touch.held_up);
+    Some(touch.contact)
+}
+
+/// Brakes a ball that rolls along the top of a goal, and brings a slow one that leans on something, and stands on the
+/// ground or on something, to exact rest.
+fn settle(ball: &mut Ball, before: &Ball, held_up: bool) {
+    let on_ground = ball.pos.z <= BALL_RADIUS;
+    if !held_up && !on_ground {
+        return;
+    }
+    let speed = ball.vel.length();
+    if speed < REST_SPEED {
+        if before.vel == Vec3::ZERO {
+            // It lay here already: gravity and the contact were in balance.
+            *ball = *before;
+        }
+        ball.vel = Vec3::ZERO;
+        ball.spin = Vec3::ZERO;
+    } else if !on_ground {
+        let kept = 1.0 - ROLL_DRAG * TICK_S / speed;
+        ball.vel *= kept;
+        ball.spin *= kept;
+    }
 }

@@ -49,3 +49,32 @@ pub const ROLL_DRAG_SQUARE: f32 = 0.060 - AIR_DRAG;
 pub const ROLL_SPIN_SHARE: f32 = 0.9;
 /// Share of the spin about the upright that grass takes each second.
 pub const ROLL_TWIST_DECAY: f32 = 2.0;
+
+/// Radius of posts and crossbar, m. Laws: at most 0.12 m across; 0.07 is Google Research Football's, and lets the ball
+/// be met at the 0.18 m from the axis that it uses.
+pub const FRAME_RADIUS: f32 = 0.07;
+/// Share of the speed that woodwork gives back straight. `engine-rules.md` § 3: × 0.8.
+pub const FRAME_BOUNCE: f32 = 0.8;
+/// Friction of woodwork on leather. Chosen: painted metal.
+pub const FRAME_FRICTION: f32 = 0.2;
+/// Half the thickness of the nets, m. Thick enough that a ball pressed against one never is nearer to its far side.
+pub const NET_HALF: f32 = 0.03;
+/// Share of the speed that a net gives back. Chosen: a slack net swallows a shot.
+pub const NET_BOUNCE: f32 = 0.1;
+/// Friction of a net on leather. Chosen: meshes hold a ball.
+pub const NET_FRICTION: f32 = 0.6;
+/// Radius of the upright capsule that a player's body is, m: half the breadth of hips and shoulders.
+pub const BODY_RADIUS: f32 = 0.25;
+/// Share of the speed that a body gives back. Chosen: soft.
+pub const BODY_BOUNCE: f32 = 0.3;
+/// Friction of a body on leather. Chosen: cloth.
+pub const BODY_FRICTION: f32 = 0.5;
+/// Length of a body's capsule, m; it ends below the ground, so that one length does for players of every height.
+pub const BODY_LENGTH: f32 = 2.4;
+
+/// Rapier is asked when the swept ball comes nearer to something hard than this, m. Its own look-ahead is 0.02.
+pub const NEAR: f32 = 0.05;
+/// Below this speed a ball that touches something and is held up lies still, m/s: what gravity adds in a tick.
+pub const REST_SPEED: f32 = 0.1;
+/// Most spin that rapier is given, rad/s: it turns nothing by more than 45° a tick.
+pub const RIGID_SPIN_MAX: f32 = 75.0;

@@ -1,0 +1,95 @@
+//! What a tick of the ball costs: free, at the goal, at a body, and with rapier on every tick.
+//!
+//! In thread CPU time, so that a busy machine does not count.
+#![allow(missing_docs, reason = "criterion's macros write the entry point")]
+
+use criterion::measurement::{Measurement, ValueFormatter, WallTime};
+use criterion::{Criterion, criterion_group, criterion_main};
+use glam::{Vec2, Vec3};
+use setpiece_engine::physics::{Body, Scratch, advance_ball, forecast};
+use setpiece_engine::state::Ball;
+use std::hint::black_box;
+use std::time::Duration;
+
+/// CPU time of this thread.
+struct CpuTime(WallTime);
+
+/// Nanoseconds that this thread has run; Linux only.
+fn cpu_ns() -> u64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("the kernel counts CPU time");
+    text.split_whitespace().next().and_then(|ns| ns.parse().ok()).expect("nanoseconds come first")
+}
+
+impl Measurement for CpuTime {
+    type Intermediate = u64;
+    type Value = Duration;
+
+    fn start(&self) -> u64 {
+        cpu_ns()
+    }
+
+    fn end(&self, start: u64) -> Duration {
+        // At least a nanosecond: criterion divides by it.
+        Duration::from_nanos((cpu_ns() - start).max(1))
+    }
+
+    fn add(&self, one: &Duration, other: &Duration) -> Duration {
+        *one + *other
+    }
+
+    fn zero(&self) -> Duration {
+        Duration::ZERO
+    }
+
+    fn to_f64(&self, value: &Duration) -> f64 {
+        value.as_nanos() as f64
+    }
+
+    fn formatter(&self) -> &dyn ValueFormatter {
+        self.0.formatter()
+    }
+}
+
+const FLYING: Ball =
+    Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::new(20.0, 3.0, 4.0), spin: Vec3::new(2.0, -15.0, 8.0) };
+const ROLLING: Ball = Ball { pos: Vec3::new(0.0, 0.0, 0.11), vel: Vec3::new(12.0, 3.0, 0.0), spin: Vec3::ZERO };
+const AT_POST: Ball = Ball { pos: Vec3::new(54.8, 3.7, 1.0), vel: Vec3::new(25.0, 0.0, 0.0), spin: Vec3::ZERO };
+const IN_MOUTH: Ball = Ball { pos: Vec3::new(55.5, 0.0, 1.0), vel: Vec3::new(25.0, 0.0, 0.0), spin: Vec3::ZERO };
+
+fn standing(id: u8, x: f32, y: f32) -> Body {
+    Body { id, pos: Vec2::new(x, y), vel: Vec2::new(3.0, 1.0), height_m: 1.8 }
+}
+
+fn one_tick(c: &mut Criterion<CpuTime>, name: &str, ball: Ball, bodies: &[Body], full: bool) {
+    let mut scratch = Scratch::default();
+    c.bench_function(name, |b| {
+        b.iter(|| {
+            let mut moved = black_box(ball);
+            black_box(advance_ball(&mut moved, black_box(bodies), full, &mut scratch));
+            moved
+        });
+    });
+}
+
+fn ticks(c: &mut Criterion<CpuTime>) {
+    one_tick(c, "tick/gated/flying", FLYING, &[], false);
+    one_tick(c, "tick/gated/rolling", ROLLING, &[], false);
+    one_tick(c, "tick/gated/in_the_goal_mouth", IN_MOUTH, &[], false);
+    one_tick(c, "tick/gated/at_the_post", AT_POST, &[], false);
+    one_tick(c, "tick/full/flying", FLYING, &[], true);
+    let at = |count: u8| -> Vec<Body> { (0..count).map(|i| standing(i, 0.4 + 0.1 * f32::from(i), 0.0)).collect() };
+    for count in 1..=4u8 {
+        let ball = Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::new(20.0, 0.0, 0.0), spin: Vec3::ZERO };
+        one_tick(c, &format!("tick/gated/bodies_{count}"), ball, &at(count), false);
+    }
+    let mut places = [Vec3::ZERO; 30];
+    c.bench_function("forecast/300_ticks", |b| b.iter(|| forecast(black_box(&FLYING), &mut places, 10)));
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().with_measurement(CpuTime(WallTime)).sample_size(20)
+        .warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+    targets = ticks
+}
+criterion_main!(benches);

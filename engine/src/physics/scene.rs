@@ -1,0 +1,200 @@
+//! The rapier world of rigid contact: one goal, the ball, and a few players' bodies.
+//!
+//! There is but one goal, the right team's. A ball in the left half is turned by 180° about the centre spot, met with
+//! this goal, and turned back; so both ends behave alike to the bit.
+//!
+//! The grass is no part of it: bouncing and rolling are [`super::flight`]'s in every mode. Nor is gravity: all forces
+//! are in the ball's velocity before rapier sees it.
+
+use super::constants::{
+    BALL_INERTIA_SHARE, BALL_MASS, BALL_RADIUS, BODY_BOUNCE, BODY_FRICTION, BODY_LENGTH, BODY_RADIUS, FRAME_BOUNCE,
+    FRAME_FRICTION, FRAME_RADIUS, NET_BOUNCE, NET_FRICTION, NET_HALF, TICK_S,
+};
+use glam::Vec3;
+use rapier3d::dynamics::{
+    CCDSolver, CoefficientCombineRule, ImpulseJointSet, IntegrationParameters, IslandManager, MassProperties,
+    MultibodyJointSet, RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet,
+};
+use rapier3d::geometry::{
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape,
+};
+use rapier3d::math::Pose;
+use rapier3d::pipeline::PhysicsPipeline;
+use setpiece_scenario::pitch;
+
+/// Most bodies that one tick can take.
+pub(super) const BODIES_MAX: usize = 4;
+
+const GOAL_X: f32 = pitch::HALF_LENGTH_M as f32;
+const POST_Y: f32 = pitch::GOAL_HALF_WIDTH_M as f32;
+const BAR_Z: f32 = pitch::GOAL_HEIGHT_M as f32;
+const DEPTH: f32 = pitch::GOAL_DEPTH_M as f32;
+
+/// Lowest and highest corner of all that is hard about the right goal, m.
+pub(super) const GOAL_BOUNDS: [Vec3; 2] = [
+    Vec3::new(GOAL_X - FRAME_RADIUS, -POST_Y - FRAME_RADIUS, 0.0),
+    Vec3::new(GOAL_X + DEPTH + NET_HALF, POST_Y + FRAME_RADIUS, BAR_Z + FRAME_RADIUS),
+];
+
+/// What a collider is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Frame,
+    Net,
+    /// A body by its place in the list that the tick was given.
+    Body(usize),
+}
+
+/// Everything of rapier that a tick changes and that must be restored before the next.
+#[derive(Clone)]
+pub(super) struct World {
+    pub(super) islands: IslandManager,
+    pub(super) broad_phase: BroadPhaseBvh,
+    pub(super) narrow_phase: NarrowPhase,
+    pub(super) rigid: RigidBodySet,
+    pub(super) colliders: ColliderSet,
+    pub(super) impulse_joints: ImpulseJointSet,
+    pub(super) multibody_joints: MultibodyJointSet,
+    pub(super) soft: SoftBodySet,
+    pub(super) ccd: CCDSolver,
+    pub(super) ball: RigidBodyHandle,
+    pub(super) ball_collider: ColliderHandle,
+    pub(super) bodies: [Option<RigidBodyHandle>; BODIES_MAX],
+}
+
+impl World {
+    /// The world with room for so many bodies, stepped once, so that its trees and lists are laid out.
+    pub(super) fn template(bodies: usize, pipeline: &mut PhysicsPipeline) -> World {
+        let mut rigid = RigidBodySet::new();
+        let mut colliders = ColliderSet::new();
+        let goal = rigid.insert(RigidBodyBuilder::fixed());
+        colliders.insert_with_parent(frame(), goal, &mut rigid);
+        colliders.insert_with_parent(net(), goal, &mut rigid);
+        let inertia = Vec3::splat(BALL_INERTIA_SHARE * BALL_MASS * BALL_RADIUS * BALL_RADIUS);
+        let ball = rigid.insert(
+            RigidBodyBuilder::dynamic()
+                .translation(Vec3::new(0.0, 0.0, 20.0))
+                .can_sleep(false)
+                // Fixed parts are swept against in any case; moving ones only with this.
+                .ccd_enabled(bodies > 0)
+                .additional_mass_properties(MassProperties::new(Vec3::ZERO, BALL_MASS, inertia)),
+        );
+        let ball_shape = ColliderBuilder::ball(BALL_RADIUS).density(0.0).restitution(1.0).friction(1.0);
+        let ball_collider = colliders.insert_with_parent(ball_shape, ball, &mut rigid);
+        let bodies = std::array::from_fn(|i| {
+            (i < bodies).then(|| {
+                let aside = Vec3::new(-20.0 - 5.0 * i as f32, 0.0, 0.0);
+                let handle = rigid.insert(RigidBodyBuilder::kinematic_velocity_based().translation(aside));
+                colliders.insert_with_parent(body(i), handle, &mut rigid);
+                handle
+            })
+        });
+        let mut world = World {
+            islands: IslandManager::new(),
+            broad_phase: BroadPhaseBvh::new(),
+            narrow_phase: NarrowPhase::new(),
+            rigid,
+            colliders,
+            impulse_joints: ImpulseJointSet::new(),
+            multibody_joints: MultibodyJointSet::new(),
+            soft: SoftBodySet::default(),
+            ccd: CCDSolver::new(),
+            ball,
+            ball_collider,
+            bodies,
+        };
+        world.step(pipeline, &parameters());
+        world
+    }
+
+    /// One tick.
+    pub(super) fn step(&mut self, pipeline: &mut PhysicsPipeline, parameters: &IntegrationParameters) {
+        pipeline.step(
+            Vec3::ZERO,
+            parameters,
+            &mut self.islands,
+            &mut self.broad_phase,
+            &mut self.narrow_phase,
+            &mut self.rigid,
+            &mut self.colliders,
+            &mut self.impulse_joints,
+            &mut self.multibody_joints,
+            &mut self.soft,
+            &mut self.ccd,
+            &(),
+            &(),
+        );
+    }
+
+    /// What a collider is.
+    pub(super) fn part(&self, collider: ColliderHandle) -> Option<Part> {
+        match self.colliders.get(collider)?.user_data {
+            FRAME => Some(Part::Frame),
+            NET => Some(Part::Net),
+            data => Some(Part::Body(usize::try_from(data.checked_sub(BODY)?).ok()?)),
+        }
+    }
+}
+
+/// User data of colliders.
+const FRAME: u128 = 1;
+const NET: u128 = 2;
+const BODY: u128 = 3;
+
+/// The solver's settings. Every tick meets a contact anew, so nothing is carried over from the last one.
+pub(super) fn parameters() -> IntegrationParameters {
+    IntegrationParameters {
+        dt: TICK_S,
+        warmstart_coefficient: 0.0,
+        num_solver_iterations: 2,
+        max_ccd_substeps: 1,
+        contact_clustering: false,
+        contact_recycling: false,
+        ..IntegrationParameters::default()
+    }
+}
+
+/// Posts and crossbar.
+fn frame() -> ColliderBuilder {
+    let bar = |from: Vec3, to: Vec3| (Pose::IDENTITY, SharedShape::capsule(from, to, FRAME_RADIUS));
+    let foot = |y: f32| Vec3::new(GOAL_X, y, 0.0);
+    let corner = |y: f32| Vec3::new(GOAL_X, y, BAR_Z);
+    ColliderBuilder::compound(vec![
+        bar(foot(-POST_Y), corner(-POST_Y)),
+        bar(foot(POST_Y), corner(POST_Y)),
+        bar(corner(-POST_Y), corner(POST_Y)),
+    ])
+    .restitution(FRAME_BOUNCE)
+    .restitution_combine_rule(CoefficientCombineRule::Min)
+    .friction(FRAME_FRICTION)
+    .friction_combine_rule(CoefficientCombineRule::Min)
+    .user_data(FRAME)
+}
+
+/// Sides, rear and top of the net, tight between the frame and the rear.
+fn net() -> ColliderBuilder {
+    let panel = |centre: Vec3, half: Vec3| (Pose::from_translation(centre), SharedShape::cuboid(half.x, half.y, half.z));
+    let (middle, reach) = (GOAL_X + 0.5 * DEPTH, 0.5 * DEPTH);
+    let side = |y: f32| panel(Vec3::new(middle, y, 0.5 * BAR_Z), Vec3::new(reach, NET_HALF, 0.5 * BAR_Z));
+    ColliderBuilder::compound(vec![
+        side(-POST_Y),
+        side(POST_Y),
+        panel(Vec3::new(GOAL_X + DEPTH, 0.0, 0.5 * BAR_Z), Vec3::new(NET_HALF, POST_Y + NET_HALF, 0.5 * BAR_Z + NET_HALF)),
+        panel(Vec3::new(middle, 0.0, BAR_Z), Vec3::new(reach, POST_Y + NET_HALF, NET_HALF)),
+    ])
+    .restitution(NET_BOUNCE)
+    .restitution_combine_rule(CoefficientCombineRule::Min)
+    .friction(NET_FRICTION)
+    .friction_combine_rule(CoefficientCombineRule::Min)
+    .user_data(NET)
+}
+
+/// A player's body, upright.
+fn body(place: usize) -> ColliderBuilder {
+    ColliderBuilder::capsule_z(0.5 * BODY_LENGTH - BODY_RADIUS, BODY_RADIUS)
+        .restitution(BODY_BOUNCE)
+        .restitution_combine_rule(CoefficientCombineRule::Min)
+        .friction(BODY_FRICTION)
+        .friction_combine_rule(CoefficientCombineRule::Min)
+        .user_data(BODY + place as u128)
+}

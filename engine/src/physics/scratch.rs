@@ -1,0 +1,140 @@
+//! The rapier worlds that one worker lends to one tick after the other.
+//!
+//! A used rapier world remembers (its contact graph, the order of its lists), so the same ball put into it may take
+//! another path. Therefore every tick starts from a copy of the template, and the result depends on the ball and the
+//! bodies alone.
+
+use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
+use super::scene::{BODIES_MAX, Part, World, parameters};
+use super::{Body, Contact};
+use crate::state::Ball;
+use glam::{Vec2, Vec3};
+use rapier3d::dynamics::IntegrationParameters;
+use rapier3d::pipeline::PhysicsPipeline;
+
+/// Memory that one worker lends to one tick: the scratch rapier world and its templates, by the number of bodies.
+///
+/// What a tick finds in it has no influence on what it computes.
+pub struct Scratch {
+    templates: [World; BODIES_MAX + 1],
+    live: World,
+    pipeline: PhysicsPipeline,
+    parameters: IntegrationParameters,
+}
+
+impl Default for Scratch {
+    fn default() -> Scratch {
+        let mut pipeline = PhysicsPipeline::new();
+        let templates: [World; BODIES_MAX + 1] = std::array::from_fn(|bodies| World::template(bodies, &mut pipeline));
+        Scratch { live: templates[0].clone(), templates, pipeline, parameters: parameters() }
+    }
+}
+
+impl std::fmt::Debug for Scratch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Scratch").finish_non_exhaustive()
+    }
+}
+
+/// What happened to the ball in a tick of rigid contact.
+pub(super) struct Touch {
+    /// The strongest contact.
+    pub(super) contact: Contact,
+    /// Whether some contact holds the ball up.
+    pub(super) held_up: bool,
+    /// Whether both a body and a part of the goal were touched.
+    squeezed: bool,
+}
+
+/// Turned by 180° about the upright, so that the other goal is where the template has its own.
+fn turned(v: Vec3) -> Vec3 {
+    Vec3::new(-v.x, -v.y, v.z)
+}
+
+impl Scratch {
+    /// Carries the ball along its velocity over one tick, off whatever is hard. At most [`BODIES_MAX`] bodies.
+    pub(super) fn meet(&mut self, ball: &mut Ball, bodies: &[Body]) -> Option<Touch> {
+        let before = *ball;
+        let touch = self.carry(ball, bodies)?;
+        if touch.squeezed {
+            // A body's proxy yields to nothing, and would press the ball through the net: here the body gives way.
+            *ball = before;
+            let against = self.carry(ball, &[]);
+            return Some(Touch { held_up: against.is_some_and(|t| t.held_up), ..touch });
+        }
+        Some(touch)
+    }
+
+    fn carry(&mut self, ball: &mut Ball, bodies: &[Body]) -> Option<Touch> {
+        let bodies = &bodies[..bodies.len().min(BODIES_MAX)];
+        let left_half = ball.pos.x < 0.0;
+        let frame = |v: Vec3| if left_half { turned(v) } else { v };
+        self.live.clone_from(&self.templates[bodies.len()]);
+        let given_spin = frame(ball.spin).clamp_length_max(RIGID_SPIN_MAX);
+        self.place(frame(ball.pos), frame(ball.vel), given_spin);
+        for (i, body) in bodies.iter().enumerate() {
+            self.place_body(i, body, left_half);
+        }
+        self.live.step(&mut self.pipeline, &self.parameters);
+        let touch = self.touch(bodies);
+        if let Some(moved) = self.live.rigid.get(self.live.ball) {
+            ball.pos = frame(moved.translation());
+            ball.vel = frame(moved.linvel());
+            if touch.is_some() {
+                ball.spin += frame(moved.angvel() - given_spin);
+            }
+        }
+        touch
+    }
+
+    fn place(&mut self, pos: Vec3, vel: Vec3, spin: Vec3) {
+        if let Some(ball) = self.live.rigid.get_mut(self.live.ball) {
+            ball.set_translation(pos, true);
+            ball.set_linvel(vel, true);
+            ball.set_angvel(spin, true);
+        }
+    }
+
+    fn place_body(&mut self, place: usize, body: &Body, left_half: bool) {
+        let turn = |v: Vec2| if left_half { -v } else { v };
+        let Some(handle) = self.live.bodies[place] else { return };
+        if let Some(proxy) = self.live.rigid.get_mut(handle) {
+            proxy.set_translation(turn(body.pos).extend(body.height_m - 0.5 * BODY_LENGTH), true);
+            proxy.set_linvel(turn(body.vel).extend(0.0), true);
+        }
+    }
+
+    /// The contacts of the tick that has just been stepped.
+    fn touch(&self, bodies: &[Body]) -> Option<Touch> {
+        let world = &self.live;
+        let mut strongest = 0.0;
+        let mut contact = None;
+        let mut held_up = false;
+        let (mut by_body, mut by_goal) = (false, false);
+        for pair in world.narrow_phase.contact_pairs_with(world.ball_collider) {
+            let (impulse, normal) = pair.max_impulse();
+            if impulse <= 0.0 {
+                continue;
+            }
+            let ball_first = pair.collider1 == world.ball_collider;
+            held_up |= if ball_first { -normal.z } else { normal.z } > FLAT;
+            let other = if ball_first { pair.collider2 } else { pair.collider1 };
+            let Some(part) = world.part(other) else { continue };
+            let met = match part {
+                Part::Frame => Some(Contact::Woodwork),
+                Part::Net => Some(Contact::Net),
+                Part::Body(place) => bodies.get(place).map(|body| Contact::Body(body.id)),
+            };
+            by_body |= matches!(part, Part::Body(_));
+            by_goal |= !matches!(part, Part::Body(_));
+            if impulse > strongest {
+                strongest = impulse;
+                contact = met;
+            }
+        }
+        contact.map(|contact| Touch { contact, held_up, squeezed: by_body && by_goal })
+    }
+}
+
+/// A contact whose normal is steeper than this (its z) holds a ball up.
+const FLAT: f32 = 0.5;

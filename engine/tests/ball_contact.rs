@@ -1,0 +1,345 @@
+//! The ball and what is hard: woodwork, nets, bodies; the fast mode against the full one.
+
+use glam::{Vec2, Vec3};
+use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS};
+use setpiece_engine::physics::{Body, Contact, Scratch, advance_ball, crossed_goal_line};
+use setpiece_engine::random::{Purpose, Stream};
+use setpiece_engine::state::Ball;
+use setpiece_scenario::vocabulary::Team;
+
+/// A draw from the test's own stream.
+struct Draw(Stream);
+
+impl Draw {
+    fn new(seed: u64) -> Draw {
+        Draw(Stream::new(seed, 0, Purpose::Draw))
+    }
+
+    fn within(&mut self, low: f32, high: f32) -> f32 {
+        self.0.range(low, high)
+    }
+
+    fn point(&mut self, low: [f32; 3], high: [f32; 3]) -> Vec3 {
+        Vec3::new(self.within(low[0], high[0]), self.within(low[1], high[1]), self.within(low[2], high[2]))
+    }
+
+    fn sign(&mut self) -> f32 {
+        if self.0.bits() & 1 == 0 { -1.0 } else { 1.0 }
+    }
+}
+
+/// A ball from one point through another, against gravity.
+fn aimed(from: Vec3, at: Vec3, speed: f32, spin: Vec3) -> Ball {
+    let away = at - from;
+    let flight_s = away.length() / speed;
+    let vel = away.normalize() * speed + Vec3::Z * (0.5 * 9.81 * flight_s);
+    Ball { pos: from, vel, spin }
+}
+
+fn standing(id: u8, pos: Vec2) -> Body {
+    Body { id, pos, vel: Vec2::ZERO, height_m: 1.8 }
+}
+
+/// A shot and who stands in its way.
+type Shot = (Ball, Vec<Body>);
+
+/// Shots of every kind, from all over the pitch, at either goal.
+fn shots(count: usize) -> Vec<Shot> {
+    let mut draw = Draw::new(11);
+    (0..count).map(|i| shot(i % 8, &mut draw)).collect()
+}
+
+fn shot(kind: usize, draw: &mut Draw) -> Shot {
+    let side = draw.sign();
+    let from = draw.point([20.0, -30.0, BALL_RADIUS], [52.0, 30.0, BALL_RADIUS]);
+    let mouth = draw.point([55.0, -3.4, 0.2], [55.0, 3.4, 2.4]);
+    let post_y = 3.7 * draw.sign();
+    let speed = draw.within(14.0, 36.0);
+    let mut bodies = Vec::new();
+    let ball = match kind {
+        0 => Ball { pos: from, vel: (mouth - from).truncate().normalize().extend(0.0) * speed, spin: Vec3::ZERO },
+        1 => aimed(from, mouth, speed, Vec3::ZERO),
+        2 => aimed(from, mouth, speed, draw.point([-20.0, -20.0, -60.0], [20.0, 20.0, 60.0])),
+        3 => aimed(from, Vec3::new(55.0, post_y + draw.within(-0.2, 0.2), mouth.z), speed, Vec3::ZERO),
+        4 => aimed(from, Vec3::new(55.0, mouth.y, 2.5 + draw.within(-0.2, 0.2)), speed, Vec3::ZERO),
+        5 => {
+            // Nets from outside: from behind the goal line.
+            let behind = draw.point([55.5, -20.0, BALL_RADIUS], [59.5, 20.0, BALL_RADIUS]);
+            aimed(behind, draw.point([55.2, -3.7, 0.2], [57.5, 3.7, 2.4]), speed, Vec3::ZERO)
+        }
+        6 => {
+            for id in 0..3 {
+                let between = from.lerp(mouth, draw.within(0.2, 0.9)).truncate();
+                bodies.push(standing(id, between + Vec2::new(0.0, draw.within(-0.6, 0.6))));
+            }
+            aimed(from, mouth, speed, Vec3::ZERO)
+        }
+        _ => {
+            let anywhere = draw.point([-52.0, -34.0, BALL_RADIUS], [52.0, 34.0, 2.0]);
+            Ball { pos: anywhere, vel: draw.point([-30.0, -30.0, -5.0], [30.0, 30.0, 15.0]), spin: Vec3::ZERO }
+        }
+    };
+    let turn = |v: Vec3| Vec3::new(v.x * side, v.y * side, v.z);
+    let ball = Ball { pos: turn(ball.pos), vel: turn(ball.vel), spin: turn(ball.spin) };
+    for body in &mut bodies {
+        body.pos *= side;
+    }
+    (ball, bodies)
+}
+
+/// Follows a ball for some ticks; the goal it went into, if any.
+fn verdict(mut ball: Ball, bodies: &[Body], full: bool, ticks: usize, scratch: &mut Scratch) -> Option<Team> {
+    let mut goal = None;
+    for _ in 0..ticks {
+        let before = ball.pos;
+        advance_ball(&mut ball, bodies, full, scratch);
+        assert!(ball.pos.is_finite() && ball.vel.is_finite() && ball.spin.is_finite(), "{ball:?}");
+        goal = goal.or(crossed_goal_line(before, ball.pos));
+    }
+    goal
+}
+
+#[test]
+fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
+    let (mut gated, mut full) = (Scratch::default(), Scratch::default());
+    let (mut met, mut goals, mut different) = (0, 0, 0);
+    let shots = shots(2400);
+    for (i, (start, bodies)) in shots.iter().enumerate() {
+        let (mut fast, mut exact) = (*start, *start);
+        for tick in 0..250 {
+            let one = advance_ball(&mut fast, bodies, false, &mut gated);
+            let other = advance_ball(&mut exact, bodies, true, &mut full);
+            if one.is_some() || other.is_some() {
+                assert_eq!(one, other, "shot {i}, tick {tick}: the first contact");
+                met += 1;
+                break;
+            }
+            assert!((fast.pos - exact.pos).length() < 0.10, "shot {i}, tick {tick}: {fast:?} {exact:?}");
+            assert!((fast.vel - exact.vel).length() < 0.3, "shot {i}, tick {tick}: {fast:?} {exact:?}");
+        }
+        let one = verdict(*start, bodies, false, 250, &mut gated);
+        let other = verdict(*start, bodies, true, 250, &mut full);
+        goals += usize::from(one.is_some());
+        different += usize::from(one != other);
+    }
+    println!("{met} met something, {goals} goals, {different} different verdicts");
+    assert!(met > 1000 && goals > 400, "the shots must test something: {met} met something, {goals} goals");
+    assert!(different * 100 <= shots.len(), "{different} of {} verdicts differ", shots.len());
+}
+
+#[test]
+fn what_a_scratch_did_before_leaves_no_trace() {
+    let shots = shots(64);
+    let mut shared = Scratch::default();
+    let mut together: Vec<Ball> = shots.iter().map(|(ball, _)| *ball).collect();
+    for _ in 0..200 {
+        for (ball, (_, bodies)) in together.iter_mut().zip(&shots) {
+            advance_ball(ball, bodies, true, &mut shared);
+        }
+    }
+    for (i, ((start, bodies), interleaved)) in shots.iter().zip(&together).enumerate() {
+        let mut alone = *start;
+        let mut fresh = Scratch::default();
+        for _ in 0..200 {
+            advance_ball(&mut alone, bodies, true, &mut fresh);
+        }
+        assert_eq!(alone, *interleaved, "shot {i}");
+    }
+}
+
+#[test]
+fn both_goals_are_alike_to_the_bit() {
+    let mut scratch = Scratch::default();
+    for (start, bodies) in shots(200) {
+        let turn = |v: Vec3| Vec3::new(-v.x, -v.y, v.z);
+        let mut one = start;
+        let mut other = Ball { pos: turn(start.pos), vel: turn(start.vel), spin: turn(start.spin) };
+        let turned: Vec<Body> = bodies.iter().map(|body| Body { pos: -body.pos, ..*body }).collect();
+        for _ in 0..200 {
+            let touched = advance_ball(&mut one, &bodies, false, &mut scratch);
+            assert_eq!(touched, advance_ball(&mut other, &turned, false, &mut scratch));
+            assert_eq!((one.pos, one.vel), (turn(other.pos), turn(other.vel)));
+        }
+    }
+}
+
+#[test]
+fn woodwork_gives_back_four_fifths_of_the_speed() {
+    let mut scratch = Scratch::default();
+    for speed in [8.0f32, 15.0, 25.0, 35.0, 45.0] {
+        for (what, at) in [("post", Vec3::new(55.0, 3.7, 1.2)), ("bar", Vec3::new(55.0, 1.0, 2.5))] {
+            let from = at - Vec3::X * 0.4;
+            let mut ball = Ball { pos: from, vel: Vec3::X * speed, spin: Vec3::ZERO };
+            let mut touched = None;
+            for _ in 0..40 {
+                touched = touched.or(advance_ball(&mut ball, &[], false, &mut scratch));
+                if ball.vel.x < 0.0 {
+                    break;
+                }
+            }
+            assert_eq!(touched, Some(Contact::Woodwork), "{what} at {speed}");
+            let share = ball.vel.length() / speed;
+            assert!((0.70..0.85).contains(&share), "{what} at {speed}: share {share}");
+            assert!(ball.pos.x < 55.0 - FRAME_RADIUS, "{what} at {speed}: thrown back");
+        }
+    }
+}
+
+/// Whether the ball's centre is inside the net.
+fn inside(pos: Vec3) -> bool {
+    pos.x.abs() > 55.0 && pos.x.abs() < 57.55 && pos.y.abs() < 3.7 && pos.z < 2.5
+}
+
+#[test]
+fn a_ball_in_the_net_stays_there_at_any_speed() {
+    let mut draw = Draw::new(3);
+    let mut scratch = Scratch::default();
+    for i in 0..1500 {
+        let from = draw.point([40.0, -3.0, 0.11], [54.8, 3.0, 2.2]);
+        let at = draw.point([57.5, -3.5, 0.2], [57.5, 3.5, 2.3]);
+        let vel = (at - from).normalize() * draw.within(20.0, 45.0);
+        let mut ball = Ball { pos: from, vel, spin: draw.point([-50.0; 3], [50.0; 3]) };
+        let mut was_in = false;
+        for _ in 0..250 {
+            advance_ball(&mut ball, &[], false, &mut scratch);
+            was_in = ball.pos.x > 55.0 && (was_in || inside(ball.pos));
+            let out_through_net = was_in && !inside(ball.pos);
+            assert!(!out_through_net, "ball {i} left through the net: {ball:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_from_behind_never_gets_into_the_goal() {
+    let mut draw = Draw::new(4);
+    let mut scratch = Scratch::default();
+    for i in 0..1500 {
+        let side = draw.sign();
+        let from = match i % 3 {
+            0 => draw.point([58.0, -6.0, 0.11], [60.0, 6.0, 3.0]),
+            1 => draw.point([55.4, 4.2, 0.11], [58.0, 9.0, 3.0]),
+            _ => draw.point([55.4, -3.5, 2.9], [57.0, 3.5, 6.0]),
+        };
+        let at = draw.point([55.6, -3.0, 0.2], [57.3, 3.0, 2.3]);
+        let vel = (at - from).normalize() * draw.within(5.0, 45.0);
+        let turn = |v: Vec3| Vec3::new(v.x * side, v.y * side, v.z);
+        let mut ball = Ball { pos: turn(from), vel: turn(vel), spin: Vec3::ZERO };
+        for _ in 0..300 {
+            advance_ball(&mut ball, &[], false, &mut scratch);
+            if ball.pos.x.abs() < 55.0 {
+                break;
+            }
+            assert!(!inside(ball.pos), "ball {i} came in through the net: {ball:?}");
+        }
+    }
+}
+
+#[test]
+fn a_body_stops_and_damps_the_ball_and_is_named() {
+    let mut scratch = Scratch::default();
+    for speed in [5.0f32, 15.0, 30.0, 45.0] {
+        let mut ball = Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::X * speed, spin: Vec3::ZERO };
+        let bodies = [standing(7, Vec2::new(9.0, 0.0)), standing(14, Vec2::new(1.5, 0.05))];
+        let mut touched = None;
+        for _ in 0..60 {
+            touched = touched.or(advance_ball(&mut ball, &bodies, false, &mut scratch));
+            assert!(ball.pos.x < 1.5 - BODY_RADIUS, "through the body: {ball:?}");
+        }
+        assert_eq!(touched, Some(Contact::Body(14)), "at {speed} m/s");
+        assert!(ball.vel.x < 0.0 && ball.vel.length() < 0.6 * speed + 4.0, "damped: {ball:?}");
+    }
+}
+
+#[test]
+fn a_ball_over_his_head_passes() {
+    let mut scratch = Scratch::default();
+    let mut ball = Ball { pos: Vec3::new(0.0, 0.0, 2.2), vel: Vec3::new(25.0, 0.0, 1.0), spin: Vec3::ZERO };
+    for _ in 0..20 {
+        assert_eq!(advance_ball(&mut ball, &[standing(3, Vec2::new(2.0, 0.0))], false, &mut scratch), None);
+    }
+    assert!(ball.pos.x > 4.0);
+}
+
+#[test]
+fn a_running_body_takes_a_resting_ball_along() {
+    let mut scratch = Scratch::default();
+    let mut ball = Ball { pos: Vec3::new(0.0, 0.0, BALL_RADIUS), vel: Vec3::ZERO, spin: Vec3::ZERO };
+    let mut body = Body { id: 4, pos: Vec2::new(-1.0, 0.0), vel: Vec2::new(6.0, 0.0), height_m: 1.8 };
+    let mut touched = None;
+    for _ in 0..30 {
+        touched = touched.or(advance_ball(&mut ball, &[body], false, &mut scratch));
+        body.pos += body.vel * 0.01;
+    }
+    assert_eq!(touched, Some(Contact::Body(4)));
+    assert!(ball.vel.x > 5.0 && ball.vel.x < 9.0 && ball.pos.x > body.pos.x, "{ball:?}");
+}
+
+#[test]
+fn a_body_cannot_press_the_ball_through_the_net() {
+    let mut draw = Draw::new(8);
+    let mut scratch = Scratch::default();
+    for i in 0..200 {
+        let from = draw.point([56.0, -3.0, 0.11], [57.0, 3.0, 0.11]);
+        let mut ball = Ball { pos: from, vel: Vec3::ZERO, spin: Vec3::ZERO };
+        let vel = Vec2::new(draw.within(1.0, 8.0), draw.within(-4.0, 4.0));
+        let mut body = Body { id: 2, pos: from.truncate() - vel.normalize(), vel, height_m: 1.85 };
+        for _ in 0..150 {
+            advance_ball(&mut ball, &[body], false, &mut scratch);
+            body.pos += body.vel * 0.01;
+            assert!(ball.pos.x < 55.0 || inside(ball.pos), "ball {i}: {ball:?}, {body:?}");
+        }
+    }
+}
+
+#[test]
+fn a_thousand_balls_left_at_net_and_posts_lie_still_for_a_minute() {
+    let mut draw = Draw::new(5);
+    let mut scratch = Scratch::default();
+    let mut at_hard_parts = 0;
+    for i in 0..1000 {
+        let side = draw.sign();
+        let from = match i % 4 {
+            0 => draw.point([55.3, -3.4, 0.11], [57.3, 3.4, 2.2]),
+            1 => draw.point([54.5, 3.3, 0.11], [55.6, 4.1, 2.9]),
+            2 => draw.point([57.7, -4.2, 0.11], [58.2, 4.2, 2.4]),
+            _ => draw.point([54.9, -3.6, 2.7], [57.6, 3.6, 3.2]),
+        };
+        let vel = draw.point([-2.0, -2.0, -3.0], [3.0, 2.0, 1.0]);
+        let turn = |v: Vec3| Vec3::new(v.x * side, v.y * side, v.z);
+        let mut ball = Ball { pos: turn(from), vel: turn(vel), spin: Vec3::ZERO };
+        let mut ticks = 0;
+        while ball.vel != Vec3::ZERO {
+            let start = ball;
+            advance_ball(&mut ball, &[], false, &mut scratch);
+            ticks += 1;
+            assert!(ball.pos.is_finite() && ball.vel.is_finite(), "ball {i}: {start:?} -> {ball:?}");
+            assert!(ticks < 2000, "ball {i} from {from} with {vel} finds no rest: {ball:?}");
+        }
+        let rest = ball.pos;
+        at_hard_parts += usize::from(rest.x.abs() > 54.8 && rest.x.abs() < 57.8 && rest.y.abs() < 4.0);
+        for _ in 0..6000 {
+            advance_ball(&mut ball, &[], false, &mut scratch);
+            assert!((ball.pos - rest).length() < 0.01, "ball {i} crept from {rest} to {}", ball.pos);
+        }
+    }
+    assert!(at_hard_parts > 400, "{at_hard_parts} rested at the goal");
+}
+
+#[test]
+fn hard_things_add_no_energy() {
+    let mut draw = Draw::new(6);
+    let mut scratch = Scratch::default();
+    for i in 0..600 {
+        let (mut ball, bodies) = shot(i % 7, &mut draw);
+        for tick in 0..200 {
+            let energy = |b: &Ball| {
+                9.81 * b.pos.z + 0.5 * b.vel.length_squared() + BALL_RADIUS * BALL_RADIUS / 3.0 * b.spin.length_squared()
+            };
+            let before = energy(&ball);
+            let touched = advance_ball(&mut ball, &bodies, false, &mut scratch);
+            let after = energy(&ball);
+            // Pushed out of an overlap of millimetres, the ball may gain that much height.
+            assert!(after <= before * 1.001 + 0.1, "shot {i}, tick {tick}, {touched:?}: {before} -> {after}");
+        }
+    }
+}

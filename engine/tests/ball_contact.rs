@@ -5,7 +5,6 @@ use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS
 use setpiece_engine::physics::{Body, Contact, Scratch, advance_ball, crossed_goal_line};
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_engine::state::Ball;
-use setpiece_scenario::vocabulary::Team;
 
 /// A draw from the test's own stream.
 struct Draw(Stream);
@@ -87,18 +86,6 @@ fn shot(kind: usize, draw: &mut Draw) -> Shot {
     (ball, bodies)
 }
 
-/// Follows a ball for some ticks; the goal it went into, if any.
-fn verdict(mut ball: Ball, bodies: &[Body], full: bool, ticks: usize, scratch: &mut Scratch) -> Option<Team> {
-    let mut goal = None;
-    for _ in 0..ticks {
-        let before = ball.pos;
-        advance_ball(&mut ball, bodies, full, scratch);
-        assert!(ball.pos.is_finite() && ball.vel.is_finite() && ball.spin.is_finite(), "{ball:?}");
-        goal = goal.or(crossed_goal_line(before, ball.pos));
-    }
-    goal
-}
-
 #[test]
 fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
     let (mut gated, mut full) = (Scratch::default(), Scratch::default());
@@ -106,21 +93,30 @@ fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
     let shots = shots(2400);
     for (i, (start, bodies)) in shots.iter().enumerate() {
         let (mut fast, mut exact) = (*start, *start);
+        let (mut fast_goal, mut exact_goal) = (None, None);
+        let mut free = true;
         for tick in 0..250 {
+            let before = (fast.pos, exact.pos);
             let one = advance_ball(&mut fast, bodies, false, &mut gated);
             let other = advance_ball(&mut exact, bodies, true, &mut full);
-            if one.is_some() || other.is_some() {
+            assert!(fast.pos.is_finite() && fast.vel.is_finite() && fast.spin.is_finite(), "{fast:?}");
+            fast_goal = fast_goal.or(crossed_goal_line(before.0, fast.pos));
+            exact_goal = exact_goal.or(crossed_goal_line(before.1, exact.pos));
+            if free && (one.is_some() || other.is_some()) {
                 assert_eq!(one, other, "shot {i}, tick {tick}: the first contact");
                 met += 1;
+                free = false;
+            }
+            if free {
+                assert!((fast.pos - exact.pos).length() < 0.10, "shot {i}, tick {tick}: {fast:?} {exact:?}");
+                assert!((fast.vel - exact.vel).length() < 0.3, "shot {i}, tick {tick}: {fast:?} {exact:?}");
+            }
+            if fast.vel == Vec3::ZERO && exact.vel == Vec3::ZERO || fast.pos.x.abs() > 70.0 {
                 break;
             }
-            assert!((fast.pos - exact.pos).length() < 0.10, "shot {i}, tick {tick}: {fast:?} {exact:?}");
-            assert!((fast.vel - exact.vel).length() < 0.3, "shot {i}, tick {tick}: {fast:?} {exact:?}");
         }
-        let one = verdict(*start, bodies, false, 250, &mut gated);
-        let other = verdict(*start, bodies, true, 250, &mut full);
-        goals += usize::from(one.is_some());
-        different += usize::from(one != other);
+        goals += usize::from(fast_goal.is_some());
+        different += usize::from(fast_goal != exact_goal);
     }
     println!("{met} met something, {goals} goals, {different} different verdicts");
     assert!(met > 1000 && goals > 400, "the shots must test something: {met} met something, {goals} goals");
@@ -342,4 +338,10 @@ fn hard_things_add_no_energy() {
             assert!(after <= before * 1.001 + 0.1, "shot {i}, tick {tick}, {touched:?}: {before} -> {after}");
         }
     }
+}
+
+#[test]
+fn a_scratch_can_go_to_another_worker() {
+    fn assert_send<T: Send>() {}
+    assert_send::<Scratch>();
 }

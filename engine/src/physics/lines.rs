@@ -44,3 +44,43 @@ pub fn left_pitch(pos: Vec3) -> Option<Line> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Line, crossed_goal_line, left_pitch};
+    use glam::Vec3;
+    use setpiece_scenario::vocabulary::Team;
+
+    #[test]
+    fn a_goal_counts_when_the_whole_ball_is_over() {
+        let short = crossed_goal_line(Vec3::new(54.9, 0.0, 1.0), Vec3::new(55.16, 0.0, 1.0));
+        assert_eq!(short, None);
+        let over = crossed_goal_line(Vec3::new(55.16, 0.0, 1.0), Vec3::new(55.18, 0.0, 1.0));
+        assert_eq!(over, Some(Team::Right));
+        let left = crossed_goal_line(Vec3::new(-54.9, 3.0, 2.0), Vec3::new(-55.3, 3.0, 2.0));
+        assert_eq!(left, Some(Team::Left));
+    }
+
+    #[test]
+    fn beside_the_posts_over_the_bar_and_from_behind_is_no_goal() {
+        assert_eq!(crossed_goal_line(Vec3::new(55.0, 3.8, 1.0), Vec3::new(55.4, 3.8, 1.0)), None);
+        assert_eq!(crossed_goal_line(Vec3::new(55.0, 0.0, 2.7), Vec3::new(55.4, 0.0, 2.6)), None);
+        assert_eq!(crossed_goal_line(Vec3::new(55.4, 0.0, 1.0), Vec3::new(55.1, 0.0, 1.0)), None);
+        assert_eq!(crossed_goal_line(Vec3::new(55.2, 0.0, 1.0), Vec3::new(55.5, 0.0, 1.0)), None, "over before");
+    }
+
+    #[test]
+    fn what_counts_is_where_the_path_crosses_the_line() {
+        // Under the bar at the line, though above it before; beside the post after, though inside at the line.
+        assert_eq!(crossed_goal_line(Vec3::new(54.97, 0.0, 2.55), Vec3::new(55.37, 0.0, 2.35)), Some(Team::Right));
+        assert_eq!(crossed_goal_line(Vec3::new(55.07, 3.5, 1.0), Vec3::new(55.47, 3.9, 1.0)), Some(Team::Right));
+    }
+
+    #[test]
+    fn the_ball_leaves_the_pitch_over_a_goal_line_or_a_side_line() {
+        assert_eq!(left_pitch(Vec3::new(55.16, 36.16, 0.11)), None);
+        assert_eq!(left_pitch(Vec3::new(-55.18, 10.0, 0.11)), Some(Line::Goal(Team::Left)));
+        assert_eq!(left_pitch(Vec3::new(20.0, -36.18, 0.11)), Some(Line::Side));
+        assert_eq!(left_pitch(Vec3::new(55.2, 36.2, 0.11)), Some(Line::Goal(Team::Right)));
+    }
+}

@@ -36,6 +36,29 @@ pub(super) const GOAL_BOUNDS: [Vec3; 2] = [
     Vec3::new(GOAL_X + DEPTH + NET_HALF, POST_Y + FRAME_RADIUS, BAR_Z + FRAME_RADIUS),
 ];
 
+/// What rapier wants besides: sets that stay empty, and working memory that carries nothing from step to step.
+pub(super) struct Workspace {
+    pipeline: PhysicsPipeline,
+    parameters: IntegrationParameters,
+    impulse_joints: ImpulseJointSet,
+    multibody_joints: MultibodyJointSet,
+    soft: SoftBodySet,
+    ccd: CCDSolver,
+}
+
+impl Default for Workspace {
+    fn default() -> Workspace {
+        Workspace {
+            pipeline: PhysicsPipeline::new(),
+            parameters: parameters(),
+            impulse_joints: ImpulseJointSet::new(),
+            multibody_joints: MultibodyJointSet::new(),
+            soft: SoftBodySet::default(),
+            ccd: CCDSolver::new(),
+        }
+    }
+}
+
 /// What a collider is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
@@ -45,7 +68,7 @@ pub(super) enum Part {
     Body(usize),
 }
 
-/// Everything of rapier that a tick changes and that must be restored before the next.
+/// The parts of rapier's state that a tick changes, and that must be restored before the next.
 #[derive(Clone)]
 pub(super) struct World {
     pub(super) islands: IslandManager,
@@ -53,10 +76,6 @@ pub(super) struct World {
     pub(super) narrow_phase: NarrowPhase,
     pub(super) rigid: RigidBodySet,
     pub(super) colliders: ColliderSet,
-    pub(super) impulse_joints: ImpulseJointSet,
-    pub(super) multibody_joints: MultibodyJointSet,
-    pub(super) soft: SoftBodySet,
-    pub(super) ccd: CCDSolver,
     pub(super) ball: RigidBodyHandle,
     pub(super) ball_collider: ColliderHandle,
     pub(super) bodies: [Option<RigidBodyHandle>; BODIES_MAX],
@@ -64,7 +83,7 @@ pub(super) struct World {
 
 impl World {
     /// The world with room for so many bodies, stepped once, so that its trees and lists are laid out.
-    pub(super) fn template(bodies: usize, pipeline: &mut PhysicsPipeline) -> World {
+    pub(super) fn template(bodies: usize, workspace: &mut Workspace) -> World {
         let mut rigid = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
         let goal = rigid.insert(RigidBodyBuilder::fixed());
@@ -95,32 +114,40 @@ impl World {
             narrow_phase: NarrowPhase::new(),
             rigid,
             colliders,
-            impulse_joints: ImpulseJointSet::new(),
-            multibody_joints: MultibodyJointSet::new(),
-            soft: SoftBodySet::default(),
-            ccd: CCDSolver::new(),
             ball,
             ball_collider,
             bodies,
         };
-        world.step(pipeline, &parameters());
+        world.step(workspace);
         world
     }
 
+    /// Becomes as the template is. Part by part: that is half the price of a whole clone.
+    pub(super) fn restore(&mut self, template: &World) {
+        self.islands.clone_from(&template.islands);
+        self.broad_phase.clone_from(&template.broad_phase);
+        self.narrow_phase.clone_from(&template.narrow_phase);
+        self.rigid.clone_from(&template.rigid);
+        self.colliders.clone_from(&template.colliders);
+        self.ball = template.ball;
+        self.ball_collider = template.ball_collider;
+        self.bodies = template.bodies;
+    }
+
     /// One tick.
-    pub(super) fn step(&mut self, pipeline: &mut PhysicsPipeline, parameters: &IntegrationParameters) {
-        pipeline.step(
+    pub(super) fn step(&mut self, workspace: &mut Workspace) {
+        workspace.pipeline.step(
             Vec3::ZERO,
-            parameters,
+            &workspace.parameters,
             &mut self.islands,
             &mut self.broad_phase,
             &mut self.narrow_phase,
             &mut self.rigid,
             &mut self.colliders,
-            &mut self.impulse_joints,
-            &mut self.multibody_joints,
-            &mut self.soft,
-            &mut self.ccd,
+            &mut workspace.impulse_joints,
+            &mut workspace.multibody_joints,
+            &mut workspace.soft,
+            &mut workspace.ccd,
             &(),
             &(),
         );
@@ -142,7 +169,7 @@ const NET: u128 = 2;
 const BODY: u128 = 3;
 
 /// The solver's settings. Every tick meets a contact anew, so nothing is carried over from the last one.
-pub(super) fn parameters() -> IntegrationParameters {
+fn parameters() -> IntegrationParameters {
     IntegrationParameters {
         dt: TICK_S,
         warmstart_coefficient: 0.0,

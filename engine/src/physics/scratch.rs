@@ -5,12 +5,10 @@
 //! bodies alone.
 
 use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
-use super::scene::{BODIES_MAX, Part, World, parameters};
+use super::scene::{BODIES_MAX, Part, Workspace, World};
 use super::{Body, Contact};
 use crate::state::Ball;
 use glam::{Vec2, Vec3};
-use rapier3d::dynamics::IntegrationParameters;
-use rapier3d::pipeline::PhysicsPipeline;
 
 /// Memory that one worker lends to one tick: the scratch rapier world and its templates, by the number of bodies.
 ///
@@ -18,15 +16,14 @@ use rapier3d::pipeline::PhysicsPipeline;
 pub struct Scratch {
     templates: [World; BODIES_MAX + 1],
     live: World,
-    pipeline: PhysicsPipeline,
-    parameters: IntegrationParameters,
+    workspace: Workspace,
 }
 
 impl Default for Scratch {
     fn default() -> Scratch {
-        let mut pipeline = PhysicsPipeline::new();
-        let templates: [World; BODIES_MAX + 1] = std::array::from_fn(|bodies| World::template(bodies, &mut pipeline));
-        Scratch { live: templates[0].clone(), templates, pipeline, parameters: parameters() }
+        let mut workspace = Workspace::default();
+        let templates: [World; BODIES_MAX + 1] = std::array::from_fn(|bodies| World::template(bodies, &mut workspace));
+        Scratch { live: templates[0].clone(), templates, workspace }
     }
 }
 
@@ -69,13 +66,13 @@ impl Scratch {
         let bodies = &bodies[..bodies.len().min(BODIES_MAX)];
         let left_half = ball.pos.x < 0.0;
         let frame = |v: Vec3| if left_half { turned(v) } else { v };
-        self.live.clone_from(&self.templates[bodies.len()]);
+        self.live.restore(&self.templates[bodies.len()]);
         let given_spin = frame(ball.spin).clamp_length_max(RIGID_SPIN_MAX);
         self.place(frame(ball.pos), frame(ball.vel), given_spin);
         for (i, body) in bodies.iter().enumerate() {
             self.place_body(i, body, left_half);
         }
-        self.live.step(&mut self.pipeline, &self.parameters);
+        self.live.step(&mut self.workspace);
         let touch = self.touch(bodies);
         if let Some(moved) = self.live.rigid.get(self.live.ball) {
             ball.pos = frame(moved.translation());

@@ -144,6 +144,7 @@ codes! {
     ExtendsCycle = 210 Error "things extend each other in a circle";
     AmbiguousName = 211 Error "a name has two meanings";
     NothingToRemove = 212 Error "there is nothing to remove";
+    Recursion = 216 Error "a definition uses itself";
     UnusedName = 213 Warning "a name is never used";
     NoScenario = 214 Error "the file has no scenario to run";
     WrongScope = 215 Error "this can't be used here";

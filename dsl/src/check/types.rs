@@ -1,0 +1,267 @@
+//! The types of expressions: the language's own, with units as exponents.
+
+use setpiece_scenario::vocabulary::{Type, Unit};
+
+/// Exponents of metre, second and radian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Dim {
+    /// Of the metre.
+    pub(crate) m: i8,
+    /// Of the second.
+    pub(crate) s: i8,
+    /// Of the radian.
+    pub(crate) rad: i8,
+}
+
+impl Dim {
+    /// Of a plain number.
+    pub(crate) const NONE: Dim = Dim { m: 0, s: 0, rad: 0 };
+    /// Of a length.
+    pub(crate) const LENGTH: Dim = Dim { m: 1, s: 0, rad: 0 };
+    /// Of a duration.
+    pub(crate) const DURATION: Dim = Dim { m: 0, s: 1, rad: 0 };
+    /// Of a speed.
+    pub(crate) const SPEED: Dim = Dim { m: 1, s: -1, rad: 0 };
+    /// Of an angle.
+    pub(crate) const ANGLE: Dim = Dim { m: 0, s: 0, rad: 1 };
+
+    /// Of a product.
+    pub(crate) fn times(self, other: Dim) -> Dim {
+        Dim {
+            m: self.m.saturating_add(other.m),
+            s: self.s.saturating_add(other.s),
+            rad: self.rad.saturating_add(other.rad),
+        }
+    }
+
+    /// Of a quotient.
+    pub(crate) fn over(self, other: Dim) -> Dim {
+        self.times(Dim { m: -other.m, s: -other.s, rad: -other.rad })
+    }
+
+    /// Of a square root, if it has one.
+    pub(crate) fn root(self) -> Option<Dim> {
+        let even = self.m % 2 == 0 && self.s % 2 == 0 && self.rad % 2 == 0;
+        even.then_some(Dim { m: self.m / 2, s: self.s / 2, rad: self.rad / 2 })
+    }
+}
+
+/// The type of an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ty {
+    /// Of a broken expression: agrees with everything, so that one mistake gives one report.
+    Error,
+    /// A plain number.
+    Number,
+    /// A whole number.
+    Int,
+    /// A share, written `60%`.
+    Percent,
+    /// A number with a unit.
+    Quantity(Dim),
+    /// A truth value.
+    Bool,
+    /// A place on the pitch, metres in the world frame.
+    Point,
+    /// A difference of places, metres.
+    Vector,
+    /// A velocity, m/s.
+    Velocity,
+    /// A part of the pitch.
+    Region,
+    /// A player, or nobody.
+    Player,
+    /// The ball.
+    Ball,
+    /// Some players.
+    Set,
+    /// A team.
+    Team,
+    /// Places for a team.
+    Formation,
+    /// A word.
+    String,
+    /// A game mode.
+    Mode,
+    /// A role.
+    Role,
+    /// A list of values.
+    List,
+    /// The goals of both teams.
+    Score,
+    /// The event of an `on` block.
+    Event,
+}
+
+impl Ty {
+    /// A length.
+    pub(crate) const LENGTH: Ty = Ty::Quantity(Dim::LENGTH);
+    /// A duration.
+    pub(crate) const DURATION: Ty = Ty::Quantity(Dim::DURATION);
+    /// A speed.
+    pub(crate) const SPEED: Ty = Ty::Quantity(Dim::SPEED);
+    /// An angle.
+    pub(crate) const ANGLE: Ty = Ty::Quantity(Dim::ANGLE);
+
+    /// A type that is written in a declaration.
+    pub(crate) fn of(ty: Type) -> Ty {
+        match ty {
+            Type::Number => Ty::Number,
+            Type::Int => Ty::Int,
+            Type::Bool => Ty::Bool,
+            Type::Percent => Ty::Percent,
+            Type::Length => Ty::LENGTH,
+            Type::Duration => Ty::DURATION,
+            Type::Speed => Ty::SPEED,
+            Type::Angle => Ty::ANGLE,
+            Type::Point => Ty::Point,
+            Type::Vector => Ty::Vector,
+            Type::Region => Ty::Region,
+            Type::Player => Ty::Player,
+            Type::Set => Ty::Set,
+            Type::Team => Ty::Team,
+            Type::Formation => Ty::Formation,
+            Type::Behavior => Ty::Error,
+            Type::String => Ty::String,
+            Type::Mode => Ty::Mode,
+            Type::Role => Ty::Role,
+        }
+    }
+
+    /// The type of a scenario's parameter; `None` where a parameter can't be of this type.
+    pub(crate) fn param(self) -> Option<Type> {
+        Some(match self {
+            Ty::Number => Type::Number,
+            Ty::Int => Type::Int,
+            Ty::Bool => Type::Bool,
+            Ty::Percent => Type::Percent,
+            Ty::LENGTH => Type::Length,
+            Ty::DURATION => Type::Duration,
+            Ty::SPEED => Type::Speed,
+            Ty::ANGLE => Type::Angle,
+            Ty::Team => Type::Team,
+            Ty::String => Type::String,
+            _ => return None,
+        })
+    }
+
+    /// The type of a number with a unit.
+    pub(crate) fn of_unit(unit: Unit) -> Ty {
+        Ty::of(unit.ty())
+    }
+
+    /// The exponents of a number; `None` of anything else.
+    pub(crate) fn dim(self) -> Option<Dim> {
+        match self {
+            Ty::Number | Ty::Int | Ty::Percent => Some(Dim::NONE),
+            Ty::Quantity(dim) => Some(dim),
+            _ => None,
+        }
+    }
+
+    /// The type of a number with these exponents.
+    pub(crate) fn with_dim(dim: Dim) -> Ty {
+        if dim == Dim::NONE { Ty::Number } else { Ty::Quantity(dim) }
+    }
+
+    /// Whether it is a number without a unit.
+    pub(crate) fn is_plain(self) -> bool {
+        self.dim() == Some(Dim::NONE)
+    }
+
+    /// Whether it has a place on the pitch.
+    pub(crate) fn is_place(self) -> bool {
+        matches!(self, Ty::Point | Ty::Player | Ty::Ball)
+    }
+
+    /// Whether a value of this type may stand where `wanted` is asked for.
+    pub(crate) fn fits(self, wanted: Ty) -> bool {
+        self == wanted
+            || self == Ty::Error
+            || wanted == Ty::Error
+            || match wanted {
+                Ty::Number => self.is_plain(),
+                Ty::Percent => self.is_plain(),
+                Ty::Point => self.is_place(),
+                Ty::Set => matches!(self, Ty::Team),
+                _ => false,
+            }
+    }
+
+    /// The type of `a` and `b` together, as branches of one expression.
+    pub(crate) fn join(self, other: Ty) -> Option<Ty> {
+        if self == Ty::Error || other == Ty::Error {
+            return Some(Ty::Error);
+        }
+        if self == other {
+            return Some(self);
+        }
+        if self.is_plain() && other.is_plain() {
+            return Some(Ty::Number);
+        }
+        (self.is_place() && other.is_place()).then_some(Ty::Point)
+    }
+
+    /// The type in a sentence: "a length".
+    pub(crate) fn noun(self) -> String {
+        match self {
+            Ty::Error => "something else",
+            Ty::Number => "a number",
+            Ty::Int => "a whole number",
+            Ty::Percent => "a percentage",
+            Ty::LENGTH => "a length",
+            Ty::DURATION => "a duration",
+            Ty::SPEED => "a speed",
+            Ty::ANGLE => "an angle",
+            Ty::Quantity(dim) => return format!("a quantity in {}", unit_name(dim)),
+            Ty::Bool => "a condition",
+            Ty::Point => "a point",
+            Ty::Vector => "a vector",
+            Ty::Velocity => "a velocity",
+            Ty::Region => "a region",
+            Ty::Player => "a player",
+            Ty::Ball => "the ball",
+            Ty::Set => "a set of players",
+            Ty::Team => "a team",
+            Ty::Formation => "a formation",
+            Ty::String => "a string",
+            Ty::Mode => "a game mode",
+            Ty::Role => "a role",
+            Ty::List => "a list",
+            Ty::Score => "the score",
+            Ty::Event => "an event",
+        }
+        .to_owned()
+    }
+
+    /// How a value of the type is written, for help.
+    pub(crate) fn example(self) -> Option<&'static str> {
+        Some(match self {
+            Ty::Number => "0.5",
+            Ty::Int => "3",
+            Ty::Percent => "60%",
+            Ty::LENGTH => "12m",
+            Ty::DURATION => "2s` or `20 steps",
+            Ty::SPEED => "8m/s",
+            Ty::ANGLE => "30deg",
+            Ty::Point => "(0.5, 0.1)` or `(27m, 8m)",
+            Ty::Vector => "(2m, 0m)",
+            Ty::Velocity => "(5m/s, 0m/s)",
+            Ty::Region => "right.box",
+            Ty::Bool => "me has ball",
+            Ty::Team => "left` or `right",
+            _ => return None,
+        })
+    }
+}
+
+fn unit_name(dim: Dim) -> String {
+    let part = |name: &str, exponent: i8| match exponent {
+        0 => None,
+        1 => Some(name.to_owned()),
+        n => Some(format!("{name}^{n}")),
+    };
+    let parts: Vec<String> =
+        [part("m", dim.m), part("s", dim.s), part("rad", dim.rad)].into_iter().flatten().collect();
+    parts.join("·")
+}

@@ -1,0 +1,336 @@
+//! Trees to programs: expressions are typed and lowered in one pass, so that a value is its type and its registers.
+//!
+//! A broken part yields a value of type `Error`, which agrees with everything; as soon as one problem is an error no
+//! scenario comes out, so what such a value's registers hold does not matter.
+
+pub(crate) mod agents;
+pub(crate) mod builder;
+pub(crate) mod ending;
+pub(crate) mod expr;
+pub(crate) mod fold;
+pub(crate) mod interval;
+pub(crate) mod param;
+pub(crate) mod place;
+pub(crate) mod reward;
+pub(crate) mod roster;
+pub(crate) mod script;
+pub(crate) mod start;
+pub(crate) mod team;
+pub(crate) mod value;
+
+use crate::ast::{Expr, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use crate::resolve::{Flat, Library};
+use builder::Builder;
+use interval::Interval;
+use param::ParamInfo;
+use roster::Rostered;
+use setpiece_scenario::vocabulary::{EventKind, Team};
+use setpiece_scenario::{Reg, When};
+use start::{LetSlot, StartState};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use value::{Frame, Repr, Scope, Value};
+
+/// What every program of a scenario is lowered against.
+pub(crate) struct World<'w> {
+    /// The files and their names.
+    pub(crate) library: &'w Library,
+    /// The scenario.
+    pub(crate) flat: &'w Flat<'w>,
+    /// Its parameters.
+    pub(crate) params: Vec<ParamInfo<'w>>,
+    /// Its `let`s, once the start is lowered.
+    pub(crate) lets: Vec<LetSlot<'w>>,
+    /// Its players.
+    pub(crate) roster: Vec<Rostered<'w>>,
+    /// The one team that has agents.
+    pub(crate) agents: Option<Team>,
+    /// Scripts that are embedded so far.
+    pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
+    /// What was found so far.
+    pub(crate) problems: RefCell<Vec<Problem>>,
+    /// Declarations that something refers to.
+    pub(crate) used: RefCell<BTreeSet<Span>>,
+}
+
+impl World<'_> {
+    /// Reports a problem.
+    pub(crate) fn report(&self, problem: Problem) {
+        self.problems.borrow_mut().push(problem);
+    }
+
+    /// Notes that a declaration is referred to.
+    pub(crate) fn mark_used(&self, declaration: Span) {
+        self.used.borrow_mut().insert(declaration);
+    }
+
+    /// The ranges of the parameters, in order.
+    pub(crate) fn ranges(&self) -> Vec<Option<Interval>> {
+        self.params.iter().map(ParamInfo::interval).collect()
+    }
+
+    /// The author's text of a span, shortened to one line.
+    pub(crate) fn text(&self, span: Span) -> String {
+        let text = self.library.sources.text(span);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        words.join(" ")
+    }
+}
+
+/// What kind of program is written, which decides what it may read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// Nothing but constants.
+    Constant,
+    /// The draw of a start.
+    Start,
+    /// The first values of a reward's states.
+    Init,
+    /// A reward, at every step.
+    Reward,
+    /// The endings, at every step.
+    Ending,
+}
+
+impl Stage {
+    /// Whether the match is under way.
+    pub(crate) fn is_step(self) -> bool {
+        matches!(self, Stage::Reward | Stage::Ending)
+    }
+}
+
+/// Writes one program.
+pub(crate) struct Lower<'c, 'w> {
+    /// The scenario around it.
+    pub(crate) world: &'c World<'w>,
+    /// The program.
+    pub(crate) code: Builder,
+    /// Its kind.
+    pub(crate) stage: Stage,
+    /// The names in sight.
+    pub(crate) scope: Scope<'w>,
+    /// The team whose view it is, if any.
+    pub(crate) team: Option<Reg>,
+    /// Whether state is read as it is or as it was a step ago.
+    pub(crate) when: When,
+    /// The event of the `on` block around, if any.
+    pub(crate) event: Option<EventKind>,
+    /// Places and `let`s, in the start program.
+    pub(crate) start: StartState<'w>,
+    depth: u32,
+    inlining: Vec<Span>,
+    inlined: u32,
+}
+
+/// Deepest expression, parents of names included.
+const DEPTH_MAX: u32 = 200;
+/// Most uses of `fn`, `const` and `region` in one program.
+const INLINED_MAX: u32 = 10_000;
+
+impl<'c, 'w> Lower<'c, 'w> {
+    /// An empty program.
+    pub(crate) fn new(world: &'c World<'w>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
+        Lower {
+            world,
+            code: Builder::new(),
+            stage,
+            scope,
+            team: None,
+            when: When::Now,
+            event: None,
+            start: StartState::default(),
+            depth: 0,
+            inlining: Vec::new(),
+            inlined: 0,
+        }
+    }
+
+    /// Reports a problem.
+    pub(crate) fn report(&self, problem: Problem) {
+        self.world.report(problem);
+    }
+
+    /// Reports a problem and gives the value of what is broken.
+    pub(crate) fn fail(&self, problem: Problem) -> Value<'w> {
+        self.world.report(problem);
+        Value::error()
+    }
+
+    /// Runs `f` in another scope.
+    pub(crate) fn within<T>(&mut self, scope: Scope<'w>, f: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.scope, scope);
+        let result = f(self);
+        self.scope = outer;
+        result
+    }
+
+    /// Runs `f` in the own frame or the world's.
+    pub(crate) fn in_frame<T>(&mut self, frame: Frame, f: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.scope.frame, frame);
+        let result = f(self);
+        self.scope.frame = outer;
+        result
+    }
+
+    /// Guards against definitions that use themselves, and against programs without bounds.
+    pub(crate) fn inline<T>(&mut self, item: Span, at: Span, f: impl FnOnce(&mut Self) -> T) -> Option<T> {
+        self.inlined += 1;
+        let text = self.world.text(item);
+        if self.inlining.contains(&item) {
+            self.report(
+                Problem::new(Code::Recursion, at, format!("`{text}` uses itself"), "closes the circle")
+                    .label(item, "declared here"),
+            );
+            return None;
+        }
+        if self.inlined > INLINED_MAX {
+            if self.inlined == INLINED_MAX + 1 {
+                self.report(Problem::new(Code::Impossible, at, format!("`{text}` makes the program too large"), ""));
+            }
+            return None;
+        }
+        self.inlining.push(item);
+        let result = f(self);
+        self.inlining.pop();
+        Some(result)
+    }
+
+    /// Lowers an expression of a wanted type.
+    pub(crate) fn want(&mut self, expr: &'w Expr, wanted: Ty) -> Value<'w> {
+        let value = self.expr(expr);
+        self.convert(value, wanted, expr)
+    }
+
+    /// Lowers an expression of a wanted type into one register.
+    pub(crate) fn want_reg(&mut self, expr: &'w Expr, wanted: Ty) -> Reg {
+        let value = self.want(expr, wanted);
+        self.reg(&value)
+    }
+
+    /// Lowers a place into its two registers, metres in the world frame.
+    pub(crate) fn want_point(&mut self, expr: &'w Expr) -> (Reg, Reg) {
+        let value = self.want(expr, Ty::Point);
+        self.pair(&value)
+    }
+
+    /// The register of a value of one register.
+    pub(crate) fn reg(&mut self, value: &Value<'w>) -> Reg {
+        match value.repr {
+            Repr::One(reg) | Repr::Choice(reg, _) => reg,
+            _ => self.code.constant(0.0),
+        }
+    }
+
+    /// The registers of a value of two.
+    pub(crate) fn pair(&mut self, value: &Value<'w>) -> (Reg, Reg) {
+        match value.repr {
+            Repr::Two(x, y) | Repr::Three(x, y, _) => (x, y),
+            _ => {
+                let zero = self.code.constant(0.0);
+                (zero, zero)
+            }
+        }
+    }
+
+    /// Makes a value one of the wanted type, or reports what it is instead.
+    pub(crate) fn convert(&mut self, value: Value<'w>, wanted: Ty, expr: &Expr) -> Value<'w> {
+        if value.is_error() || value.ty == wanted {
+            return value;
+        }
+        match (wanted, &value.repr) {
+            (Ty::Point, _) if value.ty.is_place() => {
+                let place = self.place_of(&value, expr.span);
+                return Value::two(Ty::Point, place);
+            }
+            // `(2m, 0m)` is a point or a vector, as its place wants.
+            (Ty::Vector, Repr::Two(x, y)) if value.ty == Ty::Point && expr::is_tuple(expr) => {
+                return Value::two(Ty::Vector, (*x, *y));
+            }
+            (Ty::Set, Repr::One(team)) if value.ty == Ty::Team => {
+                let set = value::SetValue { team: *team, except: None };
+                return Value { ty: Ty::Set, repr: Repr::Set(set) };
+            }
+            // A whole constant is a whole number, however it was computed.
+            (Ty::Int, Repr::One(reg)) if value.ty == Ty::Number => {
+                if self.code.constant_of(*reg).is_some_and(|v| v.fract() == 0.0) {
+                    return Value::one(Ty::Int, *reg);
+                }
+            }
+            // 0 is 0 in every unit.
+            _ => {}
+        }
+        if value.ty.fits(wanted) {
+            return Value { ty: wanted, repr: value.repr };
+        }
+        self.fail(self.mismatch(value.ty, wanted, expr.span))
+    }
+
+    /// "expected a length, found `3s` (a duration)".
+    pub(crate) fn mismatch(&self, found: Ty, wanted: Ty, span: Span) -> Problem {
+        let text = self.world.text(span);
+        let what = if text.is_empty() || text.chars().count() > 40 {
+            found.noun()
+        } else {
+            format!("`{text}` ({})", found.noun())
+        };
+        let both_numbers = found.dim().is_some() && wanted.dim().is_some();
+        let code = if both_numbers { Code::WrongUnit } else { Code::WrongType };
+        let problem =
+            Problem::new(code, span, format!("expected {}, found {what}", wanted.noun()), format!("{}", found.noun()));
+        match (found, wanted) {
+            (Ty::LENGTH, Ty::Number) => {
+                problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")
+            }
+            (_, Ty::Number) if both_numbers => problem.help("divide by a value of the same unit to get a plain number"),
+            (_, wanted) if found.is_plain() && both_numbers => match wanted.example() {
+                Some(example) => problem.help(format!("write the unit: `{example}`")),
+                None => problem,
+            },
+            (_, wanted) => match wanted.example() {
+                Some(example) => problem.help(format!("write, for example, `{example}`")),
+                None => problem,
+            },
+        }
+    }
+
+    /// +1 or -1 where the own frame is read, `None` where it is the world's.
+    pub(crate) fn side(&mut self) -> Option<Reg> {
+        match (self.scope.frame, self.team) {
+            (Frame::Own, Some(team)) => Some(self.code.unary(setpiece_scenario::UnaryOp::Side, team)),
+            _ => None,
+        }
+    }
+
+    /// The interval of a register, where it is known.
+    pub(crate) fn interval(&self, reg: Reg) -> Option<Interval> {
+        interval::interval(&self.code, reg, &self.world.ranges())
+    }
+
+    /// Reports a value that may be outside its range, as far as that is known now.
+    pub(crate) fn check_range(&self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) {
+        if let Some((low, high)) = self.interval(reg)
+            && (low < range.0 || high > range.1)
+        {
+            let text = self.world.text(span);
+            self.report(
+                Problem::new(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
+                    .help(format!("write a value in {shown}")),
+            );
+        }
+    }
+
+    /// Reports a value that must be known before the start but is drawn.
+    pub(crate) fn check_not_drawn(&self, reg: Reg, what: &str, span: Span) {
+        let drawn = |instr: &setpiece_scenario::Instr| {
+            matches!(instr, setpiece_scenario::Instr::Random(_) | setpiece_scenario::Instr::EpisodeIndex)
+        };
+        if self.code.depends(reg, &drawn) {
+            self.report(
+                Problem::new(Code::NotConstant, span, format!("{what} can't be drawn"), "differs between episodes")
+                    .help("compute it from parameters and constants"),
+            );
+        }
+    }
+}

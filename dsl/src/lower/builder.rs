@@ -1,0 +1,523 @@
+//! Builds a register program: shares equal values, folds constants, keeps loops apart.
+//!
+//! Registers are *virtual* here (numbered as they are made); [`Builder::finish`] drops what nothing uses, lays the blocks
+//! out in order and tells where each register went. A pure instruction is put into the outermost block in which its
+//! operands are known, so that what doesn't depend on the element of a loop is computed once, before the loop.
+
+use super::fold;
+use setpiece_scenario::{
+    BinaryOp, Distribution, Each, EventField, EventFilter, Field, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp,
+    When, Who,
+};
+use std::collections::HashMap;
+
+/// A block of instructions, by number: 0 is the prologue, 1 the root, others are bodies of loops.
+pub(crate) type BlockId = usize;
+
+const PROLOGUE: BlockId = 0;
+const ROOT: BlockId = 1;
+
+struct Node {
+    instr: Instr,
+    block: BlockId,
+    /// The body, of an `Each`.
+    body: Option<BlockId>,
+}
+
+#[derive(Default)]
+struct Block {
+    nodes: Vec<u32>,
+    known: HashMap<Key, u32>,
+    owner: Option<u32>,
+}
+
+/// What makes two instructions of a block the same.
+#[derive(Clone, PartialEq, Eq, Hash)]
+enum Key {
+    Const(u64),
+    Param(u32),
+    Let(u32),
+    EpisodeIndex,
+    Us,
+    Me,
+    Unary(UnaryOp, u32),
+    Binary(BinaryOp, u32, u32),
+    Select(u32, u32, u32),
+    Load(Field, Option<u32>, When),
+    Event(usize),
+    /// A cell and how often it had been written.
+    Cell(u32, u32),
+    Held(u32, u32),
+    Ever(u32),
+    Since(u32),
+    Until(u32, u32),
+}
+
+/// The open blocks that a hoisted piece of code has left behind; see [`Builder::leave_loops`].
+pub(crate) struct Loops(Vec<BlockId>);
+
+/// A loop whose body is being written.
+pub(crate) struct OpenLoop {
+    at: u32,
+    body: BlockId,
+}
+
+impl OpenLoop {
+    /// The register that holds the element while the body runs, and the result afterwards.
+    pub(crate) fn element(&self) -> Reg {
+        Reg(self.at)
+    }
+}
+
+/// A program under construction.
+pub(crate) struct Builder {
+    nodes: Vec<Node>,
+    blocks: Vec<Block>,
+    open: Vec<BlockId>,
+    writes: Vec<u32>,
+}
+
+/// Where the virtual registers went.
+pub(crate) struct Layout(Vec<Option<Reg>>);
+
+impl Layout {
+    /// The final register of a virtual one that was named as a root of `finish`.
+    pub(crate) fn reg(&self, reg: Reg) -> Reg {
+        self.0.get(reg.index()).copied().flatten().unwrap_or(Reg(0))
+    }
+}
+
+impl Builder {
+    /// An empty program.
+    pub(crate) fn new() -> Builder {
+        Builder {
+            nodes: Vec::new(),
+            blocks: vec![Block::default(), Block::default()],
+            open: vec![ROOT],
+            writes: Vec::new(),
+        }
+    }
+
+    /// A new memory cell.
+    pub(crate) fn new_cell(&mut self) -> u32 {
+        self.writes.push(0);
+        self.writes.len() as u32 - 1
+    }
+
+    /// The value of a register that is a constant.
+    pub(crate) fn constant_of(&self, reg: Reg) -> Option<f64> {
+        match self.nodes.get(reg.index())?.instr {
+            Instr::Const(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The instruction that writes a register.
+    pub(crate) fn instr(&self, reg: Reg) -> Option<&Instr> {
+        self.nodes.get(reg.index()).map(|node| &node.instr)
+    }
+
+    /// Whether any instruction that a register depends on, itself included, passes a test.
+    pub(crate) fn depends(&self, reg: Reg, test: &dyn Fn(&Instr) -> bool) -> bool {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut stack = vec![reg];
+        while let Some(reg) = stack.pop() {
+            let (Some(node), Some(mark)) = (self.nodes.get(reg.index()), seen.get_mut(reg.index())) else { continue };
+            if std::mem::replace(mark, true) {
+                continue;
+            }
+            if test(&node.instr) {
+                return true;
+            }
+            node.instr.operands(&mut |operand| stack.push(operand));
+            if let Instr::Each(each) = &node.instr {
+                stack.extend(each.fold.value.iter().chain(&each.fold.guard));
+            }
+        }
+        false
+    }
+
+    /// Whether a register can be read at the present place.
+    pub(crate) fn is_visible(&self, reg: Reg) -> bool {
+        self.nodes.get(reg.index()).is_some_and(|node| node.block == PROLOGUE || self.open.contains(&node.block))
+    }
+
+    /// Whether a register is known outside every loop.
+    pub(crate) fn is_outside_loops(&self, reg: Reg) -> bool {
+        self.nodes.get(reg.index()).is_some_and(|node| node.block <= ROOT)
+    }
+
+    /// Whether a loop is open at the present place.
+    pub(crate) fn in_loop(&self) -> bool {
+        self.open.len() > 1
+    }
+
+    /// Goes on writing outside every loop, until [`Builder::return_to`].
+    pub(crate) fn leave_loops(&mut self) -> Loops {
+        Loops(std::mem::replace(&mut self.open, vec![ROOT]))
+    }
+
+    /// Goes back into the loops.
+    pub(crate) fn return_to(&mut self, loops: Loops) {
+        self.open = loops.0;
+    }
+
+    /// A constant.
+    pub(crate) fn constant(&mut self, value: f64) -> Reg {
+        // -0 is folded, so that equal constants share a register.
+        let value = if value == 0.0 || !value.is_finite() { 0.0 } else { value };
+        self.shared(ROOT, Key::Const(value.to_bits()), Instr::Const(value))
+    }
+
+    /// A truth value.
+    pub(crate) fn bool(&mut self, value: bool) -> Reg {
+        self.constant(f64::from(u8::from(value)))
+    }
+
+    /// A parameter.
+    pub(crate) fn param(&mut self, index: u32) -> Reg {
+        self.shared(ROOT, Key::Param(index), Instr::Param(index))
+    }
+
+    /// A scenario `let`.
+    pub(crate) fn scenario_let(&mut self, index: u32) -> Reg {
+        self.shared(ROOT, Key::Let(index), Instr::Let(index))
+    }
+
+    /// The episode's index.
+    pub(crate) fn episode_index(&mut self) -> Reg {
+        self.shared(ROOT, Key::EpisodeIndex, Instr::EpisodeIndex)
+    }
+
+    /// The judged agent's team.
+    pub(crate) fn us(&mut self) -> Reg {
+        self.shared(ROOT, Key::Us, Instr::Us)
+    }
+
+    /// The judged agent's player.
+    pub(crate) fn me(&mut self) -> Reg {
+        self.shared(ROOT, Key::Me, Instr::Me)
+    }
+
+    /// One operand; folded where it is constant and the result finite.
+    pub(crate) fn unary(&mut self, op: UnaryOp, a: Reg) -> Reg {
+        if let Some(folded) = self.constant_of(a).and_then(|a| fold::unary(op, a)).filter(|v| v.is_finite()) {
+            return self.constant(folded);
+        }
+        match (op, self.instr(a)) {
+            (UnaryOp::Neg, Some(&Instr::Unary(UnaryOp::Neg, b)))
+            | (UnaryOp::OtherTeam, Some(&Instr::Unary(UnaryOp::OtherTeam, b))) => return b,
+            _ => {}
+        }
+        self.shared(self.block_of(&[a]), Key::Unary(op, a.0), Instr::Unary(op, a))
+    }
+
+    /// Two operands; folded where they are constant and the result finite.
+    pub(crate) fn binary(&mut self, op: BinaryOp, a: Reg, b: Reg) -> Reg {
+        let (left, right) = (self.constant_of(a), self.constant_of(b));
+        if let (Some(x), Some(y)) = (left, right)
+            && let Some(folded) = fold::binary(op, x, y).filter(|v| v.is_finite())
+        {
+            return self.constant(folded);
+        }
+        match (op, left, right) {
+            (BinaryOp::Add | BinaryOp::Or, Some(0.0), _) | (BinaryOp::Mul | BinaryOp::And, Some(1.0), _) => return b,
+            (BinaryOp::Add | BinaryOp::Sub | BinaryOp::Or, _, Some(0.0))
+            | (BinaryOp::Mul | BinaryOp::Div | BinaryOp::And, _, Some(1.0)) => return a,
+            (BinaryOp::And, Some(0.0), _) | (BinaryOp::And, _, Some(0.0)) => return self.constant(0.0),
+            (BinaryOp::Or, Some(1.0), _) | (BinaryOp::Or, _, Some(1.0)) => return self.constant(1.0),
+            _ => {}
+        }
+        let (a, b) = match op {
+            BinaryOp::Add | BinaryOp::Mul | BinaryOp::And | BinaryOp::Or | BinaryOp::Eq | BinaryOp::Ne if b < a => (b, a),
+            _ => (a, b),
+        };
+        self.shared(self.block_of(&[a, b]), Key::Binary(op, a.0, b.0), Instr::Binary(op, a, b))
+    }
+
+    /// `if c then a else b`
+    pub(crate) fn select(&mut self, c: Reg, a: Reg, b: Reg) -> Reg {
+        match self.constant_of(c) {
+            Some(0.0) => return b,
+            Some(_) => return a,
+            None if a == b => return a,
+            None => {}
+        }
+        self.shared(self.block_of(&[c, a, b]), Key::Select(c.0, a.0, b.0), Instr::Select(c, a, b))
+    }
+
+    /// A number of the match.
+    pub(crate) fn load(&mut self, field: Field, of: Option<Reg>, when: When) -> Reg {
+        let block = of.map_or(ROOT, |reg| self.block_of(&[reg]));
+        self.shared(block, Key::Load(field, of.map(|reg| reg.0), when), Instr::Load { field, of, when })
+    }
+
+    /// A field of the present event; the caller knows that a loop over events is open.
+    pub(crate) fn event(&mut self, field: EventField) -> Reg {
+        let block = self.open.iter().rev().copied().find(|&b| self.is_event_body(b)).unwrap_or(ROOT);
+        self.shared(block, Key::Event(field.index()), Instr::Event(field))
+    }
+
+    /// The present value of a cell.
+    pub(crate) fn cell(&mut self, cell: u32) -> Reg {
+        let version = self.writes.get(cell as usize).copied().unwrap_or_default();
+        self.shared(self.here(), Key::Cell(cell, version), Instr::Cell(cell))
+    }
+
+    /// The value a cell had when the step began.
+    pub(crate) fn cell_before(&mut self, cell: u32) -> Reg {
+        self.shared(PROLOGUE, Key::Cell(cell, 0), Instr::Cell(cell))
+    }
+
+    /// `held`: outside every loop.
+    pub(crate) fn held(&mut self, of: Reg, seconds: Reg) -> Reg {
+        self.temporal(Key::Held(of.0, seconds.0), |cell| Instr::Held { of, seconds, cell })
+    }
+
+    /// `ever`: outside every loop.
+    pub(crate) fn ever(&mut self, of: Reg) -> Reg {
+        self.temporal(Key::Ever(of.0), |cell| Instr::Ever { of, cell })
+    }
+
+    /// `since`: outside every loop.
+    pub(crate) fn since(&mut self, of: Reg) -> Reg {
+        self.temporal(Key::Since(of.0), |cell| Instr::Since { of, cell })
+    }
+
+    /// `until`: outside every loop.
+    pub(crate) fn until(&mut self, of: Reg, release: Reg) -> Reg {
+        self.temporal(Key::Until(of.0, release.0), |cell| Instr::Until { of, release, cell })
+    }
+
+    /// `once`: outside every loop; each has its own memory.
+    pub(crate) fn once(&mut self, of: Reg) -> Reg {
+        let cell = self.new_cell();
+        self.push(ROOT, Instr::Once { of, cell }, None)
+    }
+
+    /// A draw: never shared.
+    pub(crate) fn random(&mut self, distribution: Distribution) -> Reg {
+        self.push(self.here(), Instr::Random(distribution), None)
+    }
+
+    /// Pays into a term.
+    pub(crate) fn give(&mut self, term: u32, value: Reg, guard: Option<Reg>) {
+        self.push(self.here(), Instr::Give { term, value, guard }, None);
+    }
+
+    /// Writes a cell.
+    pub(crate) fn assign(&mut self, cell: u32, value: Reg, guard: Option<Reg>) {
+        self.push(self.here(), Instr::Assign { cell, value, guard }, None);
+        if let Some(version) = self.writes.get_mut(cell as usize) {
+            *version += 1;
+        }
+    }
+
+    /// Opens a loop; everything until `close_loop` is its body.
+    pub(crate) fn open_loop(&mut self, over: Over) -> OpenLoop {
+        let body = self.blocks.len();
+        let at = self.nodes.len() as u32;
+        let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
+        self.nodes.push(Node { instr: Instr::Each(Each { over, body: 0, fold }), block: body, body: Some(body) });
+        self.blocks.push(Block { owner: Some(at), ..Block::default() });
+        self.open.push(body);
+        OpenLoop { at, body }
+    }
+
+    /// Closes the innermost loop and gives its result.
+    pub(crate) fn close_loop(&mut self, open: OpenLoop, fold: Fold) -> Reg {
+        self.open.retain(|&block| block != open.body);
+        let here = self.here();
+        if let Some(node) = self.nodes.get_mut(open.at as usize) {
+            node.block = here;
+            if let Instr::Each(each) = &mut node.instr {
+                each.fold = fold;
+            }
+        }
+        if let Some(block) = self.blocks.get_mut(here) {
+            block.nodes.push(open.at);
+        }
+        Reg(open.at)
+    }
+
+    /// Lays the program out; `roots` are the registers whose values are wanted besides the effects.
+    pub(crate) fn finish(self, roots: &[Reg]) -> (Program, Layout) {
+        let live = self.live(roots);
+        let mut out = Out { code: Vec::new(), layout: vec![None; self.nodes.len()] };
+        self.lay_out(PROLOGUE, &live, &mut out);
+        self.lay_out(ROOT, &live, &mut out);
+        (Program { code: out.code, cells: self.writes.len() as u32 }, Layout(out.layout))
+    }
+
+    fn here(&self) -> BlockId {
+        self.open.last().copied().unwrap_or(ROOT)
+    }
+
+    fn is_event_body(&self, block: BlockId) -> bool {
+        let owner = self.blocks.get(block).and_then(|block| block.owner);
+        owner.and_then(|at| self.nodes.get(at as usize)).is_some_and(
+            |node| matches!(&node.instr, Instr::Each(each) if matches!(each.over, Over::Events(_))),
+        )
+    }
+
+    /// The innermost block, of the open ones, that any of the operands needs.
+    fn block_of(&self, operands: &[Reg]) -> BlockId {
+        let depth = |reg: &Reg| {
+            let block = self.nodes.get(reg.index()).map_or(ROOT, |node| node.block);
+            self.open.iter().position(|&open| open == block).unwrap_or(0)
+        };
+        let deepest = operands.iter().map(depth).max().unwrap_or(0);
+        self.open.get(deepest).copied().unwrap_or(ROOT)
+    }
+
+    fn shared(&mut self, block: BlockId, key: Key, instr: Instr) -> Reg {
+        let known = |b: BlockId| self.blocks.get(b).and_then(|block| block.known.get(&key)).copied();
+        if let Some(at) = known(block) {
+            return Reg(at);
+        }
+        self.push(block, instr, Some(key))
+    }
+
+    fn temporal(&mut self, key: Key, make: impl FnOnce(u32) -> Instr) -> Reg {
+        if let Some(&at) = self.blocks.get(ROOT).and_then(|block| block.known.get(&key)) {
+            return Reg(at);
+        }
+        let cell = self.new_cell();
+        self.push(ROOT, make(cell), Some(key))
+    }
+
+    fn push(&mut self, block: BlockId, instr: Instr, key: Option<Key>) -> Reg {
+        let at = self.nodes.len() as u32;
+        self.nodes.push(Node { instr, block, body: None });
+        if let Some(block) = self.blocks.get_mut(block) {
+            block.nodes.push(at);
+            if let Some(key) = key {
+                block.known.insert(key, at);
+            }
+        }
+        Reg(at)
+    }
+
+    fn live(&self, roots: &[Reg]) -> Vec<bool> {
+        let mut live = vec![false; self.nodes.len()];
+        let mut stack: Vec<Reg> = roots.to_vec();
+        for (at, node) in self.nodes.iter().enumerate() {
+            if matches!(node.instr, Instr::Give { .. } | Instr::Assign { .. }) {
+                stack.push(Reg(at as u32));
+            }
+        }
+        while let Some(reg) = stack.pop() {
+            let (Some(node), Some(mark)) = (self.nodes.get(reg.index()), live.get_mut(reg.index())) else { continue };
+            if std::mem::replace(mark, true) {
+                continue;
+            }
+            node.instr.operands(&mut |operand| stack.push(operand));
+            if let Instr::Each(each) = &node.instr {
+                stack.extend(each.fold.value.iter().chain(&each.fold.guard));
+            }
+            // What lies in a loop needs the loop.
+            if let Some(owner) = self.blocks.get(node.block).and_then(|block| block.owner) {
+                stack.push(Reg(owner));
+            }
+        }
+        live
+    }
+
+    fn lay_out(&self, block: BlockId, live: &[bool], out: &mut Out) {
+        let Some(block) = self.blocks.get(block) else { return };
+        for &at in &block.nodes {
+            let at = at as usize;
+            let Some(node) = self.nodes.get(at).filter(|_| live.get(at) == Some(&true)) else { continue };
+            let new = out.code.len();
+            if let Some(slot) = out.layout.get_mut(at) {
+                *slot = Some(Reg(new as u32));
+            }
+            let instr = out.renumbered(&node.instr);
+            out.code.push(instr);
+            if let Some(body) = node.body {
+                self.lay_out(body, live, out);
+                let length = (out.code.len() - new - 1) as u32;
+                let fold = match &node.instr {
+                    Instr::Each(each) => Some(Fold {
+                        kind: each.fold.kind,
+                        value: each.fold.value.map(|reg| out.place(reg)),
+                        guard: each.fold.guard.map(|reg| out.place(reg)),
+                    }),
+                    _ => None,
+                };
+                if let (Some(Instr::Each(each)), Some(fold)) = (out.code.get_mut(new), fold) {
+                    each.body = length;
+                    each.fold = fold;
+                }
+            }
+        }
+    }
+}
+
+/// Code that is being laid out.
+struct Out {
+    code: Vec<Instr>,
+    layout: Vec<Option<Reg>>,
+}
+
+impl Out {
+    fn place(&self, reg: Reg) -> Reg {
+        self.layout.get(reg.index()).copied().flatten().unwrap_or(Reg(0))
+    }
+
+    fn renumbered(&self, instr: &Instr) -> Instr {
+        let p = |reg: &Reg| self.place(*reg);
+        match instr {
+            Instr::Unary(op, a) => Instr::Unary(*op, p(a)),
+            Instr::Binary(op, a, b) => Instr::Binary(*op, p(a), p(b)),
+            Instr::Select(a, b, c) => Instr::Select(p(a), p(b), p(c)),
+            Instr::Load { field, of, when } => Instr::Load { field: *field, of: of.as_ref().map(p), when: *when },
+            Instr::Each(each) => {
+                let over = match &each.over {
+                    Over::Players { team, except } => {
+                        Over::Players { team: p(team), except: except.as_ref().map(p) }
+                    }
+                    Over::Events(filter) => {
+                        let who = |who: &Who| match who {
+                            Who::Team(reg) => Who::Team(p(reg)),
+                            Who::Player(reg) => Who::Player(p(reg)),
+                        };
+                        Over::Events(EventFilter {
+                            kind: filter.kind,
+                            qualifier: filter.qualifier,
+                            by: filter.by.as_ref().map(who),
+                            to: filter.to.as_ref().map(who),
+                        })
+                    }
+                };
+                Instr::Each(Each { over, body: each.body, fold: each.fold.clone() })
+            }
+            Instr::Held { of, seconds, cell } => Instr::Held { of: p(of), seconds: p(seconds), cell: *cell },
+            Instr::Ever { of, cell } => Instr::Ever { of: p(of), cell: *cell },
+            Instr::Since { of, cell } => Instr::Since { of: p(of), cell: *cell },
+            Instr::Until { of, release, cell } => Instr::Until { of: p(of), release: p(release), cell: *cell },
+            Instr::Once { of, cell } => Instr::Once { of: p(of), cell: *cell },
+            Instr::Give { term, value, guard } => {
+                Instr::Give { term: *term, value: p(value), guard: guard.as_ref().map(p) }
+            }
+            Instr::Assign { cell, value, guard } => {
+                Instr::Assign { cell: *cell, value: p(value), guard: guard.as_ref().map(p) }
+            }
+            Instr::Random(distribution) => Instr::Random(match distribution {
+                Distribution::Uniform(a, b) => Distribution::Uniform(p(a), p(b)),
+                Distribution::Normal(a, b) => Distribution::Normal(p(a), p(b)),
+                Distribution::TruncatedNormal(a, b, c, d) => Distribution::TruncatedNormal(p(a), p(b), p(c), p(d)),
+                Distribution::Integer(a, b) => Distribution::Integer(p(a), p(b)),
+                Distribution::Weighted(weights) => Distribution::Weighted(weights.iter().map(p).collect()),
+            }),
+            Instr::Const(_)
+            | Instr::Param(_)
+            | Instr::Let(_)
+            | Instr::EpisodeIndex
+            | Instr::Us
+            | Instr::Me
+            | Instr::Event(_)
+            | Instr::Cell(_) => instr.clone(),
+        }
+    }
+}

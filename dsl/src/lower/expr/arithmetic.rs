@@ -1,0 +1,443 @@
+//! Operators: arithmetic with units, comparison, logic, membership.
+
+use super::super::Lower;
+use super::super::value::{RegionValue, Repr, Value};
+use super::is_tuple;
+use crate::ast::{self, Expr, ExprKind, Span, Spanned};
+use crate::check::types::{Dim, Ty};
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{Field, GameMode};
+use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
+use std::rc::Rc;
+
+impl<'w> Lower<'_, 'w> {
+    pub(super) fn unary(&mut self, op: ast::UnaryOp, inner: &'w Expr) -> Value<'w> {
+        if op == ast::UnaryOp::Not {
+            let reg = self.condition(inner);
+            return Value::one(Ty::Bool, self.code.unary(UnaryOp::Not, reg));
+        }
+        let value = self.expr(inner);
+        let is_number = value.ty.dim().is_some();
+        if value.is_error() {
+            return value;
+        }
+        if !is_number && !matches!(value.ty, Ty::Point | Ty::Vector | Ty::Velocity) {
+            return self.fail(self.mismatch(value.ty, Ty::Number, inner.span));
+        }
+        if op == ast::UnaryOp::Plus {
+            return value;
+        }
+        let negated: Vec<Reg> = value.regs().into_iter().map(|reg| self.code.unary(UnaryOp::Neg, reg)).collect();
+        match negated.as_slice() {
+            [a] => Value::one(value.ty, *a),
+            [a, b] => Value::two(value.ty, (*a, *b)),
+            [a, b, c] => Value { ty: value.ty, repr: Repr::Three(*a, *b, *c) },
+            _ => Value::error(),
+        }
+    }
+
+    pub(super) fn binary(
+        &mut self,
+        op: &'w Spanned<ast::BinaryOp>,
+        a: &'w Expr,
+        b: &'w Expr,
+        span: Span,
+    ) -> Value<'w> {
+        use ast::BinaryOp as Op;
+        match op.node {
+            Op::And | Op::Or => {
+                let (x, y) = (self.condition(a), self.condition(b));
+                let code = if op.node == Op::And { BinaryOp::And } else { BinaryOp::Or };
+                Value::one(Ty::Bool, self.code.binary(code, x, y))
+            }
+            Op::Add | Op::Sub => self.sum(op.node == Op::Add, a, b, span),
+            Op::Mul => self.product(a, b),
+            Op::Div => self.quotient(a, b, span),
+            Op::Lt | Op::Le | Op::Gt | Op::Ge => self.order(op.node, a, b),
+            Op::Eq | Op::Ne => self.equality(op.node == Op::Eq, a, b),
+            Op::In => self.membership(a, b),
+            Op::Union | Op::Intersection => {
+                let (Some(x), Some(y)) = (self.region(a), self.region(b)) else { return Value::error() };
+                let value = if op.node == Op::Union { RegionValue::Union(x, y) } else { RegionValue::Intersection(x, y) };
+                Value { ty: Ty::Region, repr: Repr::Region(Rc::new(value)) }
+            }
+        }
+    }
+
+    fn sum(&mut self, is_add: bool, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
+        let (x, y) = (self.expr(a), self.expr(b));
+        if x.is_error() || y.is_error() {
+            return Value::error();
+        }
+        let op = if is_add { BinaryOp::Add } else { BinaryOp::Sub };
+        if let (Some(left), Some(right)) = (x.ty.dim(), y.ty.dim()) {
+            if left != right {
+                return self.disagree(&x, &y, a, b, if is_add { "add" } else { "subtract" });
+            }
+            let (p, q) = (self.reg(&x), self.reg(&y));
+            let reg = self.code.binary(op, p, q);
+            if left == Dim::ANGLE && !is_add {
+                // The difference of two headings is the turn between them.
+                return Value::one(x.ty, self.code.unary(UnaryOp::Wrap, reg));
+            }
+            return Value::one(x.ty.join(y.ty).unwrap_or(Ty::Number), reg);
+        }
+        if x.ty == Ty::Region && y.ty == Ty::Region && !is_add {
+            let (Repr::Region(p), Repr::Region(q)) = (x.repr, y.repr) else { return Value::error() };
+            return Value { ty: Ty::Region, repr: Repr::Region(Rc::new(RegionValue::Difference(p, q))) };
+        }
+        let offset = |value: &Value<'w>, expr: &Expr| value.ty == Ty::Vector || (value.ty == Ty::Point && is_tuple(expr));
+        let ty = match (x.ty, y.ty) {
+            (Ty::Velocity, Ty::Velocity) => Ty::Velocity,
+            (Ty::Vector, Ty::Vector) => Ty::Vector,
+            (left, _) if left.is_place() && offset(&y, b) => Ty::Point,
+            (_, right) if is_add && right.is_place() && offset(&x, a) => Ty::Point,
+            (left, right) if !is_add && left.is_place() && right.is_place() => Ty::Vector,
+            (left, right) if left.is_place() && right.is_place() => {
+                return self.fail(
+                    Problem::new(Code::WrongType, span, "two points can't be added", "")
+                        .help("add an offset in brackets: `ball + (2m, 0m)`; or write `between a and b`"),
+                );
+            }
+            _ => return self.disagree(&x, &y, a, b, if is_add { "add" } else { "subtract" }),
+        };
+        let (p, q) = (self.any_pair(&x, a.span), self.any_pair(&y, b.span));
+        let pair = (self.code.binary(op, p.0, q.0), self.code.binary(op, p.1, q.1));
+        Value::two(ty, pair)
+    }
+
+    /// The two registers of a point, vector, velocity, player or the ball.
+    fn any_pair(&mut self, value: &Value<'w>, span: Span) -> (Reg, Reg) {
+        if value.ty.is_place() { self.place_of(value, span) } else { self.pair(value) }
+    }
+
+    fn disagree(&self, x: &Value<'w>, y: &Value<'w>, a: &Expr, b: &Expr, verb: &str) -> Value<'w> {
+        let code = if x.ty.dim().is_some() && y.ty.dim().is_some() { Code::WrongUnit } else { Code::WrongType };
+        let (text_a, text_b) = (self.world.text(a.span), self.world.text(b.span));
+        let (noun_a, noun_b) = (x.ty.noun(), y.ty.noun());
+        let message = match verb {
+            "compare" => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be compared"),
+            "add" => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be added"),
+            _ => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be subtracted"),
+        };
+        let problem = Problem::new(code, b.span, message, noun_b).label(a.span, noun_a);
+        let lengths = (x.ty == Ty::LENGTH && y.ty.is_plain()) || (y.ty == Ty::LENGTH && x.ty.is_plain());
+        self.fail(if lengths {
+            problem.help("write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one")
+        } else {
+            match x.ty.example().filter(|_| y.ty.is_plain() && x.ty.dim().is_some()) {
+                Some(example) => problem.help(format!("write the number with its unit, for example `{example}`")),
+                None => problem,
+            }
+        })
+    }
+
+    fn product(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {
+        let (x, y) = (self.expr(a), self.expr(b));
+        if x.is_error() || y.is_error() {
+            return Value::error();
+        }
+        if let (Some(left), Some(right)) = (x.ty.dim(), y.ty.dim()) {
+            let (p, q) = (self.reg(&x), self.reg(&y));
+            let ty = if x.ty == Ty::Int && y.ty == Ty::Int { Ty::Int } else { Ty::with_dim(left.times(right)) };
+            return Value::one(ty, self.code.binary(BinaryOp::Mul, p, q));
+        }
+        let (vector, factor, factor_expr) = match (x.ty, y.ty) {
+            (Ty::Vector | Ty::Velocity, _) => (&x, &y, b),
+            (Ty::Point, _) if is_tuple(a) => (&x, &y, b),
+            _ => (&y, &x, a),
+        };
+        let ty = match (vector.ty, factor.ty) {
+            (Ty::Vector, ty) if ty.is_plain() => Ty::Vector,
+            (Ty::Velocity, ty) if ty.is_plain() => Ty::Velocity,
+            (Ty::Velocity, Ty::DURATION) => Ty::Vector,
+            (Ty::Point, ty) if ty.is_plain() && (is_tuple(a) || is_tuple(b)) => Ty::Vector,
+            (Ty::Vector | Ty::Velocity, ty) => return self.fail(self.mismatch(ty, Ty::Number, factor_expr.span)),
+            _ => {
+                let (ty, expr) = if x.ty.dim().is_some() { (y.ty, b) } else { (x.ty, a) };
+                return self.fail(self.mismatch(ty, Ty::Number, expr.span));
+            }
+        };
+        let (pair, scale) = (self.pair(vector), self.reg(factor));
+        let scaled = (self.code.binary(BinaryOp::Mul, pair.0, scale), self.code.binary(BinaryOp::Mul, pair.1, scale));
+        Value::two(ty, scaled)
+    }
+
+    fn quotient(&mut self, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
+        let (x, y) = (self.expr(a), self.expr(b));
+        if x.is_error() || y.is_error() {
+            return Value::error();
+        }
+        let Some(right) = y.ty.dim() else { return self.fail(self.mismatch(y.ty, Ty::Number, b.span)) };
+        let divisor = self.reg(&y);
+        self.check_divisor(divisor, b, span);
+        if let Some(left) = x.ty.dim() {
+            let p = self.reg(&x);
+            return Value::one(Ty::with_dim(left.over(right)), self.code.binary(BinaryOp::Div, p, divisor));
+        }
+        let ty = match (x.ty, right) {
+            (Ty::Vector, Dim::NONE) => Ty::Vector,
+            (Ty::Velocity, Dim::NONE) => Ty::Velocity,
+            (Ty::Vector, Dim::DURATION) => Ty::Velocity,
+            _ => return self.fail(self.mismatch(x.ty, Ty::Number, a.span)),
+        };
+        let p = self.pair(&x);
+        let pair = (self.code.binary(BinaryOp::Div, p.0, divisor), self.code.binary(BinaryOp::Div, p.1, divisor));
+        Value::two(ty, pair)
+    }
+
+    /// Reports a divisor that constants or the parameters' ranges let become zero.
+    pub(super) fn check_divisor(&self, divisor: Reg, expr: &Expr, span: Span) {
+        let text = self.world.text(expr.span);
+        match self.interval(divisor) {
+            Some((0.0, 0.0)) => self.report(
+                Problem::new(Code::Impossible, span, format!("`{text}` is 0, and nothing can be divided by it"), ""),
+            ),
+            Some((low, high)) if low <= 0.0 && high >= 0.0 => self.report(
+                Problem::new(
+                    Code::Impossible,
+                    span,
+                    format!("`{text}` can become 0, and nothing can be divided by it"),
+                    format!("between {low} and {high}"),
+                )
+                .help("narrow the parameter's range"),
+            ),
+            _ => {}
+        }
+    }
+
+    fn order(&mut self, op: ast::BinaryOp, a: &'w Expr, b: &'w Expr) -> Value<'w> {
+        let (x, y) = (self.expr(a), self.expr(b));
+        if x.is_error() || y.is_error() {
+            return Value::one(Ty::Error, self.code.constant(0.0));
+        }
+        match (x.ty.dim(), y.ty.dim()) {
+            (Some(left), Some(right)) if left == right => {}
+            _ => return self.disagree(&x, &y, a, b, "compare"),
+        }
+        let code = match op {
+            ast::BinaryOp::Lt => BinaryOp::Lt,
+            ast::BinaryOp::Le => BinaryOp::Le,
+            ast::BinaryOp::Gt => BinaryOp::Gt,
+            _ => BinaryOp::Ge,
+        };
+        let (p, q) = (self.reg(&x), self.reg(&y));
+        Value::one(Ty::Bool, self.code.binary(code, p, q))
+    }
+
+    fn equality(&mut self, is_eq: bool, a: &'w Expr, b: &'w Expr) -> Value<'w> {
+        let x = self.expr(a);
+        let y = if x.ty == Ty::Mode { self.mode(b) } else { self.expr(b) };
+        self.equal(is_eq, (&x, a), (&y, b))
+    }
+
+    /// A game mode; its words are no names elsewhere.
+    fn mode(&mut self, expr: &'w Expr) -> Value<'w> {
+        let word = match &expr.kind {
+            ExprKind::Name(name) => name.as_str(),
+            ExprKind::Event(event) => event.name.node.as_str(),
+            _ => return self.expr(expr),
+        };
+        let modes = || GameMode::ALL.iter().map(|mode| mode.name());
+        // `kickoff` is the event's name, `kick_off` GRF's for the mode.
+        let found = GameMode::from_name(word).or((word == "kickoff").then_some(GameMode::KickOff));
+        match found {
+            Some(mode) => Value::one(Ty::Mode, self.code.constant(mode.index() as f64)),
+            None => {
+                let known: Vec<&str> = modes().collect();
+                let problem = Problem::new(Code::UnknownName, expr.span, format!("no game mode is called `{word}`"), "");
+                let near = crate::problem::nearest(word, modes()).is_some();
+                self.fail(if near {
+                    problem.did_you_mean(word, modes())
+                } else {
+                    problem.help(format!("the modes are `{}`", known.join("`, `")))
+                })
+            }
+        }
+    }
+
+    /// Whether two values are equal.
+    pub(super) fn equal(&mut self, is_eq: bool, x: (&Value<'w>, &'w Expr), y: (&Value<'w>, &'w Expr)) -> Value<'w> {
+        let ((x, a), (y, b)) = (x, y);
+        if x.is_error() || y.is_error() {
+            return Value::error();
+        }
+        let op = if is_eq { BinaryOp::Eq } else { BinaryOp::Ne };
+        match (&x.repr, &y.repr) {
+            (Repr::Choice(reg, words), Repr::Text(text)) => return self.word_equal(op, *reg, words, text, b),
+            (Repr::Text(text), Repr::Choice(reg, words)) => return self.word_equal(op, *reg, words, text, a),
+            (Repr::Text(p), Repr::Text(q)) => return Value::one(Ty::Bool, self.code.bool((p == q) == is_eq)),
+            _ => {}
+        }
+        let comparable = match (x.ty, y.ty) {
+            (Ty::Team, Ty::Team) | (Ty::Player, Ty::Player) | (Ty::Role, Ty::Role) => true,
+            (Ty::Mode, Ty::Mode) | (Ty::Bool, Ty::Bool) => true,
+            (left, right) => left.dim().is_some() && left.dim() == right.dim(),
+        };
+        if !comparable {
+            return self.disagree(x, y, a, b, "compare");
+        }
+        let (p, q) = (self.reg(x), self.reg(y));
+        Value::one(Ty::Bool, self.code.binary(op, p, q))
+    }
+
+    fn word_equal(&mut self, op: BinaryOp, reg: Reg, words: &[String], text: &str, at: &Expr) -> Value<'w> {
+        match words.iter().position(|word| word == text) {
+            Some(index) => {
+                let index = self.code.constant(index as f64);
+                Value::one(Ty::Bool, self.code.binary(op, reg, index))
+            }
+            None => self.fail(
+                Problem::new(Code::OutOfRange, at.span, format!("`{text}` is none of the words it may be"), "")
+                    .did_you_mean(text, words.iter().map(String::as_str)),
+            ),
+        }
+    }
+
+    pub(super) fn if_expr(&mut self, condition: &'w Expr, then: &'w Expr, otherwise: &'w Expr) -> Value<'w> {
+        let c = self.condition(condition);
+        let (x, y) = (self.expr(then), self.expr(otherwise));
+        self.choose(c, (&x, then), (&y, otherwise))
+    }
+
+    /// One of two values, by a condition.
+    pub(super) fn choose(&mut self, c: Reg, x: (&Value<'w>, &'w Expr), y: (&Value<'w>, &'w Expr)) -> Value<'w> {
+        let ((x, a), (y, b)) = (x, y);
+        let Some(ty) = x.ty.join(y.ty) else {
+            let mut problem = self.mismatch(y.ty, x.ty, b.span);
+            problem = problem.label(a.span, x.ty.noun());
+            return self.fail(problem);
+        };
+        if ty == Ty::Error {
+            return Value::error();
+        }
+        let (x, y) = if ty == Ty::Point && x.ty != y.ty {
+            (self.convert(x.clone(), ty, a), self.convert(y.clone(), ty, b))
+        } else {
+            (x.clone(), y.clone())
+        };
+        let (p, q) = (x.regs(), y.regs());
+        let picked: Vec<Reg> = p.iter().zip(&q).map(|(&p, &q)| self.code.select(c, p, q)).collect();
+        match (picked.as_slice(), p.len() == q.len()) {
+            ([r], true) if matches!(x.repr, Repr::One(_)) => Value::one(ty, *r),
+            ([r, s], true) if matches!(x.repr, Repr::Two(..)) => Value::two(ty, (*r, *s)),
+            ([r, s, t], true) if matches!(x.repr, Repr::Three(..)) => Value { ty, repr: Repr::Three(*r, *s, *t) },
+            _ => self.fail(Problem::new(
+                Code::NotYet,
+                a.span.to(b.span),
+                format!("a choice between values that are each {} is not supported yet", ty.noun()),
+                "",
+            )),
+        }
+    }
+
+    pub(super) fn has_ball(&mut self, who: &'w Expr) -> Value<'w> {
+        let value = self.expr(who);
+        let reg = self.reg(&value);
+        match (value.ty, &value.repr) {
+            (Ty::Error, _) => Value::error(),
+            (Ty::Team, _) => {
+                let has = self.load(Field::TeamHasBall, Some(reg), "has ball", who.span);
+                has.map_or_else(Value::error, |reg| Value::one(Ty::Bool, reg))
+            }
+            (Ty::Player, _) => self.owns(reg, who.span).map_or_else(Value::error, |reg| Value::one(Ty::Bool, reg)),
+            (Ty::Set, Repr::Set(set)) => {
+                let set = *set;
+                let Some(owner) = self.load(Field::BallOwner, None, "has ball", who.span) else { return Value::error() };
+                Value::one(Ty::Bool, self.in_set(owner, set))
+            }
+            (ty, _) => self.fail(self.mismatch(ty, Ty::Player, who.span)),
+        }
+    }
+
+    /// Whether a player, if he is somebody, has the ball.
+    fn owns(&mut self, player: Reg, span: Span) -> Option<Reg> {
+        let owner = self.load(Field::BallOwner, None, "has ball", span)?;
+        let same = self.code.binary(BinaryOp::Eq, owner, player);
+        let zero = self.code.constant(0.0);
+        let somebody = self.code.binary(BinaryOp::Ge, player, zero);
+        Some(self.code.binary(BinaryOp::And, same, somebody))
+    }
+
+    /// `possession changes to right`: in the step in which it goes over; the first owner is no change.
+    pub(super) fn changes(&mut self, what: &'w Expr, to: Option<&'w Expr>, span: Span) -> Value<'w> {
+        let now = self.expr(what);
+        let Some(before) = self.before(what, span) else { return Value::error() };
+        if now.is_error() || before.is_error() {
+            return Value::error();
+        }
+        let different = self.equal(false, (&now, what), (&before, what));
+        let mut reg = self.reg(&different);
+        if matches!(now.ty, Ty::Team | Ty::Player) {
+            let old = self.reg(&before);
+            let zero = self.code.constant(0.0);
+            let somebody = self.code.binary(BinaryOp::Ge, old, zero);
+            reg = self.code.binary(BinaryOp::And, reg, somebody);
+        }
+        if let Some(to) = to {
+            let wanted = if now.ty == Ty::Mode { self.mode(to) } else { self.expr(to) };
+            let reached = self.equal(true, (&now, what), (&wanted, to));
+            let reached = self.reg(&reached);
+            reg = self.code.binary(BinaryOp::And, reg, reached);
+        }
+        Value::one(if different.is_error() { Ty::Error } else { Ty::Bool }, reg)
+    }
+
+    /// An expression a step ago; reports where there is none.
+    pub(super) fn before(&mut self, expr: &'w Expr, span: Span) -> Option<Value<'w>> {
+        if !self.stage.is_step() {
+            self.report(Problem::new(
+                Code::WrongScope,
+                span,
+                "there is no earlier step here",
+                "this is computed before the match begins",
+            ));
+            return None;
+        }
+        if self.when == When::Prev {
+            self.report(Problem::new(
+                Code::WrongScope,
+                span,
+                "only one step is remembered",
+                "inside a look at the step before",
+            ));
+            return None;
+        }
+        self.when = When::Prev;
+        let value = self.expr(expr);
+        self.when = When::Now;
+        Some(value)
+    }
+
+    fn membership(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {
+        let (x, y) = (self.expr(a), self.expr(b));
+        if x.is_error() || y.is_error() {
+            return Value::error();
+        }
+        match (x.ty, y.ty, &y.repr) {
+            (ty, Ty::Region, Repr::Region(region)) if ty.is_place() => {
+                let place = self.place_of(&x, a.span);
+                let region = region.clone();
+                Value::one(Ty::Bool, self.inside(place, &region))
+            }
+            (Ty::Player, Ty::Team | Ty::Set, _) => {
+                let set = self.convert(y, Ty::Set, b);
+                let Repr::Set(set) = set.repr else { return Value::error() };
+                let player = self.reg(&x);
+                Value::one(Ty::Bool, self.in_set(player, set))
+            }
+            (_, Ty::List, Repr::List(list)) => {
+                let list = list.clone();
+                let mut any = self.code.bool(false);
+                for entry in &list {
+                    let equal = self.equal(true, (&x, a), (entry, b));
+                    let equal = self.reg(&equal);
+                    any = self.code.binary(BinaryOp::Or, any, equal);
+                }
+                Value::one(Ty::Bool, any)
+            }
+            (_, Ty::Region, _) => self.fail(self.mismatch(x.ty, Ty::Point, a.span)),
+            (_, ty, _) => self.fail(self.mismatch(ty, Ty::Region, b.span)),
+        }
+    }
+}

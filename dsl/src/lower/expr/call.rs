@@ -1,0 +1,233 @@
+//! Calls: how arguments meet parameters, and who is called.
+
+use super::super::value::{Binding, Frame, Scope, Value};
+use super::super::{Lower, param};
+use crate::ast::{Arg, Expr, FnItem, Ident, ItemKind, ParamDecl, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use crate::resolve::arg_name;
+use setpiece_scenario::vocabulary::Function;
+
+impl<'w> Lower<'_, 'w> {
+    pub(super) fn call(&mut self, name: &'w Ident, args: &'w [Arg], span: Span) -> Value<'w> {
+        let library = self.world.library;
+        if let Some(found) = library.find(name.span.file, &name.node) {
+            if let Some(problem) = library.ambiguous(name.span.file, &name.node, name.span) {
+                return self.fail(problem);
+            }
+            self.world.mark_used(found.name.span);
+            match &found.item.kind {
+                ItemKind::Fn(item) => return self.call_item(item, args, span, None),
+                ItemKind::Region(item) => return self.call_item(item, args, span, Some(Ty::Region)),
+                _ => {}
+            }
+        }
+        if self.scope.scenario
+            && let Some(region) = self.world.flat.regions.iter().find(|region| region.name.node == name.node)
+        {
+            self.world.mark_used(region.name.span);
+            return self.call_item(region, args, span, Some(Ty::Region));
+        }
+        if let Some(function) = Function::from_name(&name.node) {
+            return self.function(function, name, args, span);
+        }
+        let of_file = library.visible(name.span.file);
+        let mut known: Vec<&str> = of_file
+            .filter(|(_, found)| matches!(found.item.kind, ItemKind::Fn(_) | ItemKind::Region(_)))
+            .map(|(name, _)| name)
+            .collect();
+        known.extend(Function::ALL.iter().map(|function| function.name()));
+        self.fail(
+            Problem::new(Code::UnknownFunction, name.span, format!("no function is called `{}`", name.node), "not known")
+                .did_you_mean(&name.node, known),
+        )
+    }
+
+    /// Calls a `fn` or `region` of a file: its body is read with the caller's frame and view.
+    fn call_item(&mut self, item: &'w FnItem, args: &'w [Arg], span: Span, ty: Option<Ty>) -> Value<'w> {
+        let mut scope = Scope::new(false, self.scope.frame);
+        self.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
+        let ty = ty.or_else(|| item.ty.as_ref().map(|ty| param::declared_type(self.world, ty)));
+        let value = self.inline(item.name.span, span, |lower| {
+            lower.within(scope, |lower| match ty {
+                Some(ty) => lower.want(&item.body, ty),
+                None => lower.expr(&item.body),
+            })
+        });
+        value.unwrap_or_else(Value::error)
+    }
+
+    /// Binds declared parameters to arguments (read here) or defaults (read in the declaration's scope).
+    ///
+    /// With `now` the values are computed at once; otherwise wherever they are used.
+    pub(crate) fn bind_params(
+        &mut self,
+        callee: &str,
+        params: &'w [ParamDecl],
+        args: &'w [Arg],
+        span: Span,
+        scope: &mut Scope<'w>,
+        now: bool,
+    ) {
+        let names: Vec<&str> = params.iter().map(|param| param.name.node.as_str()).collect();
+        let required = 0;
+        let Some(given) = self.arguments(callee, args, span, &names, required) else {
+            for param in params {
+                scope.bind(&param.name.node, Binding::Value(Value::error()));
+            }
+            return;
+        };
+        for (param, given) in params.iter().zip(given) {
+            let declared = param.ty.as_ref().map(|ty| param::declared_type(self.world, ty));
+            let (expr, home) = match (given, &param.default) {
+                (Some(expr), _) => (expr, self.scope.clone()),
+                (None, Some(default)) => (default, Scope::new(false, Frame::World)),
+                (None, None) => {
+                    self.report(
+                        Problem::new(
+                            Code::WrongArguments,
+                            span,
+                            format!("`{callee}` needs a value for `{}`", param.name.node),
+                            "",
+                        )
+                        .help(format!("write `{}: …`", param.name.node)),
+                    );
+                    scope.bind(&param.name.node, Binding::Value(Value::error()));
+                    continue;
+                }
+            };
+            // The default tells the type of an argument.
+            let ty = declared.or_else(|| self.default_type(param));
+            let value = now.then(|| {
+                self.within(home.clone(), |lower| match ty {
+                    Some(ty) => lower.want(expr, ty),
+                    None => lower.expr(expr),
+                })
+            });
+            if let (Some(domain), Some(value)) = (&param.domain, &value) {
+                self.check_domain(value, domain, expr, &param.name.node);
+            }
+            scope.bind(&param.name.node, Binding::Expr { expr, scope: home, ty, now: value, at: param.name.span });
+        }
+    }
+
+    /// The type that a parameter's default has, for numbers.
+    fn default_type(&mut self, param: &'w ParamDecl) -> Option<Ty> {
+        let default = param.default.as_ref()?;
+        let kept = self.world.problems.borrow().len();
+        let home = Scope::new(false, Frame::World);
+        let value = self.within(home, |lower| lower.expr(default));
+        self.world.problems.borrow_mut().truncate(kept);
+        match value.ty {
+            // `= 1` leaves open whether whole numbers are meant.
+            Ty::Int => Some(Ty::Number),
+            ty if ty.dim().is_some() || ty == Ty::Bool => Some(ty),
+            _ => None,
+        }
+    }
+
+    fn check_domain(&mut self, value: &Value<'w>, domain: &'w crate::ast::Domain, expr: &Expr, name: &str) {
+        let crate::ast::Domain::Range(low, high) = domain else { return };
+        if value.ty.dim().is_none() {
+            return;
+        }
+        let home = Scope::new(false, Frame::World);
+        let (least, greatest) = self.within(home, |lower| (lower.expr(low), lower.expr(high)));
+        let (least, greatest) = (self.reg(&least), self.reg(&greatest));
+        let (Some(least), Some(greatest)) = (self.code.constant_of(least), self.code.constant_of(greatest)) else {
+            return;
+        };
+        let shown = format!("`{}..{}`", self.world.text(low.span), self.world.text(high.span));
+        let reg = self.reg(value);
+        self.check_range(reg, (least, greatest), &format!("`{name}`"), expr.span, &shown);
+    }
+
+    /// Sorts arguments by parameter: by place, or by name; reports what doesn't fit.
+    pub(crate) fn arguments(
+        &mut self,
+        callee: &str,
+        args: &'w [Arg],
+        span: Span,
+        names: &[&str],
+        required: usize,
+    ) -> Option<Vec<Option<&'w Expr>>> {
+        let mut given: Vec<Option<&'w Expr>> = vec![None; names.len()];
+        let mut next = 0;
+        for arg in args {
+            if arg.binder.is_some() || arg.filter.is_some() {
+                self.report(Problem::new(
+                    Code::WrongArguments,
+                    arg.span,
+                    format!("`{callee}` goes through no players"),
+                    "`for` and `where` belong to `count`, `sum`, `min` and their like",
+                ));
+                return None;
+            }
+            let at = match (&arg.key, arg_name(arg)) {
+                (None, _) => {
+                    next += 1;
+                    next - 1
+                }
+                (Some(key), name) => {
+                    let name = name.unwrap_or_default();
+                    let Some(at) = names.iter().position(|known| *known == name) else {
+                        let text = self.world.text(key.span);
+                        let problem = Problem::new(
+                            Code::WrongArguments,
+                            key.span,
+                            format!("`{callee}` has no parameter `{text}`"),
+                            "not known",
+                        );
+                        let near = crate::problem::nearest(name, names.iter().copied()).is_some();
+                        self.report(if near || names.is_empty() {
+                            problem.did_you_mean(name, names.iter().copied())
+                        } else {
+                            problem.help(format!("it has `{}`", names.join("`, `")))
+                        });
+                        return None;
+                    };
+                    at
+                }
+            };
+            match given.get_mut(at) {
+                Some(slot @ None) => *slot = Some(&arg.value),
+                Some(Some(first)) => {
+                    let first = first.span;
+                    let name = names.get(at).copied().unwrap_or_default();
+                    self.report(
+                        Problem::new(Code::WrongArguments, arg.span, format!("`{name}` is given twice"), "given again here")
+                            .label(first, "first given here"),
+                    );
+                    return None;
+                }
+                None => {
+                    let n = names.len();
+                    let takes = match n {
+                        0 => "no value".to_owned(),
+                        1 => "one value".to_owned(),
+                        n => format!("{n} values"),
+                    };
+                    self.report(Problem::new(
+                        Code::WrongArguments,
+                        arg.span,
+                        format!("`{callee}` takes {takes}"),
+                        "too many",
+                    ));
+                    return None;
+                }
+            }
+        }
+        let missing = given.iter().take(required).position(Option::is_none);
+        if let Some(name) = missing.and_then(|at| names.get(at)) {
+            let signature = Function::from_name(callee).map(Function::doc);
+            let problem =
+                Problem::new(Code::WrongArguments, span, format!("`{callee}` needs a value for `{name}`"), "");
+            self.report(match signature {
+                Some(doc) => problem.help(format!("`{}`", doc.split(": ").next().unwrap_or(doc))),
+                None => problem,
+            });
+            return None;
+        }
+        Some(given)
+    }
+}

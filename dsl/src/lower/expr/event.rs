@@ -1,0 +1,153 @@
+//! Events: as conditions, and as loops over the events of a step.
+
+use super::super::Lower;
+use super::super::builder::OpenLoop;
+use super::super::value::{Repr, Value};
+use crate::ast::{EventExpr, Expr};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{EventField, EventKind, Qualifier};
+use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
+
+/// A loop over the matching events that is being written.
+pub(crate) struct Matching {
+    /// The loop.
+    pub(crate) open: OpenLoop,
+    /// What the place of the event must meet.
+    pub(crate) guard: Option<Reg>,
+    outer: Option<EventKind>,
+}
+
+impl<'w> Lower<'_, 'w> {
+    /// An event as a condition: whether it happened in this step.
+    pub(super) fn event_happened(&mut self, event: &'w EventExpr) -> Value<'w> {
+        // Inside a loop over events the inner loop would hide the outer event, so the test is made before it.
+        let loops = self.code.leave_loops();
+        let matching = self.open_events(event);
+        let value = match matching {
+            Some(matching) => {
+                let guard = matching.guard;
+                let count = self.close_events(matching, Fold { kind: FoldKind::Count, value: None, guard });
+                let zero = self.code.constant(0.0);
+                Value::one(Ty::Bool, self.code.binary(BinaryOp::Gt, count, zero))
+            }
+            None => Value::error(),
+        };
+        self.code.return_to(loops);
+        value
+    }
+
+    /// Opens a loop over the events that match; `None` after a report.
+    pub(crate) fn open_events(&mut self, event: &'w EventExpr) -> Option<Matching> {
+        let filter = self.event_filter(event)?;
+        let kind = filter.kind;
+        let open = self.code.open_loop(Over::Events(filter));
+        let outer = self.event.replace(kind);
+        let guard = event.from.as_deref().and_then(|region| {
+            let region = self.region(region)?;
+            let place = (self.code.event(EventField::X), self.code.event(EventField::Y));
+            Some(self.inside(place, &region))
+        });
+        Some(Matching { open, guard, outer })
+    }
+
+    /// Closes the loop over events.
+    pub(crate) fn close_events(&mut self, matching: Matching, fold: Fold) -> Reg {
+        self.event = matching.outer;
+        self.code.close_loop(matching.open, fold)
+    }
+
+    fn event_filter(&mut self, event: &'w EventExpr) -> Option<EventFilter> {
+        let name = event.name.node.as_str();
+        let Some(kind) = EventKind::from_name(name) else {
+            self.report(
+                Problem::new(Code::UnknownEvent, event.name.span, format!("no event is called `{name}`"), "not known")
+                    .did_you_mean(name, EventKind::ALL.iter().map(|kind| kind.name())),
+            );
+            return None;
+        };
+        if !self.stage.is_step() {
+            self.report(
+                Problem::new(Code::WrongScope, event.span, "nothing has happened yet", "this is computed before the match")
+                    .help("events belong to rewards and endings"),
+            );
+            return None;
+        }
+        if self.when == When::Prev {
+            self.report(
+                Problem::new(Code::WrongScope, event.span, "events of the step before are forgotten", "")
+                    .help("`since(…)` tells how long ago an event was"),
+            );
+            return None;
+        }
+        let qualifier = self.qualifier(kind, event)?;
+        if !kind.has_actor()
+            && let Some(by) = &event.by
+        {
+            self.report(Problem::new(
+                Code::WrongArguments,
+                by.span,
+                format!("nobody does `{name}`"),
+                "`by` says nothing here",
+            ));
+            return None;
+        }
+        if !kind.has_receiver()
+            && let Some(to) = &event.to
+        {
+            self.report(Problem::new(
+                Code::WrongArguments,
+                to.span,
+                format!("`{name}` reaches nobody"),
+                "`to` says nothing here",
+            ));
+            return None;
+        }
+        let by = event.by.as_deref().map(|who| self.who(who));
+        let to = event.to.as_deref().map(|who| self.who(who));
+        match (by, to) {
+            (Some(None), _) | (_, Some(None)) => None,
+            (by, to) => Some(EventFilter { kind, qualifier, by: by.flatten(), to: to.flatten() }),
+        }
+    }
+
+    #[allow(clippy::option_option, reason = "outer: nothing was reported; inner: there is a qualifier")]
+    fn qualifier(&mut self, kind: EventKind, event: &EventExpr) -> Option<Option<Qualifier>> {
+        let Some(qualifier) = &event.qualifier else {
+            // A bare `pass` is one that was struck.
+            return Some((kind == EventKind::Pass).then_some(Qualifier::Attempted));
+        };
+        let known = kind.qualifiers();
+        if known.contains(&qualifier.node) {
+            return Some(Some(qualifier.node));
+        }
+        let names: Vec<&str> = known.iter().map(|qualifier| qualifier.name()).collect();
+        let problem = Problem::new(
+            Code::UnknownEvent,
+            qualifier.span,
+            format!("`{}` is never `{}`", event.name.node, qualifier.node),
+            "",
+        );
+        self.report(if names.is_empty() {
+            problem.help(format!("write `{}` alone", event.name.node))
+        } else {
+            problem.help(format!("it can be `{}`", names.join("`, `")))
+        });
+        None
+    }
+
+    fn who(&mut self, expr: &'w Expr) -> Option<Who> {
+        let value = self.expr(expr);
+        match (value.ty, &value.repr) {
+            (Ty::Team, Repr::One(reg)) => Some(Who::Team(*reg)),
+            (Ty::Player, Repr::One(reg)) => Some(Who::Player(*reg)),
+            (Ty::Error, _) => None,
+            (ty, _) => {
+                let mut problem = self.mismatch(ty, Ty::Player, expr.span);
+                problem.message = problem.message.replace("a player", "a team or a player");
+                self.report(problem.help("write, for example, `by left` or `by me`"));
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! What stands behind a dot: properties, landmarks, regions, coordinates.
+
+use super::super::Lower;
+use super::super::value::{RegionValue, Repr, Value};
+use crate::ast::{Expr, ExprKind, Ident, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, X_SCALE_M, Y_SCALE_M};
+use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, RegionName, Team};
+use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
+use std::rc::Rc;
+
+impl<'w> Lower<'_, 'w> {
+    pub(super) fn member(&mut self, of: &'w Expr, member: &'w Ident, span: Span) -> Value<'w> {
+        match &of.kind {
+            // `left.corner.top` is one name with a dot in it.
+            ExprKind::Member(team, part) if self.is_team_part(&part.node) => {
+                let name = format!("{}.{}", part.node, member.node);
+                return self.team_member(team, &name, part.span.to(member.span), span);
+            }
+            ExprKind::Name(name) if name == "event" && self.scope.find(name).is_none() => {
+                return self.event_member(member, span);
+            }
+            ExprKind::Name(name) if name == "middle" && member.node == "third" => return self.middle_third(),
+            // `defence.f_4_4_2`: an item of a file that was imported under a name.
+            ExprKind::Name(name) if self.scope.find(name).is_none() => {
+                let dotted = format!("{name}.{}", member.node);
+                if let Some(value) = self.imported(&dotted, span) {
+                    return value;
+                }
+            }
+            _ => {}
+        }
+        let value = self.expr(of);
+        let name = member.node.as_str();
+        match value.ty {
+            Ty::Error => Value::error(),
+            Ty::Team => self.member_of_team(&value, name, member.span, of.span),
+            Ty::Ball => self.ball_member(&value, member, of.span, span),
+            Ty::Player => self.player_member(&value, member, of.span, span),
+            Ty::Score => self.score_member(member, span),
+            Ty::Point | Ty::Vector | Ty::Velocity => match name {
+                "x" | "y" => self.coordinate(&value, name),
+                "z" if matches!(value.repr, Repr::Three(..)) => {
+                    let ty = if value.ty == Ty::Velocity { Ty::SPEED } else { Ty::LENGTH };
+                    value.regs().get(2).map_or_else(Value::error, |&z| Value::one(ty, z))
+                }
+                _ => self.no_member(of.span, value.ty, member.span, name, &["x", "y"]),
+            },
+            _ => self.no_member(of.span, value.ty, member.span, name, &[]),
+        }
+    }
+
+    fn imported(&mut self, dotted: &str, span: Span) -> Option<Value<'w>> {
+        let found = self.world.library.find(span.file, dotted)?;
+        match &found.item.kind {
+            crate::ast::ItemKind::Formation(formation) => {
+                Some(Value { ty: Ty::Formation, repr: Repr::Formation(formation) })
+            }
+            crate::ast::ItemKind::Const(binding) => Some(self.expr(&binding.value)),
+            _ => None,
+        }
+    }
+
+    fn is_team_part(&self, name: &str) -> bool {
+        Landmark::ALL.iter().any(|landmark| landmark.name().split_once('.').is_some_and(|(head, _)| head == name))
+    }
+
+    fn team_member(&mut self, team: &'w Expr, name: &str, at: Span, span: Span) -> Value<'w> {
+        let value = self.expr(team);
+        match value.ty {
+            Ty::Error => Value::error(),
+            Ty::Team => self.member_of_team(&value, name, at, team.span),
+            ty => self.no_member(span, ty, at, name, &[]),
+        }
+    }
+
+    fn member_of_team(&mut self, team: &Value<'w>, name: &str, at: Span, of: Span) -> Value<'w> {
+        let reg = self.reg(team);
+        if let Some(landmark) = Landmark::from_name(name) {
+            let (x, y) = landmark.left_m();
+            let side = self.code.unary(UnaryOp::Side, reg);
+            let (x, y) = (self.code.constant(x), self.code.constant(y));
+            return Value::two(Ty::Point, (self.code.binary(BinaryOp::Mul, x, side), y));
+        }
+        if let Some(region) = RegionName::from_name(name) {
+            let (x0, y0, x1, y1) = region.left_rect_m();
+            let side = self.code.unary(UnaryOp::Side, reg);
+            let (x0, x1) = (self.code.constant(x0), self.code.constant(x1));
+            let (y0, y1) = (self.code.constant(y0), self.code.constant(y1));
+            let (x0, x1) = (self.code.binary(BinaryOp::Mul, x0, side), self.code.binary(BinaryOp::Mul, x1, side));
+            return rect((x0, y0), (x1, y1));
+        }
+        if name == "score" {
+            return self.load(Field::Score, Some(reg), "score", at).map_or_else(Value::error, |r| Value::one(Ty::Int, r));
+        }
+        let mut known: Vec<&str> = Landmark::ALL.iter().map(|landmark| landmark.name()).collect();
+        known.extend(RegionName::ALL.iter().map(|region| region.name()));
+        known.push("score");
+        let text = self.world.text(of);
+        self.fail(
+            Problem::new(
+                Code::UnknownMember,
+                at,
+                format!("`{text}` has no landmark or region `{name}`"),
+                "not known",
+            )
+            .did_you_mean(name, known),
+        )
+    }
+
+    fn middle_third(&mut self) -> Value<'w> {
+        let x = HALF_LENGTH_M / 3.0;
+        let (x0, x1) = (self.code.constant(-x), self.code.constant(x));
+        let (y0, y1) = (self.code.constant(-HALF_WIDTH_M), self.code.constant(HALF_WIDTH_M));
+        rect((x0, y0), (x1, y1))
+    }
+
+    fn score_member(&mut self, member: &'w Ident, span: Span) -> Value<'w> {
+        if !matches!(member.node.as_str(), "left" | "right" | "us" | "them") {
+            return self.no_member(span, Ty::Score, member.span, &member.node, &["left", "right", "us", "them"]);
+        }
+        let team = self.name(&member.node, member.span);
+        if team.is_error() {
+            return team;
+        }
+        let reg = self.reg(&team);
+        self.load(Field::Score, Some(reg), "score", span).map_or_else(Value::error, |r| Value::one(Ty::Int, r))
+    }
+
+    fn ball_member(&mut self, value: &Value<'w>, member: &'w Ident, of: Span, span: Span) -> Value<'w> {
+        let one = |field| (field, Ty::LENGTH);
+        match member.node.as_str() {
+            "x" | "y" => {
+                let place = self.place_of(value, span);
+                self.coordinate(&Value::two(Ty::Point, place), &member.node)
+            }
+            "height" => {
+                let (field, ty) = one(Field::BallHeight);
+                self.load(field, None, "height", span).map_or_else(Value::error, |r| Value::one(ty, r))
+            }
+            "owner" => {
+                self.load(Field::BallOwner, None, "owner", span).map_or_else(Value::error, |r| Value::one(Ty::Player, r))
+            }
+            "velocity" => self.velocity(value, span),
+            "speed" => {
+                let flat = self.velocity(value, span);
+                let Some(z) = self.code_load(Field::BallVz, span) else { return Value::error() };
+                let (x, y) = self.pair(&flat);
+                let ground = self.code.binary(BinaryOp::Hypot, x, y);
+                Value::one(Ty::SPEED, self.code.binary(BinaryOp::Hypot, ground, z))
+            }
+            "heading" => {
+                let flat = self.velocity(value, span);
+                if flat.is_error() {
+                    return flat;
+                }
+                let (x, y) = self.pair(&flat);
+                let angle = self.code.binary(BinaryOp::Atan2, y, x);
+                Value::one(Ty::ANGLE, self.turned_angle(angle))
+            }
+            name => self.no_property(of, Owner::Ball, Ty::Ball, member.span, name),
+        }
+    }
+
+    fn player_member(&mut self, value: &Value<'w>, member: &'w Ident, of: Span, span: Span) -> Value<'w> {
+        let reg = self.reg(value);
+        let name = member.node.as_str();
+        let (field, ty) = match name {
+            "x" | "y" => {
+                let place = self.place_of(value, span);
+                return self.coordinate(&Value::two(Ty::Point, place), name);
+            }
+            "team" => return Value::one(Ty::Team, self.code.unary(UnaryOp::TeamOf, reg)),
+            "velocity" => return self.velocity(value, span),
+            "speed" => {
+                let velocity = self.velocity(value, span);
+                if velocity.is_error() {
+                    return velocity;
+                }
+                let (x, y) = self.pair(&velocity);
+                return Value::one(Ty::SPEED, self.code.binary(BinaryOp::Hypot, x, y));
+            }
+            "heading" => {
+                let Some(angle) = self.load(Field::PlayerHeading, Some(reg), name, span) else { return Value::error() };
+                return Value::one(Ty::ANGLE, self.turned_angle(angle));
+            }
+            "fatigue" => (Field::PlayerFatigue, Ty::Number),
+            "yellow_cards" => (Field::PlayerYellowCards, Ty::Int),
+            "role" => (Field::PlayerRole, Ty::Role),
+            "active" => (Field::PlayerActive, Ty::Bool),
+            "controlled" => (Field::PlayerControlled, Ty::Bool),
+            _ => return self.no_property(of, Owner::Player, Ty::Player, member.span, name),
+        };
+        self.load(field, Some(reg), name, span).map_or_else(Value::error, |r| Value::one(ty, r))
+    }
+
+    fn code_load(&mut self, field: Field, span: Span) -> Option<Reg> {
+        self.load(field, None, field.name(), span)
+    }
+
+    /// A player's or the ball's velocity along the ground, world frame.
+    pub(super) fn velocity(&mut self, value: &Value<'w>, span: Span) -> Value<'w> {
+        let (fields, of) = match value.ty {
+            Ty::Player => ((Field::PlayerVx, Field::PlayerVy), Some(self.reg(value))),
+            _ => ((Field::BallVx, Field::BallVy), None),
+        };
+        let Some(x) = self.load(fields.0, of, "velocity", span) else { return Value::error() };
+        let Some(y) = self.load(fields.1, of, "velocity", span) else { return Value::error() };
+        Value::two(Ty::Velocity, (x, y))
+    }
+
+    /// `.x`, `.y` in the reader's frame: normalised of a point, in its unit of a vector.
+    fn coordinate(&mut self, value: &Value<'w>, name: &str) -> Value<'w> {
+        let pair = self.pair(value);
+        let (x, y) = self.turned(pair);
+        let (reg, scale) = if name == "x" { (x, X_SCALE_M) } else { (y, Y_SCALE_M) };
+        match value.ty {
+            Ty::Vector => Value::one(Ty::LENGTH, reg),
+            Ty::Velocity => Value::one(Ty::SPEED, reg),
+            _ => {
+                let scale = self.code.constant(scale);
+                Value::one(Ty::Number, self.code.binary(BinaryOp::Div, reg, scale))
+            }
+        }
+    }
+
+    fn event_member(&mut self, member: &'w Ident, span: Span) -> Value<'w> {
+        if self.event.is_none() {
+            return self.fail(
+                Problem::new(Code::WrongScope, span, "no event is known here", "")
+                    .help("`event` stands inside an `on` block, or in a `give … on …`"),
+            );
+        }
+        let name = member.node.as_str();
+        let (field, ty) = match name {
+            "by" => (EventField::By, Ty::Player),
+            "to" => (EventField::To, Ty::Player),
+            "length" => (EventField::Length, Ty::LENGTH),
+            "speed" => (EventField::Speed, Ty::SPEED),
+            "at" => {
+                let place = (self.code.event(EventField::X), self.code.event(EventField::Y));
+                return Value::two(Ty::Point, place);
+            }
+            _ => {
+                let known: Vec<&str> = EventField::NAMED.iter().map(|(name, _)| *name).collect();
+                return self.no_member(span, Ty::Event, member.span, name, &known);
+            }
+        };
+        Value::one(ty, self.code.event(field))
+    }
+
+    fn no_property(&self, of: Span, owner: Owner, ty: Ty, at: Span, name: &str) -> Value<'w> {
+        let known: Vec<&str> = PROPERTIES.iter().filter(|p| p.owner == owner).map(|p| p.name).collect();
+        self.no_member(of, ty, at, name, &known)
+    }
+
+    fn no_member(&self, of: Span, ty: Ty, at: Span, name: &str, known: &[&str]) -> Value<'w> {
+        let text = self.world.text(of);
+        let problem = Problem::new(
+            Code::UnknownMember,
+            at,
+            format!("`{text}` ({}) has no property `{name}`", ty.noun()),
+            "not known",
+        );
+        let near = crate::problem::nearest(name, known.iter().copied()).is_some();
+        self.fail(if near || known.is_empty() {
+            problem.did_you_mean(name, known.iter().copied())
+        } else {
+            problem.help(format!("it has `{}`", known.join("`, `")))
+        })
+    }
+
+    /// The team of a constant register.
+    pub(crate) fn constant_team(&self, reg: Reg) -> Option<Team> {
+        match self.code.constant_of(reg)? {
+            0.0 => Some(Team::Left),
+            1.0 => Some(Team::Right),
+            _ => None,
+        }
+    }
+}
+
+fn rect<'w>(a: (Reg, Reg), b: (Reg, Reg)) -> Value<'w> {
+    Value { ty: Ty::Region, repr: Repr::Region(Rc::new(RegionValue::Rect(a, b))) }
+}

@@ -1,0 +1,308 @@
+//! Names: of locals, the scenario, the file, and the language itself, in this order.
+
+use super::super::value::{Binding, Frame, RegionValue, Repr, Scope, SetValue, Value};
+use super::super::{Lower, Stage};
+use crate::ast::{FormationItem, ItemKind, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, TEAM_MAX};
+use setpiece_scenario::vocabulary::{Field, Owner, PROPERTIES, Property, Type};
+use setpiece_scenario::{Reg, UnaryOp, When};
+use std::rc::Rc;
+
+/// Names of the language that are no properties.
+const BUILTIN: &[&str] = &[
+    "left", "right", "none", "us", "them", "me", "mates", "players", "ball", "centre", "pitch", "centre_circle",
+    "score", "nobody",
+];
+
+impl<'w> Lower<'_, 'w> {
+    pub(super) fn name(&mut self, name: &'w str, span: Span) -> Value<'w> {
+        if let Some(binding) = self.scope.find(name).cloned() {
+            return self.local(name, binding, span);
+        }
+        if self.scope.scenario
+            && let Some(value) = self.scenario_name(name, span)
+        {
+            return value;
+        }
+        if let Some(value) = self.file_name(name, span) {
+            return value;
+        }
+        if let Some(value) = self.builtin(name, span) {
+            return value;
+        }
+        let candidates = self.names_in_sight(span);
+        self.fail(
+            Problem::new(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known")
+                .did_you_mean(name, candidates.iter().map(String::as_str)),
+        )
+    }
+
+    fn local(&mut self, name: &str, binding: Binding<'w>, span: Span) -> Value<'w> {
+        let value = match binding {
+            Binding::Value(value) => value,
+            Binding::State { cell, ty } => {
+                let reg = match self.when {
+                    When::Now => self.code.cell(cell),
+                    When::Prev => self.code.cell_before(cell),
+                };
+                Value::one(ty, reg)
+            }
+            Binding::Expr { expr, scope, ty, now, at } => {
+                self.world.mark_used(at);
+                match now.filter(|_| self.when == When::Now) {
+                    Some(value) => value,
+                    None => {
+                        let value = self.inline(at, span, |lower| {
+                            lower.within(scope, |lower| match ty {
+                                Some(ty) => lower.want(expr, ty),
+                                None => lower.expr(expr),
+                            })
+                        });
+                        value.unwrap_or_else(Value::error)
+                    }
+                }
+            }
+        };
+        if value.regs().iter().all(|&reg| self.code.is_visible(reg)) {
+            return value;
+        }
+        self.fail(
+            Problem::new(
+                Code::WrongScope,
+                span,
+                format!("`{name}` changes within the step, but this is computed once per step"),
+                "belongs to a loop or an `on` block",
+            )
+            .help("`held`, `ever`, `since` and their like look at the whole match, not at one event or player"),
+        )
+    }
+
+    fn scenario_name(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
+        let world = self.world;
+        if let Some(index) = world.params.iter().position(|param| param.name.node == name)
+            && let Some(info) = world.params.get(index)
+        {
+            world.mark_used(info.name.span);
+            if info.bound.is_some() {
+                return Some(self.scenario_let(name, span));
+            }
+            let reg = self.code.param(index as u32);
+            let repr = if info.ty == Ty::String { Repr::Choice(reg, info.choices.clone()) } else { Repr::One(reg) };
+            let repr = if info.ty == Ty::Error { Repr::Nothing } else { repr };
+            return Some(Value { ty: info.ty, repr });
+        }
+        if let Some(binding) = world.flat.lets.iter().find(|binding| binding.name.node == name) {
+            world.mark_used(binding.name.span);
+            return Some(self.scenario_let(name, span));
+        }
+        if let Some(binding) = world.flat.consts.iter().find(|binding| binding.name.node == name) {
+            world.mark_used(binding.name.span);
+            return Some(self.constant_item(binding, span));
+        }
+        if let Some(region) = world.flat.regions.iter().find(|region| region.name.node == name) {
+            world.mark_used(region.name.span);
+            let scope = Scope::new(true, Frame::World);
+            let value =
+                self.inline(region.name.span, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
+            return Some(value.unwrap_or_else(Value::error));
+        }
+        let player = world.roster.iter().find(|player| player.name.is_some_and(|known| known.node == name))?;
+        Some(Value::one(Ty::Player, self.code.constant(f64::from(player.id))))
+    }
+
+    fn file_name(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
+        let library = self.world.library;
+        let found = library.find(span.file, name)?;
+        if let Some(problem) = library.ambiguous(span.file, name, span) {
+            return Some(self.fail(problem));
+        }
+        self.world.mark_used(found.name.span);
+        let needs_call = |what: &str| {
+            Problem::new(Code::WrongType, span, format!("`{name}` is a {what}, not a value"), "")
+        };
+        Some(match &found.item.kind {
+            ItemKind::Const(binding) => self.constant_item(binding, span),
+            ItemKind::Region(region) if region.params.is_empty() => {
+                let scope = Scope::new(false, Frame::World);
+                let at = region.name.span;
+                let value = self.inline(at, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
+                value.unwrap_or_else(Value::error)
+            }
+            ItemKind::Formation(formation) => formation_value(formation),
+            ItemKind::Fn(_) | ItemKind::Region(_) => {
+                self.fail(needs_call("function").help(format!("call it: `{name}(…)`")))
+            }
+            // A scenario or a reward may bear the name of a property; the property is meant here.
+            _ if self.is_builtin(name) => return None,
+            ItemKind::Scenario(_) => self.fail(needs_call("scenario")),
+            ItemKind::Reward(_) => self.fail(needs_call("reward")),
+            _ => self.fail(needs_call("definition")),
+        })
+    }
+
+    fn constant_item(&mut self, binding: &'w crate::ast::Binding, span: Span) -> Value<'w> {
+        let ty = binding.ty.as_ref().map(|ty| super::super::param::declared_type(self.world, ty));
+        let scope = Scope::new(false, Frame::World);
+        let value = self.inline(binding.name.span, span, |lower| {
+            lower.within(scope, |lower| match ty {
+                Some(ty) => lower.want(&binding.value, ty),
+                None => lower.expr(&binding.value),
+            })
+        });
+        let value = value.unwrap_or_else(Value::error);
+        if value.regs().iter().any(|&reg| self.code.constant_of(reg).is_none()) {
+            return self.fail(
+                Problem::new(
+                    Code::NotConstant,
+                    binding.value.span,
+                    format!("`{}` is no constant", binding.name.node),
+                    "not known before the start",
+                )
+                .help("use `let` for what is drawn or computed"),
+            );
+        }
+        value
+    }
+
+    fn is_builtin(&self, name: &str) -> bool {
+        BUILTIN.contains(&name) || match_property(name).is_some()
+    }
+
+    fn builtin(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
+        let team = |reg: Reg| Value::one(Ty::Team, reg);
+        Some(match name {
+            "left" => team(self.code.constant(0.0)),
+            "right" => team(self.code.constant(1.0)),
+            "none" => team(self.code.constant(-1.0)),
+            "nobody" => Value::one(Ty::Player, self.code.constant(-1.0)),
+            "ball" => Value { ty: Ty::Ball, repr: Repr::Nothing },
+            "score" => Value { ty: Ty::Score, repr: Repr::Nothing },
+            "centre" => {
+                let zero = self.code.constant(0.0);
+                Value::two(Ty::Point, (zero, zero))
+            }
+            "pitch" => {
+                let (x, y) = (self.code.constant(HALF_LENGTH_M), self.code.constant(HALF_WIDTH_M));
+                let (nx, ny) = (self.code.constant(-HALF_LENGTH_M), self.code.constant(-HALF_WIDTH_M));
+                region(RegionValue::Rect((nx, ny), (x, y)))
+            }
+            "centre_circle" => {
+                let (zero, r) = (self.code.constant(0.0), self.code.constant(CIRCLE_RADIUS_M));
+                region(RegionValue::Circle((zero, zero), r))
+            }
+            "players" => {
+                let both = self.code.constant(-1.0);
+                Value { ty: Ty::Set, repr: Repr::Set(SetValue { team: both, except: None }) }
+            }
+            "us" => match self.team {
+                Some(reg) if self.stage.is_step() => team(reg),
+                _ => self.no_view(name, span),
+            },
+            "them" => match self.team {
+                Some(reg) if self.stage.is_step() => team(self.code.unary(UnaryOp::OtherTeam, reg)),
+                _ => self.no_view(name, span),
+            },
+            "me" if self.stage == Stage::Reward => Value::one(Ty::Player, self.code.me()),
+            "mates" if self.stage == Stage::Reward => match self.team {
+                Some(us) => {
+                    let me = self.code.me();
+                    Value { ty: Ty::Set, repr: Repr::Set(SetValue { team: us, except: Some(me) }) }
+                }
+                None => self.no_view(name, span),
+            },
+            "me" | "mates" => self.no_view(name, span),
+            _ => {
+                let property = match_property(name)?;
+                self.match_value(property, span)
+            }
+        })
+    }
+
+    fn no_view(&self, name: &str, span: Span) -> Value<'w> {
+        let problem = Problem::new(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
+        self.fail(match (self.stage, name) {
+            (Stage::Ending, "us" | "them") => {
+                problem.help("both teams have agents, or none: write `left` or `right`")
+            }
+            (Stage::Init, "me" | "mates") => problem.help("a `state` begins before anyone plays; set it in a `when`"),
+            _ => problem.help("write `left`, `right` or a player's name; `us`, `them` and `me` belong to rewards"),
+        })
+    }
+
+    fn match_value(&mut self, property: &'static Property, span: Span) -> Value<'w> {
+        let field = match property.name {
+            "possession" => Field::Possession,
+            "elapsed" => Field::Elapsed,
+            "remaining" => Field::Remaining,
+            "game_mode" => Field::GameMode,
+            _ => Field::BallDead,
+        };
+        match self.load(field, None, property.name, span) {
+            Some(reg) => Value::one(Ty::of(property.ty), reg),
+            None => Value::error(),
+        }
+    }
+
+    /// Reads a number of the match; reports it where no match is under way.
+    pub(super) fn load(&mut self, field: Field, of: Option<Reg>, name: &str, span: Span) -> Option<Reg> {
+        if self.stage.is_step() {
+            return Some(self.code.load(field, of, self.when));
+        }
+        let what = if self.stage == Stage::Constant { "a constant" } else { "the start" };
+        self.report(
+            Problem::new(
+                Code::WrongScope,
+                span,
+                format!("`{name}` is known only while the match runs"),
+                format!("{what} is computed before"),
+            )
+            .help("use it in a `reward` or an `end`"),
+        );
+        None
+    }
+
+    /// Every name that could stand here.
+    pub(crate) fn names_in_sight(&self, span: Span) -> Vec<String> {
+        let mut names: Vec<String> = self.scope.names().into_iter().map(str::to_owned).collect();
+        if self.scope.scenario {
+            let world = self.world;
+            names.extend(world.params.iter().map(|param| param.name.node.clone()));
+            names.extend(world.flat.lets.iter().map(|binding| binding.name.node.clone()));
+            names.extend(world.flat.consts.iter().map(|binding| binding.name.node.clone()));
+            names.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
+            names.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
+        }
+        let values = |kind: &ItemKind| {
+            matches!(kind, ItemKind::Const(_) | ItemKind::Region(_) | ItemKind::Formation(_) | ItemKind::Fn(_))
+        };
+        let visible = self.world.library.visible(span.file);
+        names.extend(visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()));
+        names.extend(BUILTIN.iter().map(|&name| name.to_owned()));
+        let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
+        names.extend(of_match.map(|property| property.name.to_owned()));
+        names
+    }
+
+    /// A player of the roster by his register, if it is constant.
+    pub(crate) fn roster_index(&self, player: Reg) -> Option<usize> {
+        let id = self.code.constant_of(player)?;
+        debug_assert!(id < 2.0 * TEAM_MAX as f64);
+        self.world.roster.iter().position(|rostered| f64::from(rostered.id) == id)
+    }
+}
+
+fn match_property(name: &str) -> Option<&'static Property> {
+    let of_match = |property: &&Property| property.owner == Owner::Match && property.name == name;
+    debug_assert!(PROPERTIES.iter().all(|property| property.ty != Type::Behavior));
+    PROPERTIES.iter().find(of_match)
+}
+
+fn region<'w>(value: RegionValue) -> Value<'w> {
+    Value { ty: Ty::Region, repr: Repr::Region(Rc::new(value)) }
+}
+
+fn formation_value(formation: &FormationItem) -> Value<'_> {
+    Value { ty: Ty::Formation, repr: Repr::Formation(formation) }
+}

@@ -1,0 +1,185 @@
+//! Draws: in the start program only.
+
+use super::super::value::{RegionValue, Repr, Value};
+use super::super::{Lower, Stage};
+use crate::ast::{Arg, Expr, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::Function;
+use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
+
+impl<'w> Lower<'_, 'w> {
+    /// Reports a draw that stands outside the start.
+    fn may_draw(&self, function: Function, span: Span) -> bool {
+        if self.stage == Stage::Start {
+            return true;
+        }
+        let problem = Problem::new(
+            if self.stage == Stage::Constant { Code::NotConstant } else { Code::WrongScope },
+            span,
+            format!("`{}` draws at reset, not here", function.name()),
+            "",
+        );
+        self.report(problem.help("draw it with a `let` of the scenario and use the name"));
+        false
+    }
+
+    pub(super) fn draw(&mut self, function: Function, given: &[&'w Expr], span: Span) -> Value<'w> {
+        use Function as F;
+        if function == F::Alternate {
+            return self.alternate(given, span);
+        }
+        if !self.may_draw(function, span) {
+            return Value::error();
+        }
+        if let (F::Uniform, &[region]) = (function, given) {
+            let Some(region) = self.region(region) else { return Value::error() };
+            return match self.draw_in(&region, span) {
+                Some(place) => Value::two(Ty::Point, place),
+                None => Value::error(),
+            };
+        }
+        let Some((&first, rest)) = given.split_first() else { return Value::error() };
+        let head = if function == F::Integer { self.want(first, Ty::Int) } else { self.expr(first) };
+        if head.is_error() {
+            return head;
+        }
+        if head.ty.dim().is_none() {
+            return self.fail(self.mismatch(head.ty, Ty::Number, first.span));
+        }
+        let wanted = match head.ty {
+            Ty::Int if function == F::Integer => Ty::Int,
+            ty if ty.is_plain() => Ty::Number,
+            ty => ty,
+        };
+        let mut regs = vec![self.reg(&head)];
+        for expr in rest {
+            let value = self.want(expr, wanted);
+            if value.is_error() {
+                return value;
+            }
+            regs.push(self.reg(&value));
+        }
+        let (distribution, ends) = match (function, regs.as_slice()) {
+            (F::Uniform, &[a, b]) => (Distribution::Uniform(a, b), Some((a, b))),
+            (F::Integer, &[a, b]) => (Distribution::Integer(a, b), Some((a, b))),
+            (F::Normal, &[mean, sd]) => (Distribution::Normal(mean, sd), None),
+            (F::TruncatedNormal, &[mean, sd, a, b]) => (Distribution::TruncatedNormal(mean, sd, a, b), Some((a, b))),
+            _ => {
+                return self.fail(Problem::new(
+                    Code::WrongArguments,
+                    span,
+                    format!("`{}` needs two ends or a region", function.name()),
+                    "",
+                ));
+            }
+        };
+        if let Some((a, b)) = ends
+            && let (Some(low), Some(high)) = (self.interval(a), self.interval(b))
+            && low.0 > high.1
+        {
+            return self.fail(
+                Problem::new(Code::OutOfRange, span, "the upper end lies below the lower one", "")
+                    .help("write the lower end first"),
+            );
+        }
+        Value::one(wanted, self.code.random(distribution))
+    }
+
+    /// `choice(a, b, c)`, `choice(a: 3, b: 1)`
+    pub(super) fn choice(&mut self, args: &'w [Arg], span: Span) -> Value<'w> {
+        if !self.may_draw(Function::Choice, span) {
+            return Value::error();
+        }
+        if args.is_empty() {
+            return self.fail(Problem::new(Code::WrongArguments, span, "`choice` has nothing to choose from", ""));
+        }
+        let weighted = args.iter().any(|arg| arg.key.is_some());
+        if let Some(bare) = args.iter().find(|arg| weighted && arg.key.is_none()) {
+            return self.fail(
+                Problem::new(Code::WrongArguments, bare.span, "one of the choices has no weight", "")
+                    .help("write `value: weight` for each, or for none"),
+            );
+        }
+        let mut weights = Vec::new();
+        let mut options: Vec<(Value<'w>, &'w Expr)> = Vec::new();
+        for arg in args {
+            let (option, weight) = match &arg.key {
+                Some(key) => (key, self.want_reg(&arg.value, Ty::Number)),
+                None => (&arg.value, self.code.constant(1.0)),
+            };
+            options.push((self.expr(option), option));
+            weights.push(weight);
+        }
+        if options.iter().any(|(value, _)| value.is_error()) {
+            return Value::error();
+        }
+        let index = self.code.random(Distribution::Weighted(weights));
+        let mut options = options.into_iter().enumerate().rev();
+        let Some((_, (mut picked, mut picked_at))) = options.next() else { return Value::error() };
+        for (i, (option, at)) in options {
+            let i = self.code.constant(i as f64);
+            let is_this = self.code.binary(BinaryOp::Eq, index, i);
+            picked = self.choose(is_this, (&option, at), (&picked, picked_at));
+            picked_at = at;
+        }
+        picked
+    }
+
+    /// `alternate(a, b)`: `a` in even episodes, `b` in odd ones.
+    fn alternate(&mut self, given: &[&'w Expr], span: Span) -> Value<'w> {
+        let &[a, b] = given else { return Value::error() };
+        if self.stage == Stage::Constant {
+            return self.fail(Problem::new(
+                Code::NotConstant,
+                span,
+                "`alternate` changes with the episode",
+                "a constant never changes",
+            ));
+        }
+        let (x, y) = (self.expr(a), self.expr(b));
+        let (index, two) = (self.code.episode_index(), self.code.constant(2.0));
+        let odd = self.code.binary(BinaryOp::Mod, index, two);
+        let even = self.code.unary(UnaryOp::Not, odd);
+        self.choose(even, (&x, a), (&y, b))
+    }
+
+    /// A point drawn uniformly in a region.
+    pub(crate) fn draw_in(&mut self, region: &RegionValue, span: Span) -> Option<(Reg, Reg)> {
+        match region {
+            RegionValue::Rect(a, b) => {
+                let mut along = |a: Reg, b: Reg| {
+                    let (low, high) = (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
+                    self.code.random(Distribution::Uniform(low, high))
+                };
+                Some((along(a.0, b.0), along(a.1, b.1)))
+            }
+            RegionValue::Circle(centre, radius) => Some(self.draw_in_disc(*centre, *radius)),
+            _ => {
+                self.report(
+                    Problem::new(Code::NotYet, span, "a draw in a composed region is not supported yet", "")
+                        .help("draw in a rectangle or circle around it and `require` the rest"),
+                );
+                None
+            }
+        }
+    }
+
+    /// A point drawn uniformly in a disc.
+    pub(crate) fn draw_in_disc(&mut self, centre: (Reg, Reg), radius: Reg) -> (Reg, Reg) {
+        let (zero, one) = (self.code.constant(0.0), self.code.constant(1.0));
+        let turn = self.code.constant(std::f64::consts::TAU);
+        let share = self.code.random(Distribution::Uniform(zero, one));
+        let angle = self.code.random(Distribution::Uniform(zero, turn));
+        let root = self.code.unary(UnaryOp::Sqrt, share);
+        let r = self.code.binary(BinaryOp::Mul, radius, root);
+        let (cos, sin) = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
+        let (dx, dy) = (self.code.binary(BinaryOp::Mul, r, cos), self.code.binary(BinaryOp::Mul, r, sin));
+        (self.code.binary(BinaryOp::Add, centre.0, dx), self.code.binary(BinaryOp::Add, centre.1, dy))
+    }
+
+    /// The words of a choice between strings are not values of a program.
+    pub(crate) fn is_written_word(value: &Value<'w>) -> bool {
+        matches!(value.repr, Repr::Text(_))
+    }
+}

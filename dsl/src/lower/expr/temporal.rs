@@ -1,0 +1,125 @@
+//! Operators over time: evaluated once per step, outside every loop, whatever guards their use.
+
+use super::super::{Lower, Stage};
+use super::super::value::Value;
+use crate::ast::{Expr, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::Function;
+use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
+
+impl<'w> Lower<'_, 'w> {
+    pub(super) fn temporal(&mut self, function: Function, given: &[&'w Expr], span: Span) -> Value<'w> {
+        use Function as F;
+        match (function, given) {
+            (F::Prev, &[e]) => self.before(e, span).unwrap_or_else(Value::error),
+            (F::Delta, &[e]) => self.delta(e, span),
+            (F::Closing, &[a, b]) => self.closing(a, b, span),
+            _ if self.when == When::Prev => self.fail(
+                Problem::new(
+                    Code::WrongScope,
+                    span,
+                    format!("`{}` has no value a step ago", function.name()),
+                    "inside a look at the step before",
+                )
+                .help("`prev` reads the state of the match and of the reward only"),
+            ),
+            _ if !self.stage.is_step() => self.fail(
+                Problem::new(
+                    Code::WrongScope,
+                    span,
+                    format!("`{}` looks back at the match, which has not begun", function.name()),
+                    "",
+                )
+                .help("use it in a `reward` or an `end`"),
+            ),
+            _ => self.hoisted(|lower| lower.over_time(function, given)),
+        }
+    }
+
+    /// Writes code outside every loop, where no event and no element of a loop is known.
+    fn hoisted<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
+        let loops = self.code.leave_loops();
+        let event = self.event.take();
+        let result = f(self);
+        self.event = event;
+        self.code.return_to(loops);
+        result
+    }
+
+    fn over_time(&mut self, function: Function, given: &[&'w Expr]) -> Value<'w> {
+        use Function as F;
+        match (function, given) {
+            (F::Held, &[c, d]) => {
+                let (c, d) = (self.condition(c), self.want_reg(d, Ty::DURATION));
+                Value::one(Ty::Bool, self.code.held(c, d))
+            }
+            (F::Ever, &[c]) => {
+                let c = self.condition(c);
+                Value::one(Ty::Bool, self.code.ever(c))
+            }
+            (F::Always, &[c]) => {
+                let c = self.condition(c);
+                let broken = self.code.unary(UnaryOp::Not, c);
+                let ever = self.code.ever(broken);
+                Value::one(Ty::Bool, self.code.unary(UnaryOp::Not, ever))
+            }
+            (F::Since, &[c]) => {
+                let c = self.condition(c);
+                Value::one(Ty::DURATION, self.code.since(c))
+            }
+            (F::Until, &[c, d]) => {
+                let (c, d) = (self.condition(c), self.condition(d));
+                Value::one(Ty::Bool, self.code.until(c, d))
+            }
+            (F::Within, &[c, d]) => {
+                let (c, d) = (self.condition(c), self.want_reg(d, Ty::DURATION));
+                let since = self.code.since(c);
+                Value::one(Ty::Bool, self.code.binary(BinaryOp::Le, since, d))
+            }
+            _ => Value::error(),
+        }
+    }
+
+    fn delta(&mut self, e: &'w Expr, span: Span) -> Value<'w> {
+        let now = self.expr(e);
+        let Some(before) = self.before(e, span) else { return Value::error() };
+        if now.is_error() || before.is_error() {
+            return Value::error();
+        }
+        let ty = match now.ty {
+            ty if ty.dim().is_some() => ty,
+            Ty::Vector | Ty::Velocity => now.ty,
+            ty if ty.is_place() => Ty::Vector,
+            ty => return self.fail(self.mismatch(ty, Ty::Number, e.span)),
+        };
+        if ty.dim().is_some() {
+            let (p, q) = (self.reg(&now), self.reg(&before));
+            let change = self.code.binary(BinaryOp::Sub, p, q);
+            return Value::one(ty, if ty == Ty::ANGLE { self.code.unary(UnaryOp::Wrap, change) } else { change });
+        }
+        let p = if now.ty.is_place() { self.place_of(&now, e.span) } else { self.pair(&now) };
+        self.when = When::Prev;
+        let q = if before.ty.is_place() { self.place_of(&before, e.span) } else { self.pair(&before) };
+        self.when = When::Now;
+        Value::two(ty, (self.code.binary(BinaryOp::Sub, p.0, q.0), self.code.binary(BinaryOp::Sub, p.1, q.1)))
+    }
+
+    /// The length by which two places came nearer in this step.
+    fn closing(&mut self, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
+        let apart = |lower: &mut Self| -> Reg {
+            let (p, q) = (lower.want_point(a), lower.want_point(b));
+            lower.distance(p, q)
+        };
+        if !self.stage.is_step() || self.when == When::Prev {
+            self.before(a, span);
+            return Value::error();
+        }
+        debug_assert_ne!(self.stage, Stage::Start);
+        let now = apart(self);
+        self.when = When::Prev;
+        let before = apart(self);
+        self.when = When::Now;
+        Value::one(Ty::LENGTH, self.code.binary(BinaryOp::Sub, before, now))
+    }
+}

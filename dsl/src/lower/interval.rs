@@ -1,0 +1,72 @@
+//! The least and greatest value a register can have, as far as parameters' ranges and draws tell.
+
+use super::builder::Builder;
+use setpiece_scenario::{BinaryOp, Distribution, Instr, Reg, UnaryOp};
+
+/// A closed interval.
+pub(crate) type Interval = (f64, f64);
+
+/// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
+pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
+    bounded(code, reg, params, 0)
+}
+
+fn bounded(code: &Builder, reg: Reg, params: &[Option<Interval>], depth: u32) -> Option<Interval> {
+    if depth > 64 {
+        return None;
+    }
+    let of = |reg: Reg| bounded(code, reg, params, depth + 1);
+    let found = match code.instr(reg)? {
+        Instr::Const(value) => (*value, *value),
+        Instr::Param(index) => params.get(*index as usize).copied().flatten()?,
+        Instr::Unary(op, a) => unary(*op, of(*a)?)?,
+        Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
+        Instr::Select(_, a, b) => {
+            let (a, b) = (of(*a)?, of(*b)?);
+            (a.0.min(b.0), a.1.max(b.1))
+        }
+        Instr::Random(
+            Distribution::Uniform(low, high)
+            | Distribution::Integer(low, high)
+            | Distribution::TruncatedNormal(_, _, low, high),
+        ) => (of(*low)?.0, of(*high)?.1),
+        _ => return None,
+    };
+    (found.0.is_finite() && found.1.is_finite()).then_some(found)
+}
+
+fn unary(op: UnaryOp, a: Interval) -> Option<Interval> {
+    Some(match op {
+        UnaryOp::Neg => (-a.1, -a.0),
+        UnaryOp::Not => (0.0, 1.0),
+        UnaryOp::Abs if a.0 >= 0.0 => a,
+        UnaryOp::Abs if a.1 <= 0.0 => (-a.1, -a.0),
+        UnaryOp::Abs => (0.0, a.1.max(-a.0)),
+        UnaryOp::Sqrt if a.0 >= 0.0 => (a.0.sqrt(), a.1.sqrt()),
+        UnaryOp::Floor => (a.0.floor(), a.1.floor()),
+        UnaryOp::Ceil => (a.0.ceil(), a.1.ceil()),
+        UnaryOp::Round => (a.0.round(), a.1.round()),
+        UnaryOp::Sin | UnaryOp::Cos => (-1.0, 1.0),
+        _ => return None,
+    })
+}
+
+fn binary(op: BinaryOp, a: Interval, b: Interval) -> Option<Interval> {
+    Some(match op {
+        BinaryOp::Add => (a.0 + b.0, a.1 + b.1),
+        BinaryOp::Sub => (a.0 - b.1, a.1 - b.0),
+        BinaryOp::Mul => corners(a, b, |x, y| x * y),
+        BinaryOp::Div if b.0 > 0.0 || b.1 < 0.0 => corners(a, b, |x, y| x / y),
+        BinaryOp::Min => (a.0.min(b.0), a.1.min(b.1)),
+        BinaryOp::Max => (a.0.max(b.0), a.1.max(b.1)),
+        BinaryOp::Lt | BinaryOp::Le | BinaryOp::Gt | BinaryOp::Ge | BinaryOp::Eq | BinaryOp::Ne => (0.0, 1.0),
+        BinaryOp::And | BinaryOp::Or => (0.0, 1.0),
+        BinaryOp::Mod if b.0 > 0.0 => (0.0, b.1),
+        _ => return None,
+    })
+}
+
+fn corners(a: Interval, b: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
+    let values = [f(a.0, b.0), f(a.0, b.1), f(a.1, b.0), f(a.1, b.1)];
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
+}

@@ -1,0 +1,273 @@
+//! A scenario's parameters.
+
+use super::interval::Interval;
+use super::value::{Frame, Repr, Scope, Value};
+use super::{Lower, Stage, World};
+use crate::ast::{Domain, Expr, Ident, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use crate::resolve::FlatParam;
+use setpiece_scenario::Param;
+use setpiece_scenario::vocabulary::Type;
+use std::rc::Rc;
+
+/// A parameter, checked.
+pub(crate) struct ParamInfo<'w> {
+    /// What the scenario carries.
+    pub(crate) param: Param,
+    /// Its type in expressions.
+    pub(crate) ty: Ty,
+    /// Its words, if it is a string.
+    pub(crate) choices: Rc<[String]>,
+    /// Where it is declared.
+    pub(crate) name: &'w Ident,
+    /// Instead of a parameter: a child's argument that is drawn or computed.
+    pub(crate) bound: Option<&'w Expr>,
+    /// The type it was declared with.
+    pub(crate) declared: Option<Ty>,
+}
+
+impl ParamInfo<'_> {
+    /// Least and greatest value.
+    pub(crate) fn interval(&self) -> Option<Interval> {
+        if self.bound.is_some() {
+            return None;
+        }
+        if let (Some(least), Some(greatest)) =
+            (self.param.values.iter().copied().reduce(f64::min), self.param.values.iter().copied().reduce(f64::max))
+        {
+            return Some((least, greatest));
+        }
+        match self.param.ty {
+            Type::Bool => Some((0.0, 1.0)),
+            Type::Team => Some((-1.0, 1.0)),
+            _ => self.param.range,
+        }
+    }
+}
+
+/// The type a declaration names; reports an unknown one.
+pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
+    match Type::from_name(&ty.node) {
+        Some(Type::Behavior) | None => {
+            world.report(
+                Problem::new(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "")
+                    .did_you_mean(&ty.node, Type::ALL.iter().map(|ty| ty.name())),
+            );
+            Ty::Error
+        }
+        Some(ty) => Ty::of(ty),
+    }
+}
+
+/// Checks every parameter of the scenario; the world has none yet.
+pub(crate) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
+    world.flat.params.iter().map(|param| lower_param(world, param)).collect()
+}
+
+fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> {
+    let decl = flat.decl;
+    let declared = decl.ty.as_ref().map(|ty| declared_type(world, ty));
+    let mut info = ParamInfo {
+        param: Param {
+            name: decl.name.node.clone(),
+            doc: decl.doc.clone(),
+            ty: Type::Number,
+            default: 0.0,
+            range: None,
+            choices: Vec::new(),
+            values: Vec::new(),
+        },
+        ty: Ty::Error,
+        choices: Rc::from([]),
+        name: &decl.name,
+        bound: None,
+        declared,
+    };
+    let Some(expr) = flat.value else {
+        world.report(
+            Problem::new(
+                Code::WrongArguments,
+                decl.name.span,
+                format!("parameter `{}` has no value", decl.name.node),
+                "",
+            )
+            .help("give it a default: `= 0.5`"),
+        );
+        return info;
+    };
+    if flat.is_argument && !is_constant(world, expr) {
+        info.bound = Some(expr);
+        return info;
+    }
+    let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+    let value = match declared {
+        Some(ty) => lower.want(expr, ty),
+        None => lower.expr(expr),
+    };
+    info.ty = value.ty;
+    // A number's default may be written without a point.
+    if value.ty == Ty::Int && declared.is_none() && in_fractions(flat.domain) {
+        info.ty = Ty::Number;
+    }
+    if value.is_error() {
+        return info;
+    }
+    match info.ty.param() {
+        Some(ty) => info.param.ty = ty,
+        None => {
+            world.report(Problem::new(
+                Code::WrongType,
+                expr.span,
+                format!("a parameter can't be {}", value.ty.noun()),
+                "",
+            ));
+            return info;
+        }
+    }
+    match &value.repr {
+        Repr::Text(text) => choices(world, &mut info, text, expr.span, flat.domain),
+        Repr::One(reg) => match lower.code.constant_of(*reg) {
+            Some(default) => {
+                info.param.default = default;
+                domain(world, &mut info, expr.span, flat.domain);
+            }
+            None => world.report(not_constant(world, expr)),
+        },
+        _ => {}
+    }
+    info
+}
+
+fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
+    Problem::new(
+        Code::NotConstant,
+        expr.span,
+        format!("`{}` is not known before the start", world.text(expr.span)),
+        "a default must be a constant",
+    )
+}
+
+fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
+    let kept = world.problems.borrow().len();
+    let used = world.used.borrow().clone();
+    let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+    let value = lower.expr(expr);
+    world.problems.borrow_mut().truncate(kept);
+    *world.used.borrow_mut() = used;
+    match value.repr {
+        Repr::Text(_) => true,
+        Repr::One(reg) => lower.code.constant_of(reg).is_some(),
+        _ => false,
+    }
+}
+
+/// Whether a range is written with fractions.
+fn in_fractions(domain: Option<&Domain>) -> bool {
+    let fraction = |expr: &Expr| matches!(expr.kind, crate::ast::ExprKind::Number { is_int: false, .. });
+    match domain {
+        Some(Domain::Range(low, high)) => fraction(low) || fraction(high),
+        Some(Domain::List(values, _)) => values.iter().any(fraction),
+        None => false,
+    }
+}
+
+fn constant<'w>(world: &World<'w>, expr: &'w Expr, ty: Ty) -> Option<f64> {
+    let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+    let value: Value<'w> = lower.want(expr, ty);
+    match value.repr {
+        Repr::One(reg) => {
+            let found = lower.code.constant_of(reg);
+            if found.is_none() {
+                world.report(not_constant(world, expr));
+            }
+            found
+        }
+        _ => None,
+    }
+}
+
+fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, domain: Option<&'w Domain>) {
+    match domain {
+        None => return,
+        Some(Domain::Range(low, high)) => {
+            let (Some(least), Some(greatest)) = (constant(world, low, info.ty), constant(world, high, info.ty)) else {
+                return;
+            };
+            if least > greatest {
+                let span = low.span.to(high.span);
+                world.report(
+                    Problem::new(
+                        Code::OutOfRange,
+                        span,
+                        format!("the range `{}` is empty", world.text(span)),
+                        "its end lies before its begin",
+                    )
+                    .help("write the lower end first"),
+                );
+                return;
+            }
+            info.param.range = Some((least, greatest));
+        }
+        Some(Domain::List(values, _)) => {
+            info.param.values = values.iter().filter_map(|value| constant(world, value, info.ty)).collect();
+            if info.param.values.len() < values.len() {
+                info.param.values.clear();
+                return;
+            }
+        }
+    }
+    if info.param.admit(info.param.default).is_err() {
+        let allowed = match domain {
+            Some(Domain::Range(low, high)) => format!("{}..{}", world.text(low.span), world.text(high.span)),
+            Some(Domain::List(_, span)) => world.text(*span),
+            None => String::new(),
+        };
+        world.report(
+            Problem::new(
+                Code::OutOfRange,
+                default,
+                format!("`{}` is outside `{allowed}`", world.text(default)),
+                format!("the default of `{}`", info.param.name),
+            )
+            .help(format!("write a value in `{allowed}`")),
+        );
+    }
+}
+
+/// A string parameter is the place of its word in the list of words it may be.
+fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: Span, domain: Option<&'w Domain>) {
+    let mut words = Vec::new();
+    match domain {
+        Some(Domain::List(values, _)) => {
+            for value in values {
+                let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+                if let Repr::Text(word) = lower.want(value, Ty::String).repr {
+                    words.push(word);
+                }
+            }
+        }
+        Some(Domain::Range(low, high)) => {
+            world.report(
+                Problem::new(Code::WrongType, low.span.to(high.span), "words have no range".to_owned(), "")
+                    .help("list them: `in [\"wing\", \"centre\"]`"),
+            );
+            return;
+        }
+        None => words.push(default.to_owned()),
+    }
+    match words.iter().position(|word| word == default) {
+        Some(index) => info.param.default = index as f64,
+        None => world.report(
+            Problem::new(
+                Code::OutOfRange,
+                at,
+                format!("`{default}` is none of the words `{}` may be", info.param.name),
+                "",
+            )
+            .did_you_mean(default, words.iter().map(String::as_str)),
+        ),
+    }
+    info.choices = Rc::from(words.clone());
+    info.param.choices = words;
+}

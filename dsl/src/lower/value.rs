@@ -1,0 +1,206 @@
+//! Values while a program is written: a type and the registers that hold it.
+
+use crate::ast::{Expr, FormationItem, Span};
+use crate::check::types::Ty;
+use setpiece_scenario::Reg;
+use std::rc::Rc;
+
+/// A typed value.
+#[derive(Clone, Debug)]
+pub(crate) struct Value<'w> {
+    /// Its type.
+    pub(crate) ty: Ty,
+    /// Where it is.
+    pub(crate) repr: Repr<'w>,
+}
+
+/// Where a value is.
+#[derive(Clone, Debug)]
+pub(crate) enum Repr<'w> {
+    /// Nowhere: of a broken expression, or of something that is its name (the ball, the score).
+    Nothing,
+    /// One register.
+    One(Reg),
+    /// Two: a point, vector or velocity along the ground.
+    Two(Reg, Reg),
+    /// Three: with a height.
+    Three(Reg, Reg, Reg),
+    /// A word that is written out.
+    Text(String),
+    /// One of some words, by its number.
+    Choice(Reg, Rc<[String]>),
+    /// Players.
+    Set(SetValue),
+    /// A part of the pitch.
+    Region(Rc<RegionValue>),
+    /// A list.
+    List(Vec<Value<'w>>),
+    /// A formation and what its parameters are bound to.
+    Formation(&'w FormationItem),
+}
+
+/// Players of a team (-1: of both) without one of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SetValue {
+    /// The team.
+    pub(crate) team: Reg,
+    /// Who is left out.
+    pub(crate) except: Option<Reg>,
+}
+
+/// A part of the pitch; lengths in metres, world frame.
+#[derive(Clone, Debug)]
+pub(crate) enum RegionValue {
+    /// Between two corners, in any order.
+    Rect((Reg, Reg), (Reg, Reg)),
+    /// A disc: centre and radius.
+    Circle((Reg, Reg), Reg),
+    /// In one or the other.
+    Union(Rc<RegionValue>, Rc<RegionValue>),
+    /// In both.
+    Intersection(Rc<RegionValue>, Rc<RegionValue>),
+    /// In the first but not in the second.
+    Difference(Rc<RegionValue>, Rc<RegionValue>),
+}
+
+impl<'w> Value<'w> {
+    /// Of a broken expression; a problem has been told.
+    pub(crate) fn error() -> Value<'w> {
+        Value { ty: Ty::Error, repr: Repr::Nothing }
+    }
+
+    /// Of one register.
+    pub(crate) fn one(ty: Ty, reg: Reg) -> Value<'w> {
+        Value { ty, repr: Repr::One(reg) }
+    }
+
+    /// Of two registers.
+    pub(crate) fn two(ty: Ty, (x, y): (Reg, Reg)) -> Value<'w> {
+        Value { ty, repr: Repr::Two(x, y) }
+    }
+
+    /// Whether the expression was broken.
+    pub(crate) fn is_error(&self) -> bool {
+        self.ty == Ty::Error
+    }
+
+    /// The registers, in order.
+    pub(crate) fn regs(&self) -> Vec<Reg> {
+        match &self.repr {
+            Repr::One(a) | Repr::Choice(a, _) => vec![*a],
+            Repr::Two(a, b) => vec![*a, *b],
+            Repr::Three(a, b, c) => vec![*a, *b, *c],
+            Repr::Set(set) => [Some(set.team), set.except].into_iter().flatten().collect(),
+            Repr::List(list) => list.iter().flat_map(Value::regs).collect(),
+            Repr::Region(region) => region.regs(),
+            Repr::Nothing | Repr::Text(_) | Repr::Formation(_) => Vec::new(),
+        }
+    }
+}
+
+impl RegionValue {
+    fn regs(&self) -> Vec<Reg> {
+        match self {
+            RegionValue::Rect(a, b) => vec![a.0, a.1, b.0, b.1],
+            RegionValue::Circle(c, r) => vec![c.0, c.1, *r],
+            RegionValue::Union(a, b) | RegionValue::Intersection(a, b) | RegionValue::Difference(a, b) => {
+                let mut regs = a.regs();
+                regs.extend(b.regs());
+                regs
+            }
+        }
+    }
+}
+
+/// How literals and coordinates are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Frame {
+    /// As the pitch lies.
+    World,
+    /// From the own goal, attacking towards +x.
+    Own,
+}
+
+/// The names that an expression sees besides those of its file; cheap to copy.
+#[derive(Clone)]
+pub(crate) struct Scope<'w> {
+    locals: Option<Rc<Local<'w>>>,
+    /// Whether the scenario's parameters, `let`s and players are seen.
+    pub(crate) scenario: bool,
+    /// How literals are read.
+    pub(crate) frame: Frame,
+}
+
+struct Local<'w> {
+    name: &'w str,
+    binding: Binding<'w>,
+    next: Option<Rc<Local<'w>>>,
+}
+
+/// What a local name stands for.
+#[derive(Clone)]
+pub(crate) enum Binding<'w> {
+    /// A value of its own: the element of a loop.
+    Value(Value<'w>),
+    /// An expression, read in the scope where it was written; `now` is its value in the present program.
+    Expr {
+        /// The expression.
+        expr: &'w Expr,
+        /// Its scope.
+        scope: Scope<'w>,
+        /// The type it was declared with.
+        ty: Option<Ty>,
+        /// Its value, where it has been computed.
+        now: Option<Value<'w>>,
+        /// Where it is declared.
+        at: Span,
+    },
+    /// A `state` of a reward.
+    State {
+        /// Its cell.
+        cell: u32,
+        /// Its type.
+        ty: Ty,
+    },
+}
+
+impl<'w> Scope<'w> {
+    /// No locals.
+    pub(crate) fn new(scenario: bool, frame: Frame) -> Scope<'w> {
+        Scope { locals: None, scenario, frame }
+    }
+
+    /// Adds a name.
+    pub(crate) fn bind(&mut self, name: &'w str, binding: Binding<'w>) {
+        self.locals = Some(Rc::new(Local { name, binding, next: self.locals.take() }));
+    }
+
+    /// What a name stands for: the latest binding.
+    pub(crate) fn find(&self, name: &str) -> Option<&Binding<'w>> {
+        let mut at = self.locals.as_deref();
+        while let Some(local) = at {
+            if local.name == name {
+                return Some(&local.binding);
+            }
+            at = local.next.as_deref();
+        }
+        None
+    }
+
+    /// Every local name, the latest first.
+    pub(crate) fn names(&self) -> Vec<&'w str> {
+        let mut names = Vec::new();
+        let mut at = self.locals.as_deref();
+        while let Some(local) = at {
+            names.push(local.name);
+            at = local.next.as_deref();
+        }
+        names
+    }
+}
+
+impl std::fmt::Debug for Scope<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(self.names()).finish()
+    }
+}

@@ -1,0 +1,12 @@
+//! Files to names: which items a file sees, and what a scenario, reward or formation inherits.
+//!
+//! Nothing here looks into expressions; a name in an expression is resolved when it is lowered, against the
+//! [`Library`] of the file in which it stands.
+
+mod flatten;
+mod load;
+mod parts;
+
+pub(crate) use flatten::{Flat, FlatEnding, FlatParam, FlatTeam, flatten};
+pub(crate) use load::{Library, NamedItem, load};
+pub(crate) use parts::{formation_chain, reward_chain};

@@ -1,0 +1,497 @@
+//! A scenario with everything it inherits, as one list of parts.
+//!
+//! Root first. A child's `ball`, `limit`, player list, and whatever bears the same name replace the parent's; fields
+//! merge key by key; unnamed endings, requirements and new rewards are added; `remove` acts on the parents' result.
+
+use super::load::Library;
+use super::parts::chain;
+use crate::ast::{
+    Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref,
+    RewardUse, RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
+};
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{Role, Team};
+
+/// A scenario with everything it inherits.
+pub(crate) struct Flat<'a> {
+    /// The scenario itself.
+    pub(crate) item: &'a ScenarioItem,
+    /// Its documentation.
+    pub(crate) doc: &'a str,
+    /// Parameters, parents' first.
+    pub(crate) params: Vec<FlatParam<'a>>,
+    /// `let`s, parents' first.
+    pub(crate) lets: Vec<&'a Binding>,
+    /// `const`s of the body.
+    pub(crate) consts: Vec<&'a Binding>,
+    /// Regions of the body.
+    pub(crate) regions: Vec<&'a FnItem>,
+    /// `rules { }`
+    pub(crate) rules: Vec<&'a Field>,
+    /// `agents { }`
+    pub(crate) agents: Vec<&'a Field>,
+    /// The ball.
+    pub(crate) ball: Option<(&'a BallStmt, Span)>,
+    /// Left and right.
+    pub(crate) teams: [FlatTeam<'a>; 2],
+    /// `kickoff`: who is first, and the layouts.
+    pub(crate) kickoff: Option<(&'a Expr, &'a [Field], Span)>,
+    /// `start …`
+    pub(crate) start: Option<&'a ScenarioStmt>,
+    /// Rewards, with the name each is known by.
+    pub(crate) rewards: Vec<(String, &'a RewardUse, &'a ScenarioStmt)>,
+    /// Endings but for the limit.
+    pub(crate) ends: Vec<FlatEnding<'a>>,
+    /// `end limit`
+    pub(crate) limit: Option<(&'a Expr, Span)>,
+    /// Requirements.
+    pub(crate) requires: Vec<&'a ScenarioStmt>,
+}
+
+/// A parameter: its declaration, and the argument or newer default that stands for the declared one.
+#[derive(Clone, Copy)]
+pub(crate) struct FlatParam<'a> {
+    /// Where it was first declared.
+    pub(crate) decl: &'a ParamDecl,
+    /// A newer default.
+    pub(crate) value: Option<&'a Expr>,
+    /// A newer domain.
+    pub(crate) domain: Option<&'a crate::ast::Domain>,
+    /// Whether `value` is an argument of `extends`, which may be drawn or computed.
+    pub(crate) is_argument: bool,
+}
+
+/// A team.
+#[derive(Clone, Default)]
+pub(crate) struct FlatTeam<'a> {
+    /// `difficulty`, `formation`.
+    pub(crate) fields: Vec<&'a Field>,
+    /// Explicit players.
+    pub(crate) players: Vec<(&'a PlayerStmt, Span)>,
+    /// `place …`
+    pub(crate) overrides: Vec<(&'a Ident, &'a PlayerStmt)>,
+    /// `each …`
+    pub(crate) each: Vec<(&'a Ident, &'a [Field])>,
+    /// `GK absent`
+    pub(crate) absent: Vec<Spanned<Role>>,
+}
+
+/// An ending.
+pub(crate) struct FlatEnding<'a> {
+    /// `success` or `failure`.
+    pub(crate) verdict: Option<&'a Ident>,
+    /// Its label, or a named `ending`.
+    pub(crate) label: Option<&'a Ref>,
+    /// What ends it.
+    pub(crate) condition: Option<&'a crate::ast::EndCondition>,
+    /// Its span.
+    pub(crate) span: Span,
+}
+
+/// Collects what a scenario says and inherits.
+pub(crate) fn flatten<'a>(
+    library: &'a Library,
+    item: &'a ScenarioItem,
+    doc: &'a str,
+    problems: &mut Vec<Problem>,
+) -> Flat<'a> {
+    let links = chain(library, item, "scenario", |item| item.extends.as_ref(), |kind| match kind {
+        ItemKind::Scenario(scenario) => Some(scenario),
+        _ => None,
+    }, problems);
+    let mut flat = Flat {
+        item,
+        doc,
+        params: Vec::new(),
+        lets: Vec::new(),
+        consts: Vec::new(),
+        regions: Vec::new(),
+        rules: Vec::new(),
+        agents: Vec::new(),
+        ball: None,
+        teams: Default::default(),
+        kickoff: None,
+        start: None,
+        rewards: Vec::new(),
+        ends: Vec::new(),
+        limit: None,
+        requires: Vec::new(),
+    };
+    for (level, (scenario, _)) in links.iter().enumerate() {
+        let mut adding = Adding { flat: &mut flat, problems, is_child: level > 0, own: Vec::new() };
+        adding.removals(&scenario.body);
+        adding.begin_teams(&scenario.body);
+        for param in &scenario.params {
+            adding.param(param);
+        }
+        for stmt in &scenario.body {
+            adding.stmt(stmt);
+        }
+        // The reference by which the next child names this one carries its arguments.
+        if let Some((_, Some(reference))) = links.get(level).filter(|(_, reference)| reference.is_some()) {
+            adding.arguments(reference);
+        }
+    }
+    flat
+}
+
+struct Adding<'a, 'f> {
+    flat: &'f mut Flat<'a>,
+    problems: &'f mut Vec<Problem>,
+    is_child: bool,
+    /// Names that this scenario has declared itself.
+    own: Vec<(&'static str, String, Span)>,
+}
+
+impl<'a> Adding<'a, '_> {
+    fn stmt(&mut self, stmt: &'a ScenarioStmt) {
+        match &stmt.kind {
+            ScenarioStmtKind::Param(param) => self.param(param),
+            ScenarioStmtKind::Let(binding) => {
+                self.declare("let", &binding.name);
+                replace(&mut self.flat.lets, binding, |b| &b.name.node);
+            }
+            ScenarioStmtKind::Const(binding) => {
+                self.declare("const", &binding.name);
+                replace(&mut self.flat.consts, binding, |b| &b.name.node);
+            }
+            ScenarioStmtKind::Region(region) => {
+                self.declare("region", &region.name);
+                replace(&mut self.flat.regions, region, |r| &r.name.node);
+            }
+            ScenarioStmtKind::Rules(fields) => {
+                doubled(fields, self.problems);
+                fields.iter().for_each(|field| replace(&mut self.flat.rules, field, |f| &f.key.node));
+            }
+            ScenarioStmtKind::Agents(fields) => {
+                doubled(fields, self.problems);
+                fields.iter().for_each(|field| replace(&mut self.flat.agents, field, |f| &f.key.node));
+            }
+            ScenarioStmtKind::Ball(ball) => {
+                self.only_once("the ball", stmt.span);
+                self.flat.ball = Some((ball, stmt.span));
+            }
+            ScenarioStmtKind::Team { team, body } => self.team(team, body),
+            ScenarioStmtKind::Kickoff { first, fields } => {
+                self.only_once("`kickoff`", stmt.span);
+                for team in &mut self.flat.teams {
+                    team.players.clear();
+                    team.fields.retain(|field| field.key.node != "formation");
+                }
+                self.flat.kickoff = Some((first, fields, stmt.span));
+            }
+            ScenarioStmtKind::Start { .. } => {
+                self.only_once("`start`", stmt.span);
+                self.flat.start = Some(stmt);
+            }
+            ScenarioStmtKind::Reward(reward) => self.reward(reward, stmt),
+            ScenarioStmtKind::End(end) => self.end(end, stmt.span),
+            ScenarioStmtKind::Require { .. } => self.flat.requires.push(stmt),
+            ScenarioStmtKind::Record(binding) => self.not_yet("record", binding.name.span),
+            ScenarioStmtKind::Mirror(kind) => self.not_yet("mirror", kind.span),
+            ScenarioStmtKind::Observe(_) => self.not_yet("observe", stmt.span),
+            ScenarioStmtKind::Remove { .. } | ScenarioStmtKind::Broken => {}
+        }
+    }
+
+    fn not_yet(&mut self, what: &str, span: Span) {
+        self.problems.push(Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), ""));
+    }
+
+    fn declare(&mut self, kind: &'static str, name: &Ident) {
+        let clash = self.own.iter().find(|(_, known, _)| *known == name.node);
+        if let Some((_, _, first)) = clash {
+            self.problems.push(
+                Problem::new(
+                    Code::DuplicateName,
+                    name.span,
+                    format!("`{}` is declared twice", name.node),
+                    "declared again here",
+                )
+                .label(*first, "first declared here"),
+            );
+        } else {
+            self.own.push((kind, name.node.clone(), name.span));
+        }
+    }
+
+    fn only_once(&mut self, what: &'static str, span: Span) {
+        if let Some((_, _, first)) = self.own.iter().find(|(kind, _, _)| *kind == what) {
+            self.problems.push(
+                Problem::new(Code::DuplicateOption, span, format!("{what} is given twice"), "given again here")
+                    .label(*first, "first given here"),
+            );
+        } else {
+            self.own.push((what, String::new(), span));
+        }
+    }
+
+    fn param(&mut self, param: &'a ParamDecl) {
+        self.declare("param", &param.name);
+        let known = self.flat.params.iter_mut().find(|known| known.decl.name.node == param.name.node);
+        match known {
+            Some(known) if self.is_child => {
+                let same = match (&param.ty, &known.decl.ty) {
+                    (Some(new), Some(old)) => new.node == old.node,
+                    _ => true,
+                };
+                if same {
+                    if param.default.is_some() {
+                        known.value = param.default.as_ref();
+                        known.is_argument = false;
+                    }
+                    known.domain = param.domain.as_ref().or(known.domain);
+                } else if let Some(ty) = &param.ty {
+                    self.problems.push(
+                        Problem::new(
+                            Code::WrongType,
+                            ty.span,
+                            format!("`{}` has another type in the parent", param.name.node),
+                            "a child can change the default, not the type",
+                        )
+                        .label(known.decl.span, "declared here"),
+                    );
+                }
+            }
+            Some(_) => {}
+            None => self.flat.params.push(FlatParam {
+                decl: param,
+                value: param.default.as_ref(),
+                domain: param.domain.as_ref(),
+                is_argument: false,
+            }),
+        }
+    }
+
+    fn arguments(&mut self, reference: &'a Ref) {
+        for arg in &reference.args {
+            let Some(name) = arg_name(arg) else {
+                self.problems.push(
+                    Problem::new(
+                        Code::WrongArguments,
+                        arg.span,
+                        format!("`{}` takes its arguments by name", reference.name.node),
+                        "which parameter is meant?",
+                    )
+                    .help("write `name: value`"),
+                );
+                continue;
+            };
+            match self.flat.params.iter_mut().find(|param| param.decl.name.node == name) {
+                Some(param) => {
+                    param.value = Some(&arg.value);
+                    param.is_argument = true;
+                }
+                None => {
+                    let known: Vec<&str> = self.flat.params.iter().map(|p| p.decl.name.node.as_str()).collect();
+                    self.problems.push(
+                        Problem::new(
+                            Code::UnknownName,
+                            arg.key.as_ref().map_or(arg.span, |key| key.span),
+                            format!("`{}` has no parameter `{name}`", reference.name.node),
+                            "",
+                        )
+                        .did_you_mean(name, known),
+                    );
+                }
+            }
+        }
+    }
+
+    /// A team's players are replaced as soon as the child writes any of them.
+    fn begin_teams(&mut self, body: &[ScenarioStmt]) {
+        for stmt in body {
+            let ScenarioStmtKind::Team { team, body } = &stmt.kind else { continue };
+            let Some(team) = Team::from_name(&team.node) else { continue };
+            let writes = |stmt: &TeamStmt| match &stmt.kind {
+                TeamStmtKind::Player(_) => true,
+                TeamStmtKind::Field(field) => field.key.node == "formation",
+                _ => false,
+            };
+            if body.iter().any(writes) {
+                self.flat.kickoff = None;
+                if let Some(team) = self.flat.teams.get_mut(team.index()) {
+                    team.players.clear();
+                    team.overrides.clear();
+                    team.absent.clear();
+                    team.fields.retain(|field| field.key.node != "formation");
+                }
+            }
+        }
+    }
+
+    fn team(&mut self, team: &'a Ident, body: &'a [TeamStmt]) {
+        let Some(index) = Team::from_name(&team.node).map(Team::index) else {
+            self.problems.push(
+                Problem::new(Code::UnknownName, team.span, format!("no team is called `{}`", team.node), "")
+                    .help("write `team left` or `team right`"),
+            );
+            return;
+        };
+        let Some(flat) = self.flat.teams.get_mut(index) else { return };
+        for stmt in body {
+            match &stmt.kind {
+                TeamStmtKind::Player(player) => flat.players.push((player, stmt.span)),
+                TeamStmtKind::Override { who, change } => {
+                    flat.overrides.retain(|(known, _)| known.node != who.node);
+                    flat.overrides.push((who, change));
+                }
+                TeamStmtKind::Each { who, fields } => flat.each.push((who, fields)),
+                TeamStmtKind::Absent(role) => flat.absent.push(role.clone()),
+                TeamStmtKind::Field(field) => replace(&mut flat.fields, field, |field| &field.key.node),
+                TeamStmtKind::Broken => {}
+            }
+        }
+    }
+
+    fn reward(&mut self, reward: &'a RewardUse, stmt: &'a ScenarioStmt) {
+        let name = reward_name(reward);
+        let known = self.flat.rewards.iter().position(|(known, _, _)| *known == name);
+        if let Some((_, _, first)) = self.own.iter().find(|(kind, known, _)| *kind == "reward" && *known == name) {
+            self.problems.push(
+                Problem::new(
+                    Code::DuplicateName,
+                    stmt.span,
+                    format!("reward `{name}` is given twice"),
+                    "given again here",
+                )
+                .label(*first, "first given here")
+                .help(format!("name one of them: `reward {name} as \"{name}_2\"`")),
+            );
+            return;
+        }
+        self.own.push(("reward", name.clone(), stmt.span));
+        match known.and_then(|at| self.flat.rewards.get_mut(at)) {
+            Some(slot) => *slot = (name, reward, stmt),
+            None => self.flat.rewards.push((name, reward, stmt)),
+        }
+    }
+
+    fn end(&mut self, end: &'a EndStmt, span: Span) {
+        let (verdict, label, condition) = match end {
+            EndStmt::Limit(limit) => {
+                self.only_once("`end limit`", span);
+                self.flat.limit = Some((limit, span));
+                return;
+            }
+            EndStmt::When { verdict, label, condition } => (verdict, label, condition),
+        };
+        let ending = FlatEnding { verdict: verdict.as_ref(), label: label.as_ref(), condition: condition.as_ref(), span };
+        let Some(label) = label else {
+            self.flat.ends.push(ending);
+            return;
+        };
+        let name = &label.name.node;
+        let first = self.own.iter().find(|(kind, known, _)| *kind == "end" && known == name).map(|own| own.2);
+        if let Some(first) = first {
+            self.problems.push(
+                Problem::new(Code::DuplicateName, label.name.span, format!("ending `{name}` is given twice"), "given again here")
+                    .label(first, "first given here")
+                    .help("give each ending its own label, or join the conditions with `or`"),
+            );
+            return;
+        }
+        self.own.push(("end", name.clone(), span));
+        let known = self.flat.ends.iter_mut().find(|known| known.label.is_some_and(|known| known.name.node == *name));
+        match known {
+            Some(slot) => *slot = ending,
+            None => self.flat.ends.push(ending),
+        }
+    }
+
+    /// `remove` acts on the parents' result, wherever it stands in the child.
+    fn removals(&mut self, body: &'a [ScenarioStmt]) {
+        for stmt in body {
+            let ScenarioStmtKind::Remove { what, name } = &stmt.kind else { continue };
+            let removed = self.remove(&what.node, name.as_ref().map(|name| name.node.as_str()));
+            if removed {
+                continue;
+            }
+            let (span, message) = match name {
+                Some(name) => (name.span, format!("no {} `{}` is inherited", what.node, name.node)),
+                None => (stmt.span, format!("no {} is inherited", what.node)),
+            };
+            let candidates: Vec<&str> = match what.node.as_str() {
+                "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
+                "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.name.node.as_str())).collect(),
+                _ => Vec::new(),
+            };
+            let problem = Problem::new(Code::NothingToRemove, span, message, "nothing to remove");
+            let found = name.as_ref().map_or("", |name| name.node.as_str());
+            self.problems.push(problem.did_you_mean(found, candidates));
+        }
+    }
+
+    fn remove(&mut self, what: &str, name: Option<&str>) -> bool {
+        let flat = &mut *self.flat;
+        match (what, name) {
+            ("ball", _) => flat.ball.take().is_some(),
+            ("reward", Some(name)) => removed(&mut flat.rewards, |(known, _, _)| known == name),
+            ("end", Some("limit")) => flat.limit.take().is_some(),
+            ("end", Some(name)) => removed(&mut flat.ends, |end| {
+                end.label.map_or_else(
+                    || end.verdict.is_some_and(|verdict| verdict.node == name),
+                    |label| label.name.node == name,
+                )
+            }),
+            ("require", Some(name)) => removed(&mut flat.requires, |stmt| {
+                matches!(&stmt.kind, ScenarioStmtKind::Require { label: Some(label), .. } if label.node == name)
+            }),
+            _ => false,
+        }
+    }
+}
+
+/// The name a reward of a scenario is known and reported by.
+pub(crate) fn reward_name(reward: &RewardUse) -> String {
+    match (&reward.label, &reward.what) {
+        (Some(label), _) => label.node.clone(),
+        (None, RewardUseKind::Named(named)) => named.name.node.clone(),
+        (None, RewardUseKind::Inline { name, .. }) => name.node.clone(),
+        (None, RewardUseKind::Script(script)) => match &script.source {
+            crate::ast::ScriptSource::File(path) => {
+                let stem = path.node.rsplit('/').next().unwrap_or_default();
+                stem.strip_suffix(".rhai").unwrap_or(stem).to_owned()
+            }
+            crate::ast::ScriptSource::Inline(_) => "script".to_owned(),
+        },
+    }
+}
+
+/// The name of a named argument.
+pub(crate) fn arg_name(arg: &Arg) -> Option<&str> {
+    match &arg.key.as_ref()?.kind {
+        crate::ast::ExprKind::Name(name) => Some(name),
+        _ => None,
+    }
+}
+
+fn removed<T>(list: &mut Vec<T>, test: impl Fn(&T) -> bool) -> bool {
+    let before = list.len();
+    list.retain(|entry| !test(entry));
+    list.len() < before
+}
+
+fn replace<'a, T>(list: &mut Vec<&'a T>, new: &'a T, name: impl Fn(&T) -> &str) {
+    match list.iter_mut().find(|known| name(known) == name(new)) {
+        Some(slot) => *slot = new,
+        None => list.push(new),
+    }
+}
+
+/// Reports keys that stand twice in one pair of braces.
+pub(crate) fn doubled(fields: &[Field], problems: &mut Vec<Problem>) {
+    for (index, field) in fields.iter().enumerate() {
+        if let Some(first) = fields.iter().take(index).find(|first| first.key.node == field.key.node) {
+            problems.push(
+                Problem::new(
+                    Code::DuplicateOption,
+                    field.key.span,
+                    format!("`{}` is given twice", field.key.node),
+                    "given again here",
+                )
+                .label(first.key.span, "first given here"),
+            );
+        }
+    }
+}

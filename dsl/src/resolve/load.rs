@@ -1,0 +1,276 @@
+//! Loads the files a root needs and says which names each of them sees.
+
+use crate::ast::{File, FileId, Ident, Item, ItemKind, Span};
+use crate::parse::parse;
+use crate::problem::{Code, Problem};
+use crate::source::{Source, SourceLoader, Sources};
+use std::collections::BTreeMap;
+
+/// The file whose names every other file sees without an import.
+const PRELUDE: &str = "std/prelude.pitch";
+
+/// Every file of a compilation and the names that each sees.
+pub(crate) struct Library {
+    /// The texts.
+    pub(crate) sources: Sources,
+    /// The trees, by file.
+    pub(crate) files: Vec<File>,
+    /// Names the loader was asked for, in order.
+    pub(crate) inputs: Vec<String>,
+    imports: Vec<Vec<Import>>,
+    /// Files that the prelude is made of; they don't see it themselves.
+    of_prelude: Vec<bool>,
+    prelude: Option<FileId>,
+    seen: Vec<BTreeMap<String, Vec<ItemAt>>>,
+}
+
+struct Import {
+    file: FileId,
+    alias: Option<String>,
+}
+
+/// An item, by file and place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct ItemAt(FileId, usize);
+
+/// A named item.
+#[derive(Clone, Copy)]
+pub(crate) struct NamedItem<'a> {
+    /// The item.
+    pub(crate) item: &'a Item,
+    /// Its name.
+    pub(crate) name: &'a Ident,
+}
+
+/// Loads a root and everything it imports.
+pub(crate) fn load(root: Source, loader: &dyn SourceLoader, problems: &mut Vec<Problem>) -> Library {
+    let mut library = Library {
+        sources: Sources::default(),
+        files: Vec::new(),
+        inputs: vec![root.name.clone()],
+        imports: Vec::new(),
+        of_prelude: Vec::new(),
+        prelude: None,
+        seen: Vec::new(),
+    };
+    let mut loading = Loading { library: &mut library, loader, problems, stack: Vec::new() };
+    loading.file(root);
+    // A missing prelude is no mistake of the author's.
+    if let Ok(source) = loader.load(PRELUDE, PRELUDE) {
+        let known = loading.known(&source.name);
+        let prelude = known.unwrap_or_else(|| loading.file(source));
+        library.prelude = Some(prelude);
+        library.mark_prelude(prelude);
+    }
+    library.collect_names(problems);
+    library
+}
+
+struct Loading<'a> {
+    library: &'a mut Library,
+    loader: &'a dyn SourceLoader,
+    problems: &'a mut Vec<Problem>,
+    stack: Vec<FileId>,
+}
+
+impl Loading<'_> {
+    fn known(&self, name: &str) -> Option<FileId> {
+        self.library.sources.iter().find(|(_, source)| source.name == name).map(|(id, _)| id)
+    }
+
+    fn file(&mut self, source: Source) -> FileId {
+        let id = self.library.sources.add(source.clone());
+        let file = parse(&source, id, self.problems);
+        let imports: Vec<_> = file
+            .items
+            .iter()
+            .filter_map(|item| match &item.kind {
+                ItemKind::Import { path, alias } => Some((path.clone(), alias.clone())),
+                _ => None,
+            })
+            .collect();
+        self.library.files.push(file);
+        self.library.imports.push(Vec::new());
+        self.stack.push(id);
+        for (path, alias) in imports {
+            let loaded = match self.loader.load(&path.node, &source.name) {
+                Ok(loaded) => loaded,
+                Err(error) => {
+                    let problem = Problem::new(Code::FileMissing, path.span, error.message, "imported here");
+                    self.problems.push(match error.similar.first() {
+                        Some(similar) => problem.help(format!("did you mean `{similar}`?")),
+                        None => problem,
+                    });
+                    continue;
+                }
+            };
+            if !self.library.inputs.contains(&loaded.name) {
+                self.library.inputs.push(loaded.name.clone());
+            }
+            let imported = match self.known(&loaded.name) {
+                Some(known) if self.stack.contains(&known) => {
+                    self.problems.push(
+                        Problem::new(
+                            Code::ImportCycle,
+                            path.span,
+                            format!("`{}` imports itself, by way of this line", path.node),
+                            "closes the circle",
+                        )
+                        .help("move what both files need into a third one"),
+                    );
+                    continue;
+                }
+                Some(known) => known,
+                None => self.file(loaded),
+            };
+            let import = Import { file: imported, alias: alias.map(|alias| alias.node) };
+            if let Some(list) = self.library.imports.get_mut(id.0 as usize) {
+                list.push(import);
+            }
+        }
+        self.stack.pop();
+        id
+    }
+}
+
+impl Library {
+    /// An item that a file sees under a name.
+    pub(crate) fn find(&self, file: FileId, name: &str) -> Option<NamedItem<'_>> {
+        let at = self.seen.get(file.0 as usize)?.get(name)?.first()?;
+        self.item(*at)
+    }
+
+    /// Reports a name that two imports of a file bring; `true` if there is something to report.
+    pub(crate) fn ambiguous(&self, file: FileId, name: &str, span: Span) -> Option<Problem> {
+        let places = self.seen.get(file.0 as usize)?.get(name)?;
+        let (first, second) = (self.item(*places.first()?)?, self.item(*places.get(1)?)?);
+        let of = |item: &NamedItem<'_>| self.sources.get(item.name.span.file).map_or("", |file| file.name.as_str());
+        Some(
+            Problem::new(
+                Code::AmbiguousName,
+                span,
+                format!("`{name}` is declared in `{}` and in `{}`", of(&first), of(&second)),
+                "which one is meant?",
+            )
+            .help("import one of the files `as` a name and write `name.` before it"),
+        )
+    }
+
+    /// Every name a file sees with its item, in the order of names.
+    pub(crate) fn visible(&self, file: FileId) -> impl Iterator<Item = (&str, NamedItem<'_>)> {
+        let seen = self.seen.get(file.0 as usize);
+        seen.into_iter()
+            .flatten()
+            .filter_map(|(name, places)| Some((name.as_str(), self.item(*places.first()?)?)))
+    }
+
+    fn item(&self, at: ItemAt) -> Option<NamedItem<'_>> {
+        let item = self.files.get(at.0.0 as usize)?.items.get(at.1)?;
+        Some(NamedItem { item, name: item_name(item)? })
+    }
+
+    fn mark_prelude(&mut self, prelude: FileId) {
+        self.of_prelude = vec![false; self.files.len()];
+        let mut stack = vec![prelude];
+        while let Some(file) = stack.pop() {
+            let Some(mark) = self.of_prelude.get_mut(file.0 as usize) else { continue };
+            if !std::mem::replace(mark, true) {
+                stack.extend(self.imports.get(file.0 as usize).into_iter().flatten().map(|import| import.file));
+            }
+        }
+    }
+
+    fn collect_names(&mut self, problems: &mut Vec<Problem>) {
+        let own: Vec<_> = self.files.iter().map(|file| own_names(file, problems)).collect();
+        let mut seen = Vec::with_capacity(self.files.len());
+        for id in 0..self.files.len() {
+            let file = FileId(id as u32);
+            let mut names = own.get(id).cloned().unwrap_or_default();
+            let mut imported = BTreeMap::new();
+            self.exports(file, &own, &mut vec![false; self.files.len()], "", &mut imported);
+            merge(&mut names, imported);
+            if let Some(prelude) = self.prelude.filter(|_| self.of_prelude.get(id) != Some(&true)) {
+                let mut given = own.get(prelude.0 as usize).cloned().unwrap_or_default();
+                self.exports(prelude, &own, &mut vec![false; self.files.len()], "", &mut given);
+                merge(&mut names, given);
+            }
+            seen.push(names);
+        }
+        self.seen = seen;
+    }
+
+    /// Adds what the imports of a file bring, theirs included.
+    fn exports(
+        &self,
+        file: FileId,
+        own: &[BTreeMap<String, Vec<ItemAt>>],
+        done: &mut Vec<bool>,
+        prefix: &str,
+        into: &mut BTreeMap<String, Vec<ItemAt>>,
+    ) {
+        if done.get(file.0 as usize) != Some(&false) {
+            return;
+        }
+        if let Some(mark) = done.get_mut(file.0 as usize) {
+            *mark = true;
+        }
+        for import in self.imports.get(file.0 as usize).into_iter().flatten() {
+            let prefix = match &import.alias {
+                Some(alias) => format!("{prefix}{alias}."),
+                None => prefix.to_owned(),
+            };
+            for (name, places) in own.get(import.file.0 as usize).into_iter().flatten() {
+                let list = into.entry(format!("{prefix}{name}")).or_default();
+                for place in places {
+                    if !list.contains(place) {
+                        list.push(*place);
+                    }
+                }
+            }
+            self.exports(import.file, own, done, &prefix, into);
+        }
+    }
+}
+
+/// What is nearer hides what is farther.
+fn merge(names: &mut BTreeMap<String, Vec<ItemAt>>, farther: BTreeMap<String, Vec<ItemAt>>) {
+    for (name, places) in farther {
+        names.entry(name).or_insert(places);
+    }
+}
+
+fn own_names(file: &File, problems: &mut Vec<Problem>) -> BTreeMap<String, Vec<ItemAt>> {
+    let mut names: BTreeMap<String, Vec<ItemAt>> = BTreeMap::new();
+    let mut spans: BTreeMap<&str, Span> = BTreeMap::new();
+    for (index, item) in file.items.iter().enumerate() {
+        let Some(name) = item_name(item) else { continue };
+        if let Some(first) = spans.get(name.node.as_str()) {
+            problems.push(
+                Problem::new(
+                    Code::DuplicateName,
+                    name.span,
+                    format!("`{}` is declared twice", name.node),
+                    "declared again here",
+                )
+                .label(*first, "first declared here"),
+            );
+            continue;
+        }
+        spans.insert(&name.node, name.span);
+        names.insert(name.node.clone(), vec![ItemAt(file.id, index)]);
+    }
+    names
+}
+
+/// The name of an item, if it has one.
+fn item_name(item: &Item) -> Option<&Ident> {
+    match &item.kind {
+        ItemKind::Scenario(scenario) => Some(&scenario.name),
+        ItemKind::Reward(reward) => Some(&reward.name),
+        ItemKind::Formation(formation) => Some(&formation.name),
+        ItemKind::Const(binding) => Some(&binding.name),
+        ItemKind::Fn(f) | ItemKind::Region(f) | ItemKind::Ending(f) => Some(&f.name),
+        ItemKind::Behavior { name } => Some(name),
+        ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => None,
+    }
+}

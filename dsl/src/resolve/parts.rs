@@ -1,0 +1,78 @@
+//! The chains of rewards and formations that extend each other.
+
+use super::load::Library;
+use crate::ast::{FormationItem, ItemKind, Ref, RewardItem};
+use crate::problem::{Code, Problem};
+
+/// A link of a chain: the item, and the reference by which its child names it.
+pub(crate) type Chain<'a, T> = Vec<(&'a T, Option<&'a Ref>)>;
+
+/// A reward and its parents, the root first.
+pub(crate) fn reward_chain<'a>(
+    library: &'a Library,
+    reward: &'a RewardItem,
+    problems: &mut Vec<Problem>,
+) -> Chain<'a, RewardItem> {
+    chain(library, reward, "reward", |item| item.extends.as_ref(), |kind| match kind {
+        ItemKind::Reward(reward) => Some(reward),
+        _ => None,
+    }, problems)
+}
+
+/// A formation and its parents, the root first.
+pub(crate) fn formation_chain<'a>(
+    library: &'a Library,
+    formation: &'a FormationItem,
+    problems: &mut Vec<Problem>,
+) -> Chain<'a, FormationItem> {
+    chain(library, formation, "formation", |item| item.extends.as_ref(), |kind| match kind {
+        ItemKind::Formation(formation) => Some(formation),
+        _ => None,
+    }, problems)
+}
+
+/// Follows `extends` from an item to its root, and gives the items root first.
+pub(super) fn chain<'a, T>(
+    library: &'a Library,
+    from: &'a T,
+    noun: &str,
+    extends: impl Fn(&'a T) -> Option<&'a Ref>,
+    pick: impl Fn(&'a ItemKind) -> Option<&'a T>,
+    problems: &mut Vec<Problem>,
+) -> Chain<'a, T> {
+    let mut chain: Chain<'a, T> = vec![(from, None)];
+    let mut at = from;
+    while let Some(parent_ref) = extends(at) {
+        let name = &parent_ref.name;
+        let Some(parent) = library.find(name.span.file, &name.node).and_then(|found| pick(&found.item.kind)) else {
+            let candidates: Vec<&str> = library
+                .visible(name.span.file)
+                .filter(|(_, found)| pick(&found.item.kind).is_some_and(|other| !std::ptr::eq(other, at)))
+                .map(|(name, _)| name)
+                .collect();
+            problems.push(
+                Problem::new(
+                    Code::UnknownParent,
+                    name.span,
+                    format!("no {noun} is called `{}`", name.node),
+                    "extends this",
+                )
+                .did_you_mean(&name.node, candidates),
+            );
+            break;
+        };
+        if chain.iter().any(|(known, _)| std::ptr::eq(*known, parent)) {
+            problems.push(Problem::new(
+                Code::ExtendsCycle,
+                name.span,
+                format!("`{}` extends itself", name.node),
+                "closes the circle",
+            ));
+            break;
+        }
+        chain.push((parent, Some(parent_ref)));
+        at = parent;
+    }
+    chain.reverse();
+    chain
+}

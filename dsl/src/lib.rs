@@ -1,8 +1,15 @@
 //! The compiler: everything with a span.
 //!
-//! `parse` → `resolve` → `check` → `lower`: no stage stops at the first problem, lowering a checked scenario is total.
+//! `parse` → `resolve` → `check` → `lower`: no stage stops at the first problem. Types are checked while a tree is
+//! lowered, as a typed value is its registers and its type; see [`compile()`].
 
 pub mod ast;
+mod check;
+pub mod compile;
+mod lower;
 pub mod parse;
 pub mod problem;
+mod resolve;
 pub mod source;
+
+pub use compile::{CompileOptions, Origins, Outcome, compile};

@@ -49,6 +49,8 @@ pub(crate) struct World<'w> {
     pub(crate) agents: Option<Team>,
     /// Scripts that are embedded so far.
     pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
+    /// Scripts as they were loaded.
+    pub(crate) scripts_loaded: &'w script::Scripts<'w>,
     /// What was found so far.
     pub(crate) problems: RefCell<Vec<Problem>>,
     /// Declarations that something refers to.
@@ -324,7 +326,7 @@ impl<'c, 'w> Lower<'c, 'w> {
     /// Reports a value that must be known before the start but is drawn.
     pub(crate) fn check_not_drawn(&self, reg: Reg, what: &str, span: Span) {
         let drawn = |instr: &setpiece_scenario::Instr| {
-            matches!(instr, setpiece_scenario::Instr::Random(_) | setpiece_scenario::Instr::EpisodeIndex)
+            matches!(instr, setpiece_scenario::Instr::Random { .. } | setpiece_scenario::Instr::EpisodeIndex)
         };
         if self.code.depends(reg, &drawn) {
             self.report(

@@ -7,6 +7,6 @@ mod flatten;
 mod load;
 mod parts;
 
-pub(crate) use flatten::{Flat, FlatEnding, FlatParam, FlatTeam, flatten};
-pub(crate) use load::{Library, NamedItem, load};
+pub(crate) use flatten::{Flat, FlatEnding, FlatParam, FlatTeam, arg_name, doubled, flatten};
+pub(crate) use load::{Library, load};
 pub(crate) use parts::{formation_chain, reward_chain};

@@ -295,9 +295,9 @@ impl Builder {
         self.push(ROOT, Instr::Once { of, cell }, None)
     }
 
-    /// A draw: never shared.
-    pub(crate) fn random(&mut self, distribution: Distribution) -> Reg {
-        self.push(self.here(), Instr::Random(distribution), None)
+    /// A draw of its own stream: never shared.
+    pub(crate) fn random(&mut self, key: u64, from: Distribution) -> Reg {
+        self.push(self.here(), Instr::Random { key, from }, None)
     }
 
     /// Pays into a term.
@@ -503,13 +503,16 @@ impl Out {
             Instr::Assign { cell, value, guard } => {
                 Instr::Assign { cell: *cell, value: p(value), guard: guard.as_ref().map(p) }
             }
-            Instr::Random(distribution) => Instr::Random(match distribution {
-                Distribution::Uniform(a, b) => Distribution::Uniform(p(a), p(b)),
-                Distribution::Normal(a, b) => Distribution::Normal(p(a), p(b)),
-                Distribution::TruncatedNormal(a, b, c, d) => Distribution::TruncatedNormal(p(a), p(b), p(c), p(d)),
-                Distribution::Integer(a, b) => Distribution::Integer(p(a), p(b)),
-                Distribution::Weighted(weights) => Distribution::Weighted(weights.iter().map(p).collect()),
-            }),
+            Instr::Random { key, from } => {
+                let from = match from {
+                    Distribution::Uniform(a, b) => Distribution::Uniform(p(a), p(b)),
+                    Distribution::Normal(a, b) => Distribution::Normal(p(a), p(b)),
+                    Distribution::TruncatedNormal(a, b, c, d) => Distribution::TruncatedNormal(p(a), p(b), p(c), p(d)),
+                    Distribution::Integer(a, b) => Distribution::Integer(p(a), p(b)),
+                    Distribution::Weighted(weights) => Distribution::Weighted(weights.iter().map(p).collect()),
+                };
+                Instr::Random { key: *key, from }
+            }
             Instr::Const(_)
             | Instr::Param(_)
             | Instr::Let(_)

@@ -11,8 +11,6 @@ mod region;
 mod set;
 mod temporal;
 
-pub(crate) use event::Matching;
-
 use super::value::{Frame, Repr, Value};
 use super::{DEPTH_MAX, Lower};
 use crate::ast::{Expr, ExprKind, Span, UnaryOp};

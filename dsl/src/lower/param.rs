@@ -48,7 +48,7 @@ impl ParamInfo<'_> {
 
 /// The type a declaration names; reports an unknown one.
 pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
-    match Type::from_name(&ty.node) {
+    match Type::from_name(ty.node.trim_end_matches('?')) {
         Some(Type::Behavior) | None => {
             world.report(
                 Problem::new(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "")

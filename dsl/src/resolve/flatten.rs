@@ -187,6 +187,10 @@ impl<'a> Adding<'a, '_> {
             ScenarioStmtKind::Reward(reward) => self.reward(reward, stmt),
             ScenarioStmtKind::End(end) => self.end(end, stmt.span),
             ScenarioStmtKind::Require { .. } => self.flat.requires.push(stmt),
+            ScenarioStmtKind::LetTuple { names, value } => {
+                let span = names.first().map_or(value.span, |name| name.span.to(value.span));
+                self.not_yet("shuffle", span);
+            }
             ScenarioStmtKind::Record(binding) => self.not_yet("record", binding.name.span),
             ScenarioStmtKind::Mirror(kind) => self.not_yet("mirror", kind.span),
             ScenarioStmtKind::Observe(_) => self.not_yet("observe", stmt.span),

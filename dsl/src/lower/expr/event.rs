@@ -23,6 +23,7 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn event_happened(&mut self, event: &'w EventExpr) -> Value<'w> {
         // Inside a loop over events the inner loop would hide the outer event, so the test is made before it.
         let loops = self.code.leave_loops();
+        let outer = self.event.take();
         let matching = self.open_events(event);
         let value = match matching {
             Some(matching) => {
@@ -33,6 +34,7 @@ impl<'w> Lower<'_, 'w> {
             }
             None => Value::error(),
         };
+        self.event = outer;
         self.code.return_to(loops);
         value
     }

@@ -79,7 +79,7 @@ impl<'w> Lower<'_, 'w> {
         )
     }
 
-    fn scenario_name(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
+    fn scenario_name(&mut self, name: &'w str, span: Span) -> Option<Value<'w>> {
         let world = self.world;
         if let Some(index) = world.params.iter().position(|param| param.name.node == name)
             && let Some(info) = world.params.get(index)
@@ -246,7 +246,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Reads a number of the match; reports it where no match is under way.
-    pub(super) fn load(&mut self, field: Field, of: Option<Reg>, name: &str, span: Span) -> Option<Reg> {
+    pub(crate) fn load(&mut self, field: Field, of: Option<Reg>, name: &str, span: Span) -> Option<Reg> {
         if self.stage.is_step() {
             return Some(self.code.load(field, of, self.when));
         }

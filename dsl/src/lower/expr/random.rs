@@ -1,6 +1,6 @@
 //! Draws: in the start program only.
 
-use super::super::value::{RegionValue, Repr, Value};
+use super::super::value::{RegionValue, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{Arg, Expr, Span};
 use crate::check::types::Ty;
@@ -83,7 +83,7 @@ impl<'w> Lower<'_, 'w> {
                     .help("write the lower end first"),
             );
         }
-        Value::one(wanted, self.code.random(distribution))
+        Value::one(wanted, self.random(distribution))
     }
 
     /// `choice(a, b, c)`, `choice(a: 3, b: 1)`
@@ -114,7 +114,7 @@ impl<'w> Lower<'_, 'w> {
         if options.iter().any(|(value, _)| value.is_error()) {
             return Value::error();
         }
-        let index = self.code.random(Distribution::Weighted(weights));
+        let index = self.random(Distribution::Weighted(weights));
         let mut options = options.into_iter().enumerate().rev();
         let Some((_, (mut picked, mut picked_at))) = options.next() else { return Value::error() };
         for (i, (option, at)) in options {
@@ -150,9 +150,10 @@ impl<'w> Lower<'_, 'w> {
             RegionValue::Rect(a, b) => {
                 let mut along = |a: Reg, b: Reg| {
                     let (low, high) = (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
-                    self.code.random(Distribution::Uniform(low, high))
+                    self.random(Distribution::Uniform(low, high))
                 };
-                Some((along(a.0, b.0), along(a.1, b.1)))
+                let x = along(a.0, b.0);
+                Some((x, along(a.1, b.1)))
             }
             RegionValue::Circle(centre, radius) => Some(self.draw_in_disc(*centre, *radius)),
             _ => {
@@ -169,8 +170,8 @@ impl<'w> Lower<'_, 'w> {
     pub(crate) fn draw_in_disc(&mut self, centre: (Reg, Reg), radius: Reg) -> (Reg, Reg) {
         let (zero, one) = (self.code.constant(0.0), self.code.constant(1.0));
         let turn = self.code.constant(std::f64::consts::TAU);
-        let share = self.code.random(Distribution::Uniform(zero, one));
-        let angle = self.code.random(Distribution::Uniform(zero, turn));
+        let share = self.random(Distribution::Uniform(zero, one));
+        let angle = self.random(Distribution::Uniform(zero, turn));
         let root = self.code.unary(UnaryOp::Sqrt, share);
         let r = self.code.binary(BinaryOp::Mul, radius, root);
         let (cos, sin) = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
@@ -178,8 +179,16 @@ impl<'w> Lower<'_, 'w> {
         (self.code.binary(BinaryOp::Add, centre.0, dx), self.code.binary(BinaryOp::Add, centre.1, dy))
     }
 
-    /// The words of a choice between strings are not values of a program.
-    pub(crate) fn is_written_word(value: &Value<'w>) -> bool {
-        matches!(value.repr, Repr::Text(_))
+    /// Draws from the stream of what is being drawn: its name and the draw's ordinal in it.
+    fn random(&mut self, from: Distribution) -> Reg {
+        let ordinal = self.start.next_draw();
+        let key = stream_key(self.start.drawing(), ordinal);
+        self.code.random(key, from)
     }
+}
+
+/// The key of a stream: FNV-1a over the name and the ordinal.
+fn stream_key(name: &str, ordinal: u32) -> u64 {
+    let bytes = name.bytes().chain([0]).chain(ordinal.to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

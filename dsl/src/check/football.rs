@@ -1,0 +1,187 @@
+//! Football's own rules about a start: everybody on the pitch, nobody on another's spot.
+//!
+//! What is constant is checked now; what is drawn or depends on parameters becomes a requirement of the draw.
+
+use crate::ast::Span;
+use crate::lower::Lower;
+use crate::lower::team::PlayerOptions;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
+use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::{BallStart, BinaryOp, Instr, Reg, Require, UnaryOp};
+
+/// Nearer than this two players stand on one spot.
+const SAME_SPOT_M: f64 = 0.3;
+/// Nearer than this two players are not drawn.
+const DRAWN_GAP_M: f64 = 0.6;
+
+/// What the draw must look after.
+pub(crate) struct Placed {
+    /// Requirements on places that are not constant.
+    pub(crate) apart: Vec<Require>,
+}
+
+/// One of the situations in which the players stand somewhere: the start, or either kick-off.
+type Situation = Vec<(Reg, Reg)>;
+
+/// Checks the places of players and ball.
+pub(crate) fn check_places(
+    lower: &mut Lower<'_, '_>,
+    places: &[(Reg, Reg)],
+    options: &[PlayerOptions],
+    ball: Option<&BallStart>,
+) -> Placed {
+    if let (Some(ball), Some((_, span))) = (ball, lower.world.flat.ball) {
+        check_on_pitch(lower, (ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M), "the ball", span);
+    }
+    let mut on_pitch = Vec::new();
+    let mut apart = Vec::new();
+    let situations = situations(lower, places);
+    for (nth, situation) in situations.iter().enumerate() {
+        for (index, place) in situation.iter().enumerate() {
+            let Some(player) = lower.world.roster.get(index) else { continue };
+            let (shown, span) = (player.shown(), player.place.map_or(player.span, |place| place.span));
+            if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == Known::Later {
+                on_pitch.push(inside_rim(lower, *place));
+            }
+        }
+        for a in 0..situation.len() {
+            for b in a + 1..situation.len() {
+                // The second kick-off of one team is the first of the other: inside a team both are the same pairs.
+                if let Some(reg) = check_pair(lower, situation, (a, b), options, nth) {
+                    apart.push(reg);
+                }
+            }
+        }
+    }
+    let mut requires = Vec::new();
+    for (regs, label) in [(on_pitch, "everybody stands on the pitch"), (apart, "nobody stands on another's spot")] {
+        let all = regs.into_iter().reduce(|a, b| lower.code.binary(BinaryOp::And, a, b));
+        if let Some(condition) = all.filter(|&reg| lower.code.constant_of(reg) != Some(1.0)) {
+            requires.push(Require { condition, probability: None, label: label.to_owned() });
+        }
+    }
+    Placed { apart: requires }
+}
+
+fn situations(lower: &Lower<'_, '_>, places: &[(Reg, Reg)]) -> Vec<Situation> {
+    if lower.world.flat.kickoff.is_none() {
+        return vec![places.to_vec()];
+    }
+    let of = |kicking: Team| -> Situation {
+        let layouts = lower.start.layouts.iter().zip(places).zip(&lower.world.roster);
+        layouts
+            .map(|((layout, place), player)| match layout {
+                Some((kicks, _)) if player.team == kicking => *kicks,
+                Some((_, receives)) => *receives,
+                None => *place,
+            })
+            .collect()
+    };
+    vec![of(Team::Left), of(Team::Right)]
+}
+
+#[derive(PartialEq, Eq)]
+enum Known {
+    Now,
+    Later,
+}
+
+fn check_on_pitch(
+    lower: &Lower<'_, '_>,
+    place: (Reg, Reg),
+    limit: (f64, f64),
+    what: &str,
+    span: Span,
+) -> Known {
+    let (x, y) = (lower.interval(place.0), lower.interval(place.1));
+    let outside = |axis: Option<(f64, f64)>, limit: f64| axis.is_some_and(|(low, high)| low > limit || high < -limit);
+    if outside(x, limit.0) || outside(y, limit.1) {
+        let text = lower.world.text(span);
+        let far = |axis: Option<(f64, f64)>| axis.map_or(0.0, |(low, _)| low);
+        lower.report(
+            Problem::new(
+                Code::OffPitch,
+                span,
+                format!("{what} is off the pitch: `{text}` is ({:.1}m, {:.1}m)", far(x), far(y)),
+                "",
+            )
+            .help(format!(
+                "the pitch is {}m by {}m, or normalised from (-1.01, -0.43) to (1.01, 0.43)",
+                2.0 * HALF_LENGTH_M,
+                2.0 * HALF_WIDTH_M
+            )),
+        );
+        return Known::Now;
+    }
+    let within = |axis: Option<(f64, f64)>, limit: f64| axis.is_some_and(|(low, high)| low >= -limit && high <= limit);
+    if within(x, limit.0) && within(y, limit.1) { Known::Now } else { Known::Later }
+}
+
+fn inside_rim(lower: &mut Lower<'_, '_>, place: (Reg, Reg)) -> Reg {
+    let mut inside = |value: Reg, limit: f64| {
+        let limit = lower.code.constant(limit);
+        let size = lower.code.unary(UnaryOp::Abs, value);
+        lower.code.binary(BinaryOp::Le, size, limit)
+    };
+    let (x, y) = (inside(place.0, RIM_X_M), inside(place.1, RIM_Y_M));
+    lower.code.binary(BinaryOp::And, x, y)
+}
+
+/// Checks a pair of players; gives the requirement on them where their places are not constant.
+fn check_pair(
+    lower: &mut Lower<'_, '_>,
+    situation: &Situation,
+    (a, b): (usize, usize),
+    options: &[PlayerOptions],
+    nth: usize,
+) -> Option<Reg> {
+    let (one, other) = (options.get(a)?, options.get(b)?);
+    if one.overlap || other.overlap {
+        return None;
+    }
+    let (p, q) = (*situation.get(a)?, *situation.get(b)?);
+    let constant = |place: (Reg, Reg)| Some((lower.code.constant_of(place.0)?, lower.code.constant_of(place.1)?));
+    let (first, second) = (lower.world.roster.get(a)?, lower.world.roster.get(b)?);
+    if let (Some(x), Some(y)) = (constant(p), constant(q)) {
+        let apart = ((x.0 - y.0).powi(2) + (x.1 - y.1).powi(2)).sqrt();
+        if apart >= SAME_SPOT_M || one.present.is_some() || other.present.is_some() {
+            return None;
+        }
+        let at = |player: &crate::lower::roster::Rostered<'_>| player.place.map_or(player.span, |place| place.span);
+        let where_ = if lower.world.flat.kickoff.is_some() { format!(" at kick-off {}", nth + 1) } else { String::new() };
+        lower.report(
+            Problem::new(
+                Code::SameSpot,
+                at(second),
+                format!("{} and {} stand on one spot{where_}", first.shown(), second.shown()),
+                "the same spot",
+            )
+            .label(at(first), "taken by this player")
+            .help("move one of them, or allow it: `{ overlap: allowed }`"),
+        );
+        return None;
+    }
+    let drawn = |instr: &Instr| matches!(instr, Instr::Random { .. });
+    let is_drawn = [p.0, p.1, q.0, q.1].into_iter().any(|reg| lower.code.depends(reg, &drawn));
+    let gap = if is_drawn { DRAWN_GAP_M } else { SAME_SPOT_M };
+    // Far apart whatever is drawn: nothing to check at each reset.
+    if far(lower, p.0, q.0, gap) || far(lower, p.1, q.1, gap) {
+        return None;
+    }
+    let distance = lower.distance(p, q);
+    let gap = lower.code.constant(gap);
+    let mut reg = lower.code.binary(BinaryOp::Ge, distance, gap);
+    for present in [one.present, other.present].into_iter().flatten() {
+        let absent = lower.code.unary(UnaryOp::Not, present);
+        reg = lower.code.binary(BinaryOp::Or, reg, absent);
+    }
+    Some(reg)
+}
+
+fn far(lower: &Lower<'_, '_>, p: Reg, q: Reg, gap: f64) -> bool {
+    match (lower.interval(p), lower.interval(q)) {
+        (Some(p), Some(q)) => p.0 - q.1 >= gap || q.0 - p.1 >= gap,
+        _ => false,
+    }
+}

@@ -1,0 +1,275 @@
+//! The compiler's entry: a root file in, a scenario and everything that is wrong with it out.
+
+use crate::ast::{
+    EndCondition, EndStmt, FieldValue, ItemKind, RewardUseKind, ScenarioItem, ScenarioStmtKind, ScriptRef,
+    ScriptSource, Span, TeamStmt, TeamStmtKind,
+};
+use crate::lower::script::Scripts;
+use crate::lower::{World, ending, param, reward, roster, start};
+use crate::problem::{Code, Problem, ScriptApi, Severity};
+use crate::resolve::{Library, flatten, load};
+use crate::source::{FileId, Source, SourceLoader, Sources};
+use setpiece_scenario::Scenario;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// What a caller may choose.
+#[derive(Clone, Default)]
+pub struct CompileOptions<'a> {
+    /// The scenario that is wanted; the file's last that is not abstract if absent.
+    pub scenario: Option<String>,
+    /// Checks scripts; without it they are embedded unread.
+    pub scripts: Option<&'a dyn ScriptApi>,
+}
+
+/// What came out.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The scenario, exactly when no problem is an error.
+    pub scenario: Option<Scenario>,
+    /// Everything that was found, by file, place and code.
+    pub problems: Vec<Problem>,
+    /// Every file that was read, in the order they were loaded.
+    pub sources: Sources,
+    /// The names of the files a watcher should watch, scripts included.
+    pub inputs: Vec<String>,
+    /// Where the parts of the scenario stand.
+    pub origins: Origins,
+}
+
+/// Where the parts of a compiled scenario stand in the sources.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origins {
+    /// The scenario's name.
+    pub scenario: Option<Span>,
+    /// Its parameters, in order.
+    pub params: Vec<Span>,
+    /// Its players, in order.
+    pub players: Vec<Span>,
+    /// Its rewards, in order.
+    pub rewards: Vec<Span>,
+    /// Its endings, in order.
+    pub endings: Vec<Span>,
+    /// Its written requirements, in order; implied ones come after them.
+    pub requires: Vec<Span>,
+}
+
+/// Compiles a root file and everything it imports.
+///
+/// Every scenario of the root that is not abstract is checked; the wanted one, or the last, comes out.
+pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> Outcome {
+    let mut problems = Vec::new();
+    let mut library = load(root, loader, &mut problems);
+    let mut scripts = Scripts::new(options.scripts);
+    load_scripts(&mut library, &mut scripts, loader);
+
+    let mut chosen = None;
+    let root_items: Vec<_> = library.files.first().map_or(&[][..], |file| &file.items).iter().collect();
+    let mut candidates: Vec<(&ScenarioItem, &str)> = Vec::new();
+    for item in root_items {
+        match &item.kind {
+            ItemKind::Scenario(scenario) => candidates.push((scenario, &item.doc)),
+            ItemKind::Behavior { name } => problems.push(not_yet("behavior", name.span)),
+            ItemKind::Reserved { keyword } => problems.push(not_yet(&keyword.node, keyword.span)),
+            _ => {}
+        }
+    }
+    let wanted = pick(&candidates, options.scenario.as_deref(), &library, &mut problems);
+    for (item, doc) in candidates.iter().filter(|(item, _)| !item.is_abstract) {
+        let lowered = compile_one(&library, &scripts, item, doc, &mut problems);
+        if wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item)) {
+            chosen = Some(lowered);
+        }
+    }
+
+    problems.sort_by_key(|problem| {
+        let span = problem.labels.first().map(|label| label.span);
+        (span.map(|span| (span.file, span.start, span.end)), problem.code, problem.message.clone())
+    });
+    problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
+    let failed = problems.iter().any(|problem| problem.severity() == Severity::Error);
+    let (scenario, origins) = match chosen {
+        Some((scenario, origins)) => ((!failed).then_some(scenario), origins),
+        None => (None, Origins::default()),
+    };
+    debug_assert_eq!(scenario.as_ref().map(setpiece_scenario::verify::verify), scenario.as_ref().map(|_| Ok(())));
+    Outcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
+}
+
+fn not_yet(what: &str, span: Span) -> Problem {
+    Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), "")
+}
+
+/// The scenario that comes out: the named one, else the last that is not abstract.
+fn pick<'a>(
+    candidates: &[(&'a ScenarioItem, &str)],
+    wanted: Option<&str>,
+    library: &Library,
+    problems: &mut Vec<Problem>,
+) -> Option<&'a ScenarioItem> {
+    let concrete = || candidates.iter().map(|(item, _)| *item).filter(|item| !item.is_abstract);
+    let found = match wanted {
+        Some(name) => concrete().find(|item| item.name.node == name),
+        None => concrete().next_back(),
+    };
+    if found.is_some() {
+        return found;
+    }
+    // A file that can't be read at all has its report already.
+    if candidates.is_empty() && problems.iter().any(|problem| problem.severity() == Severity::Error) {
+        return None;
+    }
+    let start = Span { file: FileId(0), start: 0, end: 0 };
+    let name = library.sources.get(FileId(0)).map_or("", |source| source.name.as_str());
+    let names: Vec<&str> = concrete().map(|item| item.name.node.as_str()).collect();
+    problems.push(match (wanted, candidates.first()) {
+        (Some(wanted), _) if !names.is_empty() => {
+            let problem = Problem::new(Code::NoScenario, start, format!("`{name}` has no scenario `{wanted}`"), "");
+            if crate::problem::nearest(wanted, names.iter().copied()).is_some() {
+                problem.did_you_mean(wanted, names)
+            } else {
+                problem.help(format!("it has `{}`", names.join("`, `")))
+            }
+        }
+        (_, Some((item, _))) => {
+            Problem::new(Code::NoScenario, item.name.span, format!("`{name}` has only abstract scenarios"), "abstract")
+                .help(format!("extend it: `scenario mine extends {} {{ … }}`", item.name.node))
+        }
+        (_, None) => Problem::new(Code::NoScenario, start, format!("`{name}` has no scenario"), "")
+            .help("write `scenario NAME { … }`"),
+    });
+    None
+}
+
+fn compile_one<'a>(
+    library: &'a Library,
+    scripts: &'a Scripts<'a>,
+    item: &'a ScenarioItem,
+    doc: &'a str,
+    problems: &mut Vec<Problem>,
+) -> (Scenario, Origins) {
+    let flat = flatten(library, item, doc, problems);
+    let mut world = World {
+        library,
+        flat: &flat,
+        params: Vec::new(),
+        lets: Vec::new(),
+        roster: Vec::new(),
+        agents: None,
+        scripts: RefCell::default(),
+        scripts_loaded: scripts,
+        problems: RefCell::default(),
+        used: RefCell::new(BTreeSet::new()),
+    };
+    world.params = param::lower_params(&world);
+    world.roster = roster::lower_roster(&world);
+    let start::LoweredStart { start, players, agents, side, lets } = start::lower_start(&world);
+    world.lets = lets;
+    world.agents = side;
+    let mut rewards = Vec::new();
+    let mut reward_spans = Vec::new();
+    for (name, used, stmt) in &flat.rewards {
+        if let Some(reward) = reward::lower_use(&world, name, used, stmt.span) {
+            rewards.push(reward);
+            reward_spans.push(stmt.span);
+        }
+    }
+    let endings = ending::lower_endings(&world);
+    let library_rewards = reward::lower_library(&world);
+    report_unused(&world);
+
+    let origins = Origins {
+        scenario: Some(item.name.span),
+        params: world.params.iter().map(|param| param.name.span).collect(),
+        players: world.roster.iter().map(|player| player.span).collect(),
+        rewards: reward_spans,
+        endings: flat.ends.iter().map(|end| end.span).collect(),
+        requires: flat.requires.iter().map(|stmt| stmt.span).collect(),
+    };
+    let scenario = Scenario {
+        name: item.name.node.clone(),
+        doc: doc.to_owned(),
+        params: world.params.iter().map(|param| param.param.clone()).collect(),
+        scripts: world.scripts.take(),
+        players,
+        agents,
+        start,
+        rewards,
+        library: library_rewards,
+        endings,
+    };
+    problems.extend(world.problems.take());
+    (scenario, origins)
+}
+
+/// Warns of `param`s and `let`s of the root that nothing reads.
+fn report_unused(world: &World<'_>) {
+    let root = FileId(0);
+    let params = world.params.iter().map(|param| ("parameter", param.name));
+    let lets = world.flat.lets.iter().map(|binding| ("`let`", &binding.name));
+    let declared: Vec<_> = params.chain(lets).collect();
+    for (what, name) in declared {
+        let used = world.used.borrow().contains(&name.span);
+        if name.span.file == root && !used && !name.node.starts_with('_') {
+            world.report(
+                Problem::new(Code::UnusedName, name.span, format!("{what} `{}` is never used", name.node), "not read")
+                    .help("use it, leave it out, or begin its name with `_`"),
+            );
+        }
+    }
+}
+
+/// Loads every script that a file names, so that reports can show its text.
+fn load_scripts(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dyn SourceLoader) {
+    let mut named = Vec::new();
+    for file in &library.files {
+        for item in &file.items {
+            if let ItemKind::Formation(formation) = &item.kind {
+                team_scripts(&formation.body, &mut named);
+            }
+            let ItemKind::Scenario(scenario) = &item.kind else { continue };
+            for stmt in &scenario.body {
+                match &stmt.kind {
+                    ScenarioStmtKind::Reward(used) => {
+                        if let RewardUseKind::Script(script) = &used.what {
+                            named.push(script.clone());
+                        }
+                    }
+                    ScenarioStmtKind::End(EndStmt::When { condition: Some(EndCondition::Script(script)), .. }) => {
+                        named.push(script.clone());
+                    }
+                    ScenarioStmtKind::Team { body, .. } => team_scripts(body, &mut named),
+                    _ => {}
+                }
+            }
+        }
+    }
+    for script in named {
+        let ScriptSource::File(path) = &script.source else { continue };
+        let from = path.span.file;
+        let from_name = library.sources.get(from).map_or(String::new(), |source| source.name.clone());
+        let (sources, inputs) = (&mut library.sources, &mut library.inputs);
+        scripts.load(from, &from_name, &path.node, loader, &mut |source: Source| {
+            if !inputs.contains(&source.name) {
+                inputs.push(source.name.clone());
+            }
+            sources.add(source)
+        });
+    }
+}
+
+fn team_scripts(body: &[TeamStmt], named: &mut Vec<ScriptRef>) {
+    for stmt in body {
+        let fields = match &stmt.kind {
+            TeamStmtKind::Player(player) => &player.fields,
+            TeamStmtKind::Override { change, .. } => &change.fields,
+            TeamStmtKind::Each { fields, .. } => fields,
+            _ => continue,
+        };
+        for field in fields {
+            if let FieldValue::Script(script) = &field.value {
+                named.push(script.clone());
+            }
+        }
+    }
+}

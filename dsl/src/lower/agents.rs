@@ -1,0 +1,185 @@
+//! `agents { }`: who is played by agents.
+
+use super::Lower;
+use super::start::of_team;
+use super::team::PlayerOptions;
+use crate::ast::{Expr, ExprKind, Field, Span};
+use crate::check::options::{self, AGENTS};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::{Agents, Others, SideAgents, Switching};
+
+/// Lowers `agents { }`: one on the left unless it is written.
+pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions]) -> Agents {
+    let (one, none) = (lower.code.constant(1.0), lower.code.constant(0.0));
+    let mut agents = Agents {
+        sides: [SideAgents::Count(one), SideAgents::Count(none)],
+        others: Others::Bot,
+        switching: Switching::Auto,
+    };
+    let mut at = [None, None];
+    for field in lower.world.flat.agents.clone() {
+        if !options::is_known(lower, field, AGENTS, "`agents`") {
+            continue;
+        }
+        let Some(expr) = options::expression(lower, field) else { continue };
+        match field.key.node.as_str() {
+            "others" => {
+                if let Some(other) = word(lower, field, expr, &[("bot", Others::Bot), ("hold", Others::Hold)]) {
+                    agents.others = other;
+                }
+            }
+            "switching" => {
+                let words = [("auto", Switching::Auto), ("fixed", Switching::Fixed)];
+                if let Some(switching) = word(lower, field, expr, &words) {
+                    agents.switching = switching;
+                }
+            }
+            side => {
+                let team = if side == "left" { Team::Left } else { Team::Right };
+                if let Some(found) = lower_side(lower, expr, team)
+                    && let (Some(slot), Some(at)) = (agents.sides.get_mut(team.index()), at.get_mut(team.index()))
+                {
+                    *slot = found;
+                    *at = Some(expr.span);
+                }
+            }
+        }
+    }
+    for (team, at) in Team::ALL.iter().zip(at) {
+        check_count(lower, &agents, *team, at, players);
+    }
+    agents
+}
+
+fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&str, T)]) -> Option<T> {
+    let name = match &expr.kind {
+        ExprKind::Name(name) => name.as_str(),
+        _ => "",
+    };
+    let found = words.iter().find(|(word, _)| *word == name).map(|(_, value)| *value);
+    if found.is_none() {
+        let text = lower.world.text(expr.span);
+        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        lower.report(
+            Problem::new(Code::OutOfRange, expr.span, format!("`{}` is never `{text}`", field.key.node), "")
+                .help(format!("write `{}`", known.join("` or `"))),
+        );
+    }
+    found
+}
+
+fn lower_side<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, team: Team) -> Option<SideAgents> {
+    match &expr.kind {
+        ExprKind::Name(name) if name == "all" => Some(SideAgents::All),
+        ExprKind::List(names) => {
+            let mut players = Vec::new();
+            for name in names {
+                players.extend(listed(lower, name, team, &players));
+            }
+            Some(SideAgents::Players(players))
+        }
+        _ => {
+            let value = lower.expr(expr);
+            if !value.is_error() && !value.ty.fits(Ty::Int) {
+                let mut problem = lower.mismatch(value.ty, Ty::Int, expr.span);
+                problem.help = Some("write a number, `all`, or a list of names: `[striker, winger]`".to_owned());
+                lower.report(problem);
+                return None;
+            }
+            let reg = lower.reg(&value);
+            lower.check_not_drawn(reg, "the number of agents", expr.span);
+            lower.check_range(reg, (0.0, 11.0), "the number of agents", expr.span, "`0..11`");
+            Some(SideAgents::Count(reg))
+        }
+    }
+}
+
+fn listed<'w>(lower: &mut Lower<'_, 'w>, name: &'w Expr, team: Team, known: &[u8]) -> Option<u8> {
+    let players: Vec<_> = of_team(&lower.world.roster, team).collect();
+    let text = lower.world.text(name.span);
+    let index = players.iter().position(|player| player.name.is_some_and(|name| name.node == text));
+    let Some(index) = index else {
+        let names = players.iter().filter_map(|player| player.name.map(|name| name.node.as_str()));
+        lower.report(
+            Problem::new(
+                Code::BadAgents,
+                name.span,
+                format!("no player of the {team} team is called `{text}`"),
+                "not known",
+            )
+            .did_you_mean(&text, names),
+        );
+        return None;
+    };
+    if known.contains(&(index as u8)) {
+        lower.report(Problem::new(Code::BadAgents, name.span, format!("`{text}` is listed twice"), ""));
+        return None;
+    }
+    Some(index as u8)
+}
+
+fn check_count(
+    lower: &Lower<'_, '_>,
+    agents: &Agents,
+    team: Team,
+    at: Option<Span>,
+    players: &[PlayerOptions],
+) {
+    let world = lower.world;
+    let of_side: Vec<&PlayerOptions> =
+        world.roster.iter().zip(players).filter(|(player, _)| player.team == team).map(|(_, options)| options).collect();
+    let controllable = of_side.iter().filter(|options| options.controllable).count();
+    match agents.sides.get(team.index()) {
+        Some(SideAgents::Count(reg)) => {
+            let Some((_, most)) = lower.interval(*reg) else { return };
+            if most <= controllable as f64 {
+                return;
+            }
+            let span = at.unwrap_or(world.flat.item.name.span);
+            let problem = Problem::new(
+                Code::BadAgents,
+                span,
+                format!("{most} of the {team} team's players are asked for, {controllable} can be controlled"),
+                "",
+            );
+            lower.report(if at.is_none() {
+                problem.help("without `agents { … }` one player of the left team is controlled")
+            } else {
+                problem.help(format!("write at most `{team}: {controllable}`, or `{team}: all`"))
+            });
+        }
+        Some(SideAgents::Players(list)) => {
+            for &index in list {
+                if of_side.get(usize::from(index)).is_some_and(|options| !options.controllable) {
+                    let span = at.unwrap_or(world.flat.item.name.span);
+                    lower.report(Problem::new(
+                        Code::BadAgents,
+                        span,
+                        "a player in the list is not `controllable`",
+                        "",
+                    ));
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The one team that has agents; `None` if both have or none.
+pub(crate) fn side_with_agents(lower: &Lower<'_, '_>, agents: &Agents, players: &[PlayerOptions]) -> Option<Team> {
+    let has = |team: Team| match agents.sides.get(team.index()) {
+        Some(SideAgents::Count(reg)) => lower.interval(*reg).is_none_or(|(_, most)| most > 0.0),
+        Some(SideAgents::Players(list)) => !list.is_empty(),
+        Some(SideAgents::All) => {
+            lower.world.roster.iter().zip(players).any(|(player, options)| player.team == team && options.controllable)
+        }
+        None => false,
+    };
+    match (has(Team::Left), has(Team::Right)) {
+        (true, false) => Some(Team::Left),
+        (false, true) => Some(Team::Right),
+        _ => None,
+    }
+}

@@ -1,0 +1,92 @@
+//! Endings: one program, and its conditions in order.
+
+use super::value::{Frame, Scope};
+use super::{Lower, Stage, World, script};
+use crate::ast::{EndCondition, ItemKind};
+use crate::problem::{Code, Problem};
+use crate::resolve::FlatEnding;
+use setpiece_scenario::vocabulary::Verdict;
+use setpiece_scenario::{Ending, Endings, Reg};
+
+/// Lowers the endings but for the limit.
+pub(crate) fn lower_endings(world: &World<'_>) -> Endings {
+    let scope = Scope::new(true, Frame::World);
+    let mut lower = Lower::new(world, Stage::Ending, scope);
+    if let Some(team) = world.agents {
+        let team = lower.code.constant(team.index() as f64);
+        lower.team = Some(team);
+    }
+    let mut list = Vec::new();
+    for ending in &world.flat.ends {
+        list.extend(lower_ending(&mut lower, ending));
+    }
+    if list.is_empty() && world.flat.limit.is_none() {
+        let name = &world.flat.item.name;
+        world.report(
+            Problem::new(Code::NoEnding, name.span, format!("an episode of `{}` never ends", name.node), "")
+                .help("write, for example, `end limit 400 steps`"),
+        );
+    }
+    let wanted: Vec<Reg> = list.iter().filter_map(|ending| ending.when).collect();
+    let (program, layout) = lower.code.finish(&wanted);
+    for ending in &mut list {
+        ending.when = ending.when.map(|reg| layout.reg(reg));
+    }
+    Endings { program, list }
+}
+
+fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Option<Ending> {
+    let verdict = match ending.verdict {
+        Some(word) => Verdict::from_name(&word.node),
+        None => None,
+    };
+    let label = match (ending.label, verdict) {
+        (Some(label), _) => label.name.node.clone(),
+        (None, Some(verdict)) => verdict.name().to_owned(),
+        (None, None) => "end".to_owned(),
+    };
+    let mut lowered = Ending { verdict, label, when: None, script: None };
+    match (ending.condition, ending.label) {
+        (Some(EndCondition::Expr(condition)), _) => lowered.when = Some(lower.condition(condition)),
+        (Some(EndCondition::Script(source)), _) => lowered.script = Some(script::embed(lower.world, source, "done")?),
+        (None, Some(reference)) => {
+            let found = lower.world.library.find(reference.name.span.file, &reference.name.node);
+            let item = found.and_then(|found| match &found.item.kind {
+                ItemKind::Ending(item) => Some((found.name.span, item)),
+                _ => None,
+            });
+            let Some((at, item)) = item else {
+                let known: Vec<&str> = lower
+                    .world
+                    .library
+                    .visible(reference.name.span.file)
+                    .filter(|(_, found)| matches!(found.item.kind, ItemKind::Ending(_)))
+                    .map(|(name, _)| name)
+                    .collect();
+                let name = &reference.name.node;
+                let problem =
+                    Problem::new(Code::UnknownName, reference.name.span, format!("no `ending` is called `{name}`"), "");
+                let near = crate::problem::nearest(name, known.iter().copied()).is_some();
+                lower.report(if near {
+                    problem.did_you_mean(name, known)
+                } else {
+                    problem.help(format!("say when it ends: `end {name} when …`"))
+                });
+                return None;
+            };
+            lower.world.mark_used(at);
+            let mut scope = Scope::new(false, Frame::World);
+            lower.bind_params(&item.name.node, &item.params, &reference.args, reference.span, &mut scope, true);
+            let reg = lower.within(scope, |lower| lower.condition(&item.body));
+            lowered.when = Some(reg);
+        }
+        (None, None) => {
+            lower.report(
+                Problem::new(Code::Syntax, ending.span, "the ending doesn't say when", "")
+                    .help("write, for example, `end success when goal by left`"),
+            );
+            return None;
+        }
+    }
+    Some(lowered)
+}

@@ -1,0 +1,326 @@
+//! Where things are: at the start by their place statements, in the match by its state.
+
+use super::value::{Frame, Repr, Scope, Value};
+use super::{Lower, Stage};
+use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::Field;
+use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
+
+/// A thing whose place is found on demand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Found<T> {
+    /// Nobody asked yet.
+    #[default]
+    Todo,
+    /// Being computed: whoever asks now closes a circle.
+    Busy,
+    /// Known.
+    Done(T),
+}
+
+/// What a place is seen from: whom directions are relative to.
+#[derive(Clone, Copy)]
+enum View {
+    /// A player of the roster.
+    Player(usize),
+    /// Anything else: the attack direction of the team in whose block it stands.
+    Team,
+}
+
+impl<'w> Lower<'_, 'w> {
+    /// World metres of a point, player or the ball, now or a step ago.
+    pub(crate) fn place_of(&mut self, value: &Value<'w>, span: Span) -> (Reg, Reg) {
+        match (value.ty, &value.repr) {
+            (_, Repr::Two(x, y) | Repr::Three(x, y, _)) => (*x, *y),
+            (Ty::Player, Repr::One(reg)) if self.stage.is_step() => self.player_place(*reg),
+            (Ty::Player, Repr::One(reg)) if self.stage == Stage::Start => self.start_place(*reg, span),
+            (Ty::Ball, _) if self.stage == Stage::Start => self.ball_place(span),
+            (Ty::Player | Ty::Ball, _) => {
+                let (fx, fy, of) = match (value.ty, &value.repr) {
+                    (Ty::Player, Repr::One(reg)) => (Field::PlayerX, Field::PlayerY, Some(*reg)),
+                    _ => (Field::BallX, Field::BallY, None),
+                };
+                let text = self.world.text(span);
+                let x = self.load(fx, of, &text, span);
+                let Some(x) = x else { return self.nowhere() };
+                (x, self.code.load(fy, of, self.when))
+            }
+            _ => self.nowhere(),
+        }
+    }
+
+    fn nowhere(&mut self) -> (Reg, Reg) {
+        let zero = self.code.constant(0.0);
+        (zero, zero)
+    }
+
+    /// A player's place in a step program.
+    pub(crate) fn player_place(&mut self, player: Reg) -> (Reg, Reg) {
+        (
+            self.code.load(Field::PlayerX, Some(player), self.when),
+            self.code.load(Field::PlayerY, Some(player), self.when),
+        )
+    }
+
+    /// A player's start place; which player it is may be drawn.
+    fn start_place(&mut self, player: Reg, span: Span) -> (Reg, Reg) {
+        if let Some(index) = self.roster_index(player) {
+            return self.place_of_rostered(index, span);
+        }
+        if let Some(&Instr::Select(c, a, b)) = self.code.instr(player) {
+            let (a, b) = (self.start_place(a, span), self.start_place(b, span));
+            return (self.code.select(c, a.0, b.0), self.code.select(c, a.1, b.1));
+        }
+        self.report(Problem::new(
+            Code::NoPlace,
+            span,
+            format!("`{}` is nobody who has a place at the start", self.world.text(span)),
+            "",
+        ));
+        self.nowhere()
+    }
+
+    /// The start place of a player of the roster, computed when it is first asked for.
+    pub(crate) fn place_of_rostered(&mut self, index: usize, asked: Span) -> (Reg, Reg) {
+        match self.start.places.get(index).copied() {
+            Some(Found::Done(place)) => return place,
+            Some(Found::Todo) => {}
+            Some(Found::Busy) => {
+                self.cyclic(asked);
+                return self.nowhere();
+            }
+            None => return self.nowhere(),
+        }
+        if let Some(slot) = self.start.places.get_mut(index) {
+            *slot = Found::Busy;
+        }
+        let place = self.compute_player(index);
+        if let Some(slot) = self.start.places.get_mut(index) {
+            *slot = Found::Done(place);
+        }
+        place
+    }
+
+    fn cyclic(&self, asked: Span) {
+        self.report(
+            Problem::new(
+                Code::CyclicPlace,
+                asked,
+                "this place depends on itself",
+                format!("`{}` is placed by what is placed here", self.world.text(asked)),
+            )
+            .help("give one of them a place of its own: `at (x, y)`"),
+        );
+    }
+
+    /// The ball's start place.
+    pub(crate) fn ball_place(&mut self, asked: Span) -> (Reg, Reg) {
+        match self.start.ball {
+            Found::Done(place) => return place,
+            Found::Busy => {
+                self.cyclic(asked);
+                return self.nowhere();
+            }
+            Found::Todo => {}
+        }
+        self.start.ball = Found::Busy;
+        let place = match self.world.flat.ball {
+            Some((ball, _)) => self.drawing("ball", |lower| lower.compute_ball(ball)),
+            None => self.nowhere(),
+        };
+        self.start.ball = Found::Done(place);
+        place
+    }
+
+    fn compute_ball(&mut self, ball: &'w BallStmt) -> (Reg, Reg) {
+        let team = self.team.take();
+        let scope = Scope::new(true, Frame::World);
+        let place = self.within(scope, |lower| {
+            let place = lower.place(&ball.place);
+            lower.jittered(place, ball.jitter.as_ref())
+        });
+        self.team = team;
+        place
+    }
+
+    fn compute_player(&mut self, index: usize) -> (Reg, Reg) {
+        let world = self.world;
+        let Some(player) = world.roster.get(index) else { return self.nowhere() };
+        let name = player.stream();
+        self.for_team(player.team.index() as f64, |lower| {
+            lower.drawing(&name, |lower| {
+                let Some(start) = &player.place else { return lower.nowhere() };
+                let place = lower.player_statement(start, player.jitter, &player.scope);
+                let Some(receiving) = &player.receiving else { return place };
+                // At a kick-off the team that is first has the layout of the kicking side.
+                let other = lower.player_statement(receiving, player.jitter, &player.receiving_scope);
+                let first = lower.first_team();
+                let team = lower.code.constant(player.team.index() as f64);
+                let kicks = lower.code.binary(BinaryOp::Eq, first, team);
+                if let Some(slot) = lower.start.layouts.get_mut(index) {
+                    *slot = Some((place, other));
+                }
+                (lower.code.select(kicks, place.0, other.0), lower.code.select(kicks, place.1, other.1))
+            })
+        })
+    }
+
+    fn player_statement(&mut self, place: &'w Place, jitter: Option<&'w Expr>, scope: &Scope<'w>) -> (Reg, Reg) {
+        self.within(scope.clone(), |lower| {
+            let place = lower.place(place);
+            lower.jittered(place, jitter)
+        })
+    }
+
+    /// Runs `f` with a team in view.
+    pub(crate) fn for_team<T>(&mut self, team: f64, f: impl FnOnce(&mut Self) -> T) -> T {
+        let team = self.code.constant(team);
+        let outer = self.team.replace(team);
+        let result = f(self);
+        self.team = outer;
+        result
+    }
+
+    fn jittered(&mut self, place: (Reg, Reg), jitter: Option<&'w Expr>) -> (Reg, Reg) {
+        match jitter {
+            Some(radius) => {
+                let reg = self.want_reg(radius, Ty::LENGTH);
+                self.check_range(reg, (0.0, 60.0), "`jitter`", radius.span, "`0m..60m`");
+                self.draw_in_disc(place, reg)
+            }
+            None => place,
+        }
+    }
+
+    fn place(&mut self, place: &'w Place) -> (Reg, Reg) {
+        match &place.kind {
+            PlaceKind::At(point) => self.want_point(point),
+            PlaceKind::In(region) => {
+                let drawn = self.region(region).and_then(|found| self.draw_in(&found, region.span));
+                drawn.unwrap_or_else(|| self.nowhere())
+            }
+            PlaceKind::Relative { direction, of, by } => {
+                let from = self.expr(of);
+                let view = match &from.repr {
+                    Repr::One(reg) if from.ty == Ty::Player => self.roster_index(*reg).map_or(View::Team, View::Player),
+                    _ => View::Team,
+                };
+                let origin = self.convert(from, Ty::Point, of);
+                let origin = self.pair(&origin);
+                let length = self.want_reg(by, Ty::LENGTH);
+                let ahead = self.ahead(view, of.span);
+                let (dx, dy) = match direction.node.as_str() {
+                    "ahead" => ahead,
+                    "behind" => (self.code.unary(UnaryOp::Neg, ahead.0), self.code.unary(UnaryOp::Neg, ahead.1)),
+                    "right" => (self.code.unary(UnaryOp::Neg, ahead.1), ahead.0),
+                    _ => (ahead.1, self.code.unary(UnaryOp::Neg, ahead.0)),
+                };
+                self.moved(origin, (dx, dy), length)
+            }
+            PlaceKind::Between { a, b, at } => {
+                let (p, q) = (self.want_point(a), self.want_point(b));
+                let share = match at {
+                    Some(at) => self.want_reg(at, Ty::Percent),
+                    None => self.code.constant(0.5),
+                };
+                let way = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+                self.moved(p, way, share)
+            }
+            PlaceKind::Beyond { of, by, from } => {
+                let (p, q) = (self.want_point(from), self.want_point(of));
+                let length = self.want_reg(by, Ty::LENGTH);
+                let way = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+                let distance = self.distance(p, q);
+                let unit = (
+                    self.code.binary(BinaryOp::Div, way.0, distance),
+                    self.code.binary(BinaryOp::Div, way.1, distance),
+                );
+                self.moved(q, unit, length)
+            }
+            PlaceKind::Offset { from, along, by } => {
+                let p = self.want_point(from);
+                let angle = self.want_reg(along, Ty::ANGLE);
+                let angle = self.turned_angle(angle);
+                let length = self.want_reg(by, Ty::LENGTH);
+                let way = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
+                self.moved(p, way, length)
+            }
+        }
+    }
+
+    fn moved(&mut self, from: (Reg, Reg), way: (Reg, Reg), by: Reg) -> (Reg, Reg) {
+        let (dx, dy) = (self.code.binary(BinaryOp::Mul, way.0, by), self.code.binary(BinaryOp::Mul, way.1, by));
+        (self.code.binary(BinaryOp::Add, from.0, dx), self.code.binary(BinaryOp::Add, from.1, dy))
+    }
+
+    /// The unit vector that points ahead: the explicit facing of a player, else his team's attack.
+    fn ahead(&mut self, view: View, asked: Span) -> (Reg, Reg) {
+        let world = self.world;
+        let player = match view {
+            View::Player(index) => world.roster.get(index).map(|player| (index, player)),
+            View::Team => None,
+        };
+        if let Some((index, player)) = player {
+            if player.facing.is_some() {
+                let heading = self.heading_of(index, asked);
+                if let Some(heading) = heading {
+                    return (self.code.unary(UnaryOp::Cos, heading), self.code.unary(UnaryOp::Sin, heading));
+                }
+            }
+            let zero = self.code.constant(0.0);
+            return (self.code.constant(player.team.side()), zero);
+        }
+        let side = match self.team {
+            Some(team) => self.code.unary(UnaryOp::Side, team),
+            None => self.code.constant(1.0),
+        };
+        (side, self.code.constant(0.0))
+    }
+
+    /// The heading a player of the roster was told to face, radians in the world frame.
+    pub(crate) fn heading_of(&mut self, index: usize, asked: Span) -> Option<Reg> {
+        match self.start.headings.get(index).copied()? {
+            Found::Done(heading) => return Some(heading),
+            Found::Busy => {
+                self.cyclic(asked);
+                return None;
+            }
+            Found::Todo => {}
+        }
+        let world = self.world;
+        let player = world.roster.get(index)?;
+        let facing = player.facing?;
+        *self.start.headings.get_mut(index)? = Found::Busy;
+        let heading = self.for_team(player.team.index() as f64, |lower| {
+            let name = format!("{} facing", player.stream());
+            lower.drawing(&name, |lower| {
+                lower.within(player.scope.clone(), |lower| lower.facing(facing, index))
+            })
+        });
+        *self.start.headings.get_mut(index)? = Found::Done(heading);
+        Some(heading)
+    }
+
+    fn facing(&mut self, facing: &'w Facing, index: usize) -> Reg {
+        let value = self.expr(&facing.target);
+        let heading = if value.ty == Ty::ANGLE {
+            let angle = self.reg(&value);
+            self.turned_angle(angle)
+        } else {
+            let target = self.convert(value, Ty::Point, &facing.target);
+            let target = self.pair(&target);
+            let here = self.place_of_rostered(index, facing.target.span);
+            let dx = self.code.binary(BinaryOp::Sub, target.0, here.0);
+            let dy = self.code.binary(BinaryOp::Sub, target.1, here.1);
+            self.code.binary(BinaryOp::Atan2, dy, dx)
+        };
+        if !facing.away {
+            return heading;
+        }
+        let half_turn = self.code.constant(std::f64::consts::PI);
+        let turned = self.code.binary(BinaryOp::Add, heading, half_turn);
+        self.code.unary(UnaryOp::Wrap, turned)
+    }
+}

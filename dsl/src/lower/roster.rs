@@ -1,0 +1,473 @@
+//! Who plays: formations and players of both teams as one list.
+
+use super::value::{Frame, Repr, Scope, Value};
+use super::{Lower, Stage, World};
+use crate::ast::{
+    Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
+};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use crate::resolve::{FlatTeam, formation_chain};
+use setpiece_scenario::pitch::TEAM_MAX;
+use setpiece_scenario::vocabulary::{Role, Team};
+
+/// A player of the roster.
+#[derive(Clone)]
+pub(crate) struct Rostered<'w> {
+    /// `team * 11 + index`.
+    pub(crate) id: u8,
+    /// His team.
+    pub(crate) team: Team,
+    /// His role.
+    pub(crate) role: Role,
+    /// His name, if any.
+    pub(crate) name: Option<&'w Ident>,
+    /// His statement.
+    pub(crate) span: Span,
+    /// Where he starts; when his team kicks off, if there are layouts.
+    pub(crate) place: Option<&'w Place>,
+    /// In which scope that is read.
+    pub(crate) scope: Scope<'w>,
+    /// Where he stands when the others kick off.
+    pub(crate) receiving: Option<&'w Place>,
+    /// In which scope that is read.
+    pub(crate) receiving_scope: Scope<'w>,
+    /// Where he looks.
+    pub(crate) facing: Option<&'w Facing>,
+    /// How far his place is moved.
+    pub(crate) jitter: Option<&'w Expr>,
+    /// Whether he plays.
+    pub(crate) when: Option<&'w Expr>,
+    /// Options: what stands later wins.
+    pub(crate) fields: Vec<&'w Field>,
+}
+
+impl Rostered<'_> {
+    /// The name of the stream of his draws: his label, else his team and index.
+    pub(crate) fn stream(&self) -> String {
+        match self.name {
+            Some(name) => format!("player {}", name.node),
+            None => format!("player {} {}", self.team, usize::from(self.id) % TEAM_MAX),
+        }
+    }
+
+    /// The player in a sentence.
+    pub(crate) fn shown(&self) -> String {
+        match self.name {
+            Some(name) => format!("`{}`", name.node),
+            None => format!("the {} team's {}", self.team, self.role),
+        }
+    }
+}
+
+/// Lists both teams' players.
+pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
+    let mut roster = Vec::new();
+    for team in Team::ALL {
+        let Some(flat) = world.flat.teams.get(team.index()) else { continue };
+        let mut players = match &world.flat.kickoff {
+            Some((_, fields, span)) => from_layouts(world, *team, flat, fields, *span),
+            None => from_statements(world, *team, flat),
+        };
+        adjust(world, &mut players, &flat.absent, &flat.overrides, &Scope::new(true, Frame::World));
+        apply_each(world, &mut players, &flat.each, *team);
+        check_size(world, &players, *team);
+        for (index, player) in players.iter_mut().enumerate() {
+            player.id = (team.index() * TEAM_MAX + index) as u8;
+        }
+        roster.extend(players);
+    }
+    check_names(world, &roster);
+    roster
+}
+
+fn from_statements<'w>(world: &World<'w>, team: Team, flat: &FlatTeam<'w>) -> Vec<Rostered<'w>> {
+    let mut players = Vec::new();
+    if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
+        match &field.value {
+            FieldValue::Expr(expr) => {
+                let scope = Scope::new(true, Frame::World);
+                players = formation_players(world, expr, scope, team);
+            }
+            FieldValue::Fields(_, span) => world.report(not_a_formation(*span)),
+            FieldValue::Script(script) => world.report(not_a_formation(script.span)),
+        }
+    }
+    for (player, span) in &flat.players {
+        let scope = Scope::new(true, Frame::World);
+        players.extend(copies(world, player, *span, &scope, team));
+    }
+    players
+}
+
+fn not_a_formation(span: Span) -> Problem {
+    Problem::new(Code::WrongType, span, "expected a formation", "").help("write the name of a `formation`")
+}
+
+fn from_layouts<'w>(
+    world: &World<'w>,
+    team: Team,
+    flat: &FlatTeam<'w>,
+    fields: &'w [Field],
+    span: Span,
+) -> Vec<Rostered<'w>> {
+    if let Some((_, at)) = flat.players.first() {
+        world.report(
+            Problem::new(
+                Code::DuplicateOption,
+                *at,
+                "a team whose players come from `kickoff` has no players of its own",
+                "",
+            )
+            .label(span, "the layouts are given here")
+            .help("write the player into both formations, or `place` one of theirs"),
+        );
+    }
+    if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
+        world.report(
+            Problem::new(Code::DuplicateOption, field.key.span, "the layouts of `kickoff` are the formation", "")
+                .label(span, "given here"),
+        );
+    }
+    let layout = |key: &str| {
+        let field = fields.iter().find(|field| field.key.node == key);
+        let Some(field) = field else {
+            if team == Team::Left {
+                world.report(
+                    Problem::new(Code::WrongArguments, span, format!("`kickoff` lacks the `{key}` layout"), "")
+                        .help("write `kickoff left { kicking: grf_kicking, receiving: grf_receiving }`"),
+                );
+            }
+            return None;
+        };
+        let FieldValue::Expr(expr) = &field.value else {
+            world.report(not_a_formation(field.key.span));
+            return None;
+        };
+        // The left team reports what is wrong with a layout; the right one has the same.
+        let kept = world.problems.borrow().len();
+        let players = formation_players(world, expr, Scope::new(true, Frame::World), team);
+        if team == Team::Right {
+            world.problems.borrow_mut().truncate(kept);
+        }
+        Some((players, expr.span))
+    };
+    for field in fields.iter().filter(|_| team == Team::Left) {
+        if !matches!(field.key.node.as_str(), "kicking" | "receiving") {
+            world.report(
+                Problem::new(
+                    Code::UnknownOption,
+                    field.key.span,
+                    format!("`kickoff` has no option `{}`", field.key.node),
+                    "not known",
+                )
+                .did_you_mean(&field.key.node, ["kicking", "receiving"]),
+            );
+        }
+    }
+    let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving")) else {
+        return Vec::new();
+    };
+    let same = kicking.len() == receiving.len()
+        && kicking.iter().zip(&receiving).all(|(one, other)| one.role == other.role);
+    if !same && team == Team::Left {
+        let roles = |players: &[Rostered<'w>]| -> String {
+            players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
+        };
+        world.report(
+            Problem::new(
+                Code::WrongRoster,
+                at,
+                format!("the layouts differ: `{}` and `{}`", roles(&kicking), roles(&receiving)),
+                "the same players, in the same order, stand in both",
+            )
+            .help("list the roles of both formations in the same order"),
+        );
+    }
+    for (player, other) in kicking.iter_mut().zip(receiving) {
+        player.receiving = other.place;
+        player.receiving_scope = other.scope;
+    }
+    kicking
+}
+
+/// The players of a formation value: its name, or a call with arguments.
+fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, scope: Scope<'w>, team: Team) -> Vec<Rostered<'w>> {
+    let mut lower = Lower::new(world, Stage::Start, scope);
+    if let ExprKind::Call { name, args } = &expr.kind
+        && let Some(found) = world.library.find(name.span.file, &name.node)
+        && let crate::ast::ItemKind::Formation(item) = &found.item.kind
+    {
+        world.mark_used(found.name.span);
+        let mut scope = Scope::new(false, Frame::Own);
+        lower.bind_params(&name.node, &item.params, args, expr.span, &mut scope, false);
+        return chain_players(world, item, scope, team);
+    }
+    let value: Value<'w> = lower.want(expr, Ty::Formation);
+    match value.repr {
+        Repr::Formation(item) => {
+            let mut scope = Scope::new(false, Frame::Own);
+            lower.bind_params(&item.name.node, &item.params, &[], expr.span, &mut scope, false);
+            chain_players(world, item, scope, team)
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn chain_players<'w>(
+    world: &World<'w>,
+    item: &'w FormationItem,
+    scope: Scope<'w>,
+    team: Team,
+) -> Vec<Rostered<'w>> {
+    let mut found = Vec::new();
+    let chain = formation_chain(world.library, item, &mut found);
+    for problem in found {
+        world.report(problem);
+    }
+    let mut players: Vec<Rostered<'w>> = Vec::new();
+    for (link, reference) in chain {
+        let mut scope = scope.clone();
+        if !std::ptr::eq(link, item) {
+            // A parent's parameters are bound by the reference of its child.
+            let mut lower = Lower::new(world, Stage::Start, scope);
+            scope = Scope::new(false, Frame::Own);
+            let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
+            lower.bind_params(&link.name.node, &link.params, args, link.name.span, &mut scope, false);
+        }
+        let (mut absent, mut overrides, mut each) = (Vec::new(), Vec::new(), Vec::new());
+        for stmt in &link.body {
+            match &stmt.kind {
+                TeamStmtKind::Player(player) => players.extend(copies(world, player, stmt.span, &scope, team)),
+                TeamStmtKind::Override { who, change } => overrides.push((who, change)),
+                TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),
+                TeamStmtKind::Absent(role) => absent.push(role.clone()),
+                TeamStmtKind::Field(field) => world.report(
+                    Problem::new(
+                        Code::UnknownOption,
+                        field.key.span,
+                        format!("a formation has no option `{}`", field.key.node),
+                        "",
+                    )
+                    .help("options of a team stand in `team left { … }`"),
+                ),
+                TeamStmtKind::Broken => {}
+            }
+        }
+        adjust(world, &mut players, &absent, &overrides, &scope);
+        apply_each(world, &mut players, &each, team);
+    }
+    players
+}
+
+fn copies<'w>(
+    world: &World<'w>,
+    player: &'w PlayerStmt,
+    span: Span,
+    scope: &Scope<'w>,
+    team: Team,
+) -> Vec<Rostered<'w>> {
+    let count = player.count.as_ref().map_or(1, |count| count.node);
+    if let (Some(count), Some(name)) = (&player.count, &player.name)
+        && count.node != 1
+    {
+        world.report(
+            Problem::new(
+                Code::DuplicateName,
+                name.span,
+                format!("`{}` would name {} players", name.node, count.node),
+                "",
+            )
+            .help("leave the name out, or write one line per player"),
+        );
+    }
+    if player.place.is_none() {
+        world.report(
+            Problem::new(
+                Code::NoPlace,
+                player.role.span,
+                format!("`{}` has no place", player.role.node),
+                "where does he stand?",
+            )
+            .help(format!("write, for example, `{} at (-0.5, 0)`", player.role.node)),
+        );
+    }
+    let one = Rostered {
+        id: 0,
+        team,
+        role: player.role.node,
+        name: player.name.as_ref(),
+        span,
+        place: player.place.as_ref(),
+        scope: scope.clone(),
+        receiving: None,
+        receiving_scope: scope.clone(),
+        facing: player.facing.as_ref(),
+        jitter: player.jitter.as_ref(),
+        when: player.when.as_ref(),
+        fields: player.fields.iter().collect(),
+    };
+    vec![one; count.min(TEAM_MAX as u32 + 1) as usize]
+}
+
+/// `GK absent` and `place …`.
+fn adjust<'w>(
+    world: &World<'w>,
+    players: &mut Vec<Rostered<'w>>,
+    absent: &[Spanned<Role>],
+    overrides: &[(&'w Ident, &'w PlayerStmt)],
+    scope: &Scope<'w>,
+) {
+    for role in absent {
+        let before = players.len();
+        players.retain(|player| player.role != role.node);
+        if before == players.len() && before > 0 {
+            world.report(Problem::new(
+                Code::NothingToRemove,
+                role.span,
+                format!("no `{}` is there to be absent", role.node),
+                "",
+            ));
+        }
+    }
+    for (who, change) in overrides {
+        let role = Role::from_name(&who.node);
+        let meant = |player: &Rostered<'w>| {
+            player.name.is_some_and(|name| name.node == who.node) || Some(player.role) == role
+        };
+        match players.iter().filter(|player| meant(player)).count() {
+            1 => {}
+            0 => {
+                let names: Vec<&str> = players
+                    .iter()
+                    .flat_map(|player| [player.name.map(|name| name.node.as_str()), Some(player.role.name())])
+                    .flatten()
+                    .collect();
+                world.report(
+                    Problem::new(
+                        Code::UnknownName,
+                        who.span,
+                        format!("no player of this team is called `{}`", who.node),
+                        "",
+                    )
+                    .did_you_mean(&who.node, names),
+                );
+                continue;
+            }
+            n => {
+                world.report(
+                    Problem::new(
+                        Code::AmbiguousName,
+                        who.span,
+                        format!("the team has {n} players `{}`", who.node),
+                        "which one is meant?",
+                    )
+                    .help("give the player a name, `anna: CM at …`, and place `anna`"),
+                );
+                continue;
+            }
+        }
+        if let Some(player) = players.iter_mut().find(|player| meant(player)) {
+            if change.place.is_some() {
+                player.place = change.place.as_ref();
+                player.scope = scope.clone();
+                player.receiving = None;
+                player.jitter = change.jitter.as_ref();
+                player.span = who.span;
+            }
+            player.jitter = change.jitter.as_ref().or(player.jitter);
+            player.facing = change.facing.as_ref().or(player.facing);
+            player.fields.extend(&change.fields);
+        }
+    }
+}
+
+/// `each …`: defaults, behind the players' own options.
+fn apply_each<'w>(
+    world: &World<'w>,
+    players: &mut [Rostered<'w>],
+    each: &[(&'w Ident, &'w [Field])],
+    team: Team,
+) {
+    let mut defaults: Vec<Vec<&'w Field>> = vec![Vec::new(); players.len()];
+    for (who, fields) in each {
+        let role = Role::from_name(&who.node);
+        if role.is_none() && !matches!(who.node.as_str(), "all" | "outfield") {
+            let known = ["all", "outfield"].into_iter().chain(Role::ALL.iter().map(|role| role.name()));
+            world.report(
+                Problem::new(
+                    Code::UnknownRole,
+                    who.span,
+                    format!("`each` knows no `{}`", who.node),
+                    "",
+                )
+                .did_you_mean(&who.node, known),
+            );
+            continue;
+        }
+        let mut anyone = false;
+        for (player, defaults) in players.iter().zip(&mut defaults) {
+            let meant = match role {
+                Some(role) => player.role == role,
+                None => who.node == "all" || player.role != Role::GK,
+            };
+            if meant {
+                anyone = true;
+                defaults.extend(fields.iter());
+            }
+        }
+        if !anyone && !players.is_empty() {
+            world.report(Problem::new(
+                Code::UnknownRole,
+                who.span,
+                format!("the {team} team has no `{}`", who.node),
+                "",
+            ));
+        }
+    }
+    for (player, mut fields) in players.iter_mut().zip(defaults) {
+        fields.append(&mut player.fields);
+        player.fields = fields;
+    }
+}
+
+fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
+    if let Some(extra) = players.get(TEAM_MAX) {
+        world.report(
+            Problem::new(
+                Code::TooManyPlayers,
+                extra.span,
+                format!("the {team} team has more than {TEAM_MAX} players"),
+                "this is the twelfth",
+            )
+            .help("leave one out"),
+        );
+    }
+    let keepers: Vec<&Rostered<'_>> = players.iter().filter(|p| p.role == Role::GK && p.when.is_none()).collect();
+    if let [first, second, ..] = keepers.as_slice() {
+        world.report(
+            Problem::new(Code::TwoKeepers, second.span, format!("the {team} team has two keepers"), "the second one")
+                .label(first.span, "the first one")
+                .help("give one of them another role"),
+        );
+    }
+}
+
+fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
+    for (index, player) in roster.iter().enumerate() {
+        let Some(name) = player.name else { continue };
+        let earlier = roster.iter().take(index).filter_map(|other| other.name);
+        let first = earlier.into_iter().find(|other| other.node == name.node && other.span != name.span);
+        if let Some(first) = first {
+            world.report(
+                Problem::new(
+                    Code::DuplicateName,
+                    name.span,
+                    format!("two players are called `{}`", name.node),
+                    "called so again here",
+                )
+                .label(first.span, "first called so here"),
+            );
+        }
+    }
+}

@@ -1,0 +1,654 @@
+//! The start program: `let`s, places, the ball, rules and requirements.
+
+use super::agents::{lower_agents, side_with_agents};
+use super::builder::Layout;
+use super::place::Found;
+use super::roster::Rostered;
+use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
+use super::value::{Frame, Repr, Scope, Value};
+use super::{Lower, Stage, World};
+use crate::ast::{BallStmt, Expr, ExprKind, Field, FieldValue, ScenarioStmtKind, Span};
+use crate::check::football;
+use crate::check::options::{self, BALL, START};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{Rule, StartKind, Team};
+use setpiece_scenario::{
+    Agents, BallStart, BinaryOp, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting, Start,
+    UnaryOp,
+};
+use std::collections::BTreeMap;
+
+/// What the start program knows so far.
+#[derive(Default)]
+pub(crate) struct StartState<'w> {
+    /// Start places by roster.
+    pub(crate) places: Vec<Found<(Reg, Reg)>>,
+    /// Headings by roster.
+    pub(crate) headings: Vec<Found<Reg>>,
+    /// Layouts of kick-offs by roster: kicking, receiving.
+    pub(crate) layouts: Vec<Option<((Reg, Reg), (Reg, Reg))>>,
+    /// The ball's place.
+    pub(crate) ball: Found<(Reg, Reg)>,
+    lets: BTreeMap<&'w str, Option<Value<'w>>>,
+    first: Option<Reg>,
+    drawing: String,
+    draws: BTreeMap<String, u32>,
+}
+
+impl StartState<'_> {
+    /// The name of what is being drawn.
+    pub(crate) fn drawing(&self) -> &str {
+        &self.drawing
+    }
+
+    /// The next draw's ordinal in it.
+    pub(crate) fn next_draw(&mut self) -> u32 {
+        let ordinal = self.draws.entry(self.drawing.clone()).or_default();
+        *ordinal += 1;
+        *ordinal - 1
+    }
+}
+
+/// A `let` as step programs see it.
+pub(crate) struct LetSlot<'w> {
+    /// Its name.
+    pub(crate) name: &'w str,
+    /// Its value in the start program.
+    pub(crate) value: Value<'w>,
+    /// For each of its registers: a constant, or its place in the scenario's `let`s.
+    pub(crate) parts: Vec<(Reg, Part)>,
+}
+
+/// A register of a `let`, seen from a step program.
+#[derive(Clone, Copy)]
+pub(crate) enum Part {
+    /// Known now.
+    Constant(f64),
+    /// A parameter.
+    Param(u32),
+    /// Drawn or computed at reset.
+    Let(u32),
+}
+
+/// A lowered start and what belongs to it.
+pub(crate) struct LoweredStart<'w> {
+    /// The start.
+    pub(crate) start: Start,
+    /// The roster.
+    pub(crate) players: Vec<PlayerSlot>,
+    /// The agents.
+    pub(crate) agents: Agents,
+    /// The one team that has agents, if it is one.
+    pub(crate) side: Option<Team>,
+    /// The `let`s for step programs.
+    pub(crate) lets: Vec<LetSlot<'w>>,
+}
+
+/// Lowers the start.
+pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
+    let scope = Scope::new(true, Frame::World);
+    let mut lower = Lower::new(world, Stage::Start, scope);
+    let n = world.roster.len();
+    lower.start.places = vec![Found::Todo; n];
+    lower.start.headings = vec![Found::Todo; n];
+    lower.start.layouts = vec![None; n];
+
+    for param in world.params.iter().filter(|param| param.bound.is_some()) {
+        lower.scenario_let(&param.name.node, param.name.span);
+    }
+    for binding in &world.flat.lets {
+        lower.scenario_let(&binding.name.node, binding.name.span);
+    }
+    if let Some((_, _, span)) = world.flat.kickoff {
+        lower.first_team();
+        debug_assert!(span.start <= span.end);
+    }
+    let (kind, taker) = lower.start_kind();
+    let places: Vec<(Reg, Reg)> = (0..n).map(|i| lower.place_of_rostered(i, roster_span(world, i))).collect();
+    let headings: Vec<Option<Reg>> = (0..n).map(|i| lower.heading_of(i, roster_span(world, i))).collect();
+    let ball = lower.ball();
+    let options: Vec<PlayerOptions> = world.roster.iter().map(|player| lower_player_options(&mut lower, player)).collect();
+    let difficulty = [lower_difficulty(&mut lower, Team::Left), lower_difficulty(&mut lower, Team::Right)];
+    let agents = lower_agents(&mut lower, &options);
+    let side = side_with_agents(&lower, &agents, &options);
+    let rules = lower.rules();
+    let limit = lower.limit();
+    let (score, elapsed) = lower.start_fields();
+    let mut requires = lower.requires();
+    let football::Placed { apart } = football::check_places(&mut lower, &places, &options, ball.as_ref());
+    requires.extend(apart);
+    let kickoff = lower.kickoff(&places);
+
+    let lets = lower.let_slots();
+    let mut wanted: Vec<Reg> = Vec::new();
+    let mut collect = |reg: Reg| {
+        wanted.push(reg);
+        reg
+    };
+    let ball = ball.unwrap_or_else(|| {
+        let zero = lower.code.constant(0.0);
+        BallStart { x: zero, y: zero, height: None, velocity: None, spin: None, owner: None }
+    });
+    let start = Start {
+        program: setpiece_scenario::Program::default(),
+        lets: lets.1,
+        ball,
+        kind,
+        taker,
+        score,
+        elapsed,
+        kickoff,
+        difficulty,
+        rules,
+        limit,
+        requires,
+    };
+    let players = slots(world, &places, &headings, options);
+    map_start(&start, &mut collect);
+    players.iter().for_each(|slot| drop(map_slot(slot, &mut collect)));
+    drop(map_agents(&agents, &mut collect));
+
+    let (program, layout) = lower.code.finish(&wanted);
+    let place = |layout: &Layout, reg: Reg| layout.reg(reg);
+    let mut start = map_start(&start, &mut |reg| place(&layout, reg));
+    start.program = program;
+    let players = players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
+    let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
+    LoweredStart { start, players, agents, side, lets: lets.0 }
+}
+
+fn roster_span(world: &World<'_>, index: usize) -> Span {
+    let own = world.flat.item.name.span;
+    world.roster.get(index).map_or(own, |player| player.span)
+}
+
+fn slots(
+    world: &World<'_>,
+    places: &[(Reg, Reg)],
+    headings: &[Option<Reg>],
+    options: Vec<PlayerOptions>,
+) -> Vec<PlayerSlot> {
+    let mut slots = Vec::new();
+    for (((player, place), heading), option) in world.roster.iter().zip(places).zip(headings).zip(options) {
+        slots.push(PlayerSlot {
+            team: player.team,
+            role: player.role,
+            name: player.name.map(|name| name.node.clone()),
+            ai: option.ai,
+            controllable: option.controllable,
+            stats: option.stats,
+            start: PlayerStart {
+                x: place.0,
+                y: place.1,
+                heading: *heading,
+                velocity: option.velocity,
+                fatigue: option.fatigue,
+                yellow_cards: option.yellow_cards,
+                difficulty: option.difficulty,
+                present: option.present,
+            },
+        });
+    }
+    slots
+}
+
+impl<'w> Lower<'_, 'w> {
+    /// Runs `f` while draws belong to the stream called `name`.
+    pub(crate) fn drawing<T>(&mut self, name: &str, f: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.start.drawing, name.to_owned());
+        let result = f(self);
+        self.start.drawing = outer;
+        result
+    }
+
+    /// The value of a `let` of the scenario, or of a parameter that is bound by a child.
+    pub(crate) fn scenario_let(&mut self, name: &'w str, asked: Span) -> Value<'w> {
+        match self.stage {
+            Stage::Start => {}
+            Stage::Constant => {
+                return self.fail(Problem::new(
+                    Code::NotConstant,
+                    asked,
+                    format!("`{name}` is computed at reset"),
+                    "a constant is known before",
+                ));
+            }
+            Stage::Init | Stage::Reward | Stage::Ending => return self.step_let(name),
+        }
+        match self.start.lets.get(name) {
+            Some(Some(value)) => return value.clone(),
+            Some(None) => {
+                return self.fail(Problem::new(
+                    Code::Recursion,
+                    asked,
+                    format!("`{name}` uses itself"),
+                    "closes the circle",
+                ));
+            }
+            None => {}
+        }
+        let world = self.world;
+        let binding = world.flat.lets.iter().find(|binding| binding.name.node == name);
+        let bound = world.params.iter().find(|param| param.name.node == name);
+        let (expr, ty): (&'w Expr, _) = match (binding, bound) {
+            (Some(binding), _) => {
+                let ty = binding.ty.as_ref().map(|ty| super::param::declared_type(world, ty));
+                (&binding.value, ty)
+            }
+            (None, Some(param)) => match param.bound {
+                Some(expr) => (expr, param.declared),
+                None => return Value::error(),
+            },
+            (None, None) => return Value::error(),
+        };
+        self.start.lets.insert(name, None);
+        let team = self.team.take();
+        let value = self.within(Scope::new(true, Frame::World), |lower| {
+            lower.drawing(&format!("let {name}"), |lower| match ty {
+                Some(ty) => lower.want(expr, ty),
+                None => lower.expr(expr),
+            })
+        });
+        self.team = team;
+        self.start.lets.insert(name, Some(value.clone()));
+        value
+    }
+
+    fn step_let(&mut self, name: &str) -> Value<'w> {
+        let world = self.world;
+        let Some(slot) = world.lets.iter().find(|slot| slot.name == name) else { return Value::error() };
+        let mut map = |reg: Reg| match slot.parts.iter().find(|(known, _)| *known == reg) {
+            Some((_, Part::Constant(value))) => self.code.constant(*value),
+            Some((_, Part::Param(index))) => self.code.param(*index),
+            Some((_, Part::Let(index))) => self.code.scenario_let(*index),
+            None => self.code.constant(0.0),
+        };
+        slot.value.map(&mut map)
+    }
+
+    fn let_slots(&mut self) -> (Vec<LetSlot<'w>>, Vec<Reg>) {
+        let mut regs: Vec<Reg> = Vec::new();
+        let lets = std::mem::take(&mut self.start.lets);
+        let mut slots = Vec::new();
+        for (name, value) in lets {
+            let Some(value) = value else { continue };
+            let mut parts = Vec::new();
+            for reg in value.regs() {
+                let part = match self.code.instr(reg) {
+                    Some(setpiece_scenario::Instr::Const(value)) => Part::Constant(*value),
+                    Some(setpiece_scenario::Instr::Param(index)) => Part::Param(*index),
+                    _ => {
+                        regs.push(reg);
+                        Part::Let(regs.len() as u32 - 1)
+                    }
+                };
+                parts.push((reg, part));
+            }
+            slots.push(LetSlot { name, value, parts });
+        }
+        (slots, regs)
+    }
+
+    /// The team that kicks off first.
+    pub(crate) fn first_team(&mut self) -> Reg {
+        if let Some(first) = self.start.first {
+            return first;
+        }
+        let first = match self.world.flat.kickoff {
+            Some((expr, _, _)) => {
+                let team = self.team.take();
+                let scope = Scope::new(true, Frame::World);
+                let first = self.within(scope, |lower| {
+                    lower.drawing("kickoff", |lower| lower.want_reg(expr, Ty::Team))
+                });
+                self.team = team;
+                first
+            }
+            None => self.code.constant(0.0),
+        };
+        self.start.first = Some(first);
+        first
+    }
+
+    fn kickoff(&mut self, places: &[(Reg, Reg)]) -> Option<Kickoff> {
+        self.world.flat.kickoff?;
+        let layouts = self.start.layouts.iter().zip(places).map(|(layout, place)| match layout {
+            Some((kicking, receiving)) => KickoffPlaces { kicking: *kicking, receiving: *receiving },
+            None => KickoffPlaces { kicking: *place, receiving: *place },
+        });
+        let places = layouts.collect();
+        Some(Kickoff { first: self.first_team(), places })
+    }
+
+    fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
+        let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
+        let taker = (implied == StartKind::Kickoff).then(|| self.first_team());
+        let Some(stmt) = self.world.flat.start else { return (implied, taker) };
+        let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, taker) };
+        let Some(found) = StartKind::from_name(&kind.node) else {
+            self.report(
+                Problem::new(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
+                    .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
+            );
+            return (implied, taker);
+        };
+        if !matches!(found, StartKind::Open | StartKind::Kickoff) {
+            self.report(
+                Problem::new(Code::NotYet, kind.span, format!("a start by `{}` is not supported yet", kind.node), "")
+                    .help("place ball and players where they stand at it: `start open`"),
+            );
+            return (implied, taker);
+        }
+        if let Some(at) = at {
+            self.report(
+                Problem::new(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "")
+                    .help("the ball's place is the start's: `ball at …`"),
+            );
+        }
+        let team = team.as_ref().map(|team| self.want_reg(team, Ty::Team));
+        (found, team.or(taker.filter(|_| found == StartKind::Kickoff)))
+    }
+
+    fn start_fields(&mut self) -> (Option<(Reg, Reg)>, Option<Reg>) {
+        let Some(stmt) = self.world.flat.start else { return (None, None) };
+        let ScenarioStmtKind::Start { fields, .. } = &stmt.kind else { return (None, None) };
+        let (mut score, mut elapsed) = (None, None);
+        for field in options::known_fields(self, fields, START, "`start`") {
+            let Some(expr) = options::expression(self, field) else { continue };
+            if field.key.node == "elapsed" {
+                let reg = self.want_reg(expr, Ty::DURATION);
+                self.check_range(reg, (0.0, f64::MAX), "`elapsed`", expr.span, "`0 steps` or more");
+                elapsed = Some(reg);
+                continue;
+            }
+            let ExprKind::List(parts) = &expr.kind else {
+                self.report(
+                    Problem::new(Code::WrongType, expr.span, "expected the goals of both teams", "")
+                        .help("write `score: [1, 0]`"),
+                );
+                continue;
+            };
+            let &[left, right] = &parts.iter().collect::<Vec<_>>()[..] else {
+                self.report(
+                    Problem::new(Code::WrongArguments, expr.span, "a score has two numbers", "")
+                        .help("write `score: [1, 0]`"),
+                );
+                continue;
+            };
+            let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
+            self.check_range(goals.0, (0.0, 99.0), "a team's goals", left.span, "`0..99`");
+            self.check_range(goals.1, (0.0, 99.0), "a team's goals", right.span, "`0..99`");
+            score = Some(goals);
+        }
+        (score, elapsed)
+    }
+
+    fn ball(&mut self) -> Option<BallStart> {
+        let Some((ball, span)) = self.world.flat.ball else {
+            let name = &self.world.flat.item.name;
+            self.report(
+                Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "")
+                    .help("write, for example, `ball at (0.6, 0)`"),
+            );
+            return None;
+        };
+        let (x, y) = self.ball_place(span);
+        let mut start = BallStart { x, y, height: None, velocity: None, spin: None, owner: None };
+        self.ball_fields(ball, &mut start);
+        Some(start)
+    }
+
+    fn ball_fields(&mut self, ball: &'w BallStmt, start: &mut BallStart) {
+        for field in options::known_fields(self, &ball.fields, BALL, "the ball") {
+            let Some(expr) = options::expression(self, field) else { continue };
+            let name = format!("ball {}", field.key.node);
+            self.drawing(&name, |lower| match field.key.node.as_str() {
+                "velocity" => {
+                    let value = lower.want(expr, Ty::Velocity);
+                    let zero = lower.code.constant(0.0);
+                    start.velocity = Some(match value.repr {
+                        Repr::Three(x, y, z) => (x, y, z),
+                        Repr::Two(x, y) => (x, y, zero),
+                        _ => (zero, zero, zero),
+                    });
+                }
+                "height" => {
+                    let reg = lower.want_reg(expr, Ty::LENGTH);
+                    lower.check_range(reg, (0.0, 50.0), "the ball's height", expr.span, "`0m..50m`");
+                    start.height = Some(reg);
+                }
+                "owner" => start.owner = Some(lower.want_reg(expr, Ty::Player)),
+                _ => start.spin = lower.spin(expr),
+            });
+        }
+    }
+
+    /// `spin: (0, 0, 30)`: radians per second about x, y and z.
+    fn spin(&mut self, expr: &'w Expr) -> Option<(Reg, Reg, Reg)> {
+        if let ExprKind::Tuple(parts) = &expr.kind
+            && let [x, y, z] = parts.as_slice()
+        {
+            return Some((self.want_reg(x, Ty::Number), self.want_reg(y, Ty::Number), self.want_reg(z, Ty::Number)));
+        }
+        self.report(
+            Problem::new(Code::WrongType, expr.span, "expected the spin about three axes", "")
+                .help("write, for example, `spin: (0, 0, 30)`: radians per second about x, y and z"),
+        );
+        None
+    }
+
+    fn rules(&mut self) -> Vec<RuleSetting> {
+        let mut settings = Vec::new();
+        let fields = self.world.flat.rules.clone();
+        for field in fields {
+            let Some(rule) = Rule::from_name(&field.key.node) else {
+                self.report(
+                    Problem::new(
+                        Code::UnknownOption,
+                        field.key.span,
+                        format!("`rules` has no option `{}`", field.key.node),
+                        "not known",
+                    )
+                    .did_you_mean(&field.key.node, Rule::ALL.iter().map(|rule| rule.name())),
+                );
+                continue;
+            };
+            if let Some(value) = self.rule_value(rule, field) {
+                self.check_not_drawn(value, &format!("`{rule}`"), field.key.span);
+                settings.push(RuleSetting { rule, value });
+            }
+        }
+        settings
+    }
+
+    fn rule_value(&mut self, rule: Rule, field: &'w Field) -> Option<Reg> {
+        let expr = options::expression(self, field)?;
+        match (rule, &expr.kind) {
+            (Rule::Physics, ExprKind::Name(name)) if name == "gated" || name == "full" => {
+                Some(self.code.bool(name == "full"))
+            }
+            (Rule::Physics, _) => {
+                let text = self.world.text(expr.span);
+                self.report(
+                    Problem::new(Code::OutOfRange, expr.span, format!("`physics` is never `{text}`"), "")
+                        .help("write `physics: gated` or `physics: full`"),
+                );
+                None
+            }
+            (Rule::HalfTime, ExprKind::Bool(false)) => Some(self.code.constant(0.0)),
+            (Rule::HalfTime, _) => {
+                let value = self.expr(expr);
+                let reg = self.reg(&value);
+                match value.ty {
+                    Ty::Error => return None,
+                    Ty::Int => {}
+                    Ty::DURATION => {
+                        let step = self.code.constant(0.1);
+                        let steps = self.code.binary(BinaryOp::Div, reg, step);
+                        let steps = self.code.unary(UnaryOp::Round, steps);
+                        return Some(steps);
+                    }
+                    ty => {
+                        let problem = self.mismatch(ty, Ty::DURATION, expr.span);
+                        self.report(problem.help("write `half_time: off` or `half_time: 1500 steps`"));
+                        return None;
+                    }
+                }
+                self.check_range(reg, (0.0, f64::MAX), "`half_time`", expr.span, "`0 steps` or more");
+                Some(reg)
+            }
+            _ => {
+                let value = self.expr(expr);
+                if value.ty == Ty::Bool || value.is_error() {
+                    return Some(self.reg(&value));
+                }
+                let mut problem = self.mismatch(value.ty, Ty::Bool, expr.span);
+                problem.message = problem.message.replace("a condition", "`on` or `off`");
+                self.report(problem.help(format!("write `{rule}: on` or `{rule}: off`")));
+                None
+            }
+        }
+    }
+
+    fn limit(&mut self) -> Option<Reg> {
+        let (expr, _) = self.world.flat.limit?;
+        let reg = self.want_reg(expr, Ty::DURATION);
+        self.check_not_drawn(reg, "the limit", expr.span);
+        self.check_range(reg, (0.1, 1.0e6), "the limit", expr.span, "`1 steps` or more");
+        Some(reg)
+    }
+
+    fn requires(&mut self) -> Vec<Require> {
+        let mut requires = Vec::new();
+        for stmt in &self.world.flat.requires {
+            let ScenarioStmtKind::Require { condition, probability, label } = &stmt.kind else { continue };
+            let met = self.drawing("require", |lower| lower.condition(condition));
+            let probability = probability.as_ref().map(|expr| {
+                let reg = self.want_reg(expr, Ty::Percent);
+                self.check_range(reg, (0.0, 1.0), "the probability", expr.span, "`0%..100%`");
+                reg
+            });
+            let words = label.as_ref().map_or_else(|| self.world.text(condition.span), |label| label.node.clone());
+            if self.code.constant_of(met) == Some(0.0) && probability.is_none() {
+                self.report(
+                    Problem::new(Code::ImpossibleToDraw, condition.span, format!("`{words}` is never met"), "always false")
+                        .help("move the players, or drop the requirement"),
+                );
+            }
+            requires.push(Require { condition: met, probability, label: words });
+        }
+        requires
+    }
+}
+
+impl<'w> Value<'w> {
+    /// The same value in other registers.
+    fn map(&self, f: &mut dyn FnMut(Reg) -> Reg) -> Value<'w> {
+        use super::value::{RegionValue, SetValue};
+        fn region(value: &RegionValue, f: &mut dyn FnMut(Reg) -> Reg) -> RegionValue {
+            use std::rc::Rc;
+            match value {
+                RegionValue::Rect(a, b) => RegionValue::Rect((f(a.0), f(a.1)), (f(b.0), f(b.1))),
+                RegionValue::Circle(c, r) => RegionValue::Circle((f(c.0), f(c.1)), f(*r)),
+                RegionValue::Union(a, b) => RegionValue::Union(Rc::new(region(a, f)), Rc::new(region(b, f))),
+                RegionValue::Intersection(a, b) => {
+                    RegionValue::Intersection(Rc::new(region(a, f)), Rc::new(region(b, f)))
+                }
+                RegionValue::Difference(a, b) => RegionValue::Difference(Rc::new(region(a, f)), Rc::new(region(b, f))),
+            }
+        }
+        let repr = match &self.repr {
+            Repr::One(a) => Repr::One(f(*a)),
+            Repr::Two(a, b) => Repr::Two(f(*a), f(*b)),
+            Repr::Three(a, b, c) => Repr::Three(f(*a), f(*b), f(*c)),
+            Repr::Choice(a, words) => Repr::Choice(f(*a), words.clone()),
+            Repr::Set(set) => Repr::Set(SetValue { team: f(set.team), except: set.except.map(&mut *f) }),
+            Repr::Region(value) => Repr::Region(std::rc::Rc::new(region(value, f))),
+            Repr::List(list) => Repr::List(list.iter().map(|value| value.map(f)).collect()),
+            Repr::Nothing | Repr::Text(_) | Repr::Formation(_) => self.repr.clone(),
+        };
+        Value { ty: self.ty, repr }
+    }
+}
+
+fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
+    let mut pair = |p: &(Reg, Reg)| (f(p.0), f(p.1));
+    let score = start.score.as_ref().map(&mut pair);
+    let kickoff_places = start.kickoff.as_ref().map(|kickoff| {
+        let place = |p: &KickoffPlaces| KickoffPlaces { kicking: pair(&p.kicking), receiving: pair(&p.receiving) };
+        kickoff.places.iter().map(place).collect::<Vec<_>>()
+    });
+    let mut triple = |p: &(Reg, Reg, Reg)| (f(p.0), f(p.1), f(p.2));
+    let velocity = start.ball.velocity.as_ref().map(&mut triple);
+    let spin = start.ball.spin.as_ref().map(&mut triple);
+    Start {
+        program: start.program.clone(),
+        lets: start.lets.iter().map(|&reg| f(reg)).collect(),
+        ball: BallStart {
+            x: f(start.ball.x),
+            y: f(start.ball.y),
+            height: start.ball.height.map(&mut *f),
+            velocity,
+            spin,
+            owner: start.ball.owner.map(&mut *f),
+        },
+        kind: start.kind,
+        taker: start.taker.map(&mut *f),
+        score,
+        elapsed: start.elapsed.map(&mut *f),
+        kickoff: start
+            .kickoff
+            .as_ref()
+            .map(|kickoff| Kickoff { first: f(kickoff.first), places: kickoff_places.unwrap_or_default() }),
+        difficulty: start.difficulty.map(&mut *f),
+        rules: start.rules.iter().map(|s| RuleSetting { rule: s.rule, value: f(s.value) }).collect(),
+        limit: start.limit.map(&mut *f),
+        requires: start
+            .requires
+            .iter()
+            .map(|require| Require {
+                condition: f(require.condition),
+                probability: require.probability.map(&mut *f),
+                label: require.label.clone(),
+            })
+            .collect(),
+    }
+}
+
+fn map_slot(slot: &PlayerSlot, f: &mut dyn FnMut(Reg) -> Reg) -> PlayerSlot {
+    let s = &slot.start;
+    PlayerSlot {
+        stats: slot.stats.iter().map(|(stat, reg)| (*stat, f(*reg))).collect(),
+        start: PlayerStart {
+            x: f(s.x),
+            y: f(s.y),
+            heading: s.heading.map(&mut *f),
+            velocity: s.velocity.map(|v| (f(v.0), f(v.1))),
+            fatigue: s.fatigue.map(&mut *f),
+            yellow_cards: s.yellow_cards.map(&mut *f),
+            difficulty: s.difficulty.map(&mut *f),
+            present: s.present.map(&mut *f),
+        },
+        ..slot.clone()
+    }
+}
+
+fn map_agents(agents: &Agents, f: &mut dyn FnMut(Reg) -> Reg) -> Agents {
+    use setpiece_scenario::SideAgents;
+    let mut side = |side: &SideAgents| match side {
+        SideAgents::Count(reg) => SideAgents::Count(f(*reg)),
+        other => other.clone(),
+    };
+    Agents { sides: [side(&agents.sides[0]), side(&agents.sides[1])], ..agents.clone() }
+}
+
+/// The players of a team.
+pub(crate) fn of_team<'a, 'w>(roster: &'a [Rostered<'w>], team: Team) -> impl Iterator<Item = &'a Rostered<'w>> {
+    roster.iter().filter(move |player| player.team == team)
+}
+
+/// Fields that must be expressions.
+pub(crate) fn is_expression(field: &Field) -> bool {
+    matches!(field.value, FieldValue::Expr(_))
+}

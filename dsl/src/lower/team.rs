@@ -1,0 +1,224 @@
+//! Options of teams and players.
+
+use super::roster::Rostered;
+use super::script::embed;
+use super::value::{Frame, Repr, Scope};
+use super::Lower;
+use crate::ast::{Expr, ExprKind, Field, FieldValue};
+use crate::check::options::{self, PLAYER, TEAM};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{Stat, Team};
+use setpiece_scenario::{Ai, BinaryOp, Reg};
+
+/// The options of a player.
+pub(crate) struct PlayerOptions {
+    /// Who plays him without an agent.
+    pub(crate) ai: Ai,
+    /// Whether an agent may be given him.
+    pub(crate) controllable: bool,
+    /// Whether he may stand where somebody else does.
+    pub(crate) overlap: bool,
+    /// His own difficulty.
+    pub(crate) difficulty: Option<Reg>,
+    /// 0 fresh to 1 exhausted.
+    pub(crate) fatigue: Option<Reg>,
+    /// Cards he starts with.
+    pub(crate) yellow_cards: Option<Reg>,
+    /// World velocity.
+    pub(crate) velocity: Option<(Reg, Reg)>,
+    /// Statistics that replace the table's.
+    pub(crate) stats: Vec<(Stat, Reg)>,
+    /// Whether he plays.
+    pub(crate) present: Option<Reg>,
+}
+
+/// The difficulty of a team's bots: 1.0 for the left, 0.6 for the right unless it is written.
+pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
+    let world = lower.world;
+    let mut found = None;
+    for field in world.flat.teams.get(team.index()).into_iter().flat_map(|team| &team.fields) {
+        if options::is_known(lower, field, TEAM, "a team")
+            && field.key.node == "difficulty"
+            && let Some(expr) = options::expression(lower, field)
+        {
+            found = Some(lower.drawing(&format!("{team} difficulty"), |lower| share(lower, expr, "`difficulty`")));
+        }
+    }
+    found.unwrap_or_else(|| lower.code.constant(if team == Team::Left { 1.0 } else { 0.6 }))
+}
+
+/// A number of 0..1.
+fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
+    let reg = lower.want_reg(expr, Ty::Number);
+    lower.check_range(reg, (0.0, 1.0), what, expr.span, "`0..1`");
+    reg
+}
+
+/// Lowers a player's options, those of `each` included.
+pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Rostered<'w>) -> PlayerOptions {
+    let mut options = PlayerOptions {
+        ai: Ai::Bot,
+        controllable: true,
+        overlap: false,
+        difficulty: None,
+        fatigue: None,
+        yellow_cards: None,
+        velocity: None,
+        stats: Vec::new(),
+        present: None,
+    };
+    let scope = player.scope.clone();
+    let stream = player.stream();
+    lower.for_team(player.team.index() as f64, |lower| {
+        lower.within(scope, |lower| {
+            for field in &player.fields {
+                lower.drawing(&format!("{stream} {}", field.key.node), |lower| option(lower, field, &mut options));
+            }
+            if let Some(when) = player.when {
+                let reg = lower.condition(when);
+                lower.check_not_drawn(reg, "whether a player takes part", when.span);
+                options.present = Some(reg);
+            }
+        });
+    });
+    options
+}
+
+fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
+    if !options::is_known(lower, field, PLAYER, "a player") {
+        return;
+    }
+    match (field.key.node.as_str(), &field.value) {
+        ("stats", FieldValue::Fields(fields, _)) => {
+            for stat in fields {
+                stats(lower, stat, options);
+            }
+        }
+        ("ai", FieldValue::Script(script)) => {
+            if let Some(script) = embed(lower.world, script, "act") {
+                options.ai = Ai::Script(script);
+            }
+        }
+        (key, FieldValue::Expr(expr)) => expression(lower, key, expr, options),
+        ("stats", FieldValue::Script(script)) => not_a_group(lower, script.span),
+        _ => {
+            options::expression(lower, field);
+        }
+    }
+}
+
+fn not_a_group(lower: &Lower<'_, '_>, span: crate::ast::Span) {
+    lower.report(
+        Problem::new(Code::WrongType, span, "`stats` is a group", "").help("write `stats: { speed: 0.9 }`"),
+    );
+}
+
+fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options: &mut PlayerOptions) {
+    match key {
+        "ai" => ai(lower, expr, options),
+        "stats" => not_a_group(lower, expr.span),
+        "difficulty" => options.difficulty = Some(share(lower, expr, "`difficulty`")),
+        "fatigue" => options.fatigue = Some(share(lower, expr, "`fatigue`")),
+        "yellow_cards" => {
+            let reg = lower.want_reg(expr, Ty::Int);
+            lower.check_range(reg, (0.0, 1.0), "`yellow_cards`", expr.span, "`0..1`");
+            options.yellow_cards = Some(reg);
+        }
+        "velocity" => {
+            let value = lower.want(expr, Ty::Velocity);
+            if let Repr::Three(..) = value.repr {
+                lower.report(
+                    Problem::new(Code::WrongType, expr.span, "a player runs along the ground", "")
+                        .help("write two coordinates: `(5m/s, 0m/s)`"),
+                );
+            }
+            let velocity = lower.pair(&value);
+            let speed = lower.code.binary(BinaryOp::Hypot, velocity.0, velocity.1);
+            if let (Some(x), Some(y)) = (lower.code.constant_of(velocity.0), lower.code.constant_of(velocity.1))
+                && x * x + y * y > 12.0 * 12.0
+            {
+                lower.report(Problem::new(Code::OutOfRange, expr.span, "nobody runs faster than 12 m/s", ""));
+            }
+            debug_assert!(speed.index() < usize::MAX);
+            options.velocity = Some(velocity);
+        }
+        "controllable" => {
+            let reg = lower.condition(expr);
+            match lower.code.constant_of(reg) {
+                Some(value) => options.controllable = value != 0.0,
+                None => lower.report(
+                    Problem::new(Code::NotConstant, expr.span, "`controllable` must be `on` or `off`", "")
+                        .help("the number of agents can't change with a parameter's value here"),
+                ),
+            }
+        }
+        _ => match &expr.kind {
+            ExprKind::Name(name) if name == "allowed" => options.overlap = true,
+            _ => lower.report(
+                Problem::new(Code::OutOfRange, expr.span, "`overlap` can only be `allowed`", "")
+                    .help("write `overlap: allowed`"),
+            ),
+        },
+    }
+}
+
+fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions) {
+    let known = ["bot", "hold", "lazy"];
+    let name = match &expr.kind {
+        ExprKind::Name(name) => name.as_str(),
+        ExprKind::Call { name, .. } => name.node.as_str(),
+        _ => {
+            lower.report(
+                Problem::new(Code::WrongType, expr.span, "expected who plays him", "")
+                    .help("write `ai: bot`, `ai: hold`, `ai: lazy` or `ai: script \"file.rhai\"`"),
+            );
+            return;
+        }
+    };
+    match name {
+        "bot" => options.ai = Ai::Bot,
+        "hold" => options.ai = Ai::Hold,
+        "lazy" => options.ai = Ai::Lazy,
+        _ => {
+            let found = lower.world.library.find(expr.span.file, name);
+            let is_behavior = found.is_some_and(|f| matches!(f.item.kind, crate::ast::ItemKind::Behavior { .. }));
+            lower.report(if is_behavior {
+                Problem::new(Code::NotYet, expr.span, "a `behavior` is not supported yet", "")
+                    .help("write `ai: bot`, `ai: hold`, `ai: lazy` or `ai: script \"file.rhai\"`")
+            } else {
+                let problem =
+                    Problem::new(Code::UnknownName, expr.span, format!("no player's `ai` is called `{name}`"), "not known");
+                if crate::problem::nearest(name, known).is_some() {
+                    problem.did_you_mean(name, known)
+                } else {
+                    problem.help("it can be `bot`, `hold`, `lazy` or `script \"file.rhai\"`")
+                }
+            });
+        }
+    }
+}
+
+fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
+    let Some(stat) = Stat::from_name(&field.key.node) else {
+        lower.report(
+            Problem::new(
+                Code::UnknownOption,
+                field.key.span,
+                format!("no statistic is called `{}`", field.key.node),
+                "not known",
+            )
+            .did_you_mean(&field.key.node, Stat::ALL.iter().map(|stat| stat.name())),
+        );
+        return;
+    };
+    let Some(expr) = options::expression(lower, field) else { return };
+    let reg = share(lower, expr, &format!("`{stat}`"));
+    options.stats.retain(|(known, _)| *known != stat);
+    options.stats.push((stat, reg));
+}
+
+/// The scope of a team's statements.
+pub(crate) fn team_scope<'w>() -> Scope<'w> {
+    Scope::new(true, Frame::World)
+}

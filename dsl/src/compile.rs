@@ -148,7 +148,7 @@ fn compile_one<'a>(
     doc: &'a str,
     problems: &mut Vec<Problem>,
 ) -> (Scenario, Origins) {
-    let flat = flatten(library, item, doc, problems);
+    let flat = flatten(library, item, problems);
     let mut world = World {
         library,
         flat: &flat,

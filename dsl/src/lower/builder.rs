@@ -142,11 +142,6 @@ impl Builder {
         self.nodes.get(reg.index()).is_some_and(|node| node.block == PROLOGUE || self.open.contains(&node.block))
     }
 
-    /// Whether a register is known outside every loop.
-    pub(crate) fn is_outside_loops(&self, reg: Reg) -> bool {
-        self.nodes.get(reg.index()).is_some_and(|node| node.block <= ROOT)
-    }
-
     /// Whether a loop is open at the present place.
     pub(crate) fn in_loop(&self) -> bool {
         self.open.len() > 1

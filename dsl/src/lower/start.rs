@@ -7,7 +7,7 @@ use super::roster::Rostered;
 use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
 use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage, World};
-use crate::ast::{BallStmt, Expr, ExprKind, Field, FieldValue, ScenarioStmtKind, Span};
+use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind, Span};
 use crate::check::football;
 use crate::check::options::{self, BALL, START};
 use crate::check::types::Ty;
@@ -646,9 +646,4 @@ fn map_agents(agents: &Agents, f: &mut dyn FnMut(Reg) -> Reg) -> Agents {
 /// The players of a team.
 pub(crate) fn of_team<'a, 'w>(roster: &'a [Rostered<'w>], team: Team) -> impl Iterator<Item = &'a Rostered<'w>> {
     roster.iter().filter(move |player| player.team == team)
-}
-
-/// Fields that must be expressions.
-pub(crate) fn is_expression(field: &Field) -> bool {
-    matches!(field.value, FieldValue::Expr(_))
 }

@@ -2,7 +2,7 @@
 
 use super::roster::Rostered;
 use super::script::embed;
-use super::value::{Frame, Repr, Scope};
+use super::value::Repr;
 use super::Lower;
 use crate::ast::{Expr, ExprKind, Field, FieldValue};
 use crate::check::options::{self, PLAYER, TEAM};
@@ -216,9 +216,4 @@ fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOp
     let reg = share(lower, expr, &format!("`{stat}`"));
     options.stats.retain(|(known, _)| *known != stat);
     options.stats.push((stat, reg));
-}
-
-/// The scope of a team's statements.
-pub(crate) fn team_scope<'w>() -> Scope<'w> {
-    Scope::new(true, Frame::World)
 }

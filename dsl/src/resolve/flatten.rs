@@ -16,8 +16,6 @@ use setpiece_scenario::vocabulary::{Role, Team};
 pub(crate) struct Flat<'a> {
     /// The scenario itself.
     pub(crate) item: &'a ScenarioItem,
-    /// Its documentation.
-    pub(crate) doc: &'a str,
     /// Parameters, parents' first.
     pub(crate) params: Vec<FlatParam<'a>>,
     /// `let`s, parents' first.
@@ -92,7 +90,6 @@ pub(crate) struct FlatEnding<'a> {
 pub(crate) fn flatten<'a>(
     library: &'a Library,
     item: &'a ScenarioItem,
-    doc: &'a str,
     problems: &mut Vec<Problem>,
 ) -> Flat<'a> {
     let links = chain(library, item, "scenario", |item| item.extends.as_ref(), |kind| match kind {
@@ -101,7 +98,6 @@ pub(crate) fn flatten<'a>(
     }, problems);
     let mut flat = Flat {
         item,
-        doc,
         params: Vec::new(),
         lets: Vec::new(),
         consts: Vec::new(),

@@ -18,8 +18,6 @@ pub(crate) struct Library {
     /// Names the loader was asked for, in order.
     pub(crate) inputs: Vec<String>,
     imports: Vec<Vec<Import>>,
-    /// Files that the prelude is made of; they don't see it themselves.
-    of_prelude: Vec<bool>,
     prelude: Option<FileId>,
     seen: Vec<BTreeMap<String, Vec<ItemAt>>>,
 }
@@ -49,7 +47,6 @@ pub(crate) fn load(root: Source, loader: &dyn SourceLoader, problems: &mut Vec<P
         files: Vec::new(),
         inputs: vec![root.name.clone()],
         imports: Vec::new(),
-        of_prelude: Vec::new(),
         prelude: None,
         seen: Vec::new(),
     };
@@ -60,7 +57,6 @@ pub(crate) fn load(root: Source, loader: &dyn SourceLoader, problems: &mut Vec<P
         let known = loading.known(&source.name);
         let prelude = known.unwrap_or_else(|| loading.file(source));
         library.prelude = Some(prelude);
-        library.mark_prelude(prelude);
     }
     library.collect_names(problems);
     library
@@ -169,17 +165,6 @@ impl Library {
         Some(NamedItem { item, name: item_name(item)? })
     }
 
-    fn mark_prelude(&mut self, prelude: FileId) {
-        self.of_prelude = vec![false; self.files.len()];
-        let mut stack = vec![prelude];
-        while let Some(file) = stack.pop() {
-            let Some(mark) = self.of_prelude.get_mut(file.0 as usize) else { continue };
-            if !std::mem::replace(mark, true) {
-                stack.extend(self.imports.get(file.0 as usize).into_iter().flatten().map(|import| import.file));
-            }
-        }
-    }
-
     fn collect_names(&mut self, problems: &mut Vec<Problem>) {
         let own: Vec<_> = self.files.iter().map(|file| own_names(file, problems)).collect();
         let mut seen = Vec::with_capacity(self.files.len());
@@ -189,7 +174,8 @@ impl Library {
             let mut imported = BTreeMap::new();
             self.exports(file, &own, &mut vec![false; self.files.len()], "", &mut imported);
             merge(&mut names, imported);
-            if let Some(prelude) = self.prelude.filter(|_| self.of_prelude.get(id) != Some(&true)) {
+            // The files of the prelude see each other through it, too.
+            if let Some(prelude) = self.prelude {
                 let mut given = own.get(prelude.0 as usize).cloned().unwrap_or_default();
                 self.exports(prelude, &own, &mut vec![false; self.files.len()], "", &mut given);
                 merge(&mut names, given);

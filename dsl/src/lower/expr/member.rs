@@ -6,7 +6,7 @@ use crate::ast::{Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, X_SCALE_M, Y_SCALE_M};
-use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, RegionName, Team};
+use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, RegionName};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 use std::rc::Rc;
 
@@ -269,15 +269,6 @@ impl<'w> Lower<'_, 'w> {
         } else {
             problem.help(format!("it has `{}`", known.join("`, `")))
         })
-    }
-
-    /// The team of a constant register.
-    pub(crate) fn constant_team(&self, reg: Reg) -> Option<Team> {
-        match self.code.constant_of(reg)? {
-            0.0 => Some(Team::Left),
-            1.0 => Some(Team::Right),
-            _ => None,
-        }
     }
 }
 

@@ -1,0 +1,236 @@
+//! The language's specification: `tests/spec/<topic>/*.pitch`, annotated sources.
+//!
+//! A file holds cases. `--- NAME check` begins one; `+++ PATH` begins a further file of it. Every problem must be
+//! annotated below its line, and every annotation met:
+//!
+//! ```text
+//!     ball in right.bocks
+//! //                ^^^^^ SP0204: `right` has no landmark or region `bocks`
+//! //                help: did you mean `box`?
+//! ```
+//!
+//! Where the span begins in the first columns, `// @COLUMN+WIDTH SP0204: …` stands for the carets. With
+//! `SETPIECE_BLESS=1` the annotations are rewritten to what the compiler says.
+
+use setpiece_dsl::problem::Problem;
+use setpiece_dsl::source::{LoadError, Source, SourceLoader};
+use setpiece_dsl::{CompileOptions, Outcome, compile};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Loads further files of the case, and the standard library under `std/`.
+struct CaseLoader {
+    files: Vec<(String, String)>,
+}
+
+impl SourceLoader for CaseLoader {
+    fn load(&self, path: &str, _from: &str) -> Result<Source, LoadError> {
+        if let Some(inner) = path.strip_prefix("std/") {
+            let full = root().join("stdlib-scenarios").join(inner);
+            if let Ok(text) = fs::read_to_string(full) {
+                return Ok(Source { name: path.to_owned(), text: text.into() });
+            }
+        }
+        if let Some((name, text)) = self.files.iter().find(|(name, _)| name == path) {
+            return Ok(Source { name: name.clone(), text: text.as_str().into() });
+        }
+        let names: Vec<String> = self.files.iter().map(|(name, _)| name.clone()).collect();
+        let near = setpiece_dsl::problem::nearest(path, names.iter().map(String::as_str)).map(str::to_owned);
+        Err(LoadError { message: format!("no file `{path}`"), similar: near.into_iter().collect() })
+    }
+}
+
+/// One case: its header line and its files, the root first.
+struct Case {
+    header: String,
+    name: String,
+    files: Vec<(String, String)>,
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn pitch_files(folder: &Path, into: &mut Vec<PathBuf>) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            pitch_files(&path, into);
+        } else if path.extension().is_some_and(|extension| extension == "pitch") {
+            into.push(path);
+        }
+    }
+}
+
+/// Splits a file of cases; the lines before the first header are a preface.
+fn split(text: &str) -> (String, Vec<Case>) {
+    let (mut preface, mut cases) = (String::new(), Vec::<Case>::new());
+    for line in text.lines() {
+        if let Some(header) = line.strip_prefix("--- ") {
+            let name = header.split_whitespace().next().unwrap_or_default().to_owned();
+            cases.push(Case { header: header.to_owned(), name, files: vec![("case.pitch".to_owned(), String::new())] });
+        } else if let (Some(path), Some(case)) = (line.strip_prefix("+++ "), cases.last_mut()) {
+            case.files.push((path.trim().to_owned(), String::new()));
+        } else {
+            let text = match cases.last_mut().and_then(|case| case.files.last_mut()) {
+                Some((_, text)) => text,
+                None => &mut preface,
+            };
+            text.push_str(line);
+            text.push('\n');
+        }
+    }
+    (preface, cases)
+}
+
+fn is_annotation(line: &str) -> bool {
+    let Some(rest) = line.trim_start().strip_prefix("//") else { return false };
+    let rest = rest.trim_start();
+    let code = |text: &str| text.trim_start_matches('^').trim_start().starts_with("SP0");
+    (rest.starts_with('^') && code(rest))
+        || (rest.starts_with('@') && rest.contains(" SP0"))
+        || rest.starts_with("help: ")
+}
+
+/// The text of a file without its annotations.
+fn bare(text: &str) -> String {
+    text.lines().filter(|line| !is_annotation(line)).fold(String::new(), |all, line| all + line + "\n")
+}
+
+/// The text of a file with the problems annotated below their lines.
+fn annotated(text: &str, problems: &[(usize, usize, &Problem)]) -> String {
+    let (mut out, mut offset) = (String::new(), 0);
+    let mut lines: Vec<&str> = text.lines().collect();
+    if lines.is_empty() {
+        lines.push("");
+    }
+    let last = lines.len() - 1;
+    for (number, line) in lines.iter().enumerate() {
+        out.push_str(line);
+        out.push('\n');
+        let end = offset + line.len();
+        for (start, stop, problem) in problems {
+            let here = *start >= offset && (*start <= end || number == last);
+            if !here {
+                continue;
+            }
+            let column = line.get(..(*start - offset).min(line.len())).map_or(0, |head| head.chars().count());
+            let shown = line.get((*start - offset).min(line.len())..(*stop).clamp(*start, end).saturating_sub(offset));
+            let width = shown.map_or(1, |text| text.chars().count()).max(1);
+            let place = if column < 3 {
+                format!("// @{column}+{width}")
+            } else {
+                format!("//{}{}", " ".repeat(column - 2), "^".repeat(width))
+            };
+            out.push_str(&format!("{place} {}: {}\n", problem.code, problem.message));
+            if let Some(help) = &problem.help {
+                out.push_str(&format!("//{}help: {help}\n", " ".repeat(column.max(3) - 2)));
+            }
+        }
+        offset = end + 1;
+    }
+    out
+}
+
+fn run(case: &Case) -> Outcome {
+    let bare: Vec<(String, String)> = case.files.iter().map(|(name, text)| (name.clone(), bare(text))).collect();
+    let (name, text) = bare[0].clone();
+    compile(Source { name, text: text.into() }, &CaseLoader { files: bare }, &CompileOptions::default())
+}
+
+/// The case as it should be annotated.
+fn expected(case: &Case, outcome: &Outcome) -> String {
+    let mut out = format!("--- {}\n", case.header);
+    for (index, (name, text)) in case.files.iter().enumerate() {
+        if index > 0 {
+            out.push_str(&format!("+++ {name}\n"));
+        }
+        let here: Vec<(usize, usize, &Problem)> = outcome
+            .problems
+            .iter()
+            .filter_map(|problem| {
+                let span = problem.labels.first()?.span;
+                let file = outcome.sources.get(span.file)?;
+                (file.name == *name).then_some((span.start as usize, span.end as usize, problem))
+            })
+            .collect();
+        out.push_str(&annotated(&bare(text), &here));
+    }
+    out
+}
+
+#[test]
+fn every_case_of_the_specification_holds() {
+    let bless = std::env::var_os("SETPIECE_BLESS").is_some();
+    let mut paths = Vec::new();
+    pitch_files(&root().join("tests/spec"), &mut paths);
+    assert!(!paths.is_empty(), "no specification found");
+    let (mut faults, mut n) = (Vec::new(), 0);
+    for path in paths {
+        let text = fs::read_to_string(&path).expect("a readable file");
+        let (preface, cases) = split(&text);
+        let mut blessed = preface;
+        for case in cases {
+            n += 1;
+            let kind = case.header.split_whitespace().nth(1).unwrap_or_default();
+            assert_eq!(kind, "check", "{}: `{}` is no kind of case", path.display(), case.header);
+            let outcome = run(&case);
+            let has_errors =
+                outcome.problems.iter().any(|p| p.severity() == setpiece_dsl::problem::Severity::Error);
+            assert_eq!(outcome.scenario.is_none(), has_errors, "{}: {}", path.display(), case.name);
+            let written: String = std::iter::once(format!("--- {}\n", case.header))
+                .chain(case.files.iter().enumerate().map(|(index, (name, text))| {
+                    if index == 0 { text.clone() } else { format!("+++ {name}\n{text}") }
+                }))
+                .collect();
+            let wanted = expected(&case, &outcome);
+            if written != wanted {
+                faults.push(format!("{} {}\n{}", path.display(), case.name, difference(&written, &wanted)));
+            }
+            blessed.push_str(&wanted);
+        }
+        if bless {
+            fs::write(&path, blessed).expect("a writable file");
+        }
+    }
+    assert!(bless || faults.is_empty(), "{} of {n} cases differ:\n\n{}", faults.len(), faults.join("\n\n"));
+}
+
+/// Lines that only one of two texts has.
+fn difference(written: &str, found: &str) -> String {
+    let (written, found): (Vec<&str>, Vec<&str>) = (written.lines().collect(), found.lines().collect());
+    let missing = written.iter().filter(|line| !found.contains(line)).map(|line| format!("  annotated: {line}"));
+    let surplus = found.iter().filter(|line| !written.contains(line)).map(|line| format!("  found:     {line}"));
+    missing.chain(surplus).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_standard_library_compiles_without_a_word() {
+    let folder = root().join("stdlib-scenarios");
+    let mut paths = Vec::new();
+    pitch_files(&folder, &mut paths);
+    let mut n = 0;
+    for path in paths {
+        let text = fs::read_to_string(&path).expect("a readable file");
+        let inner = path.strip_prefix(&folder).expect("inside").to_string_lossy().into_owned();
+        let outcome =
+            compile(Source { name: format!("std/{inner}"), text: text.into() }, &CaseLoader { files: vec![] }, &CompileOptions::default());
+        let words: Vec<String> = outcome
+            .problems
+            .iter()
+            .filter(|problem| problem.code != setpiece_dsl::problem::Code::NoScenario)
+            .map(|problem| {
+                let label = &problem.labels[0];
+                format!("{inner}: {} {} `{}`", problem.code, problem.message, outcome.sources.text(label.span))
+            })
+            .collect();
+        assert!(words.is_empty(), "{}", words.join("\n"));
+        if let Some(scenario) = &outcome.scenario {
+            setpiece_scenario::verify::verify(scenario).expect("a scenario that holds");
+            n += 1;
+        }
+    }
+    assert_eq!(n, 17, "eleven Academy scenarios and six benchmarks");
+}

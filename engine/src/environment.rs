@@ -181,8 +181,8 @@ impl Environment {
     ///
     /// # Errors
     /// [`EnvironmentError`] where a value is not allowed, or where players or agents would change.
-    pub fn set_bindings(&mut self, bindings: Bindings) -> Result<(), EnvironmentError> {
-        let bindings = bound(&self.scenario, Some(&bindings))?;
+    pub fn set_bindings(&mut self, bindings: &Bindings) -> Result<(), EnvironmentError> {
+        let bindings = bound(&self.scenario, Some(bindings))?;
         let roster = Roster::new(&self.scenario, &bindings, self.options.agents.as_ref())?;
         if roster != self.roster {
             return Err(EnvironmentError::Roster);
@@ -345,12 +345,12 @@ fn apply_physics(drawn: &mut Drawn, physics: Option<Physics>) {
 
 fn agent_ids(scenario: &Scenario, roster: &Roster) -> Arc<[String]> {
     let mut roaming = [0usize; 2];
-    let id = |&(team, player): &(Team, Option<PlayerId>)| match player {
-        Some(player) => player_name(scenario, team, player),
-        None => {
-            roaming[team.index()] += 1;
-            format!("{team}_{}", roaming[team.index()] - 1)
+    let id = |&(team, player): &(Team, Option<PlayerId>)| {
+        if let Some(player) = player {
+            return player_name(scenario, team, player);
         }
+        roaming[team.index()] += 1;
+        format!("{team}_{}", roaming[team.index()] - 1)
     };
     roster.agents.iter().map(id).collect()
 }

@@ -93,7 +93,13 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::type_name => "a type, for example `number`",
         Rule::reserved => "a reserved word",
         Rule::role => "a role, for example `CB`",
-        Rule::brace_open | Rule::balanced | Rule::scenario_body | Rule::fields | Rule::team_body | Rule::reward_body | Rule::group_curly => "`{`",
+        Rule::brace_open
+        | Rule::balanced
+        | Rule::scenario_body
+        | Rule::fields
+        | Rule::team_body
+        | Rule::reward_body
+        | Rule::group_curly => "`{`",
         Rule::brace_close => "`}`",
         Rule::paren_open | Rule::group_round => "`(`",
         Rule::paren_close => "`)`",
@@ -119,7 +125,23 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::switch => "`on` or `off`",
         Rule::string => "words in quotes",
         Rule::raw_string => "a script between `\"\"\"` and `\"\"\"`",
-        Rule::expr | Rule::set | Rule::sum | Rule::factor | Rule::or_layer | Rule::and_layer | Rule::not_layer | Rule::cmp_layer | Rule::set_layer | Rule::sum_layer | Rule::term_layer | Rule::unary_layer | Rule::operand | Rule::primary | Rule::value | Rule::param_default | Rule::observed => "a value",
+        Rule::expr
+        | Rule::set
+        | Rule::sum
+        | Rule::factor
+        | Rule::or_layer
+        | Rule::and_layer
+        | Rule::not_layer
+        | Rule::cmp_layer
+        | Rule::set_layer
+        | Rule::sum_layer
+        | Rule::term_layer
+        | Rule::unary_layer
+        | Rule::operand
+        | Rule::primary
+        | Rule::value
+        | Rule::param_default
+        | Rule::observed => "a value",
         Rule::over_time => "a value over time, for example `count of goal`",
         Rule::over_kind => "`count`, `max` or the like",
         Rule::own => "a point of the own frame",

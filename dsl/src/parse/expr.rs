@@ -32,7 +32,10 @@ impl Reader<'_> {
         let weight = node.clone().into_inner().filter(|child| child.as_rule() != Rule::operand).count() as u32 + 1;
         if self.operators + weight > MAX_OPERATORS {
             let message = format!("an expression has more than {MAX_OPERATORS} operators");
-            self.push(Problem::new(Code::TooDeep, span, message, "too long").help("give parts of it names with `let` or `fn`"));
+            self.push(
+                Problem::new(Code::TooDeep, span, message, "too long")
+                    .help("give parts of it names with `let` or `fn`"),
+            );
             return broken(span);
         }
         self.operators += weight;
@@ -123,7 +126,14 @@ impl Reader<'_> {
     }
 
     /// What follows the first operand of a comparison; its operator is taken.
-    fn comparison_tail(&mut self, rule: Rule, op: &Node<'_>, first: &Expr, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn comparison_tail(
+        &mut self,
+        rule: Rule,
+        op: &Node<'_>,
+        first: &Expr,
+        nodes: &mut Nodes<'_>,
+        within: Span,
+    ) -> Expr {
         let op_span = self.span(op);
         match rule {
             Rule::kw_has => {
@@ -299,7 +309,9 @@ impl Reader<'_> {
                     let word = self.ident(&child);
                     path = Some(match path {
                         None => Expr { span: word.span, kind: ExprKind::Name(word.node) },
-                        Some(left) => Expr { span: left.span.to(word.span), kind: ExprKind::Member(Box::new(left), word) },
+                        Some(left) => {
+                            Expr { span: left.span.to(word.span), kind: ExprKind::Member(Box::new(left), word) }
+                        }
                     });
                 }
                 _ => {}
@@ -334,7 +346,10 @@ impl Reader<'_> {
             key = Some(std::mem::replace(&mut value, self.take_expr(&mut nodes, Rule::expr)?));
         }
         let binder = nodes.want(Rule::binder).and_then(|binder| self.binder(binder));
-        let filter = nodes.want(Rule::filter).and_then(|filter| Nodes::of(filter).seek(Rule::expr)).map(|filter| self.expr(filter));
+        let filter = nodes
+            .want(Rule::filter)
+            .and_then(|filter| Nodes::of(filter).seek(Rule::expr))
+            .map(|filter| self.expr(filter));
         Some(Arg { span, key, value, binder, filter })
     }
 

@@ -2,7 +2,9 @@
 
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
-use crate::ast::{Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind, ParamDecl, Ref, RewardItem, ScenarioItem};
+use crate::ast::{
+    Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind, ParamDecl, Ref, RewardItem, ScenarioItem,
+};
 use crate::source::Span;
 use pest::iterators::Pairs;
 use setpiece_grammar::Rule;

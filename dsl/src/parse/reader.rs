@@ -220,8 +220,13 @@ fn disjoint(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
 
 /// A reserved word used as a name.
 pub(super) fn reserved(name: &str, span: Span, whose: &str) -> Problem {
-    Problem::new(Code::ReservedName, span, format!("`{name}` is a word of the language and can't be a name"), format!("belongs to {whose}"))
-        .help(format!("choose another name, for example `my_{}`", name.to_lowercase()))
+    Problem::new(
+        Code::ReservedName,
+        span,
+        format!("`{name}` is a word of the language and can't be a name"),
+        format!("belongs to {whose}"),
+    )
+    .help(format!("choose another name, for example `my_{}`", name.to_lowercase()))
 }
 
 /// The word, number or sign at the start of a text.
@@ -233,7 +238,8 @@ pub(super) fn token(text: &str) -> &str {
             if text.starts_with("///") {
                 return "///";
             }
-            let two = ["==", "!=", "<=", ">=", "..", "->", "//", "&&", "||", "**"].iter().any(|sign| text.starts_with(sign));
+            let two =
+                ["==", "!=", "<=", ">=", "..", "->", "//", "&&", "||", "**"].iter().any(|sign| text.starts_with(sign));
             if two { 2 } else { first.len_utf8() }
         }
         None => 0,

@@ -42,7 +42,9 @@ impl Reader<'_> {
                 // A further line of a statement that was told about is no news.
                 if told.as_ref().is_none_or(|told| indent <= told.indent) {
                     self.recover(context, range.clone(), before.clone());
-                    told = Some(Told { indent: before.as_ref().map_or(indent, |before| indent.min(self.indent(before.start))) });
+                    told = Some(Told {
+                        indent: before.as_ref().map_or(indent, |before| indent.min(self.indent(before.start))),
+                    });
                 }
                 statements.push(broken(self.span(&child), std::mem::take(&mut doc)));
                 before = None;
@@ -89,7 +91,9 @@ impl Reader<'_> {
     /// Reads the block behind a head that went wrong, for the problems in it.
     fn read_block(&mut self, context: Context, junk: &Range<usize>, at: usize) {
         let text = self.text;
-        let Some(brace) = text.get(at..junk.end).and_then(|rest| rest.find('{')).map(|brace| at + brace) else { return };
+        let Some(brace) = text.get(at..junk.end).and_then(|rest| rest.find('{')).map(|brace| at + brace) else {
+            return;
+        };
         let first = token(text.get(junk.start..).unwrap_or_default());
         let Some(keyword) = nearest(first, context.keywords().iter().copied()) else { return };
         let Some(rule) = context.block_of(keyword) else { return };

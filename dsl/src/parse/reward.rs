@@ -12,7 +12,10 @@ impl Reader<'_> {
     pub(super) fn reward_body(&mut self, node: Node<'_>) -> Vec<RewardStmt> {
         let span = self.span(&node);
         let read = |reader: &mut Self| {
-            reader.list(node, Context::Reward, Self::reward_stmt, |span, _| RewardStmt { span, kind: RewardStmtKind::Broken })
+            reader.list(node, Context::Reward, Self::reward_stmt, |span, _| RewardStmt {
+                span,
+                kind: RewardStmtKind::Broken,
+            })
         };
         let body = self.nested(span, read).unwrap_or_default();
         self.find_blocks_after_give(&body);
@@ -31,9 +34,14 @@ impl Reader<'_> {
             let between = self.original().get(give.span.end as usize..block.span.start as usize).unwrap_or_default();
             if matches!(give.kind, RewardStmtKind::Give(_)) && !between.contains(['\n', ';']) {
                 self.push(
-                    Problem::new(Code::BlockAfterGive, block.span.head(self.original()), "a `give` has no block", "this opens a block")
-                        .label(give.span, "so this is given at every step")
-                        .help(format!("put `{head} {{` on its own line, with the `give` inside it")),
+                    Problem::new(
+                        Code::BlockAfterGive,
+                        block.span.head(self.original()),
+                        "a `give` has no block",
+                        "this opens a block",
+                    )
+                    .label(give.span, "so this is given at every step")
+                    .help(format!("put `{head} {{` on its own line, with the `give` inside it")),
                 );
             }
         }

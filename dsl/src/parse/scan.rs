@@ -132,7 +132,14 @@ impl Scanner<'_> {
         let end = if let Some(end) = self.find(at + 2, b"*/") {
             end + 2
         } else {
-            self.problem(at, 2, Code::UnclosedBracket, "this comment is not closed", "opened here", "close it with `*/`");
+            self.problem(
+                at,
+                2,
+                Code::UnclosedBracket,
+                "this comment is not closed",
+                "opened here",
+                "close it with `*/`",
+            );
             self.scan.told.push(at..usize::MAX);
             self.tail.push_str("*/");
             text.len()
@@ -161,7 +168,14 @@ impl Scanner<'_> {
                 Some(_) => end += 1,
             }
         }
-        self.problem(at, 1, Code::UnclosedString, "this string is not closed", "opened here", "close it with `\"` on its line");
+        self.problem(
+            at,
+            1,
+            Code::UnclosedString,
+            "this string is not closed",
+            "opened here",
+            "close it with `\"` on its line",
+        );
         self.scan.told.push(at..end);
         if end < self.bytes.len() {
             self.mends.insert(end, b'"');
@@ -212,7 +226,8 @@ impl Scanner<'_> {
         // A `}` that stands further left than the line of the `{` on top closes one further out.
         let dedented = byte == b'}' && self.line_start;
         let fits = |open: &Open| open.byte == opening && !(dedented && open.indent > self.indent);
-        let matching = self.open.iter().rposition(fits).or_else(|| self.open.iter().rposition(|open| open.byte == opening));
+        let matching =
+            self.open.iter().rposition(fits).or_else(|| self.open.iter().rposition(|open| open.byte == opening));
         // A round bracket does not close anything beyond a block.
         let block = self.open.iter().rposition(|open| open.byte == b'{');
         match matching {
@@ -266,7 +281,8 @@ impl Scanner<'_> {
         .help(format!("close it with `{}`", wanted as char));
         if let Some(closer) = closer {
             let text = self.bytes.get(closer).map_or(' ', |byte| *byte as char);
-            problem = problem.label(span(self.file, closer, closer + 1), format!("this `{text}` belongs to another bracket"));
+            problem =
+                problem.label(span(self.file, closer, closer + 1), format!("this `{text}` belongs to another bracket"));
         }
         self.scan.problems.push(problem);
     }
@@ -274,7 +290,8 @@ impl Scanner<'_> {
     /// The last unused newline or blank before `at`.
     fn blank_before(&self, at: usize, after: usize) -> Option<usize> {
         let range = self.bytes.get(after..at)?;
-        let free = |i: &usize| range.get(*i).is_some_and(u8::is_ascii_whitespace) && !self.mends.contains_key(&(after + i));
+        let free =
+            |i: &usize| range.get(*i).is_some_and(u8::is_ascii_whitespace) && !self.mends.contains_key(&(after + i));
         (0..range.len()).rev().take(4096).find(free).map(|i| after + i).filter(|i| !self.in_comment(*i))
     }
 
@@ -329,5 +346,7 @@ impl Scanner<'_> {
 
 /// Whether a word that can only begin an item stands here.
 fn begins_item(rest: &[u8]) -> bool {
-    ["scenario ", "abstract scenario ", "formation ", "import ", "behavior "].iter().any(|word| rest.starts_with(word.as_bytes()))
+    ["scenario ", "abstract scenario ", "formation ", "import ", "behavior "]
+        .iter()
+        .any(|word| rest.starts_with(word.as_bytes()))
 }

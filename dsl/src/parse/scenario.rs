@@ -2,7 +2,9 @@
 
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
-use crate::ast::{BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt, ScenarioStmtKind, Spanned};
+use crate::ast::{
+    BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt, ScenarioStmtKind, Spanned,
+};
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -76,7 +78,8 @@ impl Reader<'_> {
             Rule::end => ScenarioStmtKind::End(self.end(nodes.next()?)?),
             Rule::require => {
                 let condition = self.take_expr(&mut nodes, Rule::condition)?;
-                let probability = if nodes.eat(Rule::kw_with) { self.take_expr(&mut nodes, Rule::factor) } else { None };
+                let probability =
+                    if nodes.eat(Rule::kw_with) { self.take_expr(&mut nodes, Rule::factor) } else { None };
                 ScenarioStmtKind::Require { condition, probability, label: self.label(&mut nodes) }
             }
             Rule::remove => {

@@ -198,12 +198,11 @@ impl RewardJudge {
         let active = game.players.each_ref().map(|player| player.active);
         let first = Team::ALL.iter().map(|team| agents.iter().position(|agent| agent.team == *team));
         let first: arrayvec::ArrayVec<Option<usize>, 2> = first.collect();
-        agents.into_iter().take(n_agents).enumerate().filter_map(move |(agent, slot)| {
-            (!shared || first.contains(&Some(agent))).then(|| Judged {
-                agent,
-                team: slot.team,
-                me: slot.player.filter(|player| active[player.index()]),
-            })
+        let judged = agents.into_iter().take(n_agents).enumerate();
+        judged.filter(move |(agent, _)| !shared || first.contains(&Some(*agent))).map(move |(agent, slot)| Judged {
+            agent,
+            team: slot.team,
+            me: slot.player.filter(|player| active[player.index()]),
         })
     }
 

@@ -11,7 +11,9 @@ pub const SMM_HEIGHT: usize = 72;
 /// Own team, opponents, ball, controlled player.
 const PLANES: usize = 4;
 const SET: u8 = 255;
-/// The map shows x in -1..1 and y within ± this.
+/// The map shows x within ± this.
+const X_EDGE: f64 = 1.0;
+/// The map shows y within ± this.
 const Y_EDGE: f64 = 1.0 / 2.25;
 
 /// Bytes of a map.
@@ -32,7 +34,7 @@ pub fn smm(game: &Match, agent: usize, width: usize, height: usize, out: &mut [u
     out.fill(0);
     let frame = Frame { game, us: slot.team };
     let mut mark = |[x, y]: [f64; 2], plane: usize| {
-        let column = pixel((x + 1.0) / 2.0, width);
+        let column = pixel((x + X_EDGE) / (2.0 * X_EDGE), width);
         let row = pixel((y + Y_EDGE) / (2.0 * Y_EDGE), height);
         if let Some(byte) = out.get_mut((row * width + column) * PLANES + plane) {
             *byte = SET;

@@ -9,8 +9,10 @@ use setpiece_scenario::vocabulary::{Role, Unit};
 use std::ops::Range;
 
 /// Words that follow a role.
-const AFTER_ROLE: &[&str] =
-    &["at", "in", "ahead", "behind", "left", "right", "between", "beyond", "offset", "absent", "facing", "jitter", "when", "{"];
+const AFTER_ROLE: &[&str] = &[
+    "at", "in", "ahead", "behind", "left", "right", "between", "beyond", "offset", "absent", "facing", "jitter",
+    "when", "{",
+];
 
 impl Reader<'_> {
     /// The problem of a text that stops making sense at `at`.
@@ -27,7 +29,9 @@ impl Reader<'_> {
         let outside = at >= junk.end;
         let special = self
             .unit(at)
-            .or_else(|| if outside { None } else { self.role_or_keyword(context, junk, before.as_ref(), at, word, positives) })
+            .or_else(|| {
+                if outside { None } else { self.role_or_keyword(context, junk, before.as_ref(), at, word, positives) }
+            })
             .or_else(|| self.reserved_name(at, word, positives));
         if let Some(problem) = special {
             return problem;
@@ -67,9 +71,11 @@ impl Reader<'_> {
         }
         let line = before.get(before.rfind('\n').map_or(0, |newline| newline + 1)..)?;
         let digits = line.trim_end_matches([' ', '\t']);
-        let number_len = digits.len() - digits.trim_end_matches(|char: char| char.is_ascii_digit() || char == '.').len();
+        let number_len =
+            digits.len() - digits.trim_end_matches(|char: char| char.is_ascii_digit() || char == '.').len();
         let number = digits.get(digits.len() - number_len..)?;
-        let part_of_name = digits.get(..digits.len() - number_len)?.ends_with(|char: char| char.is_alphanumeric() || char == '_');
+        let part_of_name =
+            digits.get(..digits.len() - number_len)?.ends_with(|char: char| char.is_alphanumeric() || char == '_');
         if !number.ends_with(|char: char| char.is_ascii_digit()) || part_of_name {
             return None;
         }
@@ -90,8 +96,13 @@ impl Reader<'_> {
         let gap = line.len() - digits.len();
         let span = self.between(at - gap - number.len(), at + word.len());
         Some(
-            Problem::new(Code::Syntax, span, format!("the unit `{}` must touch its number", unit.name()), "a blank between them")
-                .help(format!("write `{number}{}`", unit.name())),
+            Problem::new(
+                Code::Syntax,
+                span,
+                format!("the unit `{}` must touch its number", unit.name()),
+                "a blank between them",
+            )
+            .help(format!("write `{number}{}`", unit.name())),
         )
     }
 
@@ -110,7 +121,8 @@ impl Reader<'_> {
         }
         let behind = token(self.text.get(self.next_token(at + word.len())..).unwrap_or_default());
         let starts = at == junk.start;
-        let counted = self.text.get(junk.start..at).is_some_and(|text| text.trim_end().bytes().all(|byte| byte.is_ascii_digit()));
+        let counted =
+            self.text.get(junk.start..at).is_some_and(|text| text.trim_end().bytes().all(|byte| byte.is_ascii_digit()));
         let continuing = positives.iter().filter_map(|rule| keyword(*rule));
         if context == Context::Team && (starts || counted) {
             if let Some(problem) = self.unknown_role_of_field(context, before, word) {
@@ -127,7 +139,11 @@ impl Reader<'_> {
             if let Some(problem) = self.misplaced(context, word, at) {
                 return Some(problem);
             }
-            let all = context.keywords().iter().copied().chain(if before.is_some() { continuing.clone().collect() } else { Vec::new() });
+            let all = context.keywords().iter().copied().chain(if before.is_some() {
+                continuing.clone().collect()
+            } else {
+                Vec::new()
+            });
             let meant = nearest(word, all).filter(|meant| *meant != word)?;
             return Some(self.misspelt(noun(context.statement()), word, at, meant));
         }
@@ -168,14 +184,16 @@ impl Reader<'_> {
     fn reserved_name(&self, at: usize, word: &str, positives: &[Rule]) -> Option<Problem> {
         let name = positives.iter().any(|rule| matches!(rule, Rule::ident | Rule::free_name));
         let role = Role::from_name(word).is_some();
-        (name && (role || is_reserved(word))).then(|| reserved(word, self.at(at), if role { "roles" } else { "the language" }))
+        (name && (role || is_reserved(word)))
+            .then(|| reserved(word, self.at(at), if role { "roles" } else { "the language" }))
     }
 }
 
 /// Whether a word is reserved everywhere.
 fn is_reserved(word: &str) -> bool {
     use pest::Parser;
-    setpiece_grammar::PitchParser::parse(Rule::reserved, word).is_ok_and(|mut pairs| pairs.as_str().len() == word.len() && pairs.next().is_some())
+    setpiece_grammar::PitchParser::parse(Rule::reserved, word)
+        .is_ok_and(|mut pairs| pairs.as_str().len() == word.len() && pairs.next().is_some())
 }
 
 /// `steps` and `episodes` stand apart from their number.
@@ -188,8 +206,25 @@ fn goes_on(rule: Rule) -> bool {
     use Rule as R;
     matches!(
         rule,
-        R::EOI | R::sign | R::add_op | R::mul_op | R::set_op | R::cmp_op | R::dot | R::kw_and | R::kw_or | R::kw_not | R::kw_in
-            | R::kw_has | R::kw_changes | R::doc | R::unit | R::long_unit | R::over_kind | R::kw_own | R::star
+        R::EOI
+            | R::sign
+            | R::add_op
+            | R::mul_op
+            | R::set_op
+            | R::cmp_op
+            | R::dot
+            | R::kw_and
+            | R::kw_or
+            | R::kw_not
+            | R::kw_in
+            | R::kw_has
+            | R::kw_changes
+            | R::doc
+            | R::unit
+            | R::long_unit
+            | R::over_kind
+            | R::kw_own
+            | R::star
     )
 }
 

@@ -19,7 +19,8 @@ pub(in crate::parse) enum Context {
 
 impl Context {
     /// Every list.
-    pub(super) const ALL: [Context; 5] = [Context::File, Context::Scenario, Context::Team, Context::Reward, Context::Fields];
+    pub(super) const ALL: [Context; 5] =
+        [Context::File, Context::Scenario, Context::Team, Context::Reward, Context::Fields];
 
     /// The rule of a statement.
     pub(super) const fn statement(self) -> Rule {
@@ -58,12 +59,23 @@ impl Context {
     pub(super) const fn keywords(self) -> &'static [&'static str] {
         match self {
             Context::File => &[
-                "import", "abstract", "scenario", "reward", "formation", "const", "fn", "region", "ending", "behavior",
-                "curriculum", "suite", "check",
+                "import",
+                "abstract",
+                "scenario",
+                "reward",
+                "formation",
+                "const",
+                "fn",
+                "region",
+                "ending",
+                "behavior",
+                "curriculum",
+                "suite",
+                "check",
             ],
             Context::Scenario => &[
-                "param", "let", "const", "region", "rules", "agents", "ball", "team", "kickoff", "start", "reward", "end",
-                "require", "record", "remove", "mirror", "observe",
+                "param", "let", "const", "region", "rules", "agents", "ball", "team", "kickoff", "start", "reward",
+                "end", "require", "record", "remove", "mirror", "observe",
             ],
             Context::Team => &["place", "each"],
             Context::Reward => &["state", "let", "give", "on", "when"],

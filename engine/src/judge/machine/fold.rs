@@ -25,7 +25,6 @@ impl Folding {
     pub(super) fn add(&mut self, element: f64, value: f64) {
         self.n += 1;
         match self.kind {
-            FoldKind::Nothing | FoldKind::Count => {}
             FoldKind::Sum | FoldKind::Mean => self.value += value,
             FoldKind::Min if value < self.value || value.is_nan() => self.value = value,
             FoldKind::Max if value > self.value || value.is_nan() => self.value = value,
@@ -36,6 +35,7 @@ impl Folding {
             FoldKind::ArgMax if value > self.value => (self.value, self.element) = (value, element),
             // An infinite value is still somebody's.
             FoldKind::ArgMin | FoldKind::ArgMax if self.element < 0.0 && value == self.value => self.element = element,
+            // Counting needs no value; a value that is not extreme changes nothing.
             _ => {}
         }
     }
@@ -45,11 +45,10 @@ impl Folding {
         match self.kind {
             FoldKind::Nothing => 0.0,
             FoldKind::Count => self.n.into(),
-            FoldKind::Sum | FoldKind::Any | FoldKind::All => self.value,
             FoldKind::ArgMin | FoldKind::ArgMax => self.element,
             FoldKind::Mean | FoldKind::Min | FoldKind::Max if self.n == 0 => f64::NAN,
             FoldKind::Mean => self.value / f64::from(self.n),
-            FoldKind::Min | FoldKind::Max => self.value,
+            FoldKind::Sum | FoldKind::Any | FoldKind::All | FoldKind::Min | FoldKind::Max => self.value,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::judge::view::{View, player_index, team_of_number};
 use setpiece_scenario::pitch::TEAM_MAX;
+use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{BinaryOp, UnaryOp};
 use std::f64::consts::{PI, TAU};
 
@@ -24,7 +25,7 @@ pub(super) fn unary(op: UnaryOp, a: f64, now: &View) -> f64 {
         UnaryOp::Round => libm::round(a),
         UnaryOp::Sin => libm::sin(a),
         UnaryOp::Cos => libm::cos(a),
-        UnaryOp::Side => team_of_number(a).map_or(f64::NAN, |team| team.side()),
+        UnaryOp::Side => team_of_number(a).map_or(f64::NAN, Team::side),
         UnaryOp::OtherTeam => team_of_number(a).map_or(-1.0, |team| team.other().index() as f64),
         UnaryOp::TeamOf => player_index(a).map_or(-1.0, |index| (index / TEAM_MAX) as f64),
         UnaryOp::Exists => now.player(a).is_some_and(|player| player.active).into(),
@@ -64,7 +65,7 @@ pub(super) fn binary(op: BinaryOp, a: f64, b: f64) -> f64 {
         BinaryOp::Gt => (a > b).into(),
         BinaryOp::Ge => (a >= b).into(),
         BinaryOp::Eq => (a == b).into(),
-        BinaryOp::Ne => (a < b || a > b).into(),
+        BinaryOp::Ne => (a != b && !a.is_nan() && !b.is_nan()).into(),
         BinaryOp::And => (truth(a) && truth(b)).into(),
         BinaryOp::Or => (truth(a) || truth(b)).into(),
     }

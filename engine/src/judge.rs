@@ -151,3 +151,6 @@ impl Judge {
         ))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,6 +9,8 @@ use crate::vocabulary::{Owner, Team};
 
 /// Most instructions of one program.
 const CODE_MAX: usize = 100_000;
+/// Deepest nesting of loops: each multiplies the work by the number of players.
+const LOOPS_MAX: usize = 4;
 
 /// Says what is wrong with a scenario, if anything.
 ///
@@ -177,6 +179,9 @@ fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usiz
                 }
                 if !matches!(place, Place::Step { .. }) {
                     return Err(format!("instruction {at} reads the match before it has begun"));
+                }
+                if open.len() >= LOOPS_MAX {
+                    return Err(format!("the loop at {at} is nested more than {LOOPS_MAX} deep"));
                 }
                 let events = matches!(each.over, crate::program::Over::Events(_));
                 open.push((at, end, each.fold.clone(), events));

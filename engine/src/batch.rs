@@ -3,8 +3,10 @@
 //! Parallel over matches, never inside one: what an episode gives depends on its seed and index alone, so results are the
 //! same on any number of threads, and come in the order of the episodes.
 
+use crate::control::agents::Agent;
 use crate::draw::DrawError;
 use crate::environment::{Environment, Scratch, StepError, StepResult};
+use crate::random::{Purpose, Stream};
 use crate::statistics::MatchStatistics;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -25,6 +27,30 @@ pub trait Policy {
 impl<F: FnMut(&Environment, usize) -> Action> Policy for F {
     fn act(&mut self, environment: &Environment, agent: usize) -> Action {
         self(environment, agent)
+    }
+}
+
+/// A ready-made agent as a policy; one that acts at random draws from the episode's seed.
+#[derive(Clone, Debug)]
+pub struct ReadyMade {
+    agent: Agent,
+    stream: Stream,
+}
+
+impl ReadyMade {
+    /// A ready-made agent that plays every slot.
+    pub fn new(agent: Agent) -> ReadyMade {
+        ReadyMade { agent, stream: Stream::new(0, 0, Purpose::Agent) }
+    }
+}
+
+impl Policy for ReadyMade {
+    fn begin(&mut self, environment: &Environment) {
+        self.stream = Stream::new(environment.seed(), environment.index(), Purpose::Agent);
+    }
+
+    fn act(&mut self, environment: &Environment, agent: usize) -> Action {
+        self.agent.act(environment.state(), agent, &mut self.stream)
     }
 }
 
@@ -214,23 +240,9 @@ impl Batch {
 mod tests {
     use super::*;
     use crate::environment::EnvironmentOptions;
-    use crate::random::{Purpose, Stream};
     use crate::testing::{scenario, scoring};
     use setpiece_scenario::vocabulary::{Role, Team};
     use std::sync::Arc;
-
-    /// Acts at random from the episode's seed.
-    struct Random(Stream);
-
-    impl Policy for Random {
-        fn begin(&mut self, environment: &Environment) {
-            self.0 = Stream::new(environment.seed(), environment.index(), Purpose::Agent);
-        }
-
-        fn act(&mut self, _: &Environment, _: usize) -> Action {
-            Action::ALL[self.0.below(19) as usize]
-        }
-    }
 
     fn prototype() -> Environment {
         let mut scenario = scenario(&[(Team::Left, Role::CF, 0.5, 0.0), (Team::Right, Role::GK, 50.0, 0.0)]);
@@ -241,7 +253,7 @@ mod tests {
 
     #[test]
     fn threads_change_nothing() {
-        let random = || Random(Stream::new(0, 0, Purpose::Agent));
+        let random = || ReadyMade::new(Agent::Random);
         let run = |threads| run_episodes(&prototype(), 7, 0..8, threads, random, |_| ()).unwrap();
         let (one, three) = (run(1), run(3));
         assert_eq!(one, three);

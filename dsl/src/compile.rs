@@ -87,6 +87,9 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         (span.map(|span| (span.file, span.start, span.end)), problem.code, problem.message.clone())
     });
     problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
+    if problems.iter().any(|problem| matches!(problem.code.number(), 101..=107)) {
+        problems.retain(|problem| !follows_from_gaps(problem.code));
+    }
     let failed = problems.iter().any(|problem| problem.severity() == Severity::Error);
     let (scenario, origins) = match chosen {
         Some((scenario, origins)) => ((!failed).then_some(scenario), origins),
@@ -94,6 +97,14 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     };
     debug_assert_eq!(scenario.as_ref().map(setpiece_scenario::verify::verify), scenario.as_ref().map(|_| Ok(())));
     Outcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
+}
+
+/// Whether a problem may be nothing but the echo of a statement that could not be read.
+fn follows_from_gaps(code: Code) -> bool {
+    matches!(
+        code,
+        Code::UnusedName | Code::NoEnding | Code::NoBall | Code::BadAgents | Code::WrongRoster | Code::NothingToRemove
+    )
 }
 
 fn not_yet(what: &str, span: Span) -> Problem {

@@ -221,7 +221,7 @@ impl<'c, 'w> Lower<'c, 'w> {
     pub(crate) fn reg(&mut self, value: &Value<'w>) -> Reg {
         match value.repr {
             Repr::One(reg) | Repr::Choice(reg, _) => reg,
-            _ => self.code.constant(0.0),
+            _ => self.code.unknown(),
         }
     }
 
@@ -230,8 +230,8 @@ impl<'c, 'w> Lower<'c, 'w> {
         match value.repr {
             Repr::Two(x, y) | Repr::Three(x, y, _) => (x, y),
             _ => {
-                let zero = self.code.constant(0.0);
-                (zero, zero)
+                let unknown = self.code.unknown();
+                (unknown, unknown)
             }
         }
     }

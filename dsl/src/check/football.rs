@@ -31,8 +31,8 @@ pub(crate) fn check_places(
     options: &[PlayerOptions],
     ball: Option<&BallStart>,
 ) -> Placed {
-    if let (Some(ball), Some((_, span))) = (ball, lower.world.flat.ball) {
-        check_on_pitch(lower, (ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M), "the ball", span);
+    if let (Some(ball), Some((stmt, _))) = (ball, lower.world.flat.ball) {
+        check_on_pitch(lower, (ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M), "the ball", stmt.place.span);
     }
     let mut on_pitch = Vec::new();
     let mut apart = Vec::new();
@@ -47,7 +47,6 @@ pub(crate) fn check_places(
         }
         for a in 0..situation.len() {
             for b in a + 1..situation.len() {
-                // The second kick-off of one team is the first of the other: inside a team both are the same pairs.
                 if let Some(reg) = check_pair(lower, situation, (a, b), options, nth) {
                     apart.push(reg);
                 }
@@ -143,6 +142,9 @@ fn check_pair(
     let (p, q) = (*situation.get(a)?, *situation.get(b)?);
     let constant = |place: (Reg, Reg)| Some((lower.code.constant_of(place.0)?, lower.code.constant_of(place.1)?));
     let (first, second) = (lower.world.roster.get(a)?, lower.world.roster.get(b)?);
+    if [p.0, p.1, q.0, q.1].into_iter().any(|reg| lower.code.is_unknown(reg)) {
+        return None;
+    }
     if let (Some(x), Some(y)) = (constant(p), constant(q)) {
         let apart = ((x.0 - y.0).powi(2) + (x.1 - y.1).powi(2)).sqrt();
         if apart >= SAME_SPOT_M || one.present.is_some() || other.present.is_some() {

@@ -174,6 +174,16 @@ impl Builder {
         self.shared(ROOT, Key::Param(index), Instr::Param(index))
     }
 
+    /// The register of a broken expression: nothing is known of it, so that nothing more is found wrong with it.
+    pub(crate) fn unknown(&mut self) -> Reg {
+        self.param(u32::MAX)
+    }
+
+    /// Whether a register belongs to a broken expression.
+    pub(crate) fn is_unknown(&self, reg: Reg) -> bool {
+        self.depends(reg, &|instr| matches!(instr, Instr::Param(u32::MAX)))
+    }
+
     /// A scenario `let`.
     pub(crate) fn scenario_let(&mut self, index: u32) -> Reg {
         self.shared(ROOT, Key::Let(index), Instr::Let(index))

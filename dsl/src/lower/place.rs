@@ -51,9 +51,10 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
+    /// The place of what has none: a problem has been told.
     fn nowhere(&mut self) -> (Reg, Reg) {
-        let zero = self.code.constant(0.0);
-        (zero, zero)
+        let unknown = self.code.unknown();
+        (unknown, unknown)
     }
 
     /// A player's place in a step program.

@@ -79,7 +79,7 @@ fn constant_weight<'w>(world: &World<'w>, weight: &'w Expr) -> Option<f64> {
     let mut lower = Lower::new(world, Stage::Constant, Scope::new(true, Frame::World));
     let reg = lower.want_reg(weight, Ty::Number);
     let found = lower.code.constant_of(reg);
-    if found.is_none() {
+    if found.is_none() && !lower.code.is_unknown(reg) {
         world.report(
             Problem::new(Code::NotConstant, weight.span, "the weight of a script must be a number", "")
                 .help("multiply inside the script, or write a plain number"),

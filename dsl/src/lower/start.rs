@@ -515,7 +515,7 @@ impl<'w> Lower<'_, 'w> {
         let (expr, _) = self.world.flat.limit?;
         let reg = self.want_reg(expr, Ty::DURATION);
         self.check_not_drawn(reg, "the limit", expr.span);
-        self.check_range(reg, (0.1, 1.0e6), "the limit", expr.span, "`1 steps` or more");
+        self.check_range(reg, (0.1, 1.0e6), "the limit", expr.span, "`1 step` or more");
         Some(reg)
     }
 

@@ -147,6 +147,7 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
             let reg = lower.condition(expr);
             match lower.code.constant_of(reg) {
                 Some(value) => options.controllable = value != 0.0,
+                None if lower.code.is_unknown(reg) => {}
                 None => lower.report(
                     Problem::new(Code::NotConstant, expr.span, "`controllable` must be `on` or `off`", "")
                         .help("the number of agents can't change with a parameter's value here"),

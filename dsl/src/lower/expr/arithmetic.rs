@@ -190,14 +190,15 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn check_divisor(&self, divisor: Reg, expr: &Expr, span: Span) {
         let text = self.world.text(expr.span);
         match self.interval(divisor) {
-            Some((0.0, 0.0)) => self.report(
-                Problem::new(Code::Impossible, span, format!("`{text}` is 0, and nothing can be divided by it"), ""),
-            ),
+            Some((0.0, 0.0)) => {
+                let what = if text == "0" { String::new() } else { format!("`{text}` is 0, and ") };
+                self.report(Problem::new(Code::Impossible, span, format!("{what}nothing can be divided by 0"), ""));
+            }
             Some((low, high)) if low <= 0.0 && high >= 0.0 => self.report(
                 Problem::new(
                     Code::Impossible,
                     span,
-                    format!("`{text}` can become 0, and nothing can be divided by it"),
+                    format!("`{text}` can become 0, and nothing can be divided by 0"),
                     format!("between {low} and {high}"),
                 )
                 .help("narrow the parameter's range"),

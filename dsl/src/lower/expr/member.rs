@@ -98,15 +98,18 @@ impl<'w> Lower<'_, 'w> {
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
         known.push("score");
         let text = self.world.text(of);
-        self.fail(
-            Problem::new(
-                Code::UnknownMember,
-                at,
-                format!("`{text}` has no landmark or region `{name}`"),
-                "not known",
-            )
-            .did_you_mean(name, known),
-        )
+        let problem = Problem::new(
+            Code::UnknownMember,
+            at,
+            format!("`{text}` has no landmark or region `{name}`"),
+            "not known",
+        );
+        let near = crate::problem::nearest(name, known.iter().copied()).is_some();
+        self.fail(if near {
+            problem.did_you_mean(name, known)
+        } else {
+            problem.help(format!("a team has `{}`", known.join("`, `")))
+        })
     }
 
     fn middle_third(&mut self) -> Value<'w> {
@@ -145,7 +148,10 @@ impl<'w> Lower<'_, 'w> {
             "velocity" => self.velocity(value, span),
             "speed" => {
                 let flat = self.velocity(value, span);
-                let Some(z) = self.code_load(Field::BallVz, span) else { return Value::error() };
+                if flat.is_error() {
+                    return flat;
+                }
+                let z = self.code.load(Field::BallVz, None, self.when);
                 let (x, y) = self.pair(&flat);
                 let ground = self.code.binary(BinaryOp::Hypot, x, y);
                 Value::one(Ty::SPEED, self.code.binary(BinaryOp::Hypot, ground, z))
@@ -195,18 +201,15 @@ impl<'w> Lower<'_, 'w> {
         self.load(field, Some(reg), name, span).map_or_else(Value::error, |r| Value::one(ty, r))
     }
 
-    fn code_load(&mut self, field: Field, span: Span) -> Option<Reg> {
-        self.load(field, None, field.name(), span)
-    }
-
     /// A player's or the ball's velocity along the ground, world frame.
     pub(super) fn velocity(&mut self, value: &Value<'w>, span: Span) -> Value<'w> {
         let (fields, of) = match value.ty {
             Ty::Player => ((Field::PlayerVx, Field::PlayerVy), Some(self.reg(value))),
             _ => ((Field::BallVx, Field::BallVy), None),
         };
-        let Some(x) = self.load(fields.0, of, "velocity", span) else { return Value::error() };
-        let Some(y) = self.load(fields.1, of, "velocity", span) else { return Value::error() };
+        let text = self.world.text(span);
+        let Some(x) = self.load(fields.0, of, &text, span) else { return Value::error() };
+        let y = self.code.load(fields.1, of, self.when);
         Value::two(Ty::Velocity, (x, y))
     }
 

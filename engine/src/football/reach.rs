@@ -6,7 +6,7 @@ use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};
 
 /// Highest ball that a player can play without his hands, metres.
-pub const PLAYABLE_M: f32 = 1.9;
+pub const PLAYABLE_M: f32 = 1.25;
 /// How near the ball must come to be played, metres.
 const REACH_M: f32 = 0.45;
 

@@ -17,6 +17,8 @@ use setpiece_scenario::vocabulary::{EventKind, Rule, Stat};
 const FOOT_M: f32 = 0.65;
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
+/// A higher ball is headed, or left to come down, metres.
+const CHEST_M: f32 = 1.25;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 
@@ -35,6 +37,9 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
             continue;
         }
         let id = PlayerId(i as u8);
+        if ball.z > CHEST_M && !heads(game, id) {
+            continue;
+        }
         if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
             nearest = Some((distance, id));
         }
@@ -43,7 +48,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
     let near = libm::sqrtf(distance);
     let owner = game.owner.or_else(|| controller(game));
     if owner == Some(id) {
-        if near <= FOOT_M && ball.z < 0.9 {
+        if near <= FOOT_M && ball.z < 0.5 {
             dribble(game, events, id);
         }
     } else if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
@@ -87,6 +92,14 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
         Some(to) if to != id => game.play.chaser[id.team().index()] == Some(id),
         _ => game.play.shot.is_none() || matches!(player.body.intent, Intent::Ball(_)),
     }
+}
+
+/// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as his kick.
+fn heads(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    let deep = player.pos.x * id.team().side() as f32 <= -25.0;
+    let rival = || game.team(id.team().other()).any(|(_, rival)| rival.pos.distance_squared(player.pos) < 2.2 * 2.2);
+    player.body.kick.is_some() || deep || rival()
 }
 
 /// Pushes the ball on in the way he wants to run, where it isn't rolling that way already.
@@ -159,7 +172,7 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
             return;
         }
     }
-    if ball.pos.z > 1.2 {
+    if ball.pos.z > CHEST_M {
         header(game, events, id);
         return;
     }
@@ -204,6 +217,13 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     if !flight::touched(game, events, id, true) {
         return;
     }
+    // Whoever jumped with him has lost this ball.
+    let landing = game.tick as i32 + 40;
+    for other in &mut game.players {
+        if other.active && other.pos.distance_squared(player.pos) < 1.5 * 1.5 {
+            other.body.ready_at = landing;
+        }
+    }
     game.players[id.index()].body.kick = None;
     game.ball.vel = Vec3::new(flat.x, flat.y, if shot { -0.5 } else { rise });
     game.ball.spin = Vec3::ZERO;
@@ -219,7 +239,9 @@ pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2,
         return;
     }
     let velocity = velocity.clamp_length_max(14.0);
-    game.ball.vel = velocity.extend(hop);
+    // A ball in the air is brought down.
+    let fall = if game.ball.pos.z > 0.3 { game.ball.vel.z.min(0.0) - 1.0 } else { 0.0 };
+    game.ball.vel = velocity.extend(if hop > 0.0 { hop } else { fall });
     game.ball.pos.z = game.ball.pos.z.max(0.11);
     // Rolling: the spin that belongs to the speed.
     game.ball.spin = Vec3::new(-velocity.y, velocity.x, 0.0) / 0.11;

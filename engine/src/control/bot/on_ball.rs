@@ -23,11 +23,13 @@ struct Choice {
 #[derive(Clone, Copy, Debug)]
 enum Act {
     Shoot(Vec2),
-    Pass(PlayerId, KickKind),
+    Pass(PlayerId, KickKind, Option<Vec2>),
     Clear,
     Run(Vec2, f32),
 }
 
+/// What a pass must be better than running on.
+const PASS_COST: f32 = 0.008;
 /// Steps between two thoughts.
 const PAUSE_STEPS: u32 = 2;
 
@@ -73,7 +75,7 @@ pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
 /// The best of all choices.
 fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
     let player = *game.player(id);
-    let fickle = 0.012 + 0.05 * (1.0 - player.body.level);
+    let fickle = 0.003 + 0.02 * (1.0 - player.body.level);
     let mut best = Choice { worth: f32::MIN, act: Act::Clear };
     let mut offer = |game: &mut Match, worth: f32, act: Act| {
         let worth = worth + (noise::whim(game) - 0.5) * 2.0 * fickle;
@@ -83,14 +85,14 @@ fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
     };
     let own = player.pos * view.side;
     let (chance, target) = shot_chance(game, view, id);
-    if chance > 0.045 {
-        offer(game, chance * 1.5, Act::Shoot(target));
+    if chance > 0.035 {
+        offer(game, chance * 1.8, Act::Shoot(target));
     }
     let mates: arrayvec::ArrayVec<PlayerId, 11> =
         game.team(view.team).map(|(mate, _)| mate).filter(|mate| *mate != id).collect();
     for mate in mates {
-        let (worth, kind) = pass_worth(game, view, id, mate);
-        offer(game, worth, Act::Pass(mate, kind));
+        let (worth, kind, point) = pass_worth(game, view, id, mate);
+        offer(game, worth - PASS_COST, Act::Pass(mate, kind, point));
     }
     if with_run {
         for step in 0..8u8 {
@@ -128,9 +130,9 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, choice: Choice) {
                 KickPlan { kind: KickKind::Shot, point: Some(point * view.side), power: 0.55 + 0.4 * luck, ..plan };
             game.players[id.index()].body.kick = Some(plan);
         }
-        Act::Pass(mate, kind) => {
+        Act::Pass(mate, kind, point) => {
             body.dribble = Vec2::ZERO;
-            body.kick = Some(KickPlan { kind, mate: Some(mate), ..plan });
+            body.kick = Some(KickPlan { kind, mate: Some(mate), point, ..plan });
         }
         Act::Clear => {
             let own = body.meet * view.side;
@@ -191,7 +193,7 @@ fn value(own: Vec2) -> f32 {
     let goal = own.distance(Vec2::new(54.0, 0.0));
     let near = (1.0 - goal / 32.0).max(0.0);
     let wing = (own.y.abs() / 36.0).powi(2) * 0.012;
-    0.012 + 0.065 * forward * forward + 0.20 * near * near - wing
+    0.008 + 0.13 * forward * forward + 0.22 * near * near - wing
 }
 
 /// The chance that a shot from here goes in, and the point it should aim at (own frame).
@@ -254,10 +256,10 @@ fn lane(game: &Match, view: &View, from: Vec2, to: Vec2, speed: f32) -> f32 {
 }
 
 /// What a pass to a mate is worth, and which kind is best.
-fn pass_worth(game: &Match, view: &View, id: PlayerId, mate: PlayerId) -> (f32, KickKind) {
+fn pass_worth(game: &Match, view: &View, id: PlayerId, mate: PlayerId) -> (f32, KickKind, Option<Vec2>) {
     let (player, other) = (game.player(id), game.player(mate));
     let distance = other.pos.distance(player.pos);
-    let nothing = (f32::MIN, KickKind::Short);
+    let nothing = (f32::MIN, KickKind::Short, None);
     if !(4.0..48.0).contains(&distance) {
         return nothing;
     }
@@ -267,7 +269,7 @@ fn pass_worth(game: &Match, view: &View, id: PlayerId, mate: PlayerId) -> (f32, 
     }
     let own = player.pos * view.side;
     let target = pass_target::lead(other, distance);
-    let loss = 0.10 * (1.0 - value_share(own)) + 0.012;
+    let loss = loss(own);
     let rate = |free: f32, room: f32, at: Vec2, skill: f32, hard: f32| {
         let odds = (0.12 + 0.86 * free) * (0.55 + 0.45 * room) * (1.0 - hard * (1.1 - skill));
         odds * (value(at) + 0.012 * room) - (1.0 - odds) * loss
@@ -283,34 +285,57 @@ fn pass_worth(game: &Match, view: &View, id: PlayerId, mate: PlayerId) -> (f32, 
         0.1 + distance * 0.006,
     ) - (distance - 28.0).max(0.0) * 0.01;
     let keeper = if other.role == Role::GK { 0.02 } else { 0.0 };
-    let mut best = (short - keeper, KickKind::Short);
-    // Ahead of a mate who runs at goal.
-    let running = other.vel.x * view.side > 3.0;
-    if running && distance < 32.0 && distance > 7.0 {
-        let goal = Vec2::new(55.0 * view.side, 0.0);
-        let ahead = target + (goal - target).normalize_or_zero() * (0.2 * distance).min(10.0);
-        let room = (nearest_rival(game, mate, ahead) / 5.0).min(1.0);
-        let free = lane(game, view, player.pos, ahead, ground_speed);
-        let worth = rate(free, room, ahead * view.side, player.skill(Stat::ShortPass), 0.15 + distance * 0.008);
-        if worth > best.0 {
-            best = (worth - keeper, KickKind::Long);
+    let mut best = (short - keeper, KickKind::Short, None);
+    // Into the space ahead of a forward mate.
+    if other.body.mind.mindset >= 0.5 && own_mate.x > own.x - 6.0 && distance < 30.0 {
+        for ahead_m in [8.0, 15.0] {
+            let (worth, point) = through(game, view, id, mate, ahead_m);
+            if worth > best.0 {
+                best = (worth, KickKind::Long, Some(point));
+            }
         }
     }
     if distance > 18.0 {
-        let odds = 0.3 + 0.4 * (rivals / 7.0).min(1.0);
+        let odds = 0.2 + 0.4 * (rivals / 8.0).min(1.0);
         let at = target * view.side;
         let cross = if own.y.abs() > 16.0 && own.x > 32.0 && at.x > 40.0 && at.y.abs() < 12.0 { 0.03 } else { 0.0 };
         let worth = odds * player.skill(Stat::HighPass) * (value(at) + 0.01) - (1.0 - odds) * loss + cross;
         if worth > best.0 {
-            best = (worth - keeper, KickKind::High);
+            best = (worth - keeper, KickKind::High, None);
         }
     }
     best
 }
 
-/// The value of a place against the best, 0..1.
-fn value_share(own: Vec2) -> f32 {
-    ((own.x + 55.0) / 110.0).clamp(0.0, 1.0)
+/// What losing the ball at a place costs.
+fn loss(own: Vec2) -> f32 {
+    let back = 1.0 - ((own.x + 55.0) / 110.0).clamp(0.0, 1.0);
+    0.004 + 0.055 * back * back
+}
+
+/// What a ball played into space ahead of a mate is worth, and where to: a race between him and the others.
+fn through(game: &Match, view: &View, id: PlayerId, mate: PlayerId, ahead_m: f32) -> (f32, Vec2) {
+    let (player, other) = (game.player(id), game.player(mate));
+    let goal = Vec2::new(50.0 * view.side, other.pos.y * 0.4);
+    let point = other.pos + (goal - other.pos).normalize_or_zero() * ahead_m;
+    let at = point * view.side;
+    let pace = (other.vel.dot(goal - other.pos) / (goal - other.pos).length().max(1.0)).clamp(0.0, 7.5);
+    let mate_s = ahead_m / 7.4 + 0.55 * (1.0 - pace / 7.5);
+    let rival_s = game.team(view.team.other()).fold(9.0f32, |least, (_, rival)| {
+        least.min((rival.pos + rival.vel * 0.25).distance(point) / 7.6 + 0.2)
+    });
+    let distance = point.distance(player.pos);
+    let speed = (12.0 + distance * 0.3).min(19.0);
+    let free = lane(game, view, player.pos, point, speed);
+    let skill = player.skill(Stat::ShortPass);
+    let race = (0.45 + 0.55 * (rival_s - mate_s)).clamp(0.0, 0.92);
+    let odds = race * (0.25 + 0.75 * free) * (1.0 - (0.1 + distance * 0.006) * (1.15 - skill));
+    (odds * value(at) - (1.0 - odds) * loss(own_of(player.pos, view)), point)
+}
+
+/// A world point in the own frame.
+fn own_of(point: Vec2, view: &View) -> Vec2 {
+    point * view.side
 }
 
 /// What running on in a direction of the own frame is worth, and how fast to run.
@@ -332,7 +357,7 @@ fn run_worth(game: &Match, view: &View, id: PlayerId, way: Vec2) -> (f32, f32) {
         }
         let cos = if distance > 0.1 { to_rival.dot(way) / distance } else { 1.0 };
         let threat = if cos > 0.0 {
-            (1.0 - distance / (4.0 + 8.0 * cos)).max(0.0)
+            (1.0 - distance / (2.5 + 5.0 * cos)).max(0.0)
         } else {
             (1.0 - distance / 2.5).max(0.0) * 0.5
         };
@@ -343,7 +368,7 @@ fn run_worth(game: &Match, view: &View, id: PlayerId, way: Vec2) -> (f32, f32) {
     }
     let dribble = player.skill(Stat::Dribble);
     let keep = (0.50 + 0.48 * free) * (0.93 + 0.05 * dribble);
-    let loss = 0.10 * (1.0 - value_share(own)) + 0.012;
+    let loss = loss(own);
     // Turning back costs the time that the others use.
     let turn = if player.vel.length_squared() > 9.0 {
         (1.0 - player.vel.normalize_or_zero().dot(way * view.side)) * 0.004

@@ -61,7 +61,7 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
         && view.ball.x > -25.0;
     let onside = !offside || own.x < view.line_x - 0.2;
     if mindset >= 0.5 && owner_near && onside && own.x > view.line_x - 9.0 && player.role != Role::GK {
-        let keen = 0.10 + 0.12 * mindset;
+        let keen = 0.14 + 0.22 * mindset;
         if noise::whim(game) < keen && game.rule(Rule::Stochastic) {
             game.players[id.index()].body.mind.run_until_step = game.step + 14;
         }

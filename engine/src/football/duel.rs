@@ -30,7 +30,8 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let now = game.tick as i32;
     if noise::roll(game) < chance {
         win(game, events, id, rival, ball);
-        game.players[rival.index()].body.ready_at = now + 25;
+        game.players[rival.index()].body.ready_at = now + 45;
+        game.players[rival.index()].vel *= 0.6;
         return;
     }
     game.players[id.index()].body.ready_at = now + RETRY_TICKS;

@@ -7,7 +7,7 @@ use glam::Vec2;
 use setpiece_scenario::vocabulary::Role;
 
 /// How many opponents are marked.
-const MARKED: usize = 4;
+const MARKED: usize = 5;
 
 /// Gives the most dangerous opponents a marker each.
 pub fn assign(game: &mut Match, view: &View) {
@@ -70,9 +70,16 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
         let man = other.pos * view.side;
         let post = goal_side(man + other.vel * view.side * 0.4);
         // The nearer to the own goal, the tighter.
-        let weight = (0.85 - (man.x + 55.0) / 110.0 * 0.7).clamp(0.15, 0.85);
+        let weight = (0.95 - (man.x + 55.0) / 110.0 * 0.6).clamp(0.2, 0.9);
         to += (post - to) * weight;
         speed = 6.5;
+    }
+    // The back line keeps behind the ball, the midfield not far before it.
+    let mindset = player.body.mind.mindset;
+    if mindset < 0.3 {
+        to.x = to.x.min(view.ball.x - 6.0).max(-50.0);
+    } else if mindset < 0.7 {
+        to.x = to.x.min(view.ball.x + 3.0).max(-46.0);
     }
     // Whoever is caught up the pitch runs back.
     let behind = own.x - to.x;

@@ -191,9 +191,9 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
 fn value(own: Vec2) -> f32 {
     let forward = ((own.x + 55.0) / 110.0).clamp(0.0, 1.0);
     let goal = own.distance(Vec2::new(54.0, 0.0));
-    let near = (1.0 - goal / 32.0).max(0.0);
+    let near = (1.0 - goal / 42.0).max(0.0);
     let wing = (own.y.abs() / 36.0).powi(2) * 0.012;
-    0.008 + 0.13 * forward * forward + 0.22 * near * near - wing
+    0.008 + 0.03 * forward + 0.10 * forward * forward + 0.26 * near * near - wing
 }
 
 /// The chance that a shot from here goes in, and the point it should aim at (own frame).

@@ -144,10 +144,10 @@ fn roughness(player: &Player, game: &Match) -> f32 {
     let near = game
         .players
         .iter()
-        .filter(|rival| rival.active && rival.pos.distance_squared(player.pos) < 1.6 * 1.6)
+        .filter(|rival| rival.active && rival.pos.distance_squared(player.pos) < 2.2 * 2.2)
         .count()
         .saturating_sub(1);
-    (((relative - 4.0) / 25.0).clamp(0.0, 0.7) + far * 0.5 + high * 0.4 + near as f32 * 0.12).clamp(0.0, 1.0)
+    (((relative - 4.0) / 25.0).clamp(0.0, 0.7) + far * 0.5 + high * 0.4 + near as f32 * 0.16).clamp(0.0, 1.0)
 }
 
 /// The velocity of a pass to a point.
@@ -170,7 +170,7 @@ fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, ro
         (speed, 0.11 + 0.005 * (distance - 12.0).max(0.0))
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
-    let wild = (0.012 + 0.20 * rough + 0.05 * (1.0 - player.body.level)) * (1.35 - skill);
+    let wild = (0.015 + 0.26 * rough + 0.06 * (1.0 - player.body.level)) * (1.35 - skill);
     let aside = noise::bell(game) * wild;
     let power = 1.0 + noise::bell(game) * wild * 0.8;
     let ahead = way.normalize_or(player.body.facing);

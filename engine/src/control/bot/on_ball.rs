@@ -376,12 +376,12 @@ fn run_worth(game: &Match, view: &View, id: PlayerId, way: Vec2) -> (f32, f32) {
         0.0
     };
     let worth = keep * value(to) - (1.0 - keep) * loss - turn;
-    let speed = if ahead_m > 9.0 && way.x > -0.2 {
+    let speed = if ahead_m > 6.0 && way.x > -0.2 {
         SPRINT_MPS
-    } else if ahead_m > 4.0 {
-        5.0
+    } else if ahead_m > 2.5 {
+        5.2
     } else {
-        3.8
+        4.2
     };
     (worth, speed)
 }

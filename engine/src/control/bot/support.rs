@@ -31,7 +31,7 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
     }
     let mut base = formation::place(game, view, id);
     // Forwards stay high, up against the line; midfielders follow the attack.
-    let push = view.bias * (3.0 + 9.0 * mindset);
+    let push = 2.0 + view.bias * (3.0 + 11.0 * mindset);
     base.x += push;
     if mindset > 0.7 {
         base.x = base.x.max(view.line_x - 6.0);

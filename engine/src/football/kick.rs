@@ -170,7 +170,7 @@ fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, ro
         (speed, 0.11 + 0.005 * (distance - 12.0).max(0.0))
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
-    let wild = (0.015 + 0.26 * rough + 0.06 * (1.0 - player.body.level)) * (1.35 - skill);
+    let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
     let aside = noise::bell(game) * wild;
     let power = 1.0 + noise::bell(game) * wild * 0.8;
     let ahead = way.normalize_or(player.body.facing);

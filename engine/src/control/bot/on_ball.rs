@@ -75,7 +75,7 @@ pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
 /// The best of all choices.
 fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
     let player = *game.player(id);
-    let fickle = 0.003 + 0.02 * (1.0 - player.body.level);
+    let fickle = 0.003 + 0.008 * (1.0 - player.body.level);
     let mut best = Choice { worth: f32::MIN, act: Act::Clear };
     let mut offer = |game: &mut Match, worth: f32, act: Act| {
         let worth = worth + (noise::whim(game) - 0.5) * 2.0 * fickle;
@@ -321,9 +321,9 @@ fn through(game: &Match, view: &View, id: PlayerId, mate: PlayerId, ahead_m: f32
     let at = point * view.side;
     let pace = (other.vel.dot(goal - other.pos) / (goal - other.pos).length().max(1.0)).clamp(0.0, 7.5);
     let mate_s = ahead_m / 7.4 + 0.55 * (1.0 - pace / 7.5);
-    let rival_s = game.team(view.team.other()).fold(9.0f32, |least, (_, rival)| {
-        least.min((rival.pos + rival.vel * 0.25).distance(point) / 7.6 + 0.2)
-    });
+    let rival_s = game
+        .team(view.team.other())
+        .fold(9.0f32, |least, (_, rival)| least.min((rival.pos + rival.vel * 0.25).distance(point) / 7.6 + 0.2));
     let distance = point.distance(player.pos);
     let speed = (12.0 + distance * 0.3).min(19.0);
     let free = lane(game, view, player.pos, point, speed);

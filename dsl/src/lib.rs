@@ -9,6 +9,7 @@ pub mod compile;
 mod lower;
 pub mod parse;
 pub mod problem;
+pub mod report;
 mod resolve;
 pub mod source;
 

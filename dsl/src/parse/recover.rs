@@ -82,7 +82,14 @@ impl Reader<'_> {
                 }
             }
         };
-        let at = at.max(junk.start);
+        let mut at = at.max(junk.start);
+        let mut positives = positives;
+        // A lone word could always have been an option's key: the word is the news, not the missing colon.
+        let first = token(text_from(self.text, junk.start));
+        if positives == [Rule::colon] && self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty()) {
+            at = junk.start;
+            positives.clear();
+        }
         let problem = self.expectation(context, &junk, continued, at, &positives);
         self.push(problem);
         self.read_block(context, &junk, at);
@@ -120,4 +127,8 @@ impl Reader<'_> {
         let message = format!("`{word}` can't stand in {}", context.name());
         Some(Problem::new(Code::Syntax, span, message, "not here").help(format!("it belongs in {}", owner.name())))
     }
+}
+
+fn text_from(text: &str, at: usize) -> &str {
+    text.get(at..).unwrap_or_default()
 }

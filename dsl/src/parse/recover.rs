@@ -86,7 +86,7 @@ impl Reader<'_> {
         let mut positives = positives;
         // A lone word could always have been an option's key: the word is the news, not the missing colon.
         let first = token(text_from(self.text, junk.start));
-        if positives == [Rule::colon] && self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty()) {
+        if context != Context::Fields && positives == [Rule::colon] && self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty()) {
             at = junk.start;
             positives.clear();
         }

@@ -70,7 +70,7 @@ impl World<'_> {
 
     /// The ranges of the parameters, in order.
     pub(crate) fn ranges(&self) -> Vec<Option<Interval>> {
-        self.params.iter().map(ParamInfo::interval).collect()
+        self.params.iter().filter(|param| param.bound.is_none()).map(ParamInfo::interval).collect()
     }
 
     /// The author's text of a span, shortened to one line.

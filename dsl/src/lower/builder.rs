@@ -147,6 +147,11 @@ impl Builder {
         self.open.len() > 1
     }
 
+    /// How many loops are open at the present place.
+    pub(crate) fn loops(&self) -> usize {
+        self.open.len() - 1
+    }
+
     /// Goes on writing outside every loop, until [`Builder::return_to`].
     pub(crate) fn leave_loops(&mut self) -> Loops {
         Loops(std::mem::replace(&mut self.open, vec![ROOT]))

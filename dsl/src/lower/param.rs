@@ -21,6 +21,8 @@ pub(crate) struct ParamInfo<'w> {
     pub(crate) choices: Rc<[String]>,
     /// Where it is declared.
     pub(crate) name: &'w Ident,
+    /// Its place among the scenario's parameters.
+    pub(crate) index: u32,
     /// Instead of a parameter: a child's argument that is drawn or computed.
     pub(crate) bound: Option<&'w Expr>,
     /// The type it was declared with.
@@ -30,9 +32,6 @@ pub(crate) struct ParamInfo<'w> {
 impl ParamInfo<'_> {
     /// Least and greatest value.
     pub(crate) fn interval(&self) -> Option<Interval> {
-        if self.bound.is_some() {
-            return None;
-        }
         if let (Some(least), Some(greatest)) =
             (self.param.values.iter().copied().reduce(f64::min), self.param.values.iter().copied().reduce(f64::max))
         {
@@ -62,7 +61,15 @@ pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
 
 /// Checks every parameter of the scenario; the world has none yet.
 pub(crate) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
-    world.flat.params.iter().map(|param| lower_param(world, param)).collect()
+    let mut index = 0;
+    let mut params = Vec::new();
+    for param in &world.flat.params {
+        let mut info = lower_param(world, param);
+        info.index = index;
+        index += u32::from(info.bound.is_none());
+        params.push(info);
+    }
+    params
 }
 
 fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> {
@@ -81,6 +88,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         ty: Ty::Error,
         choices: Rc::from([]),
         name: &decl.name,
+        index: 0,
         bound: None,
         declared,
     };
@@ -98,6 +106,11 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
     };
     if flat.is_argument && !is_constant(world, expr) {
         info.bound = Some(expr);
+        if let (Some(ty), Some(Domain::Range(low, high))) = (declared.filter(|ty| ty.dim().is_some()), flat.domain)
+            && let (Some(low), Some(high)) = (constant(world, low, ty), constant(world, high, ty))
+        {
+            info.param.range = Some((low, high));
+        }
         return info;
     }
     let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));

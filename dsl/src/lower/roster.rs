@@ -228,12 +228,14 @@ fn chain_players<'w>(
     let mut players: Vec<Rostered<'w>> = Vec::new();
     for (link, reference) in chain {
         let mut scope = scope.clone();
+        scope.players_of = Some(team);
         if !std::ptr::eq(link, item) {
             // A parent's parameters are bound by the reference of its child.
             let mut lower = Lower::new(world, Stage::Start, scope);
             scope = Scope::new(false, Frame::Own);
             let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
             lower.bind_params(&link.name.node, &link.params, args, link.name.span, &mut scope, false);
+            scope.players_of = Some(team);
         }
         let (mut absent, mut overrides, mut each) = (Vec::new(), Vec::new(), Vec::new());
         for stmt in &link.body {

@@ -174,7 +174,11 @@ fn slots(
         slots.push(PlayerSlot {
             team: player.team,
             role: player.role,
-            name: player.name.map(|name| name.node.clone()),
+            // A formation that both teams use names two players alike; then neither bears the name alone.
+            name: player.name.map(|name| name.node.clone()).filter(|name| {
+                let same = |other: &&Rostered<'_>| other.name.is_some_and(|other| other.node == *name);
+                world.roster.iter().filter(same).count() == 1
+            }),
             ai: option.ai,
             controllable: option.controllable,
             stats: option.stats,
@@ -251,6 +255,17 @@ impl<'w> Lower<'_, 'w> {
             })
         });
         self.team = team;
+        if let Some((range, domain)) = bound.and_then(|param| Some((param.param.range?, param.name)))
+            && binding.is_none()
+            && value.ty.dim().is_some()
+        {
+            let reg = self.reg(&value);
+            let allowed = world.flat.params.iter().find(|param| param.decl.name.node == domain.node);
+            if let Some(crate::ast::Domain::Range(low, high)) = allowed.and_then(|param| param.domain) {
+                let shown = format!("`{}..{}`", world.text(low.span), world.text(high.span));
+                self.check_range(reg, range, &format!("`{name}`"), expr.span, &shown);
+            }
+        }
         self.start.lets.insert(name, Some(value.clone()));
         value
     }

@@ -3,6 +3,7 @@
 use crate::ast::{Expr, FormationItem, Span};
 use crate::check::types::Ty;
 use setpiece_scenario::Reg;
+use setpiece_scenario::vocabulary::Team;
 use std::rc::Rc;
 
 /// A typed value.
@@ -127,6 +128,8 @@ pub(crate) struct Scope<'w> {
     locals: Option<Rc<Local<'w>>>,
     /// Whether the scenario's parameters, `let`s and players are seen.
     pub(crate) scenario: bool,
+    /// Whose named players are seen, in a formation.
+    pub(crate) players_of: Option<Team>,
     /// How literals are read.
     pub(crate) frame: Frame,
 }
@@ -167,7 +170,7 @@ pub(crate) enum Binding<'w> {
 impl<'w> Scope<'w> {
     /// No locals.
     pub(crate) fn new(scenario: bool, frame: Frame) -> Scope<'w> {
-        Scope { locals: None, scenario, frame }
+        Scope { locals: None, scenario, players_of: None, frame }
     }
 
     /// Adds a name.

@@ -42,6 +42,7 @@ impl<'w> Lower<'_, 'w> {
     /// Opens a loop over the events that match; `None` after a report.
     pub(crate) fn open_events(&mut self, event: &'w EventExpr) -> Option<Matching> {
         let filter = self.event_filter(event)?;
+        debug_assert!(self.event.is_none());
         let kind = filter.kind;
         let open = self.code.open_loop(Over::Events(filter));
         let outer = self.event.replace(kind);

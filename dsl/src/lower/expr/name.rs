@@ -6,7 +6,7 @@ use crate::ast::{FormationItem, ItemKind, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, TEAM_MAX};
-use setpiece_scenario::vocabulary::{Field, Owner, PROPERTIES, Property, Type};
+use setpiece_scenario::vocabulary::{Field, Owner, PROPERTIES, Property, Team, Type};
 use setpiece_scenario::{Reg, UnaryOp, When};
 use std::rc::Rc;
 
@@ -23,6 +23,11 @@ impl<'w> Lower<'_, 'w> {
         }
         if self.scope.scenario
             && let Some(value) = self.scenario_name(name, span)
+        {
+            return value;
+        }
+        if let Some(team) = self.scope.players_of
+            && let Some(value) = self.player_name(name, Some(team))
         {
             return value;
         }
@@ -81,14 +86,12 @@ impl<'w> Lower<'_, 'w> {
 
     fn scenario_name(&mut self, name: &'w str, span: Span) -> Option<Value<'w>> {
         let world = self.world;
-        if let Some(index) = world.params.iter().position(|param| param.name.node == name)
-            && let Some(info) = world.params.get(index)
-        {
+        if let Some(info) = world.params.iter().find(|param| param.name.node == name) {
             world.mark_used(info.name.span);
             if info.bound.is_some() {
                 return Some(self.scenario_let(name, span));
             }
-            let reg = self.code.param(index as u32);
+            let reg = self.code.param(info.index);
             let repr = if info.ty == Ty::String { Repr::Choice(reg, info.choices.clone()) } else { Repr::One(reg) };
             let repr = if info.ty == Ty::Error { Repr::Nothing } else { repr };
             return Some(Value { ty: info.ty, repr });
@@ -108,7 +111,13 @@ impl<'w> Lower<'_, 'w> {
                 self.inline(region.name.span, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
             return Some(value.unwrap_or_else(Value::error));
         }
-        let player = world.roster.iter().find(|player| player.name.is_some_and(|known| known.node == name))?;
+        self.player_name(name, None)
+    }
+
+    /// A player of the roster, or of one team.
+    fn player_name(&mut self, name: &str, team: Option<Team>) -> Option<Value<'w>> {
+        let mut players = self.world.roster.iter().filter(|player| team.is_none_or(|team| player.team == team));
+        let player = players.find(|player| player.name.is_some_and(|known| known.node == name))?;
         Some(Value::one(Ty::Player, self.code.constant(f64::from(player.id))))
     }
 
@@ -266,6 +275,10 @@ impl<'w> Lower<'_, 'w> {
     /// Every name that could stand here.
     pub(crate) fn names_in_sight(&self, span: Span) -> Vec<String> {
         let mut names: Vec<String> = self.scope.names().into_iter().map(str::to_owned).collect();
+        if let Some(team) = self.scope.players_of {
+            let players = self.world.roster.iter().filter(|player| player.team == team);
+            names.extend(players.filter_map(|player| player.name.map(|name| name.node.clone())));
+        }
         if self.scope.scenario {
             let world = self.world;
             names.extend(world.params.iter().map(|param| param.name.node.clone()));

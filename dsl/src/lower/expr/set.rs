@@ -1,12 +1,15 @@
 //! Players as a group: `count(p in them where …)`, `nearest`, `pressed`, and the aggregates.
 
-use super::super::Lower;
+use super::super::{Lower, Stage};
 use super::super::value::{Binding, Repr, SetValue, Value};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Over, Reg, UnaryOp};
+
+/// Deepest nesting of loops over players and events that a program may have.
+const LOOPS_MAX: usize = 4;
 
 /// `E for p in S where C`, taken apart.
 struct Comprehension<'w> {
@@ -41,9 +44,16 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    /// Reports a loop over players where no match is under way.
+    /// Reports a loop over players where no match is under way, or inside too many others.
     fn players_known(&self, span: Span, what: &str) -> bool {
         let known = self.stage.is_step();
+        if self.code.loops() >= LOOPS_MAX {
+            self.report(
+                Problem::new(Code::Impossible, span, format!("more than {LOOPS_MAX} loops stand inside each other"), "")
+                    .help("compute the inner one before, with a `let`"),
+            );
+            return false;
+        }
         if !known {
             self.report(
                 Problem::new(Code::WrongScope, span, format!("`{what}` goes through players, and the match has not begun"), "")
@@ -67,6 +77,9 @@ impl<'w> Lower<'_, 'w> {
                     .help(format!("`{}`", function.doc().split(": ").next().unwrap_or(name))),
             );
         };
+        if self.stage == Stage::Start {
+            return self.aggregate_start(function, &parts, span);
+        }
         if !self.players_known(span, name) {
             return Value::error();
         }
@@ -82,6 +95,95 @@ impl<'w> Lower<'_, 'w> {
         let (fold, ty) = self.fold_of(function, value, filter);
         let result = self.code.close_loop(open, fold);
         Value { ty, repr: if ty == Ty::Error { Repr::Nothing } else { Repr::One(result) } }
+    }
+
+    /// An aggregate over the roster, written out player by player: the start has no loops.
+    fn aggregate_start(&mut self, function: Function, parts: &Comprehension<'w>, span: Span) -> Value<'w> {
+        let Some(set) = self.want_set(parts.set) else { return Value::error() };
+        let ids: Vec<Reg> = self.world.roster.iter().map(|player| player.id).map(f64::from).collect::<Vec<_>>()
+            .into_iter()
+            .map(|id| self.code.constant(id))
+            .collect();
+        let mut elements = Vec::new();
+        let mut ty = None;
+        for id in ids {
+            let belongs = self.in_set(id, set);
+            if self.code.constant_of(belongs) == Some(0.0) {
+                continue;
+            }
+            let outer = self.scope.clone();
+            if let Some(name) = parts.name {
+                self.scope.bind(name, Binding::Value(Value::one(Ty::Player, id)));
+            }
+            let filter = parts.filter.map(|filter| self.condition(filter));
+            let value = parts.value.map(|value| (self.expr(value), value));
+            self.scope = outer;
+            let (fold, found) = self.fold_of(function, value, filter);
+            ty = Some(found);
+            let counts = match fold.guard {
+                Some(guard) => self.code.binary(BinaryOp::And, belongs, guard),
+                None => belongs,
+            };
+            elements.push((counts, fold.value.unwrap_or(belongs)));
+        }
+        let zero = self.code.constant(0.0);
+        match (function, ty) {
+            (_, Some(Ty::Error)) => Value::error(),
+            (Function::MinBy | Function::MaxBy, _) => self.fail(Problem::new(
+                Code::NotYet,
+                span,
+                format!("`{}` in the start is not supported yet", function.name()),
+                "",
+            )),
+            (Function::Count, _) => {
+                let sum = elements.into_iter().fold(zero, |sum, (counts, _)| self.code.binary(BinaryOp::Add, sum, counts));
+                Value::one(Ty::Int, sum)
+            }
+            (Function::Any, _) => {
+                let any = elements.into_iter().fold(zero, |any, (counts, value)| {
+                    let hit = self.code.binary(BinaryOp::And, counts, value);
+                    self.code.binary(BinaryOp::Or, any, hit)
+                });
+                Value::one(Ty::Bool, any)
+            }
+            (Function::All, _) => {
+                let every = self.code.bool(true);
+                let all = elements.into_iter().fold(every, |all, (counts, value)| {
+                    let spared = self.code.unary(UnaryOp::Not, counts);
+                    let met = self.code.binary(BinaryOp::Or, spared, value);
+                    self.code.binary(BinaryOp::And, all, met)
+                });
+                Value::one(Ty::Bool, all)
+            }
+            (_, None) => self.fail(Problem::new(
+                Code::Impossible,
+                span,
+                format!("`{}` goes through nobody", function.name()),
+                "the team has no players",
+            )),
+            (_, Some(ty)) => Value::one(ty, self.fold_numbers(function, &elements)),
+        }
+    }
+
+    /// Sum, mean, least or greatest of values of which some may not count.
+    fn fold_numbers(&mut self, function: Function, elements: &[(Reg, Reg)]) -> Reg {
+        let zero = self.code.constant(0.0);
+        if matches!(function, Function::Sum | Function::Mean) {
+            let (mut sum, mut n) = (zero, zero);
+            for &(counts, value) in elements {
+                let part = self.code.select(counts, value, zero);
+                sum = self.code.binary(BinaryOp::Add, sum, part);
+                n = self.code.binary(BinaryOp::Add, n, counts);
+            }
+            return if function == Function::Sum { sum } else { self.code.binary(BinaryOp::Div, sum, n) };
+        }
+        let op = if function == Function::Min { BinaryOp::Min } else { BinaryOp::Max };
+        // Beyond every length, duration and number of a start.
+        let far = self.code.constant(if function == Function::Min { 1.0e9 } else { -1.0e9 });
+        elements.iter().fold(far, |best, &(counts, value)| {
+            let value = self.code.select(counts, value, far);
+            self.code.binary(op, best, value)
+        })
     }
 
     fn fold_of(

@@ -280,7 +280,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         let both_numbers = found.dim().is_some() && wanted.dim().is_some();
         let code = if both_numbers { Code::WrongUnit } else { Code::WrongType };
         let problem =
-            Problem::new(code, span, format!("expected {}, found {what}", wanted.noun()), format!("{}", found.noun()));
+            Problem::new(code, span, format!("expected {}, found {what}", wanted.noun()), found.noun());
         match (found, wanted) {
             (Ty::LENGTH, Ty::Number) => {
                 problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")

@@ -143,7 +143,7 @@ impl<'w> Lower<'_, 'w> {
         }
         let regs: Vec<Reg> = values.iter().flat_map(Value::regs).collect();
         let (Some(&x), Some(&y)) = (regs.first(), regs.get(1)) else { return Value::error() };
-        let (x, y) = if first == Ty::Number { self.to_metres(x, y) } else { (x, y) };
+        let (x, y) = if first == Ty::Number { self.in_metres(x, y) } else { (x, y) };
         let pair = self.turned((x, y));
         let ty = if first == Ty::SPEED { Ty::Velocity } else { Ty::Point };
         match regs.get(2) {
@@ -153,7 +153,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Normalised coordinates in metres.
-    pub(super) fn to_metres(&mut self, x: Reg, y: Reg) -> (Reg, Reg) {
+    pub(super) fn in_metres(&mut self, x: Reg, y: Reg) -> (Reg, Reg) {
         let (sx, sy) = (self.code.constant(X_SCALE_M), self.code.constant(Y_SCALE_M));
         (self.code.binary(BinaryOp::Mul, x, sx), self.code.binary(BinaryOp::Mul, y, sy))
     }

@@ -264,7 +264,7 @@ impl<'w> Lower<'_, 'w> {
             View::Team => None,
         };
         if let Some((index, player)) = player {
-            if player.facing.is_some() {
+            if player.facing.is_some_and(|facing| !self.is_being_placed(facing)) {
                 let heading = self.heading_of(index, asked);
                 if let Some(heading) = heading {
                     return (self.code.unary(UnaryOp::Cos, heading), self.code.unary(UnaryOp::Sin, heading));
@@ -278,6 +278,15 @@ impl<'w> Lower<'_, 'w> {
             None => self.code.constant(1.0),
         };
         (side, self.code.constant(0.0))
+    }
+
+    /// Whether a player faces what is just being placed: `ball behind striker` and `striker … facing ball` then mean
+    /// the direction of his attack.
+    fn is_being_placed(&self, facing: &Facing) -> bool {
+        let crate::ast::ExprKind::Name(name) = &facing.target.kind else { return false };
+        let roster = self.world.roster.iter().zip(&self.start.places);
+        let mut placed = roster.filter(|(player, _)| player.name.is_some_and(|known| known.node == *name));
+        (name == "ball" && self.start.ball == Found::Busy) || placed.any(|(_, place)| *place == Found::Busy)
     }
 
     /// The heading a player of the roster was told to face, radians in the world frame.

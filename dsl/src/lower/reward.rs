@@ -115,7 +115,9 @@ fn lower_named<'w>(
 ) -> Reward {
     let mut found = Vec::new();
     let chain = reward_chain(world.library, item, &mut found);
-    found.into_iter().for_each(|problem| world.report(problem));
+    for problem in found {
+        world.report(problem);
+    }
     let statements: Vec<&RewardStmt> = chain.iter().flat_map(|(link, _)| &link.body).collect();
     let bind = |lower: &mut Lower<'_, 'w>| {
         // Arguments are read where the reward is used: in the scenario, in the world's frame.

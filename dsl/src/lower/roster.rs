@@ -86,8 +86,7 @@ fn from_statements<'w>(world: &World<'w>, team: Team, flat: &FlatTeam<'w>) -> Ve
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
         match &field.value {
             FieldValue::Expr(expr) => {
-                let scope = Scope::new(true, Frame::World);
-                players = formation_players(world, expr, scope, team);
+                players = formation_players(world, expr, team);
             }
             FieldValue::Fields(_, span) => world.report(not_a_formation(*span)),
             FieldValue::Script(script) => world.report(not_a_formation(script.span)),
@@ -146,7 +145,7 @@ fn from_layouts<'w>(
         };
         // The left team reports what is wrong with a layout; the right one has the same.
         let kept = world.problems.borrow().len();
-        let players = formation_players(world, expr, Scope::new(true, Frame::World), team);
+        let players = formation_players(world, expr, team);
         if team == Team::Right {
             world.problems.borrow_mut().truncate(kept);
         }
@@ -192,8 +191,8 @@ fn from_layouts<'w>(
 }
 
 /// The players of a formation value: its name, or a call with arguments.
-fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, scope: Scope<'w>, team: Team) -> Vec<Rostered<'w>> {
-    let mut lower = Lower::new(world, Stage::Start, scope);
+fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<Rostered<'w>> {
+    let mut lower = Lower::new(world, Stage::Start, Scope::new(true, Frame::World));
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
         && let crate::ast::ItemKind::Formation(item) = &found.item.kind
@@ -201,14 +200,14 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, scope: Scope<'w>, te
         world.mark_used(found.name.span);
         let mut scope = Scope::new(false, Frame::Own);
         lower.bind_params(&name.node, &item.params, args, expr.span, &mut scope, false);
-        return chain_players(world, item, scope, team);
+        return chain_players(world, item, &scope, team);
     }
     let value: Value<'w> = lower.want(expr, Ty::Formation);
     match value.repr {
         Repr::Formation(item) => {
             let mut scope = Scope::new(false, Frame::Own);
             lower.bind_params(&item.name.node, &item.params, &[], expr.span, &mut scope, false);
-            chain_players(world, item, scope, team)
+            chain_players(world, item, &scope, team)
         }
         _ => Vec::new(),
     }
@@ -217,7 +216,7 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, scope: Scope<'w>, te
 fn chain_players<'w>(
     world: &World<'w>,
     item: &'w FormationItem,
-    scope: Scope<'w>,
+    scope: &Scope<'w>,
     team: Team,
 ) -> Vec<Rostered<'w>> {
     let mut found = Vec::new();

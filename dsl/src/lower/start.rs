@@ -1,23 +1,28 @@
 //! The start program: `let`s, places, the ball, rules and requirements.
 
+mod fields;
+mod remap;
+
 use super::agents::{lower_agents, side_with_agents};
 use super::builder::Layout;
 use super::place::Found;
 use super::roster::Rostered;
 use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
-use super::value::{Frame, Repr, Scope, Value};
+use super::value::{Frame, Scope, Value};
 use super::{Lower, Stage, World};
-use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind, Span};
+use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::football;
-use crate::check::options::{self, BALL, START};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::vocabulary::{Rule, StartKind, Team};
+use setpiece_scenario::vocabulary::Team;
+use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::{
-    Agents, BallStart, BinaryOp, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting, Start,
-    UnaryOp,
+    Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
 };
 use std::collections::BTreeMap;
+
+/// A player's places at kick-offs: when his team kicks off, and when the others do.
+pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
 
 /// What the start program knows so far.
 #[derive(Default)]
@@ -27,7 +32,7 @@ pub(crate) struct StartState<'w> {
     /// Headings by roster.
     pub(crate) headings: Vec<Found<Reg>>,
     /// Layouts of kick-offs by roster: kicking, receiving.
-    pub(crate) layouts: Vec<Option<((Reg, Reg), (Reg, Reg))>>,
+    pub(crate) layouts: Vec<Option<Layouts>>,
     /// The ball's place.
     pub(crate) ball: Found<(Reg, Reg)>,
     lets: BTreeMap<&'w str, Option<Value<'w>>>,
@@ -146,8 +151,10 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     };
     let players = slots(world, &places, &headings, options);
     map_start(&start, &mut collect);
-    players.iter().for_each(|slot| drop(map_slot(slot, &mut collect)));
-    drop(map_agents(&agents, &mut collect));
+    for slot in &players {
+        map_slot(slot, &mut collect);
+    }
+    map_agents(&agents, &mut collect);
 
     let (program, layout) = lower.code.finish(&wanted);
     let place = |layout: &Layout, reg: Reg| layout.reg(reg);
@@ -336,196 +343,6 @@ impl<'w> Lower<'_, 'w> {
         Some(Kickoff { first: self.first_team(), places })
     }
 
-    fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
-        let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
-        let taker = (implied == StartKind::Kickoff).then(|| self.first_team());
-        let Some(stmt) = self.world.flat.start else { return (implied, taker) };
-        let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, taker) };
-        let Some(found) = StartKind::from_name(&kind.node) else {
-            self.report(
-                Problem::new(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
-                    .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
-            );
-            return (implied, taker);
-        };
-        if !matches!(found, StartKind::Open | StartKind::Kickoff) {
-            self.report(
-                Problem::new(Code::NotYet, kind.span, format!("a start by `{}` is not supported yet", kind.node), "")
-                    .help("place ball and players where they stand at it: `start open`"),
-            );
-            return (implied, taker);
-        }
-        if let Some(at) = at {
-            self.report(
-                Problem::new(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "")
-                    .help("the ball's place is the start's: `ball at …`"),
-            );
-        }
-        let team = team.as_ref().map(|team| self.want_reg(team, Ty::Team));
-        (found, team.or(taker.filter(|_| found == StartKind::Kickoff)))
-    }
-
-    fn start_fields(&mut self) -> (Option<(Reg, Reg)>, Option<Reg>) {
-        let Some(stmt) = self.world.flat.start else { return (None, None) };
-        let ScenarioStmtKind::Start { fields, .. } = &stmt.kind else { return (None, None) };
-        let (mut score, mut elapsed) = (None, None);
-        for field in options::known_fields(self, fields, START, "`start`") {
-            let Some(expr) = options::expression(self, field) else { continue };
-            if field.key.node == "elapsed" {
-                let reg = self.want_reg(expr, Ty::DURATION);
-                self.check_range(reg, (0.0, f64::MAX), "`elapsed`", expr.span, "`0 steps` or more");
-                elapsed = Some(reg);
-                continue;
-            }
-            let ExprKind::List(parts) = &expr.kind else {
-                self.report(
-                    Problem::new(Code::WrongType, expr.span, "expected the goals of both teams", "")
-                        .help("write `score: [1, 0]`"),
-                );
-                continue;
-            };
-            let &[left, right] = &parts.iter().collect::<Vec<_>>()[..] else {
-                self.report(
-                    Problem::new(Code::WrongArguments, expr.span, "a score has two numbers", "")
-                        .help("write `score: [1, 0]`"),
-                );
-                continue;
-            };
-            let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
-            self.check_range(goals.0, (0.0, 99.0), "a team's goals", left.span, "`0..99`");
-            self.check_range(goals.1, (0.0, 99.0), "a team's goals", right.span, "`0..99`");
-            score = Some(goals);
-        }
-        (score, elapsed)
-    }
-
-    fn ball(&mut self) -> Option<BallStart> {
-        let Some((ball, span)) = self.world.flat.ball else {
-            let name = &self.world.flat.item.name;
-            self.report(
-                Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "")
-                    .help("write, for example, `ball at (0.6, 0)`"),
-            );
-            return None;
-        };
-        let (x, y) = self.ball_place(span);
-        let mut start = BallStart { x, y, height: None, velocity: None, spin: None, owner: None };
-        self.ball_fields(ball, &mut start);
-        Some(start)
-    }
-
-    fn ball_fields(&mut self, ball: &'w BallStmt, start: &mut BallStart) {
-        for field in options::known_fields(self, &ball.fields, BALL, "the ball") {
-            let Some(expr) = options::expression(self, field) else { continue };
-            let name = format!("ball {}", field.key.node);
-            self.drawing(&name, |lower| match field.key.node.as_str() {
-                "velocity" => {
-                    let value = lower.want(expr, Ty::Velocity);
-                    let zero = lower.code.constant(0.0);
-                    start.velocity = Some(match value.repr {
-                        Repr::Three(x, y, z) => (x, y, z),
-                        Repr::Two(x, y) => (x, y, zero),
-                        _ => (zero, zero, zero),
-                    });
-                }
-                "height" => {
-                    let reg = lower.want_reg(expr, Ty::LENGTH);
-                    lower.check_range(reg, (0.0, 50.0), "the ball's height", expr.span, "`0m..50m`");
-                    start.height = Some(reg);
-                }
-                "owner" => start.owner = Some(lower.want_reg(expr, Ty::Player)),
-                _ => start.spin = lower.spin(expr),
-            });
-        }
-    }
-
-    /// `spin: (0, 0, 30)`: radians per second about x, y and z.
-    fn spin(&mut self, expr: &'w Expr) -> Option<(Reg, Reg, Reg)> {
-        if let ExprKind::Tuple(parts) = &expr.kind
-            && let [x, y, z] = parts.as_slice()
-        {
-            return Some((self.want_reg(x, Ty::Number), self.want_reg(y, Ty::Number), self.want_reg(z, Ty::Number)));
-        }
-        self.report(
-            Problem::new(Code::WrongType, expr.span, "expected the spin about three axes", "")
-                .help("write, for example, `spin: (0, 0, 30)`: radians per second about x, y and z"),
-        );
-        None
-    }
-
-    fn rules(&mut self) -> Vec<RuleSetting> {
-        let mut settings = Vec::new();
-        let fields = self.world.flat.rules.clone();
-        for field in fields {
-            let Some(rule) = Rule::from_name(&field.key.node) else {
-                self.report(
-                    Problem::new(
-                        Code::UnknownOption,
-                        field.key.span,
-                        format!("`rules` has no option `{}`", field.key.node),
-                        "not known",
-                    )
-                    .did_you_mean(&field.key.node, Rule::ALL.iter().map(|rule| rule.name())),
-                );
-                continue;
-            };
-            if let Some(value) = self.rule_value(rule, field) {
-                self.check_not_drawn(value, &format!("`{rule}`"), field.key.span);
-                settings.push(RuleSetting { rule, value });
-            }
-        }
-        settings
-    }
-
-    fn rule_value(&mut self, rule: Rule, field: &'w Field) -> Option<Reg> {
-        let expr = options::expression(self, field)?;
-        match (rule, &expr.kind) {
-            (Rule::Physics, ExprKind::Name(name)) if name == "gated" || name == "full" => {
-                Some(self.code.bool(name == "full"))
-            }
-            (Rule::Physics, _) => {
-                let text = self.world.text(expr.span);
-                self.report(
-                    Problem::new(Code::OutOfRange, expr.span, format!("`physics` is never `{text}`"), "")
-                        .help("write `physics: gated` or `physics: full`"),
-                );
-                None
-            }
-            (Rule::HalfTime, ExprKind::Bool(false)) => Some(self.code.constant(0.0)),
-            (Rule::HalfTime, _) => {
-                let value = self.expr(expr);
-                let reg = self.reg(&value);
-                match value.ty {
-                    Ty::Error => return None,
-                    Ty::Int => {}
-                    Ty::DURATION => {
-                        let step = self.code.constant(0.1);
-                        let steps = self.code.binary(BinaryOp::Div, reg, step);
-                        let steps = self.code.unary(UnaryOp::Round, steps);
-                        return Some(steps);
-                    }
-                    ty => {
-                        let problem = self.mismatch(ty, Ty::DURATION, expr.span);
-                        self.report(problem.help("write `half_time: off` or `half_time: 1500 steps`"));
-                        return None;
-                    }
-                }
-                self.check_range(reg, (0.0, f64::MAX), "`half_time`", expr.span, "`0 steps` or more");
-                Some(reg)
-            }
-            _ => {
-                let value = self.expr(expr);
-                if value.ty == Ty::Bool || value.is_error() {
-                    return Some(self.reg(&value));
-                }
-                let mut problem = self.mismatch(value.ty, Ty::Bool, expr.span);
-                problem.message = problem.message.replace("a condition", "`on` or `off`");
-                self.report(problem.help(format!("write `{rule}: on` or `{rule}: off`")));
-                None
-            }
-        }
-    }
-
     fn limit(&mut self) -> Option<Reg> {
         let (expr, _) = self.world.flat.limit?;
         let reg = self.want_reg(expr, Ty::DURATION);
@@ -555,107 +372,6 @@ impl<'w> Lower<'_, 'w> {
         }
         requires
     }
-}
-
-impl<'w> Value<'w> {
-    /// The same value in other registers.
-    fn map(&self, f: &mut dyn FnMut(Reg) -> Reg) -> Value<'w> {
-        use super::value::{RegionValue, SetValue};
-        fn region(value: &RegionValue, f: &mut dyn FnMut(Reg) -> Reg) -> RegionValue {
-            use std::rc::Rc;
-            match value {
-                RegionValue::Rect(a, b) => RegionValue::Rect((f(a.0), f(a.1)), (f(b.0), f(b.1))),
-                RegionValue::Circle(c, r) => RegionValue::Circle((f(c.0), f(c.1)), f(*r)),
-                RegionValue::Union(a, b) => RegionValue::Union(Rc::new(region(a, f)), Rc::new(region(b, f))),
-                RegionValue::Intersection(a, b) => {
-                    RegionValue::Intersection(Rc::new(region(a, f)), Rc::new(region(b, f)))
-                }
-                RegionValue::Difference(a, b) => RegionValue::Difference(Rc::new(region(a, f)), Rc::new(region(b, f))),
-            }
-        }
-        let repr = match &self.repr {
-            Repr::One(a) => Repr::One(f(*a)),
-            Repr::Two(a, b) => Repr::Two(f(*a), f(*b)),
-            Repr::Three(a, b, c) => Repr::Three(f(*a), f(*b), f(*c)),
-            Repr::Choice(a, words) => Repr::Choice(f(*a), words.clone()),
-            Repr::Set(set) => Repr::Set(SetValue { team: f(set.team), except: set.except.map(&mut *f) }),
-            Repr::Region(value) => Repr::Region(std::rc::Rc::new(region(value, f))),
-            Repr::List(list) => Repr::List(list.iter().map(|value| value.map(f)).collect()),
-            Repr::Nothing | Repr::Text(_) | Repr::Formation(_) => self.repr.clone(),
-        };
-        Value { ty: self.ty, repr }
-    }
-}
-
-fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
-    let mut pair = |p: &(Reg, Reg)| (f(p.0), f(p.1));
-    let score = start.score.as_ref().map(&mut pair);
-    let kickoff_places = start.kickoff.as_ref().map(|kickoff| {
-        let place = |p: &KickoffPlaces| KickoffPlaces { kicking: pair(&p.kicking), receiving: pair(&p.receiving) };
-        kickoff.places.iter().map(place).collect::<Vec<_>>()
-    });
-    let mut triple = |p: &(Reg, Reg, Reg)| (f(p.0), f(p.1), f(p.2));
-    let velocity = start.ball.velocity.as_ref().map(&mut triple);
-    let spin = start.ball.spin.as_ref().map(&mut triple);
-    Start {
-        program: start.program.clone(),
-        lets: start.lets.iter().map(|&reg| f(reg)).collect(),
-        ball: BallStart {
-            x: f(start.ball.x),
-            y: f(start.ball.y),
-            height: start.ball.height.map(&mut *f),
-            velocity,
-            spin,
-            owner: start.ball.owner.map(&mut *f),
-        },
-        kind: start.kind,
-        taker: start.taker.map(&mut *f),
-        score,
-        elapsed: start.elapsed.map(&mut *f),
-        kickoff: start
-            .kickoff
-            .as_ref()
-            .map(|kickoff| Kickoff { first: f(kickoff.first), places: kickoff_places.unwrap_or_default() }),
-        difficulty: start.difficulty.map(&mut *f),
-        rules: start.rules.iter().map(|s| RuleSetting { rule: s.rule, value: f(s.value) }).collect(),
-        limit: start.limit.map(&mut *f),
-        requires: start
-            .requires
-            .iter()
-            .map(|require| Require {
-                condition: f(require.condition),
-                probability: require.probability.map(&mut *f),
-                label: require.label.clone(),
-            })
-            .collect(),
-    }
-}
-
-fn map_slot(slot: &PlayerSlot, f: &mut dyn FnMut(Reg) -> Reg) -> PlayerSlot {
-    let s = &slot.start;
-    PlayerSlot {
-        stats: slot.stats.iter().map(|(stat, reg)| (*stat, f(*reg))).collect(),
-        start: PlayerStart {
-            x: f(s.x),
-            y: f(s.y),
-            heading: s.heading.map(&mut *f),
-            velocity: s.velocity.map(|v| (f(v.0), f(v.1))),
-            fatigue: s.fatigue.map(&mut *f),
-            yellow_cards: s.yellow_cards.map(&mut *f),
-            difficulty: s.difficulty.map(&mut *f),
-            present: s.present.map(&mut *f),
-        },
-        ..slot.clone()
-    }
-}
-
-fn map_agents(agents: &Agents, f: &mut dyn FnMut(Reg) -> Reg) -> Agents {
-    use setpiece_scenario::SideAgents;
-    let mut side = |side: &SideAgents| match side {
-        SideAgents::Count(reg) => SideAgents::Count(f(*reg)),
-        other => other.clone(),
-    };
-    Agents { sides: [side(&agents.sides[0]), side(&agents.sides[1])], ..agents.clone() }
 }
 
 /// The players of a team.

@@ -157,11 +157,15 @@ impl<'a> Adding<'a, '_> {
             }
             ScenarioStmtKind::Rules(fields) => {
                 doubled(fields, self.problems);
-                fields.iter().for_each(|field| replace(&mut self.flat.rules, field, |f| &f.key.node));
+                for field in fields {
+                    replace(&mut self.flat.rules, field, |f| &f.key.node);
+                }
             }
             ScenarioStmtKind::Agents(fields) => {
                 doubled(fields, self.problems);
-                fields.iter().for_each(|field| replace(&mut self.flat.agents, field, |f| &f.key.node));
+                for field in fields {
+                    replace(&mut self.flat.agents, field, |f| &f.key.node);
+                }
             }
             ScenarioStmtKind::Ball(ball) => {
                 self.only_once("the ball", stmt.span);

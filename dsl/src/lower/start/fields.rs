@@ -1,0 +1,202 @@
+//! What a scenario says in braces about its start: its kind, the ball, the rules.
+
+use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind};
+use crate::check::options::{self, BALL, START};
+use crate::check::types::Ty;
+use crate::lower::Lower;
+use crate::lower::value::Repr;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{Rule, StartKind};
+use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
+
+impl<'w> Lower<'_, 'w> {
+    pub(super) fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
+        let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
+        let taker = (implied == StartKind::Kickoff).then(|| self.first_team());
+        let Some(stmt) = self.world.flat.start else { return (implied, taker) };
+        let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, taker) };
+        let Some(found) = StartKind::from_name(&kind.node) else {
+            self.report(
+                Problem::new(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
+                    .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
+            );
+            return (implied, taker);
+        };
+        if !matches!(found, StartKind::Open | StartKind::Kickoff) {
+            self.report(
+                Problem::new(Code::NotYet, kind.span, format!("a start by `{}` is not supported yet", kind.node), "")
+                    .help("place ball and players where they stand at it: `start open`"),
+            );
+            return (implied, taker);
+        }
+        if let Some(at) = at {
+            self.report(
+                Problem::new(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "")
+                    .help("the ball's place is the start's: `ball at …`"),
+            );
+        }
+        let team = team.as_ref().map(|team| self.want_reg(team, Ty::Team));
+        (found, team.or(taker.filter(|_| found == StartKind::Kickoff)))
+    }
+
+    pub(super) fn start_fields(&mut self) -> (Option<(Reg, Reg)>, Option<Reg>) {
+        let Some(stmt) = self.world.flat.start else { return (None, None) };
+        let ScenarioStmtKind::Start { fields, .. } = &stmt.kind else { return (None, None) };
+        let (mut score, mut elapsed) = (None, None);
+        for field in options::known_fields(self, fields, START, "`start`") {
+            let Some(expr) = options::expression(self, field) else { continue };
+            if field.key.node == "elapsed" {
+                let reg = self.want_reg(expr, Ty::DURATION);
+                self.check_range(reg, (0.0, f64::MAX), "`elapsed`", expr.span, "`0 steps` or more");
+                elapsed = Some(reg);
+                continue;
+            }
+            let ExprKind::List(parts) = &expr.kind else {
+                self.report(
+                    Problem::new(Code::WrongType, expr.span, "expected the goals of both teams", "")
+                        .help("write `score: [1, 0]`"),
+                );
+                continue;
+            };
+            let &[left, right] = &parts.iter().collect::<Vec<_>>()[..] else {
+                self.report(
+                    Problem::new(Code::WrongArguments, expr.span, "a score has two numbers", "")
+                        .help("write `score: [1, 0]`"),
+                );
+                continue;
+            };
+            let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
+            self.check_range(goals.0, (0.0, 99.0), "a team's goals", left.span, "`0..99`");
+            self.check_range(goals.1, (0.0, 99.0), "a team's goals", right.span, "`0..99`");
+            score = Some(goals);
+        }
+        (score, elapsed)
+    }
+
+    pub(super) fn ball(&mut self) -> Option<BallStart> {
+        let Some((ball, span)) = self.world.flat.ball else {
+            let name = &self.world.flat.item.name;
+            self.report(
+                Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "")
+                    .help("write, for example, `ball at (0.6, 0)`"),
+            );
+            return None;
+        };
+        let (x, y) = self.ball_place(span);
+        let mut start = BallStart { x, y, height: None, velocity: None, spin: None, owner: None };
+        self.ball_fields(ball, &mut start);
+        Some(start)
+    }
+
+    fn ball_fields(&mut self, ball: &'w BallStmt, start: &mut BallStart) {
+        for field in options::known_fields(self, &ball.fields, BALL, "the ball") {
+            let Some(expr) = options::expression(self, field) else { continue };
+            let name = format!("ball {}", field.key.node);
+            self.drawing(&name, |lower| match field.key.node.as_str() {
+                "velocity" => {
+                    let value = lower.want(expr, Ty::Velocity);
+                    let zero = lower.code.constant(0.0);
+                    start.velocity = Some(match value.repr {
+                        Repr::Three(x, y, z) => (x, y, z),
+                        Repr::Two(x, y) => (x, y, zero),
+                        _ => (zero, zero, zero),
+                    });
+                }
+                "height" => {
+                    let reg = lower.want_reg(expr, Ty::LENGTH);
+                    lower.check_range(reg, (0.0, 50.0), "the ball's height", expr.span, "`0m..50m`");
+                    start.height = Some(reg);
+                }
+                "owner" => start.owner = Some(lower.want_reg(expr, Ty::Player)),
+                _ => start.spin = lower.spin(expr),
+            });
+        }
+    }
+
+    /// `spin: (0, 0, 30)`: radians per second about x, y and z.
+    fn spin(&mut self, expr: &'w Expr) -> Option<(Reg, Reg, Reg)> {
+        if let ExprKind::Tuple(parts) = &expr.kind
+            && let [x, y, z] = parts.as_slice()
+        {
+            return Some((self.want_reg(x, Ty::Number), self.want_reg(y, Ty::Number), self.want_reg(z, Ty::Number)));
+        }
+        self.report(
+            Problem::new(Code::WrongType, expr.span, "expected the spin about three axes", "")
+                .help("write, for example, `spin: (0, 0, 30)`: radians per second about x, y and z"),
+        );
+        None
+    }
+
+    pub(super) fn rules(&mut self) -> Vec<RuleSetting> {
+        let mut settings = Vec::new();
+        let fields = self.world.flat.rules.clone();
+        for field in fields {
+            let Some(rule) = Rule::from_name(&field.key.node) else {
+                self.report(
+                    Problem::new(
+                        Code::UnknownOption,
+                        field.key.span,
+                        format!("`rules` has no option `{}`", field.key.node),
+                        "not known",
+                    )
+                    .did_you_mean(&field.key.node, Rule::ALL.iter().map(|rule| rule.name())),
+                );
+                continue;
+            };
+            if let Some(value) = self.rule_value(rule, field) {
+                self.check_not_drawn(value, &format!("`{rule}`"), field.key.span);
+                settings.push(RuleSetting { rule, value });
+            }
+        }
+        settings
+    }
+
+    fn rule_value(&mut self, rule: Rule, field: &'w Field) -> Option<Reg> {
+        let expr = options::expression(self, field)?;
+        match (rule, &expr.kind) {
+            (Rule::Physics, ExprKind::Name(name)) if name == "gated" || name == "full" => {
+                Some(self.code.bool(name == "full"))
+            }
+            (Rule::Physics, _) => {
+                let text = self.world.text(expr.span);
+                self.report(
+                    Problem::new(Code::OutOfRange, expr.span, format!("`physics` is never `{text}`"), "")
+                        .help("write `physics: gated` or `physics: full`"),
+                );
+                None
+            }
+            (Rule::HalfTime, ExprKind::Bool(false)) => Some(self.code.constant(0.0)),
+            (Rule::HalfTime, _) => {
+                let value = self.expr(expr);
+                let reg = self.reg(&value);
+                match value.ty {
+                    Ty::Error => return None,
+                    Ty::Int => {}
+                    Ty::DURATION => {
+                        let step = self.code.constant(0.1);
+                        let steps = self.code.binary(BinaryOp::Div, reg, step);
+                        let steps = self.code.unary(UnaryOp::Round, steps);
+                        return Some(steps);
+                    }
+                    ty => {
+                        let problem = self.mismatch(ty, Ty::DURATION, expr.span);
+                        self.report(problem.help("write `half_time: off` or `half_time: 1500 steps`"));
+                        return None;
+                    }
+                }
+                self.check_range(reg, (0.0, f64::MAX), "`half_time`", expr.span, "`0 steps` or more");
+                Some(reg)
+            }
+            _ => {
+                let value = self.expr(expr);
+                if value.ty == Ty::Bool || value.is_error() {
+                    return Some(self.reg(&value));
+                }
+                let mut problem = self.mismatch(value.ty, Ty::Bool, expr.span);
+                problem.message = problem.message.replace("a condition", "`on` or `off`");
+                self.report(problem.help(format!("write `{rule}: on` or `{rule}: off`")));
+                None
+            }
+        }
+    }
+}

@@ -87,7 +87,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         (span.map(|span| (span.file, span.start, span.end)), problem.code, problem.message.clone())
     });
     problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
-    if problems.iter().any(|problem| matches!(problem.code.number(), 101..=107)) {
+    if problems.iter().any(|problem| matches!(problem.code.number(), 101..=107 | 203 | 207)) {
         problems.retain(|problem| !follows_from_gaps(problem.code));
     }
     if let Some((scenario, origins)) = &chosen

@@ -177,14 +177,14 @@ fn every_case_of_the_specification_holds() {
             let kind = case.header.split_whitespace().nth(1).unwrap_or_default();
             assert_eq!(kind, "check", "{}: `{}` is no kind of case", path.display(), case.header);
             let outcome = run(&case);
-            let has_errors =
-                outcome.problems.iter().any(|p| p.severity() == setpiece_dsl::problem::Severity::Error);
+            let has_errors = outcome.problems.iter().any(|p| p.severity() == setpiece_dsl::problem::Severity::Error);
             assert_eq!(outcome.scenario.is_none(), has_errors, "{}: {}", path.display(), case.name);
-            let written: String = std::iter::once(format!("--- {}\n", case.header))
-                .chain(case.files.iter().enumerate().map(|(index, (name, text))| {
-                    if index == 0 { text.clone() } else { format!("+++ {name}\n{text}") }
-                }))
-                .collect();
+            let written: String =
+                std::iter::once(format!("--- {}\n", case.header))
+                    .chain(case.files.iter().enumerate().map(|(index, (name, text))| {
+                        if index == 0 { text.clone() } else { format!("+++ {name}\n{text}") }
+                    }))
+                    .collect();
             let wanted = expected(&case, &outcome);
             if written != wanted {
                 faults.push(format!("{} {}\n{}", path.display(), case.name, difference(&written, &wanted)));
@@ -215,8 +215,11 @@ fn the_standard_library_compiles_without_a_word() {
     for path in paths {
         let text = fs::read_to_string(&path).expect("a readable file");
         let inner = path.strip_prefix(&folder).expect("inside").to_string_lossy().into_owned();
-        let outcome =
-            compile(Source { name: format!("std/{inner}"), text: text.into() }, &CaseLoader { files: vec![] }, &CompileOptions::default());
+        let outcome = compile(
+            Source { name: format!("std/{inner}"), text: text.into() },
+            &CaseLoader { files: vec![] },
+            &CompileOptions::default(),
+        );
         let words: Vec<String> = outcome
             .problems
             .iter()

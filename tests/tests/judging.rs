@@ -1,0 +1,158 @@
+//! From `.pitch` to payments: the standard library's rewards against Google Research Football's own rules, and episodes
+//! that are the same however many threads play them.
+
+use setpiece_dsl::source::{LoadError, Source, SourceLoader};
+use setpiece_dsl::{CompileOptions, compile};
+use setpiece_engine::batch::{EpisodeSummary, ReadyMade, run_episodes};
+use setpiece_engine::control::agents::Agent;
+use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece_engine::random::{Purpose, Stream};
+use setpiece_scenario::Scenario;
+use setpiece_scenario::vocabulary::{EventKind, Team};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Loads the standard library under `std/`.
+struct Library;
+
+fn library() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../stdlib-scenarios")
+}
+
+impl SourceLoader for Library {
+    fn load(&self, path: &str, _from: &str) -> Result<Source, LoadError> {
+        let inner = path.strip_prefix("std/").unwrap_or(path);
+        match std::fs::read_to_string(library().join(inner)) {
+            Ok(text) => Ok(Source { name: path.to_owned(), text: text.into() }),
+            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new() }),
+        }
+    }
+}
+
+fn compiled(text: String) -> Arc<Scenario> {
+    let root = Source { name: "test.pitch".to_owned(), text: text.into() };
+    let outcome = compile(root, &Library, &CompileOptions::default());
+    Arc::new(outcome.scenario.unwrap_or_else(|| panic!("{:#?}", outcome.problems)))
+}
+
+fn stdlib(name: &str) -> Arc<Scenario> {
+    compiled(std::fs::read_to_string(library().join(format!("{name}.pitch"))).unwrap())
+}
+
+fn environment(scenario: Arc<Scenario>, rewards: &[&str]) -> Environment {
+    let rewards = Some(rewards.iter().map(ToString::to_string).collect());
+    Environment::new(scenario, EnvironmentOptions { rewards, ..EnvironmentOptions::default() }).unwrap()
+}
+
+/// GRF's checkpoint reward by its own rules: `collected` regions, thresholds 0.99 down to 0.19 from (1, 0).
+fn grf_checkpoints(collected: &mut u32, goal: bool, carried_to: Option<f64>) -> f64 {
+    if goal {
+        let rest = 0.1 * f64::from(10 - *collected);
+        *collected = 10;
+        return rest;
+    }
+    let mut paid = 0.0;
+    if let Some(distance) = carried_to {
+        while *collected < 10 && distance <= 0.99 - 0.8 / 9.0 * f64::from(*collected) {
+            paid += 0.1;
+            *collected += 1;
+        }
+    }
+    paid
+}
+
+#[test]
+fn checkpoints_pay_what_grf_pays() {
+    let mut scratch = Scratch::default();
+    let (mut carried, mut goals) = (0, 0);
+    // A crowded box for the regions, an empty goal for the rest that the first goal pays.
+    let scenarios = ["academy/academy_3_vs_1_with_keeper", "academy/academy_empty_goal"];
+    let environments = scenarios.map(|name| environment(stdlib(name), &["scoring", "checkpoints"]));
+    for (seed, mut environment) in (0..15).flat_map(|seed| environments.clone().map(|environment| (seed, environment)))
+    {
+        environment.reset(Some(seed), None).unwrap();
+        let (mut collected, mut total) = (0, 0.0);
+        let mut stream = Stream::new(seed, 0, Purpose::Agent);
+        while environment.is_running() {
+            let action = Agent::RunAndShoot.act(environment.state(), 0, &mut stream);
+            let result = environment.step(&[action], &mut scratch).unwrap();
+            let goal = |team| {
+                environment.events().iter().any(|event| event.kind == EventKind::Goal && event.team == Some(team))
+            };
+            let (scored, conceded) = (goal(Team::Left), goal(Team::Right));
+            // The state shows the restart; where play was stopped without a goal the judge saw another.
+            if result.terminated && !scored {
+                break;
+            }
+            let game = environment.state();
+            let owns = game.owner.is_some() && game.owner == game.agents[0].player;
+            let (x, y) = (f64::from(game.ball.pos.x) / 54.4, f64::from(game.ball.pos.y) / 83.6);
+            let expected = grf_checkpoints(&mut collected, scored, owns.then(|| (x - 1.0).hypot(y)));
+            let score = f64::from(i8::from(scored) - i8::from(conceded));
+            let paid = f64::from(environment.rewards()[0]);
+            assert!((paid - score - expected).abs() < 1e-6, "seed {seed} step {}: {paid}", environment.steps());
+            carried += u32::from(expected > 0.0 && !scored);
+            goals += u32::from(scored);
+            total += expected;
+        }
+        assert!(total <= 1.0 + 1e-9, "{total}");
+    }
+    assert!(carried > 30 && goals > 0, "{carried} regions, {goals} goals");
+}
+
+#[test]
+fn an_edited_copy_pays_what_it_says() {
+    let rewards = std::fs::read_to_string(library().join("rewards.pitch")).unwrap();
+    let own = rewards.replace("reward scoring", "reward my_scoring").replace("give +1", "give +5");
+    let own = own.split("/// Up to").next().unwrap().to_owned();
+    let scenario = compiled(format!(
+        "{own}\nscenario mine extends academy {{
+            ball at (0.9, 0)
+            team left {{ CF at (0.88, 0) }}
+            team right {{ }}
+            remove reward scoring
+            reward my_scoring
+        }}"
+    ));
+    let environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+    assert_eq!(environment.term_names(), ["my_scoring/goal", "my_scoring/conceded"]);
+    let policy = || ReadyMade::new(Agent::RunAndShoot);
+    let episodes = run_episodes(&environment, 1, 0..10, 1, policy, |_| ()).unwrap();
+    let summaries: Vec<EpisodeSummary> = episodes.into_iter().map(Result::unwrap).collect();
+    assert!(summaries.iter().any(|summary| summary.score[0] == 1));
+    for summary in summaries {
+        assert_eq!(summary.returns, [5.0 * f64::from(summary.score[0])], "{}", summary.outcome);
+    }
+}
+
+#[test]
+fn threads_change_nothing() {
+    for (name, n) in [("academy/academy_counterattack_hard", 6), ("academy/academy_corner", 6)] {
+        let environment = environment(stdlib(name), &["scoring", "checkpoints"]);
+        let run = |threads| {
+            let policy = || ReadyMade::new(Agent::Random);
+            let episodes = run_episodes(&environment, 3, 0..n, threads, policy, |_| ()).unwrap();
+            episodes.into_iter().map(Result::unwrap).collect::<Vec<_>>()
+        };
+        let one = run(1);
+        assert_eq!(one, run(2), "{name}");
+        assert!(one.windows(2).any(|pair| pair[0].digest != pair[1].digest), "{name}");
+        assert!(one.iter().all(|summary| summary.length <= 400 && !summary.outcome.is_empty()), "{name}");
+    }
+}
+
+#[test]
+fn a_match_is_counted() {
+    let environment = environment(stdlib("benchmark/11_vs_11_stochastic"), &["scoring"]);
+    let policy = || ReadyMade::new(Agent::Bot);
+    let mut episodes = run_episodes(&environment, 1, 0..1, 1, policy, |_| ()).unwrap();
+    let summary = episodes.pop().unwrap().unwrap();
+    assert_eq!((summary.length, summary.truncated), (3000, true));
+    let statistics = &summary.statistics;
+    assert_eq!(statistics.goals, u32::from(summary.score[0] + summary.score[1]));
+    assert!(statistics.passes > 0 && statistics.pass_completion <= 1.0, "{statistics:?}");
+    assert!((statistics.thirds.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+    assert!(statistics.crowding > 0.0 && statistics.crowding < 1.0);
+    assert!(statistics.teams.iter().all(|team| team.distance_m > 1000.0), "{statistics:?}");
+    println!("{statistics:#?}");
+}

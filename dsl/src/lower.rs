@@ -255,12 +255,11 @@ impl<'c, 'w> Lower<'c, 'w> {
                 return Value { ty: Ty::Set, repr: Repr::Set(set) };
             }
             // A whole constant is a whole number, however it was computed.
-            (Ty::Int, Repr::One(reg)) if value.ty == Ty::Number => {
-                if self.code.constant_of(*reg).is_some_and(|v| v.fract() == 0.0) {
-                    return Value::one(Ty::Int, *reg);
-                }
+            (Ty::Int, Repr::One(reg))
+                if value.ty == Ty::Number && self.code.constant_of(*reg).is_some_and(|v| v.fract() == 0.0) =>
+            {
+                return Value::one(Ty::Int, *reg);
             }
-            // 0 is 0 in every unit.
             _ => {}
         }
         if value.ty.fits(wanted) {
@@ -279,8 +278,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         };
         let both_numbers = found.dim().is_some() && wanted.dim().is_some();
         let code = if both_numbers { Code::WrongUnit } else { Code::WrongType };
-        let problem =
-            Problem::new(code, span, format!("expected {}, found {what}", wanted.noun()), found.noun());
+        let problem = Problem::new(code, span, format!("expected {}, found {what}", wanted.noun()), found.noun());
         match (found, wanted) {
             (Ty::LENGTH, Ty::Number) => {
                 problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")

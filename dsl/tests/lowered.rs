@@ -58,9 +58,8 @@ fn what_does_not_depend_on_the_event_stands_before_the_loop() {
 
 #[test]
 fn a_let_sees_no_assignment_of_its_step() {
-    let text = format!(
-        "{CLOSE} reward r {{ state n = 0  n = n + 1  let before = n  give before  give n  give prev(n) }} }}"
-    );
+    let text =
+        format!("{CLOSE} reward r {{ state n = 0  n = n + 1  let before = n  give before  give n  give prev(n) }} }}");
     insta::assert_snapshot!(step(&text));
 }
 

@@ -100,7 +100,9 @@ fn a_source_that_breaks_off_is_no_panic() {
 fn a_long_sum_compiles_and_a_longer_one_is_refused() {
     let sum = |n: usize| {
         let terms = vec!["ball.x"; n].join(" + ");
-        format!("scenario s extends academy {{ ball at (0, 0) team left {{ CM at (0.1, 0) }} end far when {terms} > 3 }}")
+        format!(
+            "scenario s extends academy {{ ball at (0, 0) team left {{ CM at (0.1, 0) }} end far when {terms} > 3 }}"
+        )
     };
     assert!(outcome(&sum(150)).scenario.is_some());
     assert!(outcome(&sum(2_000)).scenario.is_none());
@@ -112,6 +114,8 @@ fn definitions_that_double_are_refused_in_time() {
     for i in 1..40 {
         text.push_str(&format!("fn f{i}(x: number) = f{}(x) + f{}(x + 1)\n", i - 1, i - 1));
     }
-    text.push_str("scenario s extends academy { ball at (0, 0) team left { CM at (0.1, 0) } end far when f39(ball.x) > 3 }");
+    text.push_str(
+        "scenario s extends academy { ball at (0, 0) team left { CM at (0.1, 0) } end far when f39(ball.x) > 3 }",
+    );
     assert!(outcome(&text).scenario.is_none());
 }

@@ -86,13 +86,7 @@ enum Known {
     Later,
 }
 
-fn check_on_pitch(
-    lower: &Lower<'_, '_>,
-    place: (Reg, Reg),
-    limit: (f64, f64),
-    what: &str,
-    span: Span,
-) -> Known {
+fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), what: &str, span: Span) -> Known {
     let (x, y) = (lower.interval(place.0), lower.interval(place.1));
     let outside = |axis: Option<(f64, f64)>, limit: f64| axis.is_some_and(|(low, high)| low > limit || high < -limit);
     if outside(x, limit.0) || outside(y, limit.1) {
@@ -151,7 +145,8 @@ fn check_pair(
             return None;
         }
         let at = |player: &crate::lower::roster::Rostered<'_>| player.place.map_or(player.span, |place| place.span);
-        let where_ = if lower.world.flat.kickoff.is_some() { format!(" at kick-off {}", nth + 1) } else { String::new() };
+        let where_ =
+            if lower.world.flat.kickoff.is_some() { format!(" at kick-off {}", nth + 1) } else { String::new() };
         lower.report(
             Problem::new(
                 Code::SameSpot,

@@ -180,8 +180,7 @@ impl Ty {
             || self == Ty::Error
             || wanted == Ty::Error
             || match wanted {
-                Ty::Number => self.is_plain(),
-                Ty::Percent => self.is_plain(),
+                Ty::Number | Ty::Percent => self.is_plain(),
                 Ty::Point => self.is_place(),
                 Ty::Set => matches!(self, Ty::Team),
                 _ => false,
@@ -261,7 +260,6 @@ fn unit_name(dim: Dim) -> String {
         1 => Some(name.to_owned()),
         n => Some(format!("{name}^{n}")),
     };
-    let parts: Vec<String> =
-        [part("m", dim.m), part("s", dim.s), part("rad", dim.rad)].into_iter().flatten().collect();
+    let parts: Vec<String> = [part("m", dim.m), part("s", dim.s), part("rad", dim.rad)].into_iter().flatten().collect();
     parts.join("·")
 }

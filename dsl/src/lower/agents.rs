@@ -120,16 +120,15 @@ fn listed<'w>(lower: &mut Lower<'_, 'w>, name: &'w Expr, team: Team, known: &[u8
     Some(index as u8)
 }
 
-fn check_count(
-    lower: &Lower<'_, '_>,
-    agents: &Agents,
-    team: Team,
-    at: Option<Span>,
-    players: &[PlayerOptions],
-) {
+fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Span>, players: &[PlayerOptions]) {
     let world = lower.world;
-    let of_side: Vec<&PlayerOptions> =
-        world.roster.iter().zip(players).filter(|(player, _)| player.team == team).map(|(_, options)| options).collect();
+    let of_side: Vec<&PlayerOptions> = world
+        .roster
+        .iter()
+        .zip(players)
+        .filter(|(player, _)| player.team == team)
+        .map(|(_, options)| options)
+        .collect();
     let controllable = of_side.iter().filter(|options| options.controllable).count();
     match agents.sides.get(team.index()) {
         Some(SideAgents::Count(reg)) => {
@@ -154,12 +153,7 @@ fn check_count(
             for &index in list {
                 if of_side.get(usize::from(index)).is_some_and(|options| !options.controllable) {
                     let span = at.unwrap_or(world.flat.item.name.span);
-                    lower.report(Problem::new(
-                        Code::BadAgents,
-                        span,
-                        "a player in the list is not `controllable`",
-                        "",
-                    ));
+                    lower.report(Problem::new(Code::BadAgents, span, "a player in the list is not `controllable`", ""));
                 }
             }
         }

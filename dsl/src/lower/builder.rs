@@ -57,6 +57,7 @@ enum Key {
 pub(crate) struct Loops(Vec<BlockId>);
 
 /// A loop whose body is being written.
+#[derive(Clone, Copy)]
 pub(crate) struct OpenLoop {
     at: u32,
     body: BlockId,
@@ -239,7 +240,9 @@ impl Builder {
             _ => {}
         }
         let (a, b) = match op {
-            BinaryOp::Add | BinaryOp::Mul | BinaryOp::And | BinaryOp::Or | BinaryOp::Eq | BinaryOp::Ne if b < a => (b, a),
+            BinaryOp::Add | BinaryOp::Mul | BinaryOp::And | BinaryOp::Or | BinaryOp::Eq | BinaryOp::Ne if b < a => {
+                (b, a)
+            }
             _ => (a, b),
         };
         self.shared(self.block_of(&[a, b]), Key::Binary(op, a.0, b.0), Instr::Binary(op, a, b))
@@ -365,9 +368,9 @@ impl Builder {
 
     fn is_event_body(&self, block: BlockId) -> bool {
         let owner = self.blocks.get(block).and_then(|block| block.owner);
-        owner.and_then(|at| self.nodes.get(at as usize)).is_some_and(
-            |node| matches!(&node.instr, Instr::Each(each) if matches!(each.over, Over::Events(_))),
-        )
+        owner
+            .and_then(|at| self.nodes.get(at as usize))
+            .is_some_and(|node| matches!(&node.instr, Instr::Each(each) if matches!(each.over, Over::Events(_))))
     }
 
     /// The innermost block, of the open ones, that any of the operands needs.
@@ -484,9 +487,7 @@ impl Out {
             Instr::Load { field, of, when } => Instr::Load { field: *field, of: of.as_ref().map(p), when: *when },
             Instr::Each(each) => {
                 let over = match &each.over {
-                    Over::Players { team, except } => {
-                        Over::Players { team: p(team), except: except.as_ref().map(p) }
-                    }
+                    Over::Players { team, except } => Over::Players { team: p(team), except: except.as_ref().map(p) },
                     Over::Events(filter) => {
                         let who = |who: &Who| match who {
                             Who::Team(reg) => Who::Team(p(reg)),

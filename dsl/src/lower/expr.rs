@@ -70,9 +70,9 @@ impl<'w> Lower<'_, 'w> {
             ExprKind::HasBall(who) => self.has_ball(who),
             ExprKind::Changes(what, to) => self.changes(what, to.as_deref(), span),
             ExprKind::Event(event) => self.event_happened(event),
-            ExprKind::OverTime { kind, .. } => self.fail(
-                Problem::new(Code::NotYet, span, format!("`{} of …` is not supported yet", kind.node), ""),
-            ),
+            ExprKind::OverTime { kind, .. } => {
+                self.fail(Problem::new(Code::NotYet, span, format!("`{} of …` is not supported yet", kind.node), ""))
+            }
             ExprKind::Broken => Value::error(),
         }
     }

@@ -34,13 +34,9 @@ pub(crate) fn unary(op: UnaryOp, a: f64) -> Option<f64> {
             }
         }
         UnaryOp::Wrap if (-PI..=PI).contains(&a) => a,
-        UnaryOp::Side
-        | UnaryOp::Exists
-        | UnaryOp::Exp
-        | UnaryOp::Log
-        | UnaryOp::Sin
-        | UnaryOp::Cos
-        | UnaryOp::Wrap => return None,
+        UnaryOp::Side | UnaryOp::Exists | UnaryOp::Exp | UnaryOp::Log | UnaryOp::Sin | UnaryOp::Cos | UnaryOp::Wrap => {
+            return None;
+        }
     })
 }
 

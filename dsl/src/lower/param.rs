@@ -126,18 +126,12 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
     if value.is_error() {
         return info;
     }
-    match info.ty.param() {
-        Some(ty) => info.param.ty = ty,
-        None => {
-            world.report(Problem::new(
-                Code::WrongType,
-                expr.span,
-                format!("a parameter can't be {}", value.ty.noun()),
-                "",
-            ));
-            return info;
-        }
-    }
+    let Some(ty) = info.ty.param() else {
+        let message = format!("a parameter can't be {}", value.ty.noun());
+        world.report(Problem::new(Code::WrongType, expr.span, message, ""));
+        return info;
+    };
+    info.param.ty = ty;
     match &value.repr {
         Repr::Text(text) => choices(world, &mut info, text, expr.span, flat.domain),
         Repr::One(reg) => match lower.code.constant_of(*reg) {

@@ -305,9 +305,7 @@ impl<'w> Lower<'_, 'w> {
         *self.start.headings.get_mut(index)? = Found::Busy;
         let heading = self.for_team(player.team.index() as f64, |lower| {
             let name = format!("{} facing", player.stream());
-            lower.drawing(&name, |lower| {
-                lower.within(player.scope.clone(), |lower| lower.facing(facing, index))
-            })
+            lower.drawing(&name, |lower| lower.within(player.scope.clone(), |lower| lower.facing(facing, index)))
         });
         *self.start.headings.get_mut(index)? = Found::Done(heading);
         Some(heading)

@@ -36,7 +36,14 @@ pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, 
         }
         RewardUseKind::Inline { body, .. } => {
             let body = Body { statements: body.iter().collect(), scope: Scope::new(true, Frame::Own) };
-            Some(lower_body(world, name, String::new(), &|_| body.scope.clone(), &body.statements, used.weight.as_ref()))
+            Some(lower_body(
+                world,
+                name,
+                String::new(),
+                &|_| body.scope.clone(),
+                &body.statements,
+                used.weight.as_ref(),
+            ))
         }
         RewardUseKind::Named(reference) => {
             let found = world.library.find(reference.name.span.file, &reference.name.node);
@@ -333,13 +340,10 @@ impl<'w> Writer<'_, 'w> {
     }
 
     fn give(&mut self, give: &'w GiveStmt) {
-        let label = match &give.label {
-            Some(label) => label.node.clone(),
-            None => {
-                self.unlabelled += 1;
-                self.unlabelled.to_string()
-            }
-        };
+        if give.label.is_none() {
+            self.unlabelled += 1;
+        }
+        let label = give.label.as_ref().map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
         let term = self.term(label);
         if give.on.is_empty() {
             let when = give.when.as_ref().map(|when| self.lower.condition(when));

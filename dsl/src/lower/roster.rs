@@ -167,8 +167,8 @@ fn from_layouts<'w>(
     let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving")) else {
         return Vec::new();
     };
-    let same = kicking.len() == receiving.len()
-        && kicking.iter().zip(&receiving).all(|(one, other)| one.role == other.role);
+    let same =
+        kicking.len() == receiving.len() && kicking.iter().zip(&receiving).all(|(one, other)| one.role == other.role);
     if !same && team == Team::Left {
         let roles = |players: &[Rostered<'w>]| -> String {
             players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
@@ -213,12 +213,7 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<R
     }
 }
 
-fn chain_players<'w>(
-    world: &World<'w>,
-    item: &'w FormationItem,
-    scope: &Scope<'w>,
-    team: Team,
-) -> Vec<Rostered<'w>> {
+fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'w>, team: Team) -> Vec<Rostered<'w>> {
     let mut found = Vec::new();
     let chain = formation_chain(world.library, item, &mut found);
     for problem in found {
@@ -333,9 +328,8 @@ fn adjust<'w>(
     }
     for (who, change) in overrides {
         let role = Role::from_name(&who.node);
-        let meant = |player: &Rostered<'w>| {
-            player.name.is_some_and(|name| name.node == who.node) || Some(player.role) == role
-        };
+        let meant =
+            |player: &Rostered<'w>| player.name.is_some_and(|name| name.node == who.node) || Some(player.role) == role;
         match players.iter().filter(|player| meant(player)).count() {
             1 => {}
             0 => {
@@ -384,25 +378,15 @@ fn adjust<'w>(
 }
 
 /// `each …`: defaults, behind the players' own options.
-fn apply_each<'w>(
-    world: &World<'w>,
-    players: &mut [Rostered<'w>],
-    each: &[(&'w Ident, &'w [Field])],
-    team: Team,
-) {
+fn apply_each<'w>(world: &World<'w>, players: &mut [Rostered<'w>], each: &[(&'w Ident, &'w [Field])], team: Team) {
     let mut defaults: Vec<Vec<&'w Field>> = vec![Vec::new(); players.len()];
     for (who, fields) in each {
         let role = Role::from_name(&who.node);
         if role.is_none() && !matches!(who.node.as_str(), "all" | "outfield") {
             let known = ["all", "outfield"].into_iter().chain(Role::ALL.iter().map(|role| role.name()));
             world.report(
-                Problem::new(
-                    Code::UnknownRole,
-                    who.span,
-                    format!("`each` knows no `{}`", who.node),
-                    "",
-                )
-                .did_you_mean(&who.node, known),
+                Problem::new(Code::UnknownRole, who.span, format!("`each` knows no `{}`", who.node), "")
+                    .did_you_mean(&who.node, known),
             );
             continue;
         }

@@ -70,7 +70,8 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str) -
             }
         }
         ScriptSource::Inline(text) => {
-            let name = format!("inline in {}", world.library.sources.get(text.span.file).map_or("", |f| f.name.as_str()));
+            let name =
+                format!("inline in {}", world.library.sources.get(text.span.file).map_or("", |f| f.name.as_str()));
             let source = Source { name: name.clone(), text: text.node.as_str().into() };
             (name, source, (text.span.file, text.span.start))
         }

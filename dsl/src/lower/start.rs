@@ -14,11 +14,9 @@ use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::football;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::vocabulary::Team;
 use remap::{map_agents, map_slot, map_start};
-use setpiece_scenario::{
-    Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
-};
+use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
 use std::collections::BTreeMap;
 
 /// A player's places at kick-offs: when his team kicks off, and when the others do.
@@ -113,7 +111,8 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     let places: Vec<(Reg, Reg)> = (0..n).map(|i| lower.place_of_rostered(i, roster_span(world, i))).collect();
     let headings: Vec<Option<Reg>> = (0..n).map(|i| lower.heading_of(i, roster_span(world, i))).collect();
     let ball = lower.ball();
-    let options: Vec<PlayerOptions> = world.roster.iter().map(|player| lower_player_options(&mut lower, player)).collect();
+    let options: Vec<PlayerOptions> =
+        world.roster.iter().map(|player| lower_player_options(&mut lower, player)).collect();
     let difficulty = [lower_difficulty(&mut lower, Team::Left), lower_difficulty(&mut lower, Team::Right)];
     let agents = lower_agents(&mut lower, &options);
     let side = side_with_agents(&lower, &agents, &options);
@@ -321,9 +320,8 @@ impl<'w> Lower<'_, 'w> {
             Some((expr, _, _)) => {
                 let team = self.team.take();
                 let scope = Scope::new(true, Frame::World);
-                let first = self.within(scope, |lower| {
-                    lower.drawing("kickoff", |lower| lower.want_reg(expr, Ty::Team))
-                });
+                let first =
+                    self.within(scope, |lower| lower.drawing("kickoff", |lower| lower.want_reg(expr, Ty::Team)));
                 self.team = team;
                 first
             }
@@ -364,8 +362,13 @@ impl<'w> Lower<'_, 'w> {
             let words = label.as_ref().map_or_else(|| self.world.text(condition.span), |label| label.node.clone());
             if self.code.constant_of(met) == Some(0.0) && probability.is_none() {
                 self.report(
-                    Problem::new(Code::ImpossibleToDraw, condition.span, format!("`{words}` is never met"), "always false")
-                        .help("move the players, or drop the requirement"),
+                    Problem::new(
+                        Code::ImpossibleToDraw,
+                        condition.span,
+                        format!("`{words}` is never met"),
+                        "always false",
+                    )
+                    .help("move the players, or drop the requirement"),
                 );
             }
             requires.push(Require { condition: met, probability, label: words });

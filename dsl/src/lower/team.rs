@@ -1,9 +1,9 @@
 //! Options of teams and players.
 
+use super::Lower;
 use super::roster::Rostered;
 use super::script::embed;
 use super::value::Repr;
-use super::Lower;
 use crate::ast::{Expr, ExprKind, Field, FieldValue};
 use crate::check::options::{self, PLAYER, TEAM};
 use crate::check::types::Ty;
@@ -109,9 +109,7 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
 }
 
 fn not_a_group(lower: &Lower<'_, '_>, span: crate::ast::Span) {
-    lower.report(
-        Problem::new(Code::WrongType, span, "`stats` is a group", "").help("write `stats: { speed: 0.9 }`"),
-    );
+    lower.report(Problem::new(Code::WrongType, span, "`stats` is a group", "").help("write `stats: { speed: 0.9 }`"));
 }
 
 fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options: &mut PlayerOptions) {
@@ -188,8 +186,12 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
                 Problem::new(Code::NotYet, expr.span, "a `behavior` is not supported yet", "")
                     .help("write `ai: bot`, `ai: hold`, `ai: lazy` or `ai: script \"file.rhai\"`")
             } else {
-                let problem =
-                    Problem::new(Code::UnknownName, expr.span, format!("no player's `ai` is called `{name}`"), "not known");
+                let problem = Problem::new(
+                    Code::UnknownName,
+                    expr.span,
+                    format!("no player's `ai` is called `{name}`"),
+                    "not known",
+                );
                 if crate::problem::nearest(name, known).is_some() {
                     problem.did_you_mean(name, known)
                 } else {

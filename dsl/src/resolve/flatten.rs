@@ -6,8 +6,8 @@
 use super::load::Library;
 use super::parts::chain;
 use crate::ast::{
-    Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref,
-    RewardUse, RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
+    Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
+    RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
 };
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::{Role, Team};
@@ -87,15 +87,18 @@ pub(crate) struct FlatEnding<'a> {
 }
 
 /// Collects what a scenario says and inherits.
-pub(crate) fn flatten<'a>(
-    library: &'a Library,
-    item: &'a ScenarioItem,
-    problems: &mut Vec<Problem>,
-) -> Flat<'a> {
-    let links = chain(library, item, "scenario", |item| item.extends.as_ref(), |kind| match kind {
-        ItemKind::Scenario(scenario) => Some(scenario),
-        _ => None,
-    }, problems);
+pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems: &mut Vec<Problem>) -> Flat<'a> {
+    let links = chain(
+        library,
+        item,
+        "scenario",
+        |item| item.extends.as_ref(),
+        |kind| match kind {
+            ItemKind::Scenario(scenario) => Some(scenario),
+            _ => None,
+        },
+        problems,
+    );
     let mut flat = Flat {
         item,
         params: Vec::new(),
@@ -281,24 +284,16 @@ impl<'a> Adding<'a, '_> {
                 );
                 continue;
             };
-            match self.flat.params.iter_mut().find(|param| param.decl.name.node == name) {
-                Some(param) => {
-                    param.value = Some(&arg.value);
-                    param.is_argument = true;
-                }
-                None => {
-                    let known: Vec<&str> = self.flat.params.iter().map(|p| p.decl.name.node.as_str()).collect();
-                    self.problems.push(
-                        Problem::new(
-                            Code::UnknownName,
-                            arg.key.as_ref().map_or(arg.span, |key| key.span),
-                            format!("`{}` has no parameter `{name}`", reference.name.node),
-                            "",
-                        )
-                        .did_you_mean(name, known),
-                    );
-                }
+            let param = self.flat.params.iter_mut().find(|param| param.decl.name.node == name);
+            if let Some(param) = param {
+                param.value = Some(&arg.value);
+                param.is_argument = true;
+                continue;
             }
+            let known: Vec<&str> = self.flat.params.iter().map(|p| p.decl.name.node.as_str()).collect();
+            let span = arg.key.as_ref().map_or(arg.span, |key| key.span);
+            let message = format!("`{}` has no parameter `{name}`", reference.name.node);
+            self.problems.push(Problem::new(Code::UnknownName, span, message, "").did_you_mean(name, known));
         }
     }
 
@@ -380,7 +375,8 @@ impl<'a> Adding<'a, '_> {
             }
             EndStmt::When { verdict, label, condition } => (verdict, label, condition),
         };
-        let ending = FlatEnding { verdict: verdict.as_ref(), label: label.as_ref(), condition: condition.as_ref(), span };
+        let ending =
+            FlatEnding { verdict: verdict.as_ref(), label: label.as_ref(), condition: condition.as_ref(), span };
         let Some(label) = label else {
             self.flat.ends.push(ending);
             return;
@@ -389,9 +385,14 @@ impl<'a> Adding<'a, '_> {
         let first = self.own.iter().find(|(kind, known, _)| *kind == "end" && known == name).map(|own| own.2);
         if let Some(first) = first {
             self.problems.push(
-                Problem::new(Code::DuplicateName, label.name.span, format!("ending `{name}` is given twice"), "given again here")
-                    .label(first, "first given here")
-                    .help("give each ending its own label, or join the conditions with `or`"),
+                Problem::new(
+                    Code::DuplicateName,
+                    label.name.span,
+                    format!("ending `{name}` is given twice"),
+                    "given again here",
+                )
+                .label(first, "first given here")
+                .help("give each ending its own label, or join the conditions with `or`"),
             );
             return;
         }
@@ -438,9 +439,10 @@ impl<'a> Adding<'a, '_> {
                     |label| label.name.node == name,
                 )
             }),
-            ("require", Some(name)) => removed(&mut flat.requires, |stmt| {
-                matches!(&stmt.kind, ScenarioStmtKind::Require { label: Some(label), .. } if label.node == name)
-            }),
+            ("require", Some(name)) => removed(
+                &mut flat.requires,
+                |stmt| matches!(&stmt.kind, ScenarioStmtKind::Require { label: Some(label), .. } if label.node == name),
+            ),
             _ => false,
         }
     }

@@ -51,11 +51,11 @@ pub(crate) fn load(root: Source, loader: &dyn SourceLoader, problems: &mut Vec<P
         seen: Vec::new(),
     };
     let mut loading = Loading { library: &mut library, loader, problems, stack: Vec::new() };
-    loading.file(root);
+    loading.file(&root);
     // A missing prelude is no mistake of the author's.
     if let Ok(source) = loader.load(PRELUDE, PRELUDE) {
         let known = loading.known(&source.name);
-        let prelude = known.unwrap_or_else(|| loading.file(source));
+        let prelude = known.unwrap_or_else(|| loading.file(&source));
         library.prelude = Some(prelude);
     }
     library.collect_names(problems);
@@ -74,9 +74,9 @@ impl Loading<'_> {
         self.library.sources.iter().find(|(_, source)| source.name == name).map(|(id, _)| id)
     }
 
-    fn file(&mut self, source: Source) -> FileId {
+    fn file(&mut self, source: &Source) -> FileId {
         let id = self.library.sources.add(source.clone());
-        let file = parse(&source, id, self.problems);
+        let file = parse(source, id, self.problems);
         let imports: Vec<_> = file
             .items
             .iter()
@@ -117,7 +117,7 @@ impl Loading<'_> {
                     continue;
                 }
                 Some(known) => known,
-                None => self.file(loaded),
+                None => self.file(&loaded),
             };
             let import = Import { file: imported, alias: alias.map(|alias| alias.node) };
             if let Some(list) = self.library.imports.get_mut(id.0 as usize) {
@@ -155,9 +155,7 @@ impl Library {
     /// Every name a file sees with its item, in the order of names.
     pub(crate) fn visible(&self, file: FileId) -> impl Iterator<Item = (&str, NamedItem<'_>)> {
         let seen = self.seen.get(file.0 as usize);
-        seen.into_iter()
-            .flatten()
-            .filter_map(|(name, places)| Some((name.as_str(), self.item(*places.first()?)?)))
+        seen.into_iter().flatten().filter_map(|(name, places)| Some((name.as_str(), self.item(*places.first()?)?)))
     }
 
     fn item(&self, at: ItemAt) -> Option<NamedItem<'_>> {

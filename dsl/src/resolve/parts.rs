@@ -13,10 +13,17 @@ pub(crate) fn reward_chain<'a>(
     reward: &'a RewardItem,
     problems: &mut Vec<Problem>,
 ) -> Chain<'a, RewardItem> {
-    chain(library, reward, "reward", |item| item.extends.as_ref(), |kind| match kind {
-        ItemKind::Reward(reward) => Some(reward),
-        _ => None,
-    }, problems)
+    chain(
+        library,
+        reward,
+        "reward",
+        |item| item.extends.as_ref(),
+        |kind| match kind {
+            ItemKind::Reward(reward) => Some(reward),
+            _ => None,
+        },
+        problems,
+    )
 }
 
 /// A formation and its parents, the root first.
@@ -25,10 +32,17 @@ pub(crate) fn formation_chain<'a>(
     formation: &'a FormationItem,
     problems: &mut Vec<Problem>,
 ) -> Chain<'a, FormationItem> {
-    chain(library, formation, "formation", |item| item.extends.as_ref(), |kind| match kind {
-        ItemKind::Formation(formation) => Some(formation),
-        _ => None,
-    }, problems)
+    chain(
+        library,
+        formation,
+        "formation",
+        |item| item.extends.as_ref(),
+        |kind| match kind {
+            ItemKind::Formation(formation) => Some(formation),
+            _ => None,
+        },
+        problems,
+    )
 }
 
 /// Follows `extends` from an item to its root, and gives the items root first.

@@ -36,13 +36,7 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    pub(super) fn binary(
-        &mut self,
-        op: &'w Spanned<ast::BinaryOp>,
-        a: &'w Expr,
-        b: &'w Expr,
-        span: Span,
-    ) -> Value<'w> {
+    pub(super) fn binary(&mut self, op: &'w Spanned<ast::BinaryOp>, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
         use ast::BinaryOp as Op;
         match op.node {
             Op::And | Op::Or => {
@@ -58,7 +52,8 @@ impl<'w> Lower<'_, 'w> {
             Op::In => self.membership(a, b),
             Op::Union | Op::Intersection => {
                 let (Some(x), Some(y)) = (self.region(a), self.region(b)) else { return Value::error() };
-                let value = if op.node == Op::Union { RegionValue::Union(x, y) } else { RegionValue::Intersection(x, y) };
+                let value =
+                    if op.node == Op::Union { RegionValue::Union(x, y) } else { RegionValue::Intersection(x, y) };
                 Value { ty: Ty::Region, repr: Repr::Region(Rc::new(value)) }
             }
         }
@@ -86,7 +81,8 @@ impl<'w> Lower<'_, 'w> {
             let (Repr::Region(p), Repr::Region(q)) = (x.repr, y.repr) else { return Value::error() };
             return Value { ty: Ty::Region, repr: Repr::Region(Rc::new(RegionValue::Difference(p, q))) };
         }
-        let offset = |value: &Value<'w>, expr: &Expr| value.ty == Ty::Vector || (value.ty == Ty::Point && is_tuple(expr));
+        let offset =
+            |value: &Value<'w>, expr: &Expr| value.ty == Ty::Vector || (value.ty == Ty::Point && is_tuple(expr));
         let ty = match (x.ty, y.ty) {
             (Ty::Velocity, Ty::Velocity) => Ty::Velocity,
             (Ty::Vector, Ty::Vector) => Ty::Vector,
@@ -123,7 +119,8 @@ impl<'w> Lower<'_, 'w> {
         let problem = Problem::new(code, b.span, message, noun_b).label(a.span, noun_a);
         let lengths = (x.ty == Ty::LENGTH && y.ty.is_plain()) || (y.ty == Ty::LENGTH && x.ty.is_plain());
         self.fail(if lengths {
-            problem.help("write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one")
+            problem
+                .help("write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one")
         } else {
             match x.ty.example().filter(|_| y.ty.is_plain() && x.ty.dim().is_some()) {
                 Some(example) => problem.help(format!("write the number with its unit, for example `{example}`")),
@@ -177,8 +174,7 @@ impl<'w> Lower<'_, 'w> {
         }
         let ty = match (x.ty, right) {
             (Ty::Vector, Dim::NONE) => Ty::Vector,
-            (Ty::Velocity, Dim::NONE) => Ty::Velocity,
-            (Ty::Vector, Dim::DURATION) => Ty::Velocity,
+            (Ty::Velocity, Dim::NONE) | (Ty::Vector, Dim::DURATION) => Ty::Velocity,
             _ => return self.fail(self.mismatch(x.ty, Ty::Number, a.span)),
         };
         let p = self.pair(&x);
@@ -242,19 +238,17 @@ impl<'w> Lower<'_, 'w> {
         let modes = || GameMode::ALL.iter().map(|mode| mode.name());
         // `kickoff` is the event's name, `kick_off` GRF's for the mode.
         let found = GameMode::from_name(word).or((word == "kickoff").then_some(GameMode::KickOff));
-        match found {
-            Some(mode) => Value::one(Ty::Mode, self.code.constant(mode.index() as f64)),
-            None => {
-                let known: Vec<&str> = modes().collect();
-                let problem = Problem::new(Code::UnknownName, expr.span, format!("no game mode is called `{word}`"), "");
-                let near = crate::problem::nearest(word, modes()).is_some();
-                self.fail(if near {
-                    problem.did_you_mean(word, modes())
-                } else {
-                    problem.help(format!("the modes are `{}`", known.join("`, `")))
-                })
-            }
+        if let Some(mode) = found {
+            return Value::one(Ty::Mode, self.code.constant(mode.index() as f64));
         }
+        let known: Vec<&str> = modes().collect();
+        let problem = Problem::new(Code::UnknownName, expr.span, format!("no game mode is called `{word}`"), "");
+        let near = crate::problem::nearest(word, modes()).is_some();
+        self.fail(if near {
+            problem.did_you_mean(word, modes())
+        } else {
+            problem.help(format!("the modes are `{}`", known.join("`, `")))
+        })
     }
 
     /// Whether two values are equal.
@@ -271,8 +265,11 @@ impl<'w> Lower<'_, 'w> {
             _ => {}
         }
         let comparable = match (x.ty, y.ty) {
-            (Ty::Team, Ty::Team) | (Ty::Player, Ty::Player) | (Ty::Role, Ty::Role) => true,
-            (Ty::Mode, Ty::Mode) | (Ty::Bool, Ty::Bool) => true,
+            (Ty::Team, Ty::Team)
+            | (Ty::Player, Ty::Player)
+            | (Ty::Role, Ty::Role)
+            | (Ty::Mode, Ty::Mode)
+            | (Ty::Bool, Ty::Bool) => true,
             (left, right) => left.dim().is_some() && left.dim() == right.dim(),
         };
         if !comparable {
@@ -344,7 +341,9 @@ impl<'w> Lower<'_, 'w> {
             (Ty::Player, _) => self.owns(reg, who.span).map_or_else(Value::error, |reg| Value::one(Ty::Bool, reg)),
             (Ty::Set, Repr::Set(set)) => {
                 let set = *set;
-                let Some(owner) = self.load(Field::BallOwner, None, "has ball", who.span) else { return Value::error() };
+                let Some(owner) = self.load(Field::BallOwner, None, "has ball", who.span) else {
+                    return Value::error();
+                };
                 Value::one(Ty::Bool, self.in_set(owner, set))
             }
             (ty, _) => self.fail(self.mismatch(ty, Ty::Player, who.span)),

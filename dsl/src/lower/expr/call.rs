@@ -38,8 +38,13 @@ impl<'w> Lower<'_, 'w> {
             .collect();
         known.extend(Function::ALL.iter().map(|function| function.name()));
         self.fail(
-            Problem::new(Code::UnknownFunction, name.span, format!("no function is called `{}`", name.node), "not known")
-                .did_you_mean(&name.node, known),
+            Problem::new(
+                Code::UnknownFunction,
+                name.span,
+                format!("no function is called `{}`", name.node),
+                "not known",
+            )
+            .did_you_mean(&name.node, known),
         )
     }
 
@@ -195,8 +200,13 @@ impl<'w> Lower<'_, 'w> {
                     let first = first.span;
                     let name = names.get(at).copied().unwrap_or_default();
                     self.report(
-                        Problem::new(Code::WrongArguments, arg.span, format!("`{name}` is given twice"), "given again here")
-                            .label(first, "first given here"),
+                        Problem::new(
+                            Code::WrongArguments,
+                            arg.span,
+                            format!("`{name}` is given twice"),
+                            "given again here",
+                        )
+                        .label(first, "first given here"),
                     );
                     return None;
                 }

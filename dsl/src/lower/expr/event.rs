@@ -10,6 +10,7 @@ use setpiece_scenario::vocabulary::{EventField, EventKind, Qualifier};
 use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
 
 /// A loop over the matching events that is being written.
+#[derive(Clone, Copy)]
 pub(crate) struct Matching {
     /// The loop.
     pub(crate) open: OpenLoop,
@@ -71,8 +72,13 @@ impl<'w> Lower<'_, 'w> {
         };
         if !self.stage.is_step() {
             self.report(
-                Problem::new(Code::WrongScope, event.span, "nothing has happened yet", "this is computed before the match")
-                    .help("events belong to rewards and endings"),
+                Problem::new(
+                    Code::WrongScope,
+                    event.span,
+                    "nothing has happened yet",
+                    "this is computed before the match",
+                )
+                .help("events belong to rewards and endings"),
             );
             return None;
         }

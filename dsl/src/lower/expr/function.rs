@@ -22,12 +22,23 @@ impl<'w> Lower<'_, 'w> {
             F::Rect | F::Circle => self.region_call(function, args, span),
             _ => {
                 let (names, required) = signature(function);
-                let Some(given) = self.arguments(&name.node, args, span, names, required) else { return Value::error() };
+                let Some(given) = self.arguments(&name.node, args, span, names, required) else {
+                    return Value::error();
+                };
                 let given: Vec<&'w Expr> = given.into_iter().flatten().collect();
                 match (function, given.as_slice()) {
-                    (F::Prev | F::Delta | F::Closing | F::Held | F::Ever | F::Always | F::Since | F::Until | F::Within, _) => {
-                        self.temporal(function, &given, span)
-                    }
+                    (
+                        F::Prev
+                        | F::Delta
+                        | F::Closing
+                        | F::Held
+                        | F::Ever
+                        | F::Always
+                        | F::Since
+                        | F::Until
+                        | F::Within,
+                        _,
+                    ) => self.temporal(function, &given, span),
                     (F::Uniform | F::Normal | F::TruncatedNormal | F::Integer | F::Alternate, _) => {
                         self.draw(function, &given, span)
                     }
@@ -42,10 +53,10 @@ impl<'w> Lower<'_, 'w> {
     fn math(&mut self, function: Function, given: &[&'w Expr], span: Span) -> Value<'w> {
         use Function as F;
         match (function, given) {
-            (F::Abs, &[x]) => self.number_op(x, |ty| Some(ty), UnaryOp::Abs),
-            (F::Floor, &[x]) => self.number_op(x, whole, UnaryOp::Floor),
-            (F::Ceil, &[x]) => self.number_op(x, whole, UnaryOp::Ceil),
-            (F::Round, &[x]) => self.number_op(x, whole, UnaryOp::Round),
+            (F::Abs, &[x]) => self.number_op(x, Some, UnaryOp::Abs),
+            (F::Floor, &[x]) => self.number_op(x, |ty| Some(whole(ty)), UnaryOp::Floor),
+            (F::Ceil, &[x]) => self.number_op(x, |ty| Some(whole(ty)), UnaryOp::Ceil),
+            (F::Round, &[x]) => self.number_op(x, |ty| Some(whole(ty)), UnaryOp::Round),
             (F::Sqrt, &[x]) => {
                 let value = self.number_op(x, |ty| ty.dim()?.root().map(Ty::with_dim), UnaryOp::Sqrt);
                 self.check_domain_of(x, value, span, 0.0, "the root of a negative number")
@@ -108,12 +119,7 @@ impl<'w> Lower<'_, 'w> {
                 let scale = self.code.constant(X_SCALE_M);
                 Value::one(Ty::Number, self.code.binary(BinaryOp::Div, x, scale))
             }
-            _ => self.fail(Problem::new(
-                Code::NotYet,
-                span,
-                format!("`{}` is not supported yet", function.name()),
-                "",
-            )),
+            _ => self.fail(Problem::new(Code::NotYet, span, format!("`{}` is not supported yet", function.name()), "")),
         }
     }
 
@@ -132,9 +138,9 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn check_domain_of(&mut self, x: &'w Expr, value: Value<'w>, span: Span, least: f64, what: &str) -> Value<'w> {
-        let operand = match value.regs().first().and_then(|&reg| self.code.instr(reg)) {
-            Some(&setpiece_scenario::Instr::Unary(UnaryOp::Sqrt | UnaryOp::Log, operand)) => operand,
-            _ => return value,
+        let instr = value.regs().first().and_then(|&reg| self.code.instr(reg));
+        let Some(&setpiece_scenario::Instr::Unary(UnaryOp::Sqrt | UnaryOp::Log, operand)) = instr else {
+            return value;
         };
         if let Some((low, _)) = self.interval(operand)
             && low < least
@@ -269,8 +275,8 @@ impl<'w> Lower<'_, 'w> {
     }
 }
 
-fn whole(ty: Ty) -> Option<Ty> {
-    Some(if ty.is_plain() { Ty::Int } else { ty })
+fn whole(ty: Ty) -> Ty {
+    if ty.is_plain() { Ty::Int } else { ty }
 }
 
 /// The parameters of a function, and how many of them must be given.

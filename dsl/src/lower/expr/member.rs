@@ -14,7 +14,7 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn member(&mut self, of: &'w Expr, member: &'w Ident, span: Span) -> Value<'w> {
         match &of.kind {
             // `left.corner.top` is one name with a dot in it.
-            ExprKind::Member(team, part) if self.is_team_part(&part.node) => {
+            ExprKind::Member(team, part) if is_team_part(&part.node) => {
                 let name = format!("{}.{}", part.node, member.node);
                 return self.team_member(team, &name, part.span.to(member.span), span);
             }
@@ -62,10 +62,6 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn is_team_part(&self, name: &str) -> bool {
-        Landmark::ALL.iter().any(|landmark| landmark.name().split_once('.').is_some_and(|(head, _)| head == name))
-    }
-
     fn team_member(&mut self, team: &'w Expr, name: &str, at: Span, span: Span) -> Value<'w> {
         let value = self.expr(team);
         match value.ty {
@@ -92,18 +88,16 @@ impl<'w> Lower<'_, 'w> {
             return rect((x0, y0), (x1, y1));
         }
         if name == "score" {
-            return self.load(Field::Score, Some(reg), "score", at).map_or_else(Value::error, |r| Value::one(Ty::Int, r));
+            return self
+                .load(Field::Score, Some(reg), "score", at)
+                .map_or_else(Value::error, |r| Value::one(Ty::Int, r));
         }
         let mut known: Vec<&str> = Landmark::ALL.iter().map(|landmark| landmark.name()).collect();
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
         known.push("score");
         let text = self.world.text(of);
-        let problem = Problem::new(
-            Code::UnknownMember,
-            at,
-            format!("`{text}` has no landmark or region `{name}`"),
-            "not known",
-        );
+        let problem =
+            Problem::new(Code::UnknownMember, at, format!("`{text}` has no landmark or region `{name}`"), "not known");
         let near = crate::problem::nearest(name, known.iter().copied()).is_some();
         self.fail(if near {
             problem.did_you_mean(name, known)
@@ -142,9 +136,9 @@ impl<'w> Lower<'_, 'w> {
                 let (field, ty) = one(Field::BallHeight);
                 self.load(field, None, "height", span).map_or_else(Value::error, |r| Value::one(ty, r))
             }
-            "owner" => {
-                self.load(Field::BallOwner, None, "owner", span).map_or_else(Value::error, |r| Value::one(Ty::Player, r))
-            }
+            "owner" => self
+                .load(Field::BallOwner, None, "owner", span)
+                .map_or_else(Value::error, |r| Value::one(Ty::Player, r)),
             "velocity" => self.velocity(value, span),
             "speed" => {
                 let flat = self.velocity(value, span);
@@ -273,6 +267,11 @@ impl<'w> Lower<'_, 'w> {
             problem.help(format!("it has `{}`", known.join("`, `")))
         })
     }
+}
+
+/// Whether a name is the first half of a landmark's, as in `corner.top`.
+fn is_team_part(name: &str) -> bool {
+    Landmark::ALL.iter().any(|landmark| landmark.name().split_once('.').is_some_and(|(head, _)| head == name))
 }
 
 fn rect<'w>(a: (Reg, Reg), b: (Reg, Reg)) -> Value<'w> {

@@ -12,8 +12,20 @@ use std::rc::Rc;
 
 /// Names of the language that are no properties.
 const BUILTIN: &[&str] = &[
-    "left", "right", "none", "us", "them", "me", "mates", "players", "ball", "centre", "pitch", "centre_circle",
-    "score", "nobody",
+    "left",
+    "right",
+    "none",
+    "us",
+    "them",
+    "me",
+    "mates",
+    "players",
+    "ball",
+    "centre",
+    "pitch",
+    "centre_circle",
+    "score",
+    "nobody",
 ];
 
 impl<'w> Lower<'_, 'w> {
@@ -56,18 +68,16 @@ impl<'w> Lower<'_, 'w> {
             }
             Binding::Expr { expr, scope, ty, now, at } => {
                 self.world.mark_used(at);
-                match now.filter(|_| self.when == When::Now) {
-                    Some(value) => value,
-                    None => {
-                        let value = self.inline(at, span, |lower| {
-                            lower.within(scope, |lower| match ty {
-                                Some(ty) => lower.want(expr, ty),
-                                None => lower.expr(expr),
-                            })
-                        });
-                        value.unwrap_or_else(Value::error)
-                    }
-                }
+                let known = now.filter(|_| self.when == When::Now);
+                known.unwrap_or_else(|| {
+                    let value = self.inline(at, span, |lower| {
+                        lower.within(scope, |lower| match ty {
+                            Some(ty) => lower.want(expr, ty),
+                            None => lower.expr(expr),
+                        })
+                    });
+                    value.unwrap_or_else(Value::error)
+                })
             }
         };
         if value.regs().iter().all(|&reg| self.code.is_visible(reg)) {
@@ -107,8 +117,9 @@ impl<'w> Lower<'_, 'w> {
         if let Some(region) = world.flat.regions.iter().find(|region| region.name.node == name) {
             world.mark_used(region.name.span);
             let scope = Scope::new(true, Frame::World);
-            let value =
-                self.inline(region.name.span, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
+            let value = self.inline(region.name.span, span, |lower| {
+                lower.within(scope, |lower| lower.want(&region.body, Ty::Region))
+            });
             return Some(value.unwrap_or_else(Value::error));
         }
         self.player_name(name, None)
@@ -128,15 +139,15 @@ impl<'w> Lower<'_, 'w> {
             return Some(self.fail(problem));
         }
         self.world.mark_used(found.name.span);
-        let needs_call = |what: &str| {
-            Problem::new(Code::WrongType, span, format!("`{name}` is a {what}, not a value"), "")
-        };
+        let needs_call =
+            |what: &str| Problem::new(Code::WrongType, span, format!("`{name}` is a {what}, not a value"), "");
         Some(match &found.item.kind {
             ItemKind::Const(binding) => self.constant_item(binding, span),
             ItemKind::Region(region) if region.params.is_empty() => {
                 let scope = Scope::new(false, Frame::World);
                 let at = region.name.span;
-                let value = self.inline(at, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
+                let value =
+                    self.inline(at, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
                 value.unwrap_or_else(Value::error)
             }
             ItemKind::Formation(formation) => formation_value(formation),
@@ -144,7 +155,7 @@ impl<'w> Lower<'_, 'w> {
                 self.fail(needs_call("function").help(format!("call it: `{name}(…)`")))
             }
             // A scenario or a reward may bear the name of a property; the property is meant here.
-            _ if self.is_builtin(name) => return None,
+            _ if is_builtin(name) => return None,
             ItemKind::Scenario(_) => self.fail(needs_call("scenario")),
             ItemKind::Reward(_) => self.fail(needs_call("reward")),
             _ => self.fail(needs_call("definition")),
@@ -173,10 +184,6 @@ impl<'w> Lower<'_, 'w> {
             );
         }
         value
-    }
-
-    fn is_builtin(&self, name: &str) -> bool {
-        BUILTIN.contains(&name) || match_property(name).is_some()
     }
 
     fn builtin(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
@@ -230,11 +237,10 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
-        let problem = Problem::new(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
+        let problem =
+            Problem::new(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
         self.fail(match (self.stage, name) {
-            (Stage::Ending, "us" | "them") => {
-                problem.help("both teams have agents, or none: write `left` or `right`")
-            }
+            (Stage::Ending, "us" | "them") => problem.help("both teams have agents, or none: write `left` or `right`"),
             (Stage::Init, "me" | "mates") => problem.help("a `state` begins before anyone plays; set it in a `when`"),
             _ => problem.help("write `left`, `right` or a player's name; `us`, `them` and `me` belong to rewards"),
         })
@@ -304,6 +310,10 @@ impl<'w> Lower<'_, 'w> {
         debug_assert!(id < 2.0 * TEAM_MAX as f64);
         self.world.roster.iter().position(|rostered| f64::from(rostered.id) == id)
     }
+}
+
+fn is_builtin(name: &str) -> bool {
+    BUILTIN.contains(&name) || match_property(name).is_some()
 }
 
 fn match_property(name: &str) -> Option<&'static Property> {

@@ -1,7 +1,7 @@
 //! Players as a group: `count(p in them where …)`, `nearest`, `pressed`, and the aggregates.
 
-use super::super::{Lower, Stage};
 use super::super::value::{Binding, Repr, SetValue, Value};
+use super::super::{Lower, Stage};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -49,15 +49,25 @@ impl<'w> Lower<'_, 'w> {
         let known = self.stage.is_step();
         if self.code.loops() >= LOOPS_MAX {
             self.report(
-                Problem::new(Code::Impossible, span, format!("more than {LOOPS_MAX} loops stand inside each other"), "")
-                    .help("compute the inner one before, with a `let`"),
+                Problem::new(
+                    Code::Impossible,
+                    span,
+                    format!("more than {LOOPS_MAX} loops stand inside each other"),
+                    "",
+                )
+                .help("compute the inner one before, with a `let`"),
             );
             return false;
         }
         if !known {
             self.report(
-                Problem::new(Code::WrongScope, span, format!("`{what}` goes through players, and the match has not begun"), "")
-                    .help("name the players: `distance(a, b)`"),
+                Problem::new(
+                    Code::WrongScope,
+                    span,
+                    format!("`{what}` goes through players, and the match has not begun"),
+                    "",
+                )
+                .help("name the players: `distance(a, b)`"),
             );
         }
         known
@@ -100,7 +110,13 @@ impl<'w> Lower<'_, 'w> {
     /// An aggregate over the roster, written out player by player: the start has no loops.
     fn aggregate_start(&mut self, function: Function, parts: &Comprehension<'w>, span: Span) -> Value<'w> {
         let Some(set) = self.want_set(parts.set) else { return Value::error() };
-        let ids: Vec<Reg> = self.world.roster.iter().map(|player| player.id).map(f64::from).collect::<Vec<_>>()
+        let ids: Vec<Reg> = self
+            .world
+            .roster
+            .iter()
+            .map(|player| player.id)
+            .map(f64::from)
+            .collect::<Vec<_>>()
             .into_iter()
             .map(|id| self.code.constant(id))
             .collect();
@@ -136,7 +152,8 @@ impl<'w> Lower<'_, 'w> {
                 "",
             )),
             (Function::Count, _) => {
-                let sum = elements.into_iter().fold(zero, |sum, (counts, _)| self.code.binary(BinaryOp::Add, sum, counts));
+                let sum =
+                    elements.into_iter().fold(zero, |sum, (counts, _)| self.code.binary(BinaryOp::Add, sum, counts));
                 Value::one(Ty::Int, sum)
             }
             (Function::Any, _) => {
@@ -186,12 +203,7 @@ impl<'w> Lower<'_, 'w> {
         })
     }
 
-    fn fold_of(
-        &mut self,
-        function: Function,
-        value: Option<(Value<'w>, &'w Expr)>,
-        filter: Option<Reg>,
-    ) -> (Fold, Ty) {
+    fn fold_of(&mut self, function: Function, value: Option<(Value<'w>, &'w Expr)>, filter: Option<Reg>) -> (Fold, Ty) {
         use Function as F;
         let kind = match function {
             F::Count => FoldKind::Count,
@@ -207,13 +219,11 @@ impl<'w> Lower<'_, 'w> {
         let is_logic = matches!(kind, FoldKind::Any | FoldKind::All);
         // `count(p in S where C)`, `any(p in S where C)`, `all(p in S where C)`
         let Some((value, expr)) = value else {
-            return match kind {
-                FoldKind::Count => (Fold { kind, value: None, guard: filter }, Ty::Int),
-                _ => {
-                    let value = filter.unwrap_or_else(|| self.code.bool(true));
-                    (Fold { kind, value: Some(value), guard: None }, Ty::Bool)
-                }
-            };
+            if kind == FoldKind::Count {
+                return (Fold { kind, value: None, guard: filter }, Ty::Int);
+            }
+            let value = filter.unwrap_or_else(|| self.code.bool(true));
+            return (Fold { kind, value: Some(value), guard: None }, Ty::Bool);
         };
         let fits = value.is_error() || if is_logic { value.ty == Ty::Bool } else { value.ty.dim().is_some() };
         if !fits {
@@ -267,16 +277,23 @@ impl<'w> Lower<'_, 'w> {
     }
 }
 
-fn take_apart<'w>(function: Function, arg: &'w Arg) -> Option<Comprehension<'w>> {
+fn take_apart(function: Function, arg: &Arg) -> Option<Comprehension<'_>> {
     if let Some((name, set)) = &arg.binder {
-        return Some(Comprehension { value: Some(&arg.value), name: Some(&name.node), set, filter: arg.filter.as_ref() });
+        return Some(Comprehension {
+            value: Some(&arg.value),
+            name: Some(&name.node),
+            set,
+            filter: arg.filter.as_ref(),
+        });
     }
     if !matches!(function, Function::Count | Function::Any | Function::All) {
         return None;
     }
     match &arg.value.kind {
         ExprKind::Binary(op, name, set) if op.node == ast::BinaryOp::In => match &name.kind {
-            ExprKind::Name(name) => Some(Comprehension { value: None, name: Some(name), set, filter: arg.filter.as_ref() }),
+            ExprKind::Name(name) => {
+                Some(Comprehension { value: None, name: Some(name), set, filter: arg.filter.as_ref() })
+            }
             _ => None,
         },
         _ if function == Function::Count && arg.filter.is_none() => {

@@ -1,7 +1,7 @@
 //! Operators over time: evaluated once per step, outside every loop, whatever guards their use.
 
-use super::super::{Lower, Stage};
 use super::super::value::Value;
+use super::super::{Lower, Stage};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};

@@ -329,7 +329,9 @@ fn hard_things_add_no_energy() {
         let (mut ball, bodies) = shot(i % 7, &mut draw);
         for tick in 0..200 {
             let energy = |b: &Ball| {
-                9.81 * b.pos.z + 0.5 * b.vel.length_squared() + BALL_RADIUS * BALL_RADIUS / 3.0 * b.spin.length_squared()
+                9.81 * b.pos.z
+                    + 0.5 * b.vel.length_squared()
+                    + BALL_RADIUS * BALL_RADIUS / 3.0 * b.spin.length_squared()
             };
             let before = energy(&ball);
             let touched = advance_ball(&mut ball, &bodies, false, &mut scratch);

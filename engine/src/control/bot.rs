@@ -19,7 +19,7 @@ use crate::football::touch;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::PLAYERS_MAX;
-use setpiece_scenario::vocabulary::{Action, Role, Rule, StickyAction, Team};
+use setpiece_scenario::vocabulary::{Action, Role, StickyAction, Team};
 use setpiece_scenario::{Ai, Others};
 
 /// Steps between two decisions of a player far from the ball.
@@ -223,9 +223,4 @@ pub fn bot_action(game: &Match, id: PlayerId) -> Action {
     } else {
         Action::Idle
     }
-}
-
-/// Whether chance is on for the bots of a match.
-pub fn whimsical(game: &Match) -> bool {
-    game.rule(Rule::Stochastic)
 }

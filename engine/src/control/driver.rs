@@ -66,11 +66,9 @@ pub fn may_arm(game: &Match, id: PlayerId) -> bool {
         return true;
     }
     let team = id.team();
-    match touch::controller(game) {
-        Some(owner) => owner == id,
-        None => {
-            let rival = game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
-            game.player(id).body.meet_s <= rival + 0.1 && game.play.hands.is_none()
-        }
+    if let Some(owner) = touch::controller(game) {
+        return owner == id;
     }
+    let rival = game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    game.player(id).body.meet_s <= rival + 0.1 && game.play.hands.is_none()
 }

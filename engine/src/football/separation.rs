@@ -18,11 +18,9 @@ pub fn separate(game: &mut Match) {
         // Whoever is not there stands far away, each at a place of his own.
         *place = if player.active { player.pos } else { Vec2::new(1.0e6 + 10.0 * i as f32, 0.0) };
     }
-    for i in 0..PLAYERS_MAX {
-        let here = places[i];
-        for j in i + 1..PLAYERS_MAX {
-            let dx = places[j].x - here.x;
-            let dy = places[j].y - here.y;
+    for (i, here) in places.iter().enumerate() {
+        for (j, there) in places.iter().enumerate().skip(i + 1) {
+            let (dx, dy) = (there.x - here.x, there.y - here.y);
             if dx * dx + dy * dy < CONTACT_M * CONTACT_M {
                 part(game, i, j);
             }

@@ -251,8 +251,9 @@ pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2,
 /// What the rules and statistics say of a keeper's hands.
 pub fn may_handle(game: &Match, id: PlayerId) -> bool {
     let driven = game.play.driven & (1 << id.0) != 0;
-    let lazy = game.player(id).ai == Ai::Lazy && !driven;
-    !lazy && !(driven && game.rule(Rule::GrfKeeper)) && game.player(id).active
+    let player = game.player(id);
+    let bound = if driven { game.rule(Rule::GrfKeeper) } else { player.ai == Ai::Lazy };
+    player.active && !bound
 }
 
 /// The event of a touch, by its height.

@@ -15,9 +15,7 @@ use rapier3d::dynamics::{
     CCDSolver, CoefficientCombineRule, ImpulseJointSet, IntegrationParameters, IslandManager, MassProperties,
     MultibodyJointSet, RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet,
 };
-use rapier3d::geometry::{
-    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape,
-};
+use rapier3d::geometry::{BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape};
 use rapier3d::math::Pose;
 use rapier3d::pipeline::PhysicsPipeline;
 use setpiece_scenario::pitch;
@@ -200,13 +198,17 @@ fn frame() -> ColliderBuilder {
 
 /// Sides, rear and top of the net, tight between the frame and the rear.
 fn net() -> ColliderBuilder {
-    let panel = |centre: Vec3, half: Vec3| (Pose::from_translation(centre), SharedShape::cuboid(half.x, half.y, half.z));
+    let panel =
+        |centre: Vec3, half: Vec3| (Pose::from_translation(centre), SharedShape::cuboid(half.x, half.y, half.z));
     let (middle, reach) = (GOAL_X + 0.5 * DEPTH, 0.5 * DEPTH);
     let side = |y: f32| panel(Vec3::new(middle, y, 0.5 * BAR_Z), Vec3::new(reach, NET_HALF, 0.5 * BAR_Z));
     ColliderBuilder::compound(vec![
         side(-POST_Y),
         side(POST_Y),
-        panel(Vec3::new(GOAL_X + DEPTH, 0.0, 0.5 * BAR_Z), Vec3::new(NET_HALF, POST_Y + NET_HALF, 0.5 * BAR_Z + NET_HALF)),
+        panel(
+            Vec3::new(GOAL_X + DEPTH, 0.0, 0.5 * BAR_Z),
+            Vec3::new(NET_HALF, POST_Y + NET_HALF, 0.5 * BAR_Z + NET_HALF),
+        ),
         panel(Vec3::new(middle, 0.0, BAR_Z), Vec3::new(reach, POST_Y + NET_HALF, NET_HALF)),
     ])
     .restitution(NET_BOUNCE)

@@ -22,8 +22,7 @@ pub struct Block {
 /// The place of a role in the block and its mindset: x -1 back to 1 front, y + down the picture.
 fn slot_of(role: Role) -> (Vec2, f32) {
     match role {
-        Role::GK => (Vec2::new(-1.0, 0.0), 0.0),
-        Role::CB => (Vec2::new(-1.0, 0.0), 0.0),
+        Role::GK | Role::CB => (Vec2::new(-1.0, 0.0), 0.0),
         Role::LB => (Vec2::new(-0.74, -0.77), 0.25),
         Role::RB => (Vec2::new(-0.74, 0.77), 0.25),
         Role::DM => (Vec2::new(-0.4, 0.0), 0.25),

@@ -1,0 +1,52 @@
+//! The game as a whole: movement against the measured curves, the referee's cases, agents on scenarios, full matches.
+
+#[path = "../examples/matchlab/layouts.rs"]
+#[allow(dead_code, reason = "the bench uses more of it")]
+mod layouts;
+
+#[path = "football/movement.rs"]
+mod movement;
+#[path = "football/play.rs"]
+mod play;
+#[path = "football/referee.rs"]
+mod referee;
+#[path = "football/scenarios.rs"]
+mod scenarios;
+
+use layouts::{Layout, drawn};
+use setpiece_engine::event::{Event, Events};
+use setpiece_engine::football;
+use setpiece_engine::physics::Scratch;
+use setpiece_engine::state::Match;
+use setpiece_scenario::vocabulary::{Action, EventKind};
+
+/// A match and what it needs to be played.
+struct Bench {
+    game: Match,
+    events: Events,
+    scratch: Scratch,
+}
+
+impl Bench {
+    fn new(layout: Layout, seed: u64) -> Bench {
+        Bench::of(&drawn(layout, seed))
+    }
+
+    fn of(start: &setpiece_engine::start::Drawn) -> Bench {
+        Bench { game: football::begin(start), events: Events::new(), scratch: Scratch::default() }
+    }
+
+    /// Plays a step; the events stay readable until the next.
+    fn step(&mut self, action: Action) {
+        self.events.clear();
+        football::play_step(&mut self.game, &[action], &mut self.events, &mut self.scratch);
+    }
+
+    fn restart(&mut self) {
+        football::restart(&mut self.game, &mut self.events);
+    }
+
+    fn seen(&self, kind: EventKind) -> Option<Event> {
+        self.events.as_slice().iter().copied().find(|event| event.kind == kind)
+    }
+}

@@ -1,0 +1,155 @@
+//! Full matches of the bot against itself, and that a seed repeats.
+
+use crate::Bench;
+use crate::layouts::{Layout, drawn, set_level};
+use setpiece_engine::state::Match;
+use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
+
+/// Everything that is seen of a match.
+fn seen(game: &Match) -> String {
+    format!("{:?} {:?} {:?} {:?} {:?}", game.ball, game.players, game.score, game.owner, game.agents)
+}
+
+/// Plays so many steps of bot against bot.
+fn play(bench: &mut Bench, steps: u32) {
+    for _ in 0..steps {
+        bench.step(Action::BuiltinAi);
+        if bench.game.dead {
+            bench.restart();
+        }
+    }
+}
+
+#[test]
+fn a_seed_repeats_and_another_differs() {
+    let run = |seed| {
+        let mut bench = Bench::new(Layout::Eleven, seed);
+        play(&mut bench, 300);
+        seen(&bench.game)
+    };
+    assert_eq!(run(4), run(4));
+    assert_ne!(run(4), run(6));
+}
+
+#[test]
+fn without_chance_the_seed_is_of_no_account() {
+    let run = |seed| {
+        let mut start = drawn(Layout::Eleven, seed);
+        start.rules[Rule::Stochastic.index()] = 0.0;
+        let mut bench = Bench::of(&start);
+        play(&mut bench, 300);
+        seen(&bench.game)
+    };
+    assert_eq!(run(2), run(4));
+}
+
+#[test]
+fn a_copy_goes_on_like_the_match_it_was_taken_from() {
+    let mut bench = Bench::new(Layout::Eleven, 1);
+    play(&mut bench, 120);
+    let copy = bench.game.clone();
+    play(&mut bench, 150);
+    let straight = seen(&bench.game);
+    bench.game = copy;
+    bench.scratch = setpiece_engine::physics::Scratch::default();
+    play(&mut bench, 150);
+    assert_eq!(straight, seen(&bench.game));
+}
+
+#[test]
+fn bots_play_football() {
+    let (mut steps, mut crowd, mut thirds) = (0u32, 0.0f64, [0u32; 3]);
+    let (mut passes, mut completed, mut shots, mut goals, mut spells) = (0u32, 0u32, 0u32, 0u32, 0u32);
+    let matches = 6;
+    for seed in 0..matches {
+        let mut bench = Bench::new(Layout::Eleven, seed);
+        let mut last = None;
+        for _ in 0..3000 {
+            bench.step(Action::BuiltinAi);
+            steps += 1;
+            for event in bench.events.as_slice() {
+                match (event.kind, event.qualifier) {
+                    (EventKind::Pass, Some(Qualifier::Attempted)) => passes += 1,
+                    (EventKind::Pass, Some(Qualifier::Completed)) => completed += 1,
+                    (EventKind::Shot, None) => shots += 1,
+                    (EventKind::Goal, _) => goals += 1,
+                    _ => {}
+                }
+            }
+            assert_eq!(bench.events.dropped(), 0);
+            let game = &bench.game;
+            let ball = game.ball.pos;
+            assert!(ball.is_finite() && ball.x.abs() < 60.0 && ball.y.abs() < 40.0 && ball.z < 30.0, "ball at {ball}");
+            let field: Vec<_> = game.players.iter().filter(|p| p.active && p.role != Role::GK).collect();
+            crowd += field.iter().filter(|p| p.pos.distance(ball.truncate()) < 8.0).count() as f64 / field.len() as f64;
+            thirds[if ball.x < -18.33 {
+                0
+            } else if ball.x < 18.33 {
+                1
+            } else {
+                2
+            }] += 1;
+            if game.possession.is_some() && game.possession != last {
+                last = game.possession;
+                spells += 1;
+            }
+            assert_eq!(game.players.iter().filter(|p| p.present).count(), 22);
+            for player in game.players.iter().filter(|p| p.active) {
+                assert!(player.pos.is_finite() && player.pos.x.abs() <= 60.5 && player.pos.y.abs() <= 40.5);
+                assert!(player.vel.length() < 12.0, "{} m/s", player.vel.length());
+            }
+            if bench.game.dead {
+                bench.restart();
+            }
+        }
+        assert_eq!(bench.game.step, 3000);
+    }
+    let per_match = |count: u32| f64::from(count) / matches as f64;
+    assert!((40.0..250.0).contains(&per_match(passes)), "{} passes", per_match(passes));
+    assert!(f64::from(completed) >= 0.45 * f64::from(passes), "{completed} of {passes} completed");
+    assert!((3.0..40.0).contains(&per_match(shots)), "{} shots", per_match(shots));
+    assert!((0.3..8.0).contains(&per_match(goals)), "{} goals", per_match(goals));
+    let spell = f64::from(steps) / f64::from(spells);
+    assert!((10.0..100.0).contains(&spell), "spells of {spell} steps");
+    assert!(crowd / f64::from(steps) < 0.3, "{} near the ball", crowd / f64::from(steps));
+    for third in thirds {
+        assert!(f64::from(third) >= 0.08 * f64::from(steps), "thirds {thirds:?}");
+    }
+}
+
+#[test]
+fn the_stronger_side_wins() {
+    let mut difference = 0i32;
+    for seed in 0..4 {
+        let mut start = drawn(Layout::Eleven, seed);
+        set_level(&mut start, [1.0, 0.05]);
+        let mut bench = Bench::of(&start);
+        play(&mut bench, 3000);
+        difference += i32::from(bench.game.score[0]) - i32::from(bench.game.score[1]);
+    }
+    assert!(difference >= 5, "goal difference {difference} in 4 matches");
+}
+
+#[test]
+fn a_pass_hands_control_to_its_receiver_and_a_fixed_slot_keeps_its_player() {
+    for fixed in [false, true] {
+        let mut start = drawn(Layout::ThreeVersusOne, 0);
+        if fixed {
+            start.agents[0].fixed = Some(setpiece_engine::state::PlayerId(1));
+        }
+        let mut bench = Bench::of(&start);
+        for _ in 0..10 {
+            bench.step(Action::Idle);
+        }
+        assert_eq!(bench.game.agents[0].player.map(|id| id.0), Some(1));
+        bench.step(Action::TopRight);
+        let mut receiver = None;
+        for step in 0..8 {
+            bench.step(if step == 0 { Action::ShortPass } else { Action::Idle });
+            receiver = receiver.or(bench.seen(EventKind::Pass).and_then(|pass| pass.to));
+        }
+        let receiver = receiver.expect("a pass is struck within eight steps");
+        let now = bench.game.agents[0].player.unwrap();
+        assert_eq!(now, if fixed { setpiece_engine::state::PlayerId(1) } else { receiver });
+    }
+}

@@ -1,0 +1,167 @@
+//! The referee's cases, each set up by hand.
+
+use crate::Bench;
+use crate::layouts::{Layout, drawn};
+use glam::{Vec2, Vec3};
+use setpiece_engine::football::keeper;
+use setpiece_engine::state::{Ball, PlayerId};
+use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Rule, Team};
+
+/// Sends the ball on its way as if a player had touched it last, and plays until play stops.
+fn roll(bench: &mut Bench, from: Vec3, vel: Vec3, last: PlayerId) {
+    // Nobody is near enough to meet it.
+    for player in bench.game.players.iter_mut() {
+        player.pos = Vec2::new(0.0, 39.0);
+    }
+    bench.game.ball = Ball { pos: from, vel, spin: Vec3::ZERO };
+    bench.game.last_touch = Some(last);
+    for _ in 0..10 {
+        bench.step(Action::BuiltinAi);
+        if bench.game.dead {
+            return;
+        }
+    }
+    panic!("play did not stop");
+}
+
+const LEFT_MAN: PlayerId = PlayerId(7);
+const RIGHT_MAN: PlayerId = PlayerId(18);
+
+#[test]
+fn over_the_side_line_is_a_throw_in_for_the_others() {
+    let mut bench = Bench::new(Layout::Eleven, 0);
+    roll(&mut bench, Vec3::new(10.0, -35.5, 0.11), Vec3::new(1.0, -12.0, 0.0), LEFT_MAN);
+    assert_eq!(bench.seen(EventKind::OutOfPlay).unwrap().by, Some(LEFT_MAN));
+    assert_eq!(bench.seen(EventKind::ThrowIn).unwrap().team, Some(Team::Right));
+    bench.restart();
+    assert_eq!(bench.game.mode, GameMode::ThrowIn);
+    assert_eq!(bench.game.ball.pos.y, -36.0);
+    assert_eq!(bench.game.owner.map(PlayerId::team), Some(Team::Right));
+}
+
+#[test]
+fn over_the_goal_line_is_a_goal_kick_or_a_corner_by_the_last_toucher() {
+    for (last, kind, team) in [(LEFT_MAN, EventKind::GoalKick, Team::Right), (RIGHT_MAN, EventKind::Corner, Team::Left)]
+    {
+        let mut bench = Bench::new(Layout::Eleven, 0);
+        roll(&mut bench, Vec3::new(54.5, 12.0, 0.11), Vec3::new(15.0, 0.0, 0.0), last);
+        assert_eq!(bench.seen(kind).unwrap().team, Some(team));
+        bench.restart();
+        let spot = if kind == EventKind::Corner { Vec2::new(55.0, 36.0) } else { Vec2::new(50.6, 0.0) };
+        assert!(bench.game.ball.pos.truncate().distance(spot) < 1e-3);
+        for (_, rival) in bench.game.team(team.other()).filter(|(id, _)| id.in_team() != 0) {
+            assert!(rival.pos.distance(spot) > 9.0, "{:?} is too near", rival.pos);
+        }
+    }
+}
+
+#[test]
+fn a_goal_counts_and_an_own_goal_for_the_others() {
+    for (last, own) in [(LEFT_MAN, false), (RIGHT_MAN, true)] {
+        let mut bench = Bench::new(Layout::Eleven, 0);
+        roll(&mut bench, Vec3::new(54.0, 1.0, 0.5), Vec3::new(20.0, 0.0, 0.0), last);
+        assert_eq!(bench.game.score, [1, 0]);
+        let goal = bench.seen(EventKind::Goal).unwrap();
+        assert_eq!((goal.team, goal.by), (Some(Team::Left), Some(last)));
+        assert_eq!(bench.seen(EventKind::OwnGoal).is_some(), own);
+        assert!(bench.seen(EventKind::OutOfPlay).is_none());
+        bench.restart();
+        assert_eq!(bench.game.ball.pos.truncate(), Vec2::ZERO);
+        assert_eq!(bench.game.possession, Some(Team::Right));
+        let near = |team| bench.game.team(team).map(|(_, p)| p.pos.length()).fold(99.0, f32::min);
+        assert!(near(Team::Right) < 2.5, "nobody to kick off");
+        assert!(near(Team::Left) >= 9.15, "inside the circle");
+    }
+}
+
+#[test]
+fn whoever_stood_beyond_the_line_is_offside_when_he_plays_the_pass() {
+    for on in [true, false] {
+        let mut start = drawn(Layout::Eleven, 0);
+        start.rules[Rule::Offside.index()] = f64::from(u8::from(on));
+        let mut bench = Bench::of(&start);
+        let (passer, runner) = (PlayerId(2), PlayerId(1));
+        for (i, player) in bench.game.players.iter_mut().enumerate() {
+            let side = if i < 11 { 1.0 } else { -1.0 };
+            player.pos = Vec2::new(-20.0 * side, 3.0 * (i % 11) as f32 - 15.0);
+        }
+        bench.game.players[11].pos = Vec2::new(54.0, 0.0);
+        bench.game.players[passer.index()].pos = Vec2::new(25.0, 30.0);
+        bench.game.players[runner.index()].pos = Vec2::new(35.0, 30.0);
+        bench.game.ball.pos = Vec3::new(25.5, 30.0, 0.11);
+        bench.game.play.offside = setpiece_engine::football::offside::positions(&bench.game, passer);
+        bench.game.last_touch = Some(passer);
+        bench.game.ball = Ball { pos: Vec3::new(34.0, 30.0, 0.11), vel: Vec3::new(8.0, 0.0, 0.0), spin: Vec3::ZERO };
+        let mut called = false;
+        for _ in 0..8 {
+            bench.step(Action::BuiltinAi);
+            called |= bench.seen(EventKind::Offside).is_some();
+            if bench.game.dead {
+                break;
+            }
+        }
+        assert_eq!(called, on);
+        if on {
+            bench.restart();
+            assert_eq!(bench.game.mode, GameMode::FreeKick);
+            assert_eq!(bench.game.owner.map(PlayerId::team), Some(Team::Right));
+        }
+    }
+}
+
+#[test]
+fn a_keeper_may_not_pick_up_a_mates_back_pass() {
+    for (rule, caught) in [(1.0, false), (0.0, true)] {
+        let mut start = drawn(Layout::Eleven, 0);
+        start.rules[Rule::BackPass.index()] = rule;
+        let mut bench = Bench::of(&start);
+        let game = &mut bench.game;
+        game.players[0].pos = Vec2::new(-50.0, 0.0);
+        game.ball = Ball { pos: Vec3::new(-49.5, 0.0, 0.11), vel: Vec3::new(-1.0, 0.0, 0.0), spin: Vec3::ZERO };
+        game.last_touch = Some(PlayerId(4));
+        game.play.kicked_by = Some(PlayerId(4));
+        keeper::use_hands(game, &mut bench.events);
+        assert_eq!(bench.game.play.hands.is_some(), caught);
+    }
+}
+
+#[test]
+fn a_set_piece_waits_for_its_taker_and_no_longer_than_allowed() {
+    let mut bench = Bench::new(Layout::Eleven, 0);
+    roll(&mut bench, Vec3::new(54.5, 12.0, 0.11), Vec3::new(15.0, 0.0, 0.0), RIGHT_MAN);
+    bench.restart();
+    assert_eq!(bench.game.mode, GameMode::Corner);
+    let mut waited = 0;
+    while bench.game.mode != GameMode::Normal {
+        bench.step(Action::Idle);
+        waited += 1;
+        assert!(waited < 40);
+    }
+    assert!((20..28).contains(&waited), "an idle agent's corner was taken after {waited} steps");
+    assert!(
+        bench.events.as_slice().iter().any(|e| e.qualifier == Some(setpiece_scenario::vocabulary::Qualifier::Taken))
+    );
+}
+
+#[test]
+fn half_time_gives_the_others_the_kick_off() {
+    let mut start = drawn(Layout::Eleven, 0);
+    start.rules[Rule::HalfTime.index()] = 30.0;
+    start.limit_steps = Some(60);
+    let mut bench = Bench::of(&start);
+    let mut halves = 0;
+    for step in 1..=60 {
+        bench.step(Action::BuiltinAi);
+        if bench.seen(EventKind::HalfTime).is_some() {
+            halves += 1;
+            assert!(step >= 30);
+            bench.restart();
+            assert_eq!(bench.game.possession, Some(Team::Right));
+            assert!(bench.game.players.iter().all(|p| p.fatigue == 0.0));
+        } else if bench.game.dead {
+            bench.restart();
+        }
+        assert_eq!(bench.seen(EventKind::FullTime).is_some(), step == 60);
+    }
+    assert_eq!(halves, 1);
+}

@@ -1,6 +1,6 @@
 //! Plays matches and scenarios without a scenario file and prints their statistics: the bench on which the game is tuned.
 //!
-//! `cargo run -p setpiece-engine --example matchlab -- [full|scenarios|look|curves] [N] [LEFT RIGHT]`
+//! `cargo run -p setpiece-engine --example matchlab -- [full|scenarios|look|curves|kicks] [N] [LEFT RIGHT]`
 
 #[path = "matchlab/layouts.rs"]
 mod layouts;
@@ -26,6 +26,7 @@ fn main() {
         "scenarios" => scenarios(count),
         "look" => look(count as u64, level(2, 1.0), level(3, 0.6)),
         "curves" => curves(),
+        "kicks" => kicks(),
         other => eprintln!("unknown mode {other}"),
     }
 }
@@ -186,5 +187,63 @@ fn curves() {
             }
         }
         println!("{name}: {line} owner {:?} pos {:.1} ball {:.1}", game.owner, before, game.ball.pos);
+    }
+}
+
+/// The kicks of an agent: what the ball does after each, against the measured figures.
+fn kicks() {
+    use setpiece_engine::start::DrawnPlayer;
+    for (action, name) in
+        [(Action::ShortPass, "short"), (Action::LongPass, "long"), (Action::HighPass, "high"), (Action::Shot, "shot")]
+    {
+        for ahead in [0.2f32, 0.4, 0.8] {
+            let mut line = String::new();
+            let (mut top, mut rise, mut delay, mut wide) = (0.0f32, 0.0f32, 0u32, 0.0f32);
+            for seed in 0..8 {
+                let mut start = drawn(Layout::AloneWithBall, seed);
+                let mate =
+                    DrawnPlayer { pos: start.players[1].as_ref().unwrap().pos, ..start.players[0].clone().unwrap() };
+                let at = glam::Vec2::new(-20.0, 0.0);
+                start.players[1].as_mut().unwrap().pos = at;
+                start.ball_pos = (at + glam::Vec2::new(0.5, 0.0)).extend(0.11);
+                start.players[2] = Some(DrawnPlayer { pos: at + glam::Vec2::new(ahead * 54.4, 0.0), ..mate });
+                let mut game = football::begin(&start);
+                let (mut events, mut scratch) = (Events::new(), Scratch::default());
+                let (mut best, mut high, mut left) = (0.0f32, 0.0f32, 0);
+                for step in 0..30 {
+                    let action = match step {
+                        8 => Action::Right,
+                        9 if name != "shot" => Action::Idle,
+                        10 => action,
+                        _ => Action::Idle,
+                    };
+                    if name == "shot" && step == 8 {
+                        continue;
+                    }
+                    let before = game.ball.pos;
+                    events.clear();
+                    football::play_step(&mut game, &[action], &mut events, &mut scratch);
+                    let speed = (game.ball.pos - before).truncate().length() * 10.0;
+                    if step >= 10 && speed > 9.0 && left == 0 {
+                        left = step - 10;
+                        let way = (game.ball.pos - before).truncate();
+                        wide += (way.y / way.x).abs();
+                    }
+                    best = best.max(speed);
+                    high = high.max(game.ball.pos.z);
+                    if seed == 0 && step >= 10 && step % 2 == 0 {
+                        line += &format!("{speed:.0}/{:.1} ", game.ball.pos.z);
+                    }
+                }
+                top += best / 8.0;
+                rise += high / 8.0;
+                delay += left;
+            }
+            println!(
+                "{name} {ahead}: leaves after {:.1}, top {top:.1}, height {rise:.2}, aside {:.3}: {line}",
+                delay as f32 / 8.0,
+                wide / 8.0
+            );
+        }
     }
 }

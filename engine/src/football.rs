@@ -70,5 +70,6 @@ pub fn play_step(game: &mut Match, actions: &[Action], events: &mut Events, scra
 
 /// Applies the restart that a stop of play calls for: ball and players are placed, `dead` ends. Dead time costs no step.
 pub fn restart(game: &mut Match, events: &mut Events) {
-    restart::apply(game, events);
+    let _ = events;
+    restart::apply(game);
 }

@@ -115,7 +115,7 @@ pub struct Mind {
     pub mindset: f32,
     /// The opponent he marks.
     pub mark: Option<PlayerId>,
-    /// World velocity of the run that he makes forward, and until which step.
+    /// Until which step he makes a run forward.
     pub run_until_step: u32,
     /// Step of his next decision with the ball.
     pub decide_at_step: u32,

@@ -13,6 +13,9 @@ pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) 
         return false;
     }
     report::did(game, events, touch::kind_of_touch(game.ball.pos.z), by, None);
+    if game.play.kick_off.take().is_some() {
+        events.push(report::event(game, EventKind::Kickoff).by(by).qualified(Qualifier::Taken));
+    }
     settle(game, events, by);
     note(game, by, false);
     game.play.kicked_by = (kick && game.ball.pos.z < 1.2).then_some(by);
@@ -72,25 +75,23 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
 pub fn note(game: &mut Match, by: PlayerId, exempt: bool) {
     game.last_touch = Some(by);
     game.players[by.index()].body.touched_at = game.tick as i32;
-    game.play.circle = None;
+    game.play.kick_off = None;
     game.play.offside = if exempt { 0 } else { offside::positions(game, by) };
     game.play.save = [None; 2];
 }
 
 /// A pass has been struck.
 pub fn pass_struck(game: &mut Match, events: &mut Events, by: PlayerId, to: Option<PlayerId>, from: Vec2) {
-    let speed = game.ball.vel.length();
     let length = to.map_or(0.0, |to| game.player(to).pos.distance(from));
-    game.play.pass = Some(Flight { by, to, from, tick: game.tick, speed_mps: speed });
+    game.play.pass = Some(Flight { by, to, from, tick: game.tick });
     game.play.shot = None;
     events.push(report::event(game, EventKind::Pass).by(by).to(to).qualified(Qualifier::Attempted).length(length));
 }
 
 /// A shot has been struck.
 pub fn shot_struck(game: &mut Match, events: &mut Events, by: PlayerId, from: Vec2) {
-    let speed = game.ball.vel.length();
     game.play.pass = None;
-    game.play.shot = Some(Flight { by, to: None, from, tick: game.tick, speed_mps: speed });
+    game.play.shot = Some(Flight { by, to: None, from, tick: game.tick });
     let goal = Vec2::new(55.0 * by.team().side() as f32, 0.0);
     events.push(report::event(game, EventKind::Shot).by(by).length(goal.distance(from)));
 }

@@ -5,7 +5,7 @@ use crate::football::{noise, referee, report};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{BOX_DEPTH_M, BOX_HALF_WIDTH_M, HALF_LENGTH_M, PENALTY_SPOT_M};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Stat, Team};
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Stat, Team};
 
 /// Severity above which a foul earns a yellow card.
 const YELLOW: f32 = 1.4;
@@ -71,6 +71,13 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
     player.active = false;
     player.vel = Vec2::ZERO;
     player.body.kick = None;
+    if player.role == Role::GK {
+        // The first mate left goes in goal.
+        let heir = game.team(by.team()).map(|(id, _)| id).next();
+        if let Some(heir) = heir {
+            game.players[heir.index()].role = Role::GK;
+        }
+    }
     if game.owner == Some(by) {
         game.owner = None;
     }

@@ -181,5 +181,6 @@ fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, ro
 /// The backspin that lifts a lofted pass, rad/s.
 fn backspin(velocity: Vec3) -> Vec3 {
     let flat = velocity.truncate().normalize_or_zero();
-    Vec3::new(flat.y, -flat.x, 0.0) * 40.0
+    let slow = 22.0 / velocity.length().max(8.0);
+    Vec3::new(flat.y, -flat.x, 0.0) * (15.0 * (slow * slow).clamp(0.5, 3.0))
 }

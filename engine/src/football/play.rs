@@ -36,8 +36,8 @@ pub struct Play {
     pub share: f32,
     /// The ball's place, averaged over about two seconds.
     pub ball_mean: Vec2,
-    /// The team whose opponents keep out of the centre circle until the ball moves.
-    pub circle: Option<Team>,
+    /// The team that has a kick-off and has not taken it yet.
+    pub kick_off: Option<Team>,
     /// The team that kicked off first.
     pub first_kickoff: Team,
     /// Whether half-time has been.
@@ -89,8 +89,6 @@ pub struct Flight {
     pub from: Vec2,
     /// When, ticks.
     pub tick: u32,
-    /// m/s.
-    pub speed_mps: f32,
 }
 
 /// A keeper's plan against a ball on its way.
@@ -125,7 +123,7 @@ impl Play {
             second: [None; 2],
             share: 0.5,
             ball_mean: Vec2::ZERO,
-            circle: None,
+            kick_off: None,
             first_kickoff: Team::Left,
             second_half: false,
             led: [false; 2],

@@ -1,7 +1,6 @@
 //! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
 
-use crate::event::Events;
-use crate::football::body::{Body, Intent, NEVER, Pose};
+use crate::football::body::{Intent, NEVER, Pose};
 use crate::football::play::{Restart, SetPiece};
 use crate::football::{forecast, reach, set_piece};
 use crate::state::{Ball, Match, PlayerId};
@@ -22,14 +21,11 @@ pub fn event_of(mode: GameMode) -> EventKind {
 }
 
 /// Places everyone for the restart that waits, and ends the stop.
-pub fn apply(game: &mut Match, events: &mut Events) {
-    let _ = events;
-    let Some(restart) = game.play.pending.take() else {
-        game.dead = false;
-        return;
-    };
+pub fn apply(game: &mut Match) {
     game.dead = false;
-    place(game, restart);
+    if let Some(restart) = game.play.pending.take() {
+        place(game, restart);
+    }
 }
 
 /// Sets up a set piece.
@@ -64,8 +60,8 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     game.owner = None;
     game.possession = Some(team);
     game.last_touch = None;
+    game.play.kick_off = Some(team);
     if game.rule(Rule::KickoffCircle) {
-        game.play.circle = Some(team);
         let side = team.other().side() as f32;
         for (i, player) in game.players.iter_mut().enumerate() {
             if PlayerId(i as u8).team() != team && player.pos.distance(spot) < CIRCLE_RADIUS_M as f32 {
@@ -104,11 +100,10 @@ fn calm(game: &mut Match) {
     game.play.set_piece = None;
     game.play.kicked_by = None;
     game.play.offside = 0;
-    game.play.circle = None;
+    game.play.kick_off = None;
     game.play.save = [None; 2];
     for player in &mut game.players {
         player.vel = Vec2::ZERO;
-        let blank = Body::blank();
         player.body.pose = Pose::Up;
         player.body.pose_ticks = 0;
         player.body.lag_ticks = 0;
@@ -117,7 +112,7 @@ fn calm(game: &mut Match) {
         player.body.intent = Intent::Stand;
         player.body.touched_at = NEVER;
         player.body.ready_at = NEVER;
-        player.body.mind.mark = blank.mind.mark;
+        player.body.mind.mark = None;
         player.body.mind.run_until_step = 0;
         player.body.mind.decide_at_step = game.step;
     }

@@ -90,7 +90,7 @@ fn near_bodies(game: &Match) -> ArrayVec<Body, BODIES_MAX> {
 
 /// Keeps opponents out of the centre circle until the kick-off has been taken.
 fn keep_circle(game: &mut Match) {
-    let Some(team) = game.play.circle else { return };
+    let Some(team) = game.play.kick_off.filter(|_| game.rule(Rule::KickoffCircle)) else { return };
     let radius = CIRCLE_RADIUS_M as f32;
     for (i, player) in game.players.iter_mut().enumerate() {
         if !player.active || PlayerId(i as u8).team() == team {

@@ -40,7 +40,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     let carrier = *game.player(rival);
     let gap = player.pos.distance(carrier.pos);
     let deep = (own.x + 55.0).max(0.0);
-    let zeal = (24.0 + 10.0 * player.body.mind.mindset.min(0.6))
+    let zeal = (17.0 + 10.0 * player.body.mind.mindset.min(0.6))
         * (0.4 + 0.6 * player.body.level)
         * (1.0 - 0.3 * player.fatigue);
     let goal_near = view.ball.x < -20.0;

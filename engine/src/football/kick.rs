@@ -11,7 +11,7 @@ use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
 /// Ticks from the press to the contact: a pass on the ground, a lofted one, a shot.
-pub const SWING_TICKS: [i32; 3] = [26, 22, 20];
+pub const SWING_TICKS: [i32; 3] = [33, 28, 25];
 /// Ticks that a kick waits for the ball.
 pub const PATIENCE_TICKS: i32 = 200;
 /// How near the ball must be to be kicked, metres.
@@ -162,10 +162,10 @@ fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, ro
     let far = libm::powf(distance / 60.0, 1.4);
     let (level, rise) = if kind == KickKind::High {
         let rise = 0.385 - 0.15 * distance / 60.0;
-        let speed = (0.9 * 36.0 * (1.15 * far + 0.3)).min(36.0);
+        let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(36.0);
         (speed / libm::sqrtf(1.0 + rise * rise), rise)
     } else {
-        let speed = (0.9 * 36.0 * (1.8 * far + 0.3)).min(24.3);
+        let speed = (0.97 * 36.0 * (1.8 * far + 0.3)).min(25.4);
         let speed = if by_hand { speed.min(15.0) } else { speed };
         (speed, 0.11 + 0.005 * (distance - 12.0).max(0.0))
     };

@@ -41,7 +41,7 @@ pub fn velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> 
     let power = 0.55 + 0.45 * plan.power;
     let skill = player.skill(Stat::Shot);
     let strength = 0.8 + 0.2 * player.skill(Stat::ShotPower);
-    let speed = (26.8 + 2.8 * run_up + 8.0 * plan.power.max(0.0)) * strength * (1.0 - 0.3 * rough);
+    let speed = (28.3 + 2.4 * run_up + 8.0 * plan.power.max(0.0)) * strength * (1.0 - 0.3 * rough);
     // Squarely to the run is worst: a shot across the body.
     let across =
         if player.vel.length_squared() > 4.0 { 1.0 - player.vel.normalize_or_zero().dot(way).max(0.0) } else { 0.0 };

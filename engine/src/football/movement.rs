@@ -27,7 +27,7 @@ const BRAKE_MPS2: f32 = 14.0;
 /// Sideways acceleration of a turn, m/s².
 const TURN_MPS2: f32 = 17.0;
 /// Ticks from the wish to the first push.
-const LAG_TICKS: u8 = 8;
+const LAG_TICKS: u8 = 3;
 
 /// Moves every player on by a tick.
 pub fn advance(game: &mut Match) {

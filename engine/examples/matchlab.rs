@@ -1,6 +1,6 @@
 //! Plays matches and scenarios without a scenario file and prints their statistics: the bench on which the game is tuned.
 //!
-//! `cargo run -p setpiece-engine --example matchlab -- [full|scenarios|look|curves|kicks] [N] [LEFT RIGHT]`
+//! `cargo run -p setpiece-engine --example matchlab -- [full|scenarios|look|curves|kicks|shots|random] [N] [LEFT RIGHT]`
 
 #[path = "matchlab/layouts.rs"]
 mod layouts;
@@ -27,6 +27,8 @@ fn main() {
         "look" => look(count as u64, level(2, 1.0), level(3, 0.6)),
         "curves" => curves(),
         "kicks" => kicks(),
+        "shots" => shots(),
+        "random" => random(count),
         other => eprintln!("unknown mode {other}"),
     }
 }
@@ -244,6 +246,61 @@ fn kicks() {
                 delay as f32 / 8.0,
                 wide / 8.0
             );
+        }
+    }
+}
+
+/// The share of goals of a standing shot at a keeper, by distance.
+fn shots() {
+    for y in [0.0f32, 0.25] {
+        let mut line = String::new();
+        for x in [0.95f32, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5] {
+            let mut goals = 0;
+            for seed in 0..200 {
+                let mut start = drawn(Layout::AloneWithBall, seed);
+                let jitter = ((seed * 7919) % 61) as f32 / 1000.0 - 0.03;
+                let at = glam::Vec2::new((x + jitter * 0.3) * 54.4 - 0.5, (y + jitter * 0.5) * 83.6);
+                start.players[1].as_mut().unwrap().pos = at;
+                start.ball_pos = (at + glam::Vec2::new(0.5, 0.0)).extend(0.11);
+                let keeper = start.players[11].as_mut().unwrap();
+                keeper.ai = setpiece_scenario::Ai::Bot;
+                keeper.pos = glam::Vec2::new(54.4, 0.0);
+                let mut game = football::begin(&start);
+                let (mut events, mut scratch) = (Events::new(), Scratch::default());
+                for step in 0..45 {
+                    let action = if step == 6 { Action::Shot } else { Action::Idle };
+                    events.clear();
+                    football::play_step(&mut game, &[action], &mut events, &mut scratch);
+                    if game.dead {
+                        break;
+                    }
+                }
+                goals += u32::from(game.score[0]);
+            }
+            line += &format!("{x}: {:.2}  ", f64::from(goals) / 200.0);
+        }
+        println!("y {y}: {line}");
+    }
+}
+
+/// What happens to a random agent.
+fn random(count: usize) {
+    for seed in 0..count as u64 {
+        let start = drawn(Layout::ThreeVersusOne, seed);
+        let mut game = football::begin(&start);
+        let (mut events, mut scratch) = (Events::new(), Scratch::default());
+        let mut stream = Stream::new(seed, 0, setpiece_engine::random::Purpose::Agent);
+        println!("episode {seed}");
+        for step in 0..400 {
+            let action = Agent::Random.act(&game, 0, &mut stream);
+            events.clear();
+            football::play_step(&mut game, &[action], &mut events, &mut scratch);
+            for e in events.as_slice().iter().filter(|e| !matches!(e.kind, EventKind::Touch | EventKind::BallLost)) {
+                println!("  {step:4} {:?} {:?} by {:?} to {:?} at {:.1} v {:.1} me {:?}", e.kind, e.qualifier, e.by.map(|p| p.0), e.to.map(|p| p.0), e.at, e.speed_mps, game.agents[0].player.map(|p| p.0));
+            }
+            if game.dead || events.as_slice().iter().any(|e| e.kind == EventKind::BallWon) {
+                break;
+            }
         }
     }
 }

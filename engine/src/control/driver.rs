@@ -35,7 +35,8 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: u16, act
         Action::LongPass => arm(game, id, KickKind::Long, direction),
         Action::HighPass => arm(game, id, KickKind::High, direction),
         Action::Shot => arm(game, id, KickKind::Shot, direction),
-        Action::Sliding if !has_ball => slide::begin(game, events, id, direction),
+        // A slide is for a ball that the others have or will have first.
+        Action::Sliding if !may_arm(game, id) => slide::begin(game, events, id, direction),
         _ => {}
     }
 }

@@ -296,7 +296,16 @@ fn random(count: usize) {
             events.clear();
             football::play_step(&mut game, &[action], &mut events, &mut scratch);
             for e in events.as_slice().iter().filter(|e| !matches!(e.kind, EventKind::Touch | EventKind::BallLost)) {
-                println!("  {step:4} {:?} {:?} by {:?} to {:?} at {:.1} v {:.1} me {:?}", e.kind, e.qualifier, e.by.map(|p| p.0), e.to.map(|p| p.0), e.at, e.speed_mps, game.agents[0].player.map(|p| p.0));
+                println!(
+                    "  {step:4} {:?} {:?} by {:?} to {:?} at {:.1} v {:.1} me {:?}",
+                    e.kind,
+                    e.qualifier,
+                    e.by.map(|p| p.0),
+                    e.to.map(|p| p.0),
+                    e.at,
+                    e.speed_mps,
+                    game.agents[0].player.map(|p| p.0)
+                );
             }
             if game.dead || events.as_slice().iter().any(|e| e.kind == EventKind::BallWon) {
                 break;

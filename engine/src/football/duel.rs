@@ -21,7 +21,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let ball = game.ball.pos.truncate();
     // Who has less way to the ball, from which side, and who is the better.
     let victim_m = victim.pos.distance(ball);
-    let exposed = ((victim_m - near) * 0.55).clamp(-0.3, 0.45);
+    let exposed = ((victim_m - near) * 0.4).clamp(-0.2, 0.25);
     let tackle = tackler.skill(Stat::StandingTackle);
     let keep =
         0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);

@@ -6,7 +6,7 @@ use setpiece_scenario::vocabulary::{Role, Rule, StartKind, Team};
 use setpiece_scenario::{Ai, Others};
 
 #[derive(Clone, Copy, Debug)]
-pub enum Layout {
+pub(crate) enum Layout {
     Eleven,
     EmptyGoalClose,
     EmptyGoal,
@@ -19,7 +19,7 @@ pub enum Layout {
 }
 
 impl Layout {
-    pub const ACADEMY: &[Layout] = &[
+    pub(crate) const ACADEMY: &[Layout] = &[
         Layout::EmptyGoalClose,
         Layout::EmptyGoal,
         Layout::RunToScore,
@@ -52,7 +52,7 @@ fn recv() -> [(f32, f32, Role); 11] {
     all
 }
 
-pub fn drawn(layout: Layout, seed: u64) -> Drawn {
+pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
     let mut left: Vec<(f32, f32, Role)> = Vec::new();
     let mut right: Vec<(f32, f32, Role)> = Vec::new();
     let mut ball = (0.0, 0.0);
@@ -147,7 +147,7 @@ pub fn drawn(layout: Layout, seed: u64) -> Drawn {
     }
 }
 
-pub fn set_level(drawn: &mut Drawn, levels: [f32; 2]) {
+pub(crate) fn set_level(drawn: &mut Drawn, levels: [f32; 2]) {
     drawn.difficulty = levels;
     for (i, player) in drawn.players.iter_mut().enumerate() {
         if let Some(player) = player {

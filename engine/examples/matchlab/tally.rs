@@ -6,7 +6,7 @@ use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Role, Team};
 use std::collections::BTreeMap;
 
 #[derive(Default)]
-pub struct Tally {
+pub(crate) struct Tally {
     matches: u32,
     steps: u32,
     goals: [u32; 2],
@@ -30,7 +30,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub fn step(&mut self, game: &Match, events: &Events) {
+    pub(crate) fn step(&mut self, game: &Match, events: &Events) {
         self.steps += 1;
         for e in events.as_slice() {
             let mut name = e.kind.name().to_owned();
@@ -83,7 +83,7 @@ impl Tally {
         }
     }
 
-    pub fn matched(&mut self, game: &Match) {
+    pub(crate) fn matched(&mut self, game: &Match) {
         self.matches += 1;
         for i in 0..2 {
             self.goals[i] += u32::from(game.score[i]);

@@ -1,1 +1,21 @@
-//! setpiece
+//! Setpiece: football scenarios from text files, and the engine that runs them.
+//!
+//! The facade: what needs both the compiler and the engine. [`load`](mod@load) turns a name, path or text into a
+//! scenario, [`run`] plays episodes of it, [`watch`] recompiles it when its files change, [`probe`] looks for what only
+//! a dry run can find.
+
+pub mod error;
+pub mod files;
+pub mod load;
+pub mod probe;
+pub mod run;
+mod script_api;
+mod stdlib;
+#[cfg(feature = "watch")]
+pub mod watch;
+
+pub use error::Error;
+pub use load::{Entry, Loaded, bind, compile_text, list, load, load_file};
+pub use setpiece_dsl as dsl;
+pub use setpiece_engine as engine;
+pub use setpiece_scenario as scenario;

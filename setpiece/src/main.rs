@@ -1,2 +1,10 @@
-//! c
-fn main() {}
+//! The command `setpiece`.
+
+mod cli;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run(cli::Args::parse())
+}

@@ -1,0 +1,115 @@
+//! The command line: arguments, and what each command prints.
+//!
+//! Exit codes: 0 fine, 1 the input has errors, 2 the command line has.
+
+mod check;
+mod drawing;
+mod out;
+mod play;
+mod summary;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use out::Out;
+use setpiece::Error;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Football scenarios from text files, and the engine that runs them.
+#[derive(Parser, Debug)]
+#[command(name = "setpiece", version, about, max_term_width = 100, arg_required_else_help = true)]
+pub(crate) struct Args {
+    /// When to colour the output
+    #[arg(long, global = true, value_enum, default_value_t = Colour::Auto, value_name = "WHEN")]
+    color: Colour,
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// When to colour the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Colour {
+    /// On a terminal
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// List the scenarios of the standard library: name, players per side, title
+    List,
+    /// Compile files and report every problem; exit code 1 if one is an error
+    Check {
+        /// The .pitch files
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// How to print the problems
+        #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
+        message_format: MessageFormat,
+    },
+    /// Compile a scenario into one self-contained file (.pitchc)
+    Build {
+        /// A .pitch file, or a scenario of the library
+        #[arg(value_name = "FILE")]
+        source: String,
+        /// Where to write it
+        #[arg(short, long, value_name = "OUT")]
+        output: PathBuf,
+    },
+    /// Play episodes of a scenario and show what came of them
+    #[command(after_help = "Examples:
+  setpiece run academy_3_vs_1_with_keeper
+  setpiece run corner.pitch --agent run_and_shoot --episodes 100 --seed 1
+  setpiece run 11_vs_11_stochastic --set difficulty=0.95 --reward scoring --reward checkpoints
+  setpiece run corner.pitch --watch")]
+    Run(play::RunArgs),
+}
+
+/// How `check` prints problems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MessageFormat {
+    /// With the source around them
+    Human,
+    /// One JSON array
+    Json,
+}
+
+/// Runs a command.
+pub(crate) fn run(args: Args) -> ExitCode {
+    let out = Out::new(args.color);
+    let result = match args.command {
+        Command::List => Ok(list(&out)),
+        Command::Check { files, message_format } => Ok(check::check(&files, message_format, &out)),
+        Command::Build { source, output } => build(&source, &output, &out),
+        Command::Run(args) => play::run(&args, &out),
+    };
+    match result {
+        Ok(code) => code,
+        Err(error) => {
+            out.error(&error);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn list(out: &Out) -> ExitCode {
+    let entries = setpiece::list();
+    let width = entries.iter().map(|entry| entry.name.len()).max().unwrap_or_default();
+    for entry in entries {
+        let [left, right] = entry.players;
+        out.line(&format!("{:width$}  {left:>2} v {right:<2}  {}", out.bold(&entry.name, width), entry.title));
+    }
+    ExitCode::SUCCESS
+}
+
+fn build(source: &str, output: &std::path::Path, out: &Out) -> Result<ExitCode, Error> {
+    let loaded = setpiece::load(source)?;
+    out.warnings(&loaded);
+    let text = setpiece::scenario::file::to_json(&loaded.scenario)
+        .map_err(|why| Error::Format { path: output.to_owned(), why })?;
+    setpiece::files::write(output, &text)?;
+    out.line(&format!("{} → {} ({} bytes)", loaded.scenario.name, output.display(), text.len()));
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,61 @@
+//! A drawing in text of where everybody stands.
+
+use super::out::{Out, Paint};
+use setpiece::engine::state::Match;
+use setpiece::scenario::Team;
+use setpiece::scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+
+/// Columns and rows of the pitch inside its border.
+const COLUMNS: usize = 65;
+const ROWS: usize = 19;
+
+/// Draws a match from above: players of the left team as digits in source order, of the right as letters, the
+/// ball as `o`.
+pub(crate) fn draw(game: &Match, out: &Out) -> String {
+    let mut cells = [[(' ', Paint::Plain); COLUMNS]; ROWS];
+    markings(&mut cells);
+    for team in Team::ALL {
+        for (n, (_, player)) in game.team(*team).enumerate() {
+            let (row, column) = cell(player.pos.x, player.pos.y);
+            cells[row][column] = match team {
+                Team::Left => (char::from(b'0' + (n % 10) as u8), Paint::Left),
+                Team::Right => (char::from(b'a' + n as u8), Paint::Right),
+            };
+        }
+    }
+    let (row, column) = cell(game.ball.pos.x, game.ball.pos.y);
+    cells[row][column] = ('o', Paint::Ball);
+    let mut text = format!("  ┌{}┐\n", "─".repeat(COLUMNS));
+    for (row, line) in cells.iter().enumerate() {
+        // The goal mouths stand open.
+        let mouth = row == ROWS / 2;
+        let (left, right) = if mouth { ('▐', '▌') } else { ('│', '│') };
+        text.push_str(&format!("  {left}"));
+        for (sign, paint) in line {
+            text.push_str(&out.paint(&sign.to_string(), *paint));
+        }
+        text.push_str(&format!("{right}\n"));
+    }
+    text + &format!("  └{}┘", "─".repeat(COLUMNS))
+}
+
+/// The half-way line, the boxes and the centre spot.
+fn markings(cells: &mut [[(char, Paint); COLUMNS]; ROWS]) {
+    for row in cells.iter_mut() {
+        row[COLUMNS / 2] = ('┊', Paint::Plain);
+    }
+    cells[ROWS / 2][COLUMNS / 2] = ('·', Paint::Plain);
+    let (top, depth) = cell(-HALF_LENGTH_M as f32 + 16.5, -20.15);
+    let (bottom, _) = cell(0.0, 20.15);
+    for row in cells.iter_mut().take(bottom + 1).skip(top) {
+        row[depth] = ('┊', Paint::Plain);
+        row[COLUMNS - 1 - depth] = ('┊', Paint::Plain);
+    }
+}
+
+/// The cell of a place in metres; what lies outside the pitch is drawn at its edge.
+fn cell(x_m: f32, y_m: f32) -> (usize, usize) {
+    let column = (x_m / HALF_LENGTH_M as f32 + 1.0) / 2.0 * (COLUMNS - 1) as f32;
+    let row = (y_m / HALF_WIDTH_M as f32 + 1.0) / 2.0 * (ROWS - 1) as f32;
+    ((row.round().max(0.0) as usize).min(ROWS - 1), (column.round().max(0.0) as usize).min(COLUMNS - 1))
+}

@@ -1,0 +1,119 @@
+//! Printing: text to standard output, problems to standard error, colour where it is wanted.
+
+use super::Colour;
+use owo_colors::OwoColorize;
+use setpiece::dsl::report::{Format, render};
+use setpiece::dsl::{problem::Problem, source::Sources};
+use setpiece::{Error, Loaded};
+use std::io::{IsTerminal, Write};
+
+/// Where and how to print.
+pub(crate) struct Out {
+    stdout_colour: bool,
+    stderr_colour: bool,
+}
+
+/// What a colour stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Paint {
+    /// The left team.
+    Left,
+    /// The right team.
+    Right,
+    /// The ball.
+    Ball,
+    /// A success.
+    Success,
+    /// A failure.
+    Failure,
+    /// Anything else.
+    Plain,
+}
+
+impl Out {
+    /// Colour as asked for; `auto` looks at the terminal and `NO_COLOR`.
+    pub(crate) fn new(colour: Colour) -> Out {
+        let wanted = |terminal: bool| match colour {
+            Colour::Always => true,
+            Colour::Never => false,
+            Colour::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        };
+        Out {
+            stdout_colour: wanted(std::io::stdout().is_terminal()),
+            stderr_colour: wanted(std::io::stderr().is_terminal()),
+        }
+    }
+
+    /// Prints a line; a reader that has gone away (`| head`) is no error.
+    #[allow(clippy::unused_self, reason = "printing is the job of the value that knows how")]
+    pub(crate) fn line(&self, text: &str) {
+        let _ = writeln!(std::io::stdout(), "{text}");
+    }
+
+    /// Prints a line to standard error.
+    #[allow(clippy::unused_self, reason = "printing is the job of the value that knows how")]
+    pub(crate) fn note(&self, text: &str) {
+        let _ = writeln!(std::io::stderr(), "{text}");
+    }
+
+    /// Bold, padded to `width` before the escapes count.
+    pub(crate) fn bold(&self, text: &str, width: usize) -> String {
+        let text = format!("{text:width$}");
+        if self.stdout_colour { text.bold().to_string() } else { text }
+    }
+
+    /// Dimmed.
+    pub(crate) fn dim(&self, text: &str) -> String {
+        if self.stdout_colour { text.dimmed().to_string() } else { text.to_owned() }
+    }
+
+    /// In the colour of what it stands for.
+    pub(crate) fn paint(&self, text: &str, paint: Paint) -> String {
+        if !self.stdout_colour {
+            return text.to_owned();
+        }
+        match paint {
+            Paint::Left => text.yellow().bold().to_string(),
+            Paint::Right => text.cyan().bold().to_string(),
+            Paint::Ball => text.white().bold().to_string(),
+            Paint::Success => text.green().to_string(),
+            Paint::Failure => text.red().to_string(),
+            Paint::Plain => text.to_owned(),
+        }
+    }
+
+    /// Prints an error: the reports of a compilation, or one message with its code and help.
+    pub(crate) fn error(&self, error: &Error) {
+        if let Error::Compile(failure) = error {
+            self.problems(&failure.problems, &failure.sources);
+        } else {
+            self.fault(&error.code().to_string(), &error.to_string(), error.help().as_deref());
+        }
+    }
+
+    /// Prints a message with a code and help.
+    pub(crate) fn fault(&self, code: &str, message: &str, help: Option<&str>) {
+        let (code, cross) = if self.stderr_colour {
+            (code.red().bold().to_string(), "×".red().to_string())
+        } else {
+            (code.to_owned(), "×".to_owned())
+        };
+        self.note(&format!("{code}\n  {cross} {message}"));
+        if let Some(help) = help {
+            self.note(&format!("  help: {help}"));
+        }
+    }
+
+    /// Prints reports.
+    pub(crate) fn problems(&self, problems: &[Problem], sources: &Sources) {
+        let text = render(problems, sources, Format::Human { color: self.stderr_colour, width: 100 });
+        self.note(text.trim_end());
+    }
+
+    /// Prints a scenario's warnings.
+    pub(crate) fn warnings(&self, loaded: &Loaded) {
+        if !loaded.warnings.is_empty() {
+            self.problems(&loaded.warnings, &loaded.sources);
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! What can go wrong before an episode runs: each with a stable code and a help line.
+
+use setpiece_dsl::problem::{Code, Problem};
+use setpiece_dsl::source::Sources;
+use setpiece_scenario::{FormatError, ParamError};
+use std::path::PathBuf;
+
+/// Why a scenario can't be had.
+#[derive(Clone, Debug)]
+pub enum Error {
+    /// Neither a scenario of the library nor a file.
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// What may have been meant.
+        similar: Option<String>,
+    },
+    /// A file can't be used.
+    File {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        why: FileFault,
+    },
+    /// The text has errors.
+    Compile(Box<Failure>),
+    /// A compiled scenario can't be read.
+    Format {
+        /// Where it was.
+        path: PathBuf,
+        /// Why.
+        why: FormatError,
+    },
+    /// A parameter can't be bound.
+    Param {
+        /// Why.
+        why: ParamError,
+        /// What may have been meant.
+        similar: Option<String>,
+    },
+}
+
+/// What is wrong with a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileFault {
+    /// It is not there.
+    Missing {
+        /// A neighbour with a similar name.
+        similar: Option<String>,
+    },
+    /// It is a directory.
+    Directory,
+    /// It is not UTF-8.
+    NotUtf8 {
+        /// The first line with a wrong byte.
+        line: usize,
+    },
+    /// It is larger than allowed.
+    TooLarge {
+        /// The most bytes.
+        max: u64,
+    },
+    /// The system's own words.
+    Io(String),
+    /// It can't be written: the system's own words.
+    Write(String),
+}
+
+/// The reports of a compilation that failed.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Errors and warnings.
+    pub problems: Vec<Problem>,
+    /// The files they point into.
+    pub sources: Sources,
+}
+
+impl Error {
+    /// The stable code; of several reports the first one's.
+    pub fn code(&self) -> Code {
+        match self {
+            Error::Unknown { .. } => Code::UnknownScenario,
+            Error::File { why: FileFault::Missing { .. } | FileFault::Io(_) | FileFault::Write(_), .. } => Code::FileMissing,
+            Error::File { why: FileFault::Directory, .. } => Code::FileIsDirectory,
+            Error::File { why: FileFault::NotUtf8 { .. }, .. } => Code::NotUtf8,
+            Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
+            Error::Compile(failure) => failure.problems.first().map_or(Code::FileEmpty, |problem| problem.code),
+            Error::Format { .. } => Code::BadCompiled,
+            Error::Param { .. } => Code::BadParameter,
+        }
+    }
+
+    /// What to do instead.
+    pub fn help(&self) -> Option<String> {
+        let meant = |name: &String| format!("did you mean `{name}`?");
+        match self {
+            Error::Unknown { similar: Some(name), .. } => Some(meant(name)),
+            Error::Unknown { .. } => Some("`setpiece list` shows the scenarios; a file's path ends in .pitch".to_owned()),
+            Error::File { why: FileFault::Missing { similar }, .. } => similar.as_ref().map(meant),
+            Error::File { why: FileFault::Directory, .. } => Some("name a .pitch file in it".to_owned()),
+            Error::File { why: FileFault::NotUtf8 { .. }, .. } => Some("save it as UTF-8 text".to_owned()),
+            Error::Param { similar, .. } => similar.as_ref().map(meant),
+            _ => None,
+        }
+    }
+}
+
+impl std::fmt::Display for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Error::Unknown { name, .. } => write!(f, "no scenario is called `{name}`, and no file"),
+            Error::File { path, why } => {
+                let path = path.display();
+                match why {
+                    FileFault::Missing { .. } => write!(f, "no file `{path}`"),
+                    FileFault::Directory => write!(f, "`{path}` is a directory"),
+                    FileFault::NotUtf8 { line } => write!(f, "`{path}` is not UTF-8 text: line {line} has other bytes"),
+                    FileFault::TooLarge { max } => {
+                        write!(f, "`{path}` is larger than {} MiB", max / (1 << 20))
+                    }
+                    FileFault::Io(why) => write!(f, "`{path}` can't be read: {why}"),
+                    FileFault::Write(why) => write!(f, "`{path}` can't be written: {why}"),
+                }
+            }
+            Error::Compile(failure) => {
+                let first = failure.problems.first().map_or("no scenario", |problem| &problem.message);
+                match failure.problems.len() {
+                    0 | 1 => f.write_str(first),
+                    n => write!(f, "{first} (and {} more)", n - 1),
+                }
+            }
+            Error::Format { path, why } => write!(f, "`{}`: {why}", path.display()),
+            Error::Param { why, .. } => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

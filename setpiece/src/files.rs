@@ -1,0 +1,118 @@
+//! Files: reading them with located, helpful errors, and finding what a `.pitch` file imports.
+
+use crate::error::{Error, FileFault};
+use crate::stdlib;
+use setpiece_dsl::source::{LoadError, Source, SourceLoader};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Largest source file, bytes; a scenario is a few kilobytes.
+pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
+/// Largest compiled scenario, bytes.
+pub const COMPILED_MAX_BYTES: u64 = 64 << 20;
+
+/// Reads a text file of at most `max` bytes.
+///
+/// # Errors
+/// [`Error::File`] where it is missing, a directory, too large, not UTF-8, or can't be read.
+pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
+    let fault = |why| Error::File { path: path.to_owned(), why };
+    let io = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound => fault(FileFault::Missing { similar: similar_file(path) }),
+        std::io::ErrorKind::IsADirectory => fault(FileFault::Directory),
+        _ => fault(FileFault::Io(error.to_string())),
+    };
+    let meta = std::fs::metadata(path).map_err(io)?;
+    if meta.is_dir() {
+        return Err(fault(FileFault::Directory));
+    }
+    let mut bytes = Vec::new();
+    // One byte more than allowed: a pipe has no length to look at.
+    std::fs::File::open(path).and_then(|file| file.take(max + 1).read_to_end(&mut bytes)).map_err(io)?;
+    if bytes.len() as u64 > max {
+        return Err(fault(FileFault::TooLarge { max }));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        fault(FileFault::NotUtf8 { line })
+    })
+}
+
+/// A neighbour whose name is like the one that is missing.
+fn similar_file(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .ok()?
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let wanted = path.file_name()?.to_string_lossy().into_owned();
+    setpiece_dsl::problem::nearest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
+}
+
+/// Loads imports and scripts: `std/…` from the library, everything else beside the file that names it.
+#[derive(Debug, Default)]
+pub struct FileLoader;
+
+impl SourceLoader for FileLoader {
+    fn load(&self, path: &str, from: &str) -> Result<Source, LoadError> {
+        // A file of the library names its neighbours by `std/…` too.
+        if let Some(inner) = path.strip_prefix("std/") {
+            return stdlib::file(inner).ok_or_else(|| LoadError {
+                message: format!("the standard library has no `{inner}`"),
+                similar: stdlib::paths().map(|name| format!("std/{name}")).collect(),
+            });
+        }
+        let full = beside(from, path);
+        match read_text(&full, SOURCE_MAX_BYTES) {
+            Ok(text) => Ok(Source { name: full.to_string_lossy().into_owned(), text: text.into() }),
+            Err(error) => {
+                let similar = similar_file(&full).into_iter().collect();
+                Err(LoadError { message: error.to_string(), similar })
+            }
+        }
+    }
+}
+
+/// The path of `path` as seen from the file `from`.
+fn beside(from: &str, path: &str) -> PathBuf {
+    let folder = Path::new(from).parent().unwrap_or(Path::new(""));
+    let mut full = PathBuf::new();
+    for part in folder.join(path).components() {
+        match part {
+            std::path::Component::CurDir => {}
+            std::path::Component::ParentDir if full.file_name().is_some() => {
+                full.pop();
+            }
+            part => full.push(part),
+        }
+    }
+    full
+}
+
+/// Writes a file whole or not at all: a temporary neighbour is renamed over it.
+///
+/// # Errors
+/// [`Error::File`] where it can't be written.
+pub fn write(path: &Path, text: &str) -> Result<(), Error> {
+    let fault = |error: std::io::Error| Error::File { path: path.to_owned(), why: FileFault::Write(error.to_string()) };
+    if path.is_dir() {
+        return Err(Error::File { path: path.to_owned(), why: FileFault::Directory });
+    }
+    let Some(name) = path.file_name() else {
+        return Err(fault(std::io::Error::other("it has no file name")));
+    };
+    // A device or pipe can't be renamed over.
+    if path.exists() && !path.is_file() {
+        return std::fs::write(path, text).map_err(fault);
+    }
+    let mut temporary = name.to_owned();
+    temporary.push(format!(".{}.tmp", std::process::id()));
+    let temporary = path.with_file_name(temporary);
+    std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, path)).map_err(|error| {
+        let _ = std::fs::remove_file(&temporary);
+        fault(error)
+    })
+}

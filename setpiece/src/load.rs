@@ -1,0 +1,138 @@
+//! Loading: a name, a path, a text or a compiled file becomes a scenario.
+
+use crate::error::{Error, Failure};
+use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, read_text};
+use crate::script_api::EngineScripts;
+use crate::stdlib;
+use setpiece_dsl::problem::{Problem, Severity, nearest};
+use setpiece_dsl::source::{Source, Sources};
+use setpiece_dsl::{CompileOptions, compile};
+use setpiece_scenario::{Bindings, Scenario, Team};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A scenario and where it came from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scenario.
+    pub scenario: Arc<Scenario>,
+    /// Warnings of its compilation.
+    pub warnings: Vec<Problem>,
+    /// The files they point into.
+    pub sources: Sources,
+    /// The files on disk it was made of: what a watcher watches.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// A scenario of the standard library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Its name.
+    pub name: String,
+    /// The first line of its documentation.
+    pub title: String,
+    /// Players of the left and the right team.
+    pub players: [usize; 2],
+}
+
+/// The scenarios of the standard library, by name.
+pub fn list() -> Vec<Entry> {
+    let mut entries: Vec<Entry> = stdlib::scenarios()
+        .filter_map(|(name, source)| {
+            let scenario = compile_source(source).ok()?.scenario;
+            Some(Entry {
+                name: name.to_owned(),
+                title: scenario.title().to_owned(),
+                players: [Team::Left, Team::Right].map(|team| scenario.team(team).count()),
+            })
+        })
+        .collect();
+    entries.sort_by(|a, b| a.name.cmp(&b.name));
+    entries
+}
+
+/// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
+///
+/// # Errors
+/// [`Error`], for everything that can be wrong with a name, a file or its content.
+pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
+    if let Some(source) = stdlib::scenario(name_or_path) {
+        return compile_source(source);
+    }
+    let path = Path::new(name_or_path);
+    let looks_like_path =
+        name_or_path.contains(['/', '\\']) || path.extension().is_some_and(|ending| ending == "pitch" || ending == "pitchc");
+    if looks_like_path || path.exists() {
+        return load_file(path);
+    }
+    let names: Vec<&str> = stdlib::scenarios().map(|(name, _)| name).collect();
+    Err(Error::Unknown { name: name_or_path.to_owned(), similar: nearest(name_or_path, names).map(str::to_owned) })
+}
+
+/// Loads a `.pitch` or a compiled file; which it is, its first character tells.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_file(path: &Path) -> Result<Loaded, Error> {
+    let compiled = path.extension().is_some_and(|ending| ending == "pitchc");
+    let text = read_text(path, if compiled { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES })?;
+    if compiled || text.starts_with("{\"format\"") {
+        let scenario = setpiece_scenario::file::from_json(&text)
+            .map_err(|why| Error::Format { path: path.to_owned(), why })?;
+        return Ok(Loaded {
+            scenario: Arc::new(scenario),
+            warnings: Vec::new(),
+            sources: Sources::default(),
+            inputs: vec![path.to_owned()],
+        });
+    }
+    compile_source(Source { name: path.to_string_lossy().into_owned(), text: text.into() })
+}
+
+/// Compiles a text; `name` is how reports call it.
+///
+/// # Errors
+/// [`Error::Compile`] with every report.
+pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
+    compile_source(Source { name: name.to_owned(), text: text.into() })
+}
+
+fn compile_source(source: Source) -> Result<Loaded, Error> {
+    let options = CompileOptions { scenario: None, scripts: Some(&EngineScripts) };
+    let outcome = compile(source, &FileLoader, &options);
+    let (problems, sources) = (outcome.problems, outcome.sources);
+    match outcome.scenario {
+        Some(scenario) => Ok(Loaded {
+            scenario: Arc::new(scenario),
+            warnings: problems.into_iter().filter(|problem| problem.severity() == Severity::Warning).collect(),
+            sources,
+            inputs: outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect(),
+        }),
+        None => Err(Error::Compile(Box::new(Failure { problems, sources }))),
+    }
+}
+
+/// Whether a source's name is a path: not the library's and not a text from memory.
+fn is_on_disk(name: &str) -> bool {
+    !name.starts_with("std/") && !name.starts_with('<')
+}
+
+/// Binds `name=value` pairs to a scenario's parameters; values as the language writes them.
+///
+/// # Errors
+/// [`Error::Param`] for the first pair that can't be bound.
+pub fn bind<'a>(
+    scenario: &Scenario,
+    pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<Bindings, Error> {
+    let mut bindings = Bindings::defaults(&scenario.params);
+    for (name, value) in pairs {
+        bindings.set_text(&scenario.params, name, value).map_err(|why| Error::Param {
+            similar: nearest(name, scenario.params.iter().map(|param| param.name.as_str()))
+                .filter(|similar| *similar != name)
+                .map(str::to_owned),
+            why,
+        })?;
+    }
+    Ok(bindings)
+}

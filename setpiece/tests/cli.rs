@@ -1,0 +1,272 @@
+//! The real binary, end to end: what it prints, its exit codes, and that no input makes it panic.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn setpiece(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_setpiece")).args(args).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Runs and expects one clear error: the exit code, the words, and no panic.
+fn fails(args: &[&str], code: i32, words: &[&str]) -> String {
+    let output = setpiece(args);
+    let stderr = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {stderr}");
+    assert!(!stderr.contains("panicked"), "{args:?}: {stderr}");
+    for word in words {
+        assert!(stderr.contains(word), "{args:?}: no `{word}` in: {stderr}");
+    }
+    stderr
+}
+
+fn json(args: &[&str]) -> serde_json::Value {
+    let output = setpiece(args);
+    assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> String {
+    let path: PathBuf = folder.join(name);
+    std::fs::write(&path, content).unwrap();
+    path.to_string_lossy().into_owned()
+}
+
+const CLOSE: &str = "scenario close extends academy {
+    ball at (0.77, 0)
+    team left { GK at (-1, 0) CB at (0.75, 0) }
+    team right { CB at (-0.9, 0.3) }
+}
+";
+
+#[test]
+fn lists_every_scenario_with_its_sides() {
+    let output = text(&setpiece(&["list"]).stdout);
+    assert_eq!(output.lines().count(), 17, "{output}");
+    for line in ["academy_3_vs_1_with_keeper", "11_vs_11_stochastic", "5_vs_5", "1_vs_1_easy", "11_vs_11_kaggle"] {
+        assert!(output.contains(line), "{output}");
+    }
+    assert!(!output.contains("full_match"), "abstract scenarios can't be run: {output}");
+    let row = output.lines().find(|line| line.starts_with("academy_3_vs_1")).unwrap();
+    assert!(row.contains("4 v 2"), "{row}");
+}
+
+#[test]
+fn runs_a_scenario_of_the_library() {
+    let result = json(&["run", "academy_empty_goal_close", "--agent", "run_and_shoot", "--episodes", "20", "--seed", "1", "--format", "json"]);
+    let keys = [
+        "scenario", "episodes", "seed", "outcomes", "score", "mean_return", "mean_length", "success_rate", "terms",
+        "steps_per_second", "digest",
+    ];
+    for key in keys {
+        assert!(!result[key].is_null(), "no `{key}` in {result}");
+    }
+    assert_eq!(result["episodes"], 20);
+    assert!(result["success_rate"].as_f64().unwrap() >= 0.9, "{result}");
+    assert!((result["mean_return"].as_f64().unwrap() - result["terms"]["scoring/goal"].as_f64().unwrap()).abs() < 1e-9);
+}
+
+#[test]
+fn the_text_shows_the_start_and_the_outcomes() {
+    let output = setpiece(&["run", "academy_3_vs_1_with_keeper", "--episodes", "5", "--seed", "3"]);
+    assert!(output.status.success());
+    let stdout = text(&output.stdout);
+    for word in ["Three of ours", "┌", "steps per second", "mean length"] {
+        assert!(stdout.contains(word), "no `{word}` in {stdout}");
+    }
+}
+
+#[test]
+fn threads_and_repetition_change_nothing() {
+    let run = |threads: &str| {
+        json(&["run", "academy_3_vs_1_with_keeper", "--agent", "random", "--episodes", "12", "--seed", "5", "--threads", threads, "--format", "json"])
+    };
+    let (one, again, two) = (run("1"), run("1"), run("2"));
+    for key in ["digest", "outcomes", "terms", "mean_return", "mean_length"] {
+        assert_eq!(one[key], again[key], "{key}");
+        assert_eq!(one[key], two[key], "{key}");
+    }
+}
+
+#[test]
+fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
+    let folder = folder();
+    let source = write(folder.path(), "close.pitch", CLOSE);
+    let compiled = folder.path().join("close.pitchc").to_string_lossy().into_owned();
+    assert!(setpiece(&["build", &source, "-o", &compiled]).status.success());
+    let run = |path: &str| {
+        json(&["run", path, "--agent", "random", "--set", "difficulty=0.95", "--episodes", "6", "--seed", "2", "--reward", "scoring", "--reward", "checkpoints", "--format", "json"])
+    };
+    assert_eq!(run(&source)["digest"], run(&compiled)["digest"]);
+    assert_eq!(run(&source)["terms"], run(&compiled)["terms"]);
+    assert!(run(&compiled)["terms"]["checkpoints/carried"].is_number());
+
+    let whole = std::fs::read_to_string(&compiled).unwrap();
+    let cut = write(folder.path(), "cut.pitchc", &whole[..whole.len() / 2]);
+    fails(&["run", &cut], 1, &["SP0007", "cut off"]);
+    let other = write(folder.path(), "other.pitchc", whole.replacen("\"version\":1", "\"version\":99", 1));
+    fails(&["run", &other], 1, &["SP0007", "version 99"]);
+    let changed = write(folder.path(), "changed.pitchc", whole.replacen("close", "klose", 1));
+    fails(&["run", &changed], 1, &["SP0007", "checksum"]);
+}
+
+#[test]
+fn a_name_or_file_that_is_not_there_is_one_clear_error() {
+    fails(&["run", "academy_3_vs_1_with_keper"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
+    fails(&["run", "nothing/of/the/kind.pitch"], 1, &["SP0001"]);
+    let folder = folder();
+    let close = write(folder.path(), "close.pitch", CLOSE);
+    fails(&["run", &close.replace("close", "clse")], 1, &["SP0001", "did you mean `close.pitch`?"]);
+    fails(&["run", &folder.path().to_string_lossy()], 1, &["SP0006", "is a directory"]);
+    fails(&["check", &folder.path().to_string_lossy()], 1, &["SP0006"]);
+    fails(&["build", &close, "-o", "/no/such/folder/x.pitchc"], 1, &["SP0001", "can't be written"]);
+}
+
+#[test]
+fn a_file_that_is_no_text_is_one_clear_error() {
+    let folder = folder();
+    let check = |name: &str, content: &[u8], words: &[&str]| {
+        let path = write(folder.path(), name, content);
+        fails(&["run", &path], 1, words);
+        fails(&["check", &path], 1, words);
+    };
+    check("bytes.pitch", b"scenario x {\n  \xff\xfe\n}", &["SP0003", "line 2"]);
+    check("empty.pitch", b"", &["SP0"]);
+    check("large.pitch", &vec![b'/'; 10 << 20], &["SP0002", "larger than"]);
+    check("deep.pitch", format!("scenario x {{ let y = {}1{} }}", "(".repeat(10_000), ")".repeat(10_000)).as_bytes(), &["SP0102"]);
+    check("braces.pitch", "{".repeat(10_000).as_bytes(), &["SP0102"]);
+}
+
+#[test]
+fn wrong_options_are_one_clear_error() {
+    fails(&["run", "academy_empty_goal", "--episodes", "0"], 2, &["--episodes"]);
+    fails(&["run", "academy_empty_goal", "--threads", "0"], 2, &["--threads"]);
+    fails(&["run", "academy_empty_goal", "--agent", "genius"], 2, &["--agent"]);
+    fails(&["run", "academy_empty_goal", "--set", "difficulty"], 2, &["name=value"]);
+    fails(&["run", "academy_empty_goal", "--set", "dificulty=0.9"], 1, &["SP0008", "did you mean `difficulty`?"]);
+    fails(&["run", "academy_empty_goal", "--set", "difficulty=2"], 1, &["SP0008", "0..1"]);
+    fails(&["run", "academy_empty_goal", "--set", "difficulty=much"], 1, &["SP0008", "much"]);
+    fails(&["run", "academy_empty_goal", "--reward", "scorin"], 1, &["SP0009", "did you mean `scoring`?"]);
+    fails(&["run", "academy_empty_goal", "--seed", "-1"], 2, &["--seed"]);
+}
+
+#[test]
+fn three_mistakes_get_three_located_reports() {
+    let folder = folder();
+    let path = write(
+        folder.path(),
+        "mistakes.pitch",
+        "scenario mistakes extends academy {
+    ball at (0.6, 0)
+    team left { GK at (-1, 0) CBB at (0.5, 0) }
+    reward scorin
+    end success soon when elapsed > 3m
+}
+",
+    );
+    let stderr = fails(&["check", &path], 1, &["unknown role `CBB`", "did you mean `CB`?", "did you mean `scoring`?"]);
+    for place in [":3:", ":4:", ":5:"] {
+        assert!(stderr.contains(place), "no report at line {place}: {stderr}");
+    }
+    let output = setpiece(&["check", &path, "--message-format", "json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let reports: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(reports.as_array().unwrap().len(), 3, "{reports}");
+    assert!(reports.as_array().unwrap().iter().all(|report| report["labels"][0]["line"].is_number()));
+}
+
+#[test]
+fn a_bad_script_is_an_error_and_never_a_hang() {
+    let folder = folder();
+    let scenario = |script: &str| CLOSE.replace("ball at", &format!("reward script \"{script}\"\n    ball at"));
+    write(folder.path(), "loop.rhai", "fn reward(ctx, now, prev, events) { loop { } }");
+    let path = write(folder.path(), "loop.pitch", scenario("loop.rhai"));
+    fails(&["run", &path, "--episodes", "1"], 1, &["loop.rhai", "reward", "operations"]);
+
+    write(folder.path(), "name.rhai", "fn reward(ctx, now, prev, events) {\n    now.ball.colour\n}");
+    let path = write(folder.path(), "name.pitch", scenario("name.rhai"));
+    fails(&["check", &path], 1, &["SP0503", "colour", "name.rhai:2"]);
+
+    write(folder.path(), "hook.rhai", "fn rewards(ctx, now, prev, events) { 0.0 }");
+    let path = write(folder.path(), "hook.pitch", scenario("hook.rhai"));
+    fails(&["check", &path], 1, &["SP0502", "reward"]);
+    fails(&["check", &write(folder.path(), "gone.pitch", scenario("gone.rhai"))], 1, &["gone.rhai"]);
+}
+
+#[test]
+fn rewards_come_from_the_files() {
+    let folder = folder();
+    let run = |value: &str| {
+        let path = write(
+            folder.path(),
+            "own.pitch",
+            format!(
+                "reward mine {{ give {value} on goal by us as \"goal\" }}\n{}",
+                CLOSE.replace("ball at", "remove reward scoring\n    reward mine\n    ball at")
+            ),
+        );
+        json(&["run", &path, "--agent", "run_and_shoot", "--episodes", "10", "--seed", "1", "--format", "json"])
+    };
+    let (one, five) = (run("1"), run("5"));
+    assert!(one["terms"]["mine/goal"].as_f64().unwrap() > 0.5, "{one}");
+    let ratio = five["terms"]["mine/goal"].as_f64().unwrap() / one["terms"]["mine/goal"].as_f64().unwrap();
+    assert!((ratio - 5.0).abs() < 1e-9);
+}
+
+#[test]
+fn watching_takes_a_changed_file_and_survives_a_broken_one() {
+    use std::io::{BufRead, BufReader};
+    let folder = folder();
+    let path = write(folder.path(), "close.pitch", CLOSE);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_setpiece"))
+        .args(["run", &path, "--watch", "--episodes", "1", "--agent", "idle"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let (sender, lines) = std::sync::mpsc::channel();
+    for reader in [
+        Box::new(child.stdout.take().unwrap()) as Box<dyn std::io::Read + Send>,
+        Box::new(child.stderr.take().unwrap()),
+    ] {
+        let sender = sender.clone();
+        std::thread::spawn(move || {
+            for line in BufReader::new(reader).lines().map_while(Result::ok) {
+                let _ = sender.send(line);
+            }
+        });
+    }
+    let wait_for = |word: &str| {
+        let end = std::time::Instant::now() + std::time::Duration::from_secs(30);
+        while std::time::Instant::now() < end {
+            if let Ok(line) = lines.recv_timeout(std::time::Duration::from_millis(200))
+                && line.contains(word)
+            {
+                return;
+            }
+        }
+        panic!("no line with `{word}` came");
+    };
+    wait_for("waiting for a change");
+    // A save by renaming, as editors do.
+    let rename = |content: &str| {
+        let temporary = write(folder.path(), ".close.pitch.swp", content);
+        std::fs::rename(temporary, &path).unwrap();
+    };
+    rename(&CLOSE.replace("CB at (0.75", "CBB at (0.75"));
+    wait_for("unknown role `CBB`");
+    rename(&CLOSE.replace("scenario close", "scenario closer"));
+    wait_for("closer");
+    wait_for("waiting for a change");
+    std::fs::write(&path, CLOSE.replace("scenario close", "scenario closest")).unwrap();
+    wait_for("closest");
+    child.kill().unwrap();
+    let _ = child.wait();
+}

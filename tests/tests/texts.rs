@@ -1,0 +1,81 @@
+//! Texts that people read: every `.pitch` example in them compiles without a problem, and the examples play.
+
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The ```` ```pitch ```` blocks of a page.
+fn blocks(page: &str) -> Vec<String> {
+    let mut blocks = Vec::new();
+    let mut open: Option<String> = None;
+    for line in page.lines() {
+        match (&mut open, line.trim()) {
+            (None, "```pitch") => open = Some(String::new()),
+            (Some(_), "```") => blocks.extend(open.take()),
+            (Some(block), _) => {
+                block.push_str(line);
+                block.push('\n');
+            }
+            _ => {}
+        }
+    }
+    blocks
+}
+
+fn reports(error: &setpiece::Error) -> String {
+    match error {
+        setpiece::Error::Compile(failure) => setpiece::dsl::report::render(
+            &failure.problems,
+            &failure.sources,
+            setpiece::dsl::report::Format::Human { color: false, width: 100 },
+        ),
+        other => other.to_string(),
+    }
+}
+
+#[test]
+fn every_example_of_the_pages_compiles() {
+    for (page, least) in [("README.md", 1), ("docs/language.md", 4)] {
+        let text = std::fs::read_to_string(root().join(page)).unwrap();
+        let blocks = blocks(&text);
+        assert!(blocks.len() >= least, "{page} has {} examples", blocks.len());
+        for block in blocks {
+            let loaded = setpiece::compile_text(&block, page).unwrap_or_else(|error| panic!("{}", reports(&error)));
+            assert!(loaded.warnings.is_empty(), "{page}: {:?}\n{block}", loaded.warnings);
+        }
+    }
+}
+
+#[test]
+fn every_example_file_compiles_without_a_warning() {
+    let mut seen = 0;
+    for entry in std::fs::read_dir(root().join("examples")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "pitch") {
+            let loaded = setpiece::load_file(&path).unwrap_or_else(|error| panic!("{}", reports(&error)));
+            assert!(loaded.warnings.is_empty(), "{}: {:?}", path.display(), loaded.warnings);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 2);
+}
+
+#[test]
+fn every_scenario_of_the_library_compiles_without_a_warning_and_has_both_difficulties() {
+    let entries = setpiece::list();
+    assert_eq!(entries.len(), 17);
+    for entry in entries {
+        let loaded = setpiece::load(&entry.name).unwrap();
+        assert!(loaded.warnings.is_empty(), "{}: {:?}", entry.name, loaded.warnings);
+        assert_eq!(loaded.scenario.name, entry.name);
+        assert!(!entry.title.is_empty(), "{}", entry.name);
+        for param in ["difficulty", "left_difficulty"] {
+            assert!(loaded.scenario.params.iter().any(|p| p.name == param), "{} has no `{param}`", entry.name);
+        }
+        setpiece::scenario::verify::verify(&loaded.scenario).unwrap();
+        let text = setpiece::scenario::file::to_json(&loaded.scenario).unwrap();
+        assert_eq!(setpiece::scenario::file::from_json(&text).unwrap(), *loaded.scenario);
+    }
+}

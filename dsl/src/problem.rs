@@ -122,6 +122,7 @@ codes! {
     FileIsDirectory = 6 Error "a directory stands for a file";
     BadCompiled = 7 Error "a compiled scenario can't be read";
     BadParameter = 8 Error "a parameter can't be bound";
+    UnknownReward = 9 Error "a reward is not in scope";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";
@@ -177,6 +178,9 @@ codes! {
     NeverPays = 602 Warning "a reward can never pay";
     HardToDraw = 603 Warning "requirements are seldom met";
     ImpossibleToDraw = 604 Error "requirements are never met";
+    // SP07xx: while episodes run.
+    DrawFailed = 701 Error "no start meets the requirements";
+    ScriptFailed = 702 Error "a script's hook failed";
 }
 
 impl std::fmt::Display for Code {

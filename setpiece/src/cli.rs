@@ -83,7 +83,7 @@ pub(crate) fn run(args: Args) -> ExitCode {
         Command::List => Ok(list(&out)),
         Command::Check { files, message_format } => Ok(check::check(&files, message_format, &out)),
         Command::Build { source, output } => build(&source, &output, &out),
-        Command::Run(args) => play::run(&args, &out),
+        Command::Run(args) => play::run_command(&args, &out),
     };
     match result {
         Ok(code) => code,

@@ -1,7 +1,10 @@
 //! What can go wrong before an episode runs: each with a stable code and a help line.
 
-use setpiece_dsl::problem::{Code, Problem};
+use setpiece_dsl::problem::{Code, Problem, nearest};
 use setpiece_dsl::source::Sources;
+use setpiece_engine::draw::DrawError;
+use setpiece_engine::environment::EnvironmentError;
+use setpiece_engine::judge::ScriptError;
 use setpiece_scenario::{FormatError, ParamError};
 use std::path::PathBuf;
 
@@ -31,6 +34,12 @@ pub enum Error {
         /// Why.
         why: FormatError,
     },
+    /// An environment can't be made of the scenario.
+    Environment(EnvironmentError),
+    /// No start was found for an episode.
+    Draw(DrawError),
+    /// A script's hook failed; its episode ended.
+    Script(Box<ScriptError>),
     /// A parameter can't be bound.
     Param {
         /// Why.
@@ -87,6 +96,16 @@ impl Error {
             Error::Compile(failure) => failure.problems.first().map_or(Code::FileEmpty, |problem| problem.code),
             Error::Format { .. } => Code::BadCompiled,
             Error::Param { .. } => Code::BadParameter,
+            Error::Environment(why) => match why {
+                EnvironmentError::Reward { .. } => Code::UnknownReward,
+                EnvironmentError::Param(_) | EnvironmentError::Bindings { .. } | EnvironmentError::Roster => {
+                    Code::BadParameter
+                }
+                EnvironmentError::Agents(_) => Code::BadAgents,
+                EnvironmentError::Script(_) => Code::ScriptSyntax,
+            },
+            Error::Draw(_) => Code::DrawFailed,
+            Error::Script(_) => Code::ScriptFailed,
         }
     }
 
@@ -100,6 +119,9 @@ impl Error {
             Error::File { why: FileFault::Directory, .. } => Some("name a .pitch file in it".to_owned()),
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Some("save it as UTF-8 text".to_owned()),
             Error::Param { similar, .. } => similar.as_ref().map(meant),
+            Error::Environment(EnvironmentError::Reward { name, known }) => {
+                nearest(name, known.iter().map(String::as_str)).map(|name| format!("did you mean `{name}`?"))
+            }
             _ => None,
         }
     }
@@ -131,6 +153,9 @@ impl std::fmt::Display for Error {
             }
             Error::Format { path, why } => write!(f, "`{}`: {why}", path.display()),
             Error::Param { why, .. } => why.fmt(f),
+            Error::Environment(why) => why.fmt(f),
+            Error::Draw(why) => why.fmt(f),
+            Error::Script(why) => why.fmt(f),
         }
     }
 }

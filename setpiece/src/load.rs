@@ -5,7 +5,7 @@ use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, read_text};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Problem, Severity, nearest};
-use setpiece_dsl::source::{Source, Sources};
+use setpiece_dsl::source::{Source, Sources, Span};
 use setpiece_dsl::{CompileOptions, compile};
 use setpiece_scenario::{Bindings, Scenario, Team};
 use std::path::{Path, PathBuf};
@@ -20,6 +20,8 @@ pub struct Loaded {
     pub warnings: Vec<Problem>,
     /// The files they point into.
     pub sources: Sources,
+    /// Where the scenario's name stands; none for a compiled file.
+    pub origin: Option<Span>,
     /// The files on disk it was made of: what a watcher watches.
     pub inputs: Vec<PathBuf>,
 }
@@ -83,6 +85,7 @@ pub fn load_file(path: &Path) -> Result<Loaded, Error> {
             scenario: Arc::new(scenario),
             warnings: Vec::new(),
             sources: Sources::default(),
+            origin: None,
             inputs: vec![path.to_owned()],
         });
     }
@@ -106,6 +109,7 @@ fn compile_source(source: Source) -> Result<Loaded, Error> {
             scenario: Arc::new(scenario),
             warnings: problems.into_iter().filter(|problem| problem.severity() == Severity::Warning).collect(),
             sources,
+            origin: outcome.origin,
             inputs: outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect(),
         }),
         None => Err(Error::Compile(Box::new(Failure { problems, sources }))),

@@ -1,0 +1,213 @@
+//! `setpiece run`: episodes of a scenario, once or whenever its file changes.
+
+use super::out::Out;
+use super::summary;
+use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
+use indicatif::{ProgressBar, ProgressStyle};
+use setpiece::engine::control::agents::Agent;
+use setpiece::engine::environment::{EnvironmentOptions, Physics};
+use setpiece::run::{RunOptions, Summary, run};
+use setpiece::watch::Watcher;
+use setpiece::{Error, Loaded};
+use std::io::IsTerminal;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// How often a progress bar and a watcher look up.
+const TICK: Duration = Duration::from_millis(200);
+
+#[derive(Args, Debug)]
+pub(crate) struct RunArgs {
+    /// A scenario of the library, a .pitch file or a compiled .pitchc file
+    #[arg(value_name = "SCENARIO")]
+    scenario: String,
+    /// How many episodes
+    #[arg(short = 'n', long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<u32>::new().range(1..))]
+    episodes: u32,
+    /// Who plays for the agents
+    #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
+    agent: AgentName,
+    /// The seed: the same one gives the same episodes
+    #[arg(short, long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Set a parameter of the scenario; may be repeated
+    #[arg(long, value_name = "PARAM=VALUE", value_parser = pair)]
+    set: Vec<(String, String)>,
+    /// Pay this reward in place of the scenario's own; may be repeated
+    #[arg(long, value_name = "NAME")]
+    reward: Vec<String>,
+    /// How the ball's contacts are found [default: as the scenario says]
+    #[arg(long, value_enum)]
+    physics: Option<PhysicsName>,
+    /// Threads; the results don't depend on them [default: one per core]
+    #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
+    threads: Option<u16>,
+    /// How to print what came of it
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Run again whenever the file, or one it imports, changes
+    #[arg(short, long, conflicts_with = "format")]
+    watch: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+enum AgentName {
+    /// The 19 actions at random
+    Random,
+    /// Nothing
+    Idle,
+    /// Sprints at goal, shoots from 16 m, chases the ball
+    RunAndShoot,
+    /// The built-in bot
+    Bot,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PhysicsName {
+    /// Rapier is asked where the ball comes near something hard
+    Gated,
+    /// Rapier runs on every tick
+    Full,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// A table
+    Text,
+    /// One JSON object
+    Json,
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
+        _ => Err("write it as name=value".to_owned()),
+    }
+}
+
+/// Runs the command.
+pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<ExitCode, Error> {
+    if args.watch {
+        return watch(args, out);
+    }
+    let loaded = setpiece::load(&args.scenario)?;
+    out.warnings(&loaded);
+    let options = options(args, &loaded)?;
+    let summary = with_progress(&loaded, &options)?;
+    match args.format {
+        Format::Json => out.line(&summary::json(&loaded.scenario, &options, &summary)),
+        Format::Text => summary::print(&loaded.scenario, &options, &summary, out)?,
+    }
+    let broken = summary.episodes.iter().find_map(|episode| episode.error.as_ref());
+    if let Some(error) = broken {
+        out.error(error);
+        return Ok(ExitCode::FAILURE);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
+    let pairs = args.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+    let bindings = setpiece::bind(&loaded.scenario, pairs)?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    Ok(RunOptions {
+        episodes: args.episodes,
+        seed: args.seed,
+        agent: match args.agent {
+            AgentName::Random => Agent::Random,
+            AgentName::Idle => Agent::Idle,
+            AgentName::RunAndShoot => Agent::RunAndShoot,
+            AgentName::Bot => Agent::Bot,
+        },
+        threads: args.threads.map_or(cores, usize::from),
+        environment: EnvironmentOptions {
+            bindings: Some(bindings),
+            rewards: (!args.reward.is_empty()).then(|| args.reward.clone()),
+            physics: args.physics.map(|physics| match physics {
+                PhysicsName::Gated => Physics::Gated,
+                PhysicsName::Full => Physics::Full,
+            }),
+            agents: None,
+        },
+    })
+}
+
+fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error> {
+    if !std::io::stderr().is_terminal() {
+        return run(&loaded.scenario, options, &|_| {});
+    }
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
+    let bar = ProgressBar::new(options.episodes.into());
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(TICK);
+    let steps = std::sync::atomic::AtomicU64::new(0);
+    let summary = run(&loaded.scenario, options, &|length| {
+        let total = steps.fetch_add(length.into(), std::sync::atomic::Ordering::Relaxed) + u64::from(length);
+        bar.set_message(total.to_string());
+        bar.inc(1);
+    });
+    bar.finish_and_clear();
+    summary
+}
+
+/// Runs episode by episode: a changed file takes effect at the next one, a broken one leaves the last good one running.
+fn watch(args: &RunArgs, out: &Out) -> Result<ExitCode, Error> {
+    let mut loaded = setpiece::load(&args.scenario)?;
+    out.warnings(&loaded);
+    if loaded.inputs.is_empty() {
+        out.fault("SP0001", &format!("`{}` is no file: there is nothing to watch", args.scenario), None);
+        return Ok(ExitCode::FAILURE);
+    }
+    let mut watcher = Watcher::new(&loaded.inputs)?;
+    let mut options = options(args, &loaded)?;
+    loop {
+        let mut episodes = Vec::new();
+        out.line(&out.bold(&loaded.scenario.name, 0));
+        for index in 0..args.episodes {
+            let one = RunOptions { episodes: 1, threads: 1, ..options.clone() };
+            let summary = setpiece::run::run_from(&loaded.scenario, &one, index.into(), &|_| {})?;
+            for episode in &summary.episodes {
+                out.line(&summary::episode_line(index, episode, out));
+                if let Some(error) = &episode.error {
+                    out.error(error);
+                }
+            }
+            episodes.extend(summary.episodes);
+            if watcher.changed(Duration::ZERO) && reload(args, &mut loaded, &mut options, &mut watcher, out)? {
+                out.line(&out.bold(&loaded.scenario.name, 0));
+            }
+        }
+        out.line(&out.dim("waiting for a change; Ctrl-C ends"));
+        while !(watcher.changed(TICK) && reload(args, &mut loaded, &mut options, &mut watcher, out)?) {}
+    }
+}
+
+/// Takes a changed file; says what is wrong with a broken one and keeps the last good scenario.
+fn reload(
+    args: &RunArgs,
+    loaded: &mut Loaded,
+    run_options: &mut RunOptions,
+    watcher: &mut Watcher,
+    out: &Out,
+) -> Result<bool, Error> {
+    let fresh = setpiece::load(&args.scenario).and_then(|fresh| Ok((options(args, &fresh)?, fresh)));
+    match fresh {
+        Ok((fresh_options, fresh)) => {
+            out.warnings(&fresh);
+            watcher.watch(&fresh.inputs)?;
+            *loaded = fresh;
+            *run_options = fresh_options;
+            Ok(true)
+        }
+        Err(error) => {
+            out.error(&error);
+            out.note("the last good scenario goes on");
+            Ok(false)
+        }
+    }
+}
+
+/// Keeps the scenario's type in one place for the summary.
+pub(crate) type Shared = Arc<setpiece::scenario::Scenario>;

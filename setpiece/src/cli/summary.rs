@@ -1,0 +1,107 @@
+//! What came of a run: a table, one JSON object, or one line per episode.
+
+use super::drawing::draw;
+use super::out::{Out, Paint};
+use super::play::Shared;
+use setpiece::Error;
+use setpiece::engine::control::agents::Agent;
+use setpiece::engine::environment::Environment;
+use setpiece::run::{Episode, RunOptions, Summary};
+use setpiece::scenario::Verdict;
+
+/// Width of the bars.
+const BAR: usize = 30;
+
+/// One JSON object, its keys in the documented order.
+pub(crate) fn json(scenario: &Shared, options: &RunOptions, summary: &Summary) -> String {
+    let mut outcomes = serde_json::Map::new();
+    for (label, _, count) in &summary.outcomes {
+        let sum = outcomes.get(&**label).and_then(serde_json::Value::as_u64).unwrap_or_default() + u64::from(*count);
+        outcomes.insert(label.to_string(), sum.into());
+    }
+    let terms: serde_json::Map<_, _> =
+        summary.terms.iter().map(|(name, mean)| (name.clone(), serde_json::json!(mean))).collect();
+    let [left, right] = summary.score;
+    let value = serde_json::json!({
+        "scenario": scenario.name,
+        "episodes": options.episodes,
+        "seed": options.seed,
+        "outcomes": outcomes,
+        "score": { "left": left, "right": right },
+        "mean_return": summary.mean_return,
+        "mean_length": summary.mean_length,
+        "success_rate": summary.success_rate,
+        "terms": terms,
+        "steps_per_second": summary.steps_per_second,
+        "match_stats": summary.match_stats,
+        "digest": format!("{:016x}", summary.digest),
+    });
+    value.to_string()
+}
+
+/// The table, below a drawing of the first episode's start.
+pub(crate) fn print(scenario: &Shared, options: &RunOptions, summary: &Summary, out: &Out) -> Result<(), Error> {
+    out.line(&format!("{}  {}", out.bold(&scenario.name, 0), scenario.title()));
+    let mut environment =
+        Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
+    if environment.reset(Some(options.seed), Some(0)).is_ok() {
+        out.line(&draw(environment.state(), out));
+    }
+    out.line(&out.dim(&format!(
+        "  {}, {} and the ball o",
+        "left team 0-9 attacks →", "right team a-k ←"
+    )));
+    out.line("");
+    let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == options.agent).map_or("", |(name, _)| *name);
+    out.line(&format!("  {} episodes · agent {agent} · seed {}", options.episodes, options.seed));
+    out.line("");
+    let width = summary.outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
+    for (label, verdict, count) in &summary.outcomes {
+        let share = f64::from(*count) / f64::from(options.episodes);
+        let bar = "█".repeat((share * BAR as f64).round() as usize);
+        let (word, paint) = match verdict {
+            Some(Verdict::Success) => ("success", Paint::Success),
+            Some(Verdict::Failure) => ("failure", Paint::Failure),
+            None => ("", Paint::Plain),
+        };
+        out.line(&format!("  {label:width$}  {word:7}  {count:>5}  {:>5.1} %  {}", 100.0 * share, out.paint(&bar, paint)));
+    }
+    out.line("");
+    let [left, right] = summary.score;
+    out.line(&format!("  {:width$}  {left:.2} : {right:.2}", "mean score"));
+    out.line(&format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
+    for (name, mean) in &summary.terms {
+        out.line(&format!("  {:width$}    {mean:+.3}  {name}", ""));
+    }
+    out.line(&format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
+    if scenario.endings.list.is_empty() {
+        let m = &summary.match_stats;
+        out.line(&format!(
+            "  {:width$}  {:.0} passes, {:.0} % completed · {:.1} shots · {:.1} goals · spells of {:.0} steps",
+            "per match",
+            m.passes,
+            100.0 * m.pass_completion,
+            m.shots,
+            m.goals,
+            m.possession_spell
+        ));
+    }
+    out.line(&format!("  {:width$}  {:.0} steps per second", "speed", summary.steps_per_second));
+    Ok(())
+}
+
+/// One line about an episode, for watching.
+pub(crate) fn episode_line(index: u32, episode: &Episode, out: &Out) -> String {
+    let paint = match episode.verdict {
+        Some(Verdict::Success) => Paint::Success,
+        Some(Verdict::Failure) => Paint::Failure,
+        None => Paint::Plain,
+    };
+    let [left, right] = episode.score;
+    format!(
+        "  episode {index:>3}  {}  {left}:{right}  return {:+.3}  {} steps",
+        out.paint(&format!("{:14}", episode.outcome), paint),
+        episode.total,
+        episode.length
+    )
+}

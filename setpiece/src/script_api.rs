@@ -1,0 +1,26 @@
+//! Script checks against the engine's hook API: the one thing the compiler asks of the engine.
+
+use setpiece_dsl::problem::{Code, ScriptApi, ScriptProblem};
+use setpiece_dsl::source::Source;
+use setpiece_engine::judge::script::check::{ScriptFaultKind, check_script};
+
+/// The engine's answer to [`ScriptApi`].
+pub(crate) struct EngineScripts;
+
+impl ScriptApi for EngineScripts {
+    fn check(&self, script: &Source, hook: &str) -> Vec<ScriptProblem> {
+        check_script(&script.text, hook)
+            .into_iter()
+            .map(|fault| ScriptProblem {
+                code: match fault.kind {
+                    ScriptFaultKind::Syntax => Code::ScriptSyntax,
+                    ScriptFaultKind::Hook => Code::ScriptHook,
+                    ScriptFaultKind::Name => Code::ScriptName,
+                },
+                range: fault.range,
+                message: fault.message,
+                help: fault.help,
+            })
+            .collect()
+    }
+}

@@ -1,2 +1,121 @@
-//! c
-fn main() {}
+//! Steps per CPU-second, resets and compilation.
+//!
+//! Times are the thread's CPU time, so that a busy machine changes little. Steps are played by the bot on one core, with
+//! the simple115v2 observation of every step written, as an agent would have it. Throughput is steps per CPU-second.
+#![allow(missing_docs, reason = "criterion's macros write undocumented functions")]
+
+use cpu_time::ThreadTime;
+use criterion::measurement::{Measurement, ValueFormatter, WallTime};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Physics, Scratch};
+use setpiece::engine::observe;
+use setpiece::scenario::Action;
+use std::hint::black_box;
+use std::time::Duration;
+
+/// The thread's CPU time in place of the wall clock's.
+struct CpuTime;
+
+impl Measurement for CpuTime {
+    type Intermediate = ThreadTime;
+    type Value = Duration;
+
+    fn start(&self) -> ThreadTime {
+        ThreadTime::now()
+    }
+
+    fn end(&self, begin: ThreadTime) -> Duration {
+        begin.elapsed()
+    }
+
+    fn add(&self, a: &Duration, b: &Duration) -> Duration {
+        *a + *b
+    }
+
+    fn zero(&self) -> Duration {
+        Duration::ZERO
+    }
+
+    fn to_f64(&self, value: &Duration) -> f64 {
+        WallTime.to_f64(value)
+    }
+
+    fn formatter(&self) -> &dyn ValueFormatter {
+        WallTime.formatter()
+    }
+}
+
+/// Steps of one sample.
+const STEPS: u64 = 1000;
+
+fn environment(name: &str, physics: Physics) -> Environment {
+    let loaded = setpiece::load(name).unwrap_or_else(|error| panic!("{error}"));
+    let options = EnvironmentOptions { physics: Some(physics), ..EnvironmentOptions::default() };
+    Environment::new(loaded.scenario, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn steps(c: &mut Criterion<CpuTime>) {
+    let mut group = c.benchmark_group("steps");
+    group.throughput(Throughput::Elements(STEPS));
+    let cases = [
+        ("11_vs_11_stochastic", Physics::Gated, "gated"),
+        ("academy_3_vs_1_with_keeper", Physics::Gated, "gated"),
+        ("11_vs_11_stochastic", Physics::Full, "full"),
+    ];
+    for (name, physics, label) in cases {
+        let mut environment = environment(name, physics);
+        let mut scratch = Scratch::default();
+        let mut floats = vec![0.0; observe::SIMPLE115_LEN];
+        let mut seed = 0;
+        group.bench_function(format!("{name}/{label}"), |b| {
+            b.iter(|| {
+                for _ in 0..STEPS {
+                    if !environment.is_running() {
+                        seed += 1;
+                        environment.reset(Some(seed), None).unwrap_or_else(|error| panic!("{error}"));
+                    }
+                    environment.step(&[Action::BuiltinAi], &mut scratch).unwrap_or_else(|error| panic!("{error}"));
+                    observe::simple115v2(environment.state(), 0, &mut floats).unwrap_or_else(|error| panic!("{error}"));
+                    black_box(&floats);
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
+fn resets(c: &mut Criterion<CpuTime>) {
+    let mut group = c.benchmark_group("reset");
+    for name in ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper"] {
+        let mut environment = environment(name, Physics::Gated);
+        let mut seed = 0;
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                seed += 1;
+                black_box(environment.reset(Some(seed), None)).unwrap_or_else(|error| panic!("{error}"));
+            });
+        });
+    }
+    group.finish();
+}
+
+fn compilation(c: &mut Criterion<CpuTime>) {
+    let mut group = c.benchmark_group("compile");
+    for entry in setpiece::list() {
+        group.bench_function(&entry.name, |b| {
+            b.iter_batched(|| entry.name.clone(), |name| black_box(setpiece::load(&name)), BatchSize::SmallInput);
+        });
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = all;
+    config = Criterion::default()
+        .with_measurement(CpuTime)
+        .sample_size(20)
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(3));
+    targets = steps, resets, compilation
+}
+criterion_main!(all);

@@ -1,0 +1,138 @@
+//! What the library's scenarios must show when they are played.
+
+use setpiece::engine::control::agents::Agent;
+use setpiece::engine::environment::{EnvironmentOptions, Physics};
+use setpiece::run::{RunOptions, Summary, run};
+
+fn play(name: &str, agent: Agent, episodes: u32) -> Summary {
+    play_with(name, agent, episodes, EnvironmentOptions::default())
+}
+
+fn play_with(name: &str, agent: Agent, episodes: u32, environment: EnvironmentOptions) -> Summary {
+    let loaded = setpiece::load(name).unwrap();
+    let options = RunOptions { episodes, seed: 1, agent, threads: 2, environment };
+    let summary = run(&loaded.scenario, &options, &|_| {}).unwrap();
+    assert!(summary.episodes.iter().all(|episode| episode.error.is_none()), "{name}");
+    summary
+}
+
+#[test]
+fn whoever_runs_and_shoots_scores_into_an_empty_goal() {
+    for (name, success, length) in [
+        ("academy_empty_goal_close", 0.95, 60.0),
+        ("academy_empty_goal", 0.9, 120.0),
+        ("academy_run_to_score", 0.7, 120.0),
+    ] {
+        let summary = play(name, Agent::RunAndShoot, 100);
+        assert!(summary.success_rate >= success, "{name}: {} {:?}", summary.success_rate, summary.outcomes);
+        assert!(summary.mean_length <= length, "{name}: {}", summary.mean_length);
+    }
+}
+
+#[test]
+fn whoever_does_nothing_never_scores() {
+    for name in ["academy_empty_goal_close", "academy_empty_goal", "academy_run_to_score"] {
+        let summary = play(name, Agent::Idle, 50);
+        assert_eq!(summary.success_rate, 0.0, "{name}: {:?}", summary.outcomes);
+    }
+}
+
+#[test]
+fn chance_scores_now_and_then() {
+    let summary = play("academy_3_vs_1_with_keeper", Agent::Random, 400);
+    assert!(summary.success_rate > 0.0 && summary.success_rate < 0.3, "{:?}", summary.outcomes);
+}
+
+#[test]
+fn a_full_match_looks_like_football() {
+    let summary = play("11_vs_11_stochastic", Agent::Bot, 20);
+    assert!(summary.episodes.iter().all(|episode| episode.length == 3000), "a match lasts exactly 3000 steps");
+    let stats = &summary.match_stats;
+    let within = |what: &str, value: f64, low: f64, high: f64| {
+        assert!((low..=high).contains(&value), "{what} {value} outside {low}..{high}: {stats:?}");
+    };
+    within("passes", stats.passes, 40.0, 250.0);
+    within("completed", stats.pass_completion, 0.45, 1.0);
+    within("shots", stats.shots, 3.0, 40.0);
+    within("goals", stats.goals, 0.3, 8.0);
+    within("spell", stats.possession_spell, 10.0, 100.0);
+    within("crowding", stats.crowding, 0.0, 0.3);
+    for third in stats.thirds {
+        within("third", third, 0.1, 0.8);
+    }
+}
+
+#[test]
+fn every_scenario_plays_to_its_end() {
+    for entry in setpiece::list() {
+        for agent in [Agent::Random, Agent::Bot] {
+            let summary = play(&entry.name, agent, 2);
+            for episode in &summary.episodes {
+                assert!(episode.total.is_finite() && episode.length > 0, "{}", entry.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
+    let options = EnvironmentOptions {
+        rewards: Some(vec!["scoring".to_owned(), "checkpoints".to_owned()]),
+        ..EnvironmentOptions::default()
+    };
+    let summary = play_with("academy_empty_goal", Agent::RunAndShoot, 40, options.clone());
+    for episode in &summary.episodes {
+        let term = |name: &str| summary.terms.iter().position(|(term, _)| term == name).map(|i| episode.terms[i]).unwrap();
+        let checkpoints = term("checkpoints/carried") + term("checkpoints/goal");
+        // Tenths, up to the rounding of sums.
+        assert!((checkpoints * 10.0 - (checkpoints * 10.0).round()).abs() < 1e-9, "{checkpoints}");
+        assert!(checkpoints <= 1.0 + 1e-9);
+        if episode.score[0] > 0 {
+            assert!((checkpoints - 1.0).abs() < 1e-9, "{checkpoints}");
+            assert_eq!(term("scoring/goal"), 1.0);
+        }
+    }
+    let random = play_with("11_vs_11_easy_stochastic", Agent::Bot, 1, options);
+    let carried: f64 = random.terms.iter().filter(|(name, _)| name.starts_with("checkpoints")).map(|(_, mean)| mean).sum();
+    assert!((0.0..=1.0 + 1e-9).contains(&carried), "{carried}");
+}
+
+#[test]
+fn the_difficulty_is_felt() {
+    let goals = |difficulty: f64| {
+        let loaded = setpiece::load("11_vs_11_stochastic").unwrap();
+        let bindings = setpiece::bind(&loaded.scenario, [("difficulty", difficulty.to_string().as_str())]).unwrap();
+        let options = EnvironmentOptions { bindings: Some(bindings), ..EnvironmentOptions::default() };
+        let [left, right] = play_with("11_vs_11_stochastic", Agent::Bot, 10, options).score;
+        left - right
+    };
+    assert!(goals(0.05) > goals(1.0), "a weak opponent must lose by more");
+}
+
+#[test]
+fn full_physics_plays_the_same_kind_of_match() {
+    let options = EnvironmentOptions { physics: Some(Physics::Full), ..EnvironmentOptions::default() };
+    let summary = play_with("academy_empty_goal_close", Agent::RunAndShoot, 40, options);
+    assert!(summary.success_rate >= 0.95, "{:?}", summary.outcomes);
+}
+
+/// The digest of a fixed run: the same in debug and release, on any number of threads, on any machine. It changes only
+/// with the physics, the game, or the library's scenarios.
+#[test]
+fn the_golden_digest_holds() {
+    let mut text = String::new();
+    for (name, agent, episodes) in [
+        ("academy_3_vs_1_with_keeper", Agent::Random, 20),
+        ("academy_corner", Agent::Bot, 5),
+        ("11_vs_11_stochastic", Agent::Bot, 1),
+    ] {
+        let one = play(name, agent, episodes);
+        let loaded = setpiece::load(name).unwrap();
+        let options =
+            RunOptions { episodes, seed: 1, agent, threads: 1, environment: EnvironmentOptions::default() };
+        let single = run(&loaded.scenario, &options, &|_| {}).unwrap();
+        assert_eq!(one.digest, single.digest, "{name}: threads matter");
+        text += &format!("{name} {:016x}\n", one.digest);
+    }
+    insta::assert_snapshot!("digests", text);
+}

@@ -181,6 +181,8 @@ codes! {
     // SP07xx: while episodes run.
     DrawFailed = 701 Error "no start meets the requirements";
     ScriptFailed = 702 Error "a script's hook failed";
+    Endless = 703 Error "nothing ends the episode";
+    NoThreads = 704 Error "threads can't be started";
 }
 
 impl std::fmt::Display for Code {

@@ -2,9 +2,8 @@
 
 use setpiece_dsl::problem::{Code, Problem, nearest};
 use setpiece_dsl::source::Sources;
-use setpiece_engine::draw::DrawError;
+use setpiece_engine::batch::EpisodeError;
 use setpiece_engine::environment::EnvironmentError;
-use setpiece_engine::judge::ScriptError;
 use setpiece_scenario::{FormatError, ParamError};
 use std::path::PathBuf;
 
@@ -36,10 +35,10 @@ pub enum Error {
     },
     /// An environment can't be made of the scenario.
     Environment(EnvironmentError),
-    /// No start was found for an episode.
-    Draw(DrawError),
-    /// A script's hook failed; its episode ended.
-    Script(Box<ScriptError>),
+    /// An episode broke off: no start was found, a script's hook failed, or nothing ended it.
+    Episode(Box<EpisodeError>),
+    /// Threads can't be had.
+    Threads(String),
     /// A parameter can't be bound.
     Param {
         /// Why.
@@ -104,8 +103,12 @@ impl Error {
                 EnvironmentError::Agents(_) => Code::BadAgents,
                 EnvironmentError::Script(_) => Code::ScriptSyntax,
             },
-            Error::Draw(_) => Code::DrawFailed,
-            Error::Script(_) => Code::ScriptFailed,
+            Error::Episode(why) => match **why {
+                EpisodeError::Draw(_) => Code::DrawFailed,
+                EpisodeError::Step(_) => Code::ScriptFailed,
+                EpisodeError::Endless(_) => Code::Endless,
+            },
+            Error::Threads(_) => Code::NoThreads,
         }
     }
 
@@ -154,8 +157,8 @@ impl std::fmt::Display for Error {
             Error::Format { path, why } => write!(f, "`{}`: {why}", path.display()),
             Error::Param { why, .. } => why.fmt(f),
             Error::Environment(why) => why.fmt(f),
-            Error::Draw(why) => why.fmt(f),
-            Error::Script(why) => why.fmt(f),
+            Error::Episode(why) => why.fmt(f),
+            Error::Threads(why) => f.write_str(why),
         }
     }
 }

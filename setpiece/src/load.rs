@@ -109,7 +109,7 @@ fn compile_source(source: Source) -> Result<Loaded, Error> {
             scenario: Arc::new(scenario),
             warnings: problems.into_iter().filter(|problem| problem.severity() == Severity::Warning).collect(),
             sources,
-            origin: outcome.origin,
+            origin: outcome.origins.scenario,
             inputs: outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect(),
         }),
         None => Err(Error::Compile(Box::new(Failure { problems, sources }))),

@@ -1,24 +1,27 @@
 //! Running: episodes of a scenario, played by a ready-made agent, and what came of them.
 
 use crate::error::Error;
+use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, run_episodes};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::digest;
-use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch, StepError};
+use setpiece_engine::environment::{Environment, EnvironmentOptions};
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_engine::statistics::{MatchMeans, MatchStatistics};
-use setpiece_scenario::pitch::PLAYERS_MAX;
-use setpiece_scenario::vocabulary::{Action, Verdict};
 use setpiece_scenario::Scenario;
-use rayon::prelude::*;
+use setpiece_scenario::vocabulary::{Action, Verdict};
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
+
+/// What an episode that broke off is counted as.
+const BROKEN: &str = "error";
 
 /// What to run.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
-    /// How many episodes.
-    pub episodes: u32,
-    /// The seed; episode k is the same whatever came before it.
+    /// Which episodes of the seed; each is the same whatever came before it.
+    pub episodes: Range<u64>,
+    /// The seed.
     pub seed: u64,
     /// Who plays for every agent.
     pub agent: Agent,
@@ -28,45 +31,22 @@ pub struct RunOptions {
     pub environment: EnvironmentOptions,
 }
 
-/// One episode.
-#[derive(Clone, Debug)]
-pub struct Episode {
-    /// How it ended: a label, `limit`, or `error`.
-    pub outcome: Arc<str>,
-    /// Whether that is a success or a failure.
-    pub verdict: Option<Verdict>,
-    /// Goals, left and right.
-    pub score: [u16; 2],
-    /// Steps.
-    pub length: u32,
-    /// The rewards' sum, averaged over agents.
-    pub total: f64,
-    /// By term, in the order of [`Summary::terms`].
-    pub terms: Vec<f64>,
-    /// What the match was like.
-    pub statistics: MatchStatistics,
-    /// Of the state at its end.
-    pub digest: u64,
-    /// Why it broke off, if it did.
-    pub error: Option<Error>,
-}
-
 /// What came of some episodes.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// The episodes, in order.
-    pub episodes: Vec<Episode>,
+    /// The episodes, in order; what breaks one off (a script, a draw) stands in its place.
+    pub episodes: Vec<Result<EpisodeSummary, EpisodeError>>,
     /// Outcomes with their verdicts and counts, the most frequent first.
-    pub outcomes: Vec<(Arc<str>, Option<Verdict>, u32)>,
+    pub outcomes: Vec<(String, Option<Verdict>, u32)>,
     /// Mean goals, left and right.
     pub score: [f64; 2],
-    /// Mean return.
+    /// Mean return of an agent.
     pub mean_return: f64,
     /// Mean length, steps.
     pub mean_length: f64,
     /// Share of successes.
     pub success_rate: f64,
-    /// Mean return by term.
+    /// Mean return of an agent by term.
     pub terms: Vec<(String, f64)>,
     /// Steps per second of wall time.
     pub steps_per_second: f64,
@@ -76,112 +56,79 @@ pub struct Summary {
     pub match_stats: MatchMeans,
 }
 
-/// Plays the episodes. `progress` is called with the length of each that is done.
-///
-/// # Errors
-/// [`Error::Environment`] where the options don't fit the scenario. What breaks one episode off (a script, a draw) is
-/// kept in that [`Episode`].
-pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: &(dyn Fn(u32) + Sync)) -> Result<Summary, Error> {
-    run_from(scenario, options, 0, progress)
+/// A ready-made agent for every slot of an environment.
+struct Players {
+    agent: Agent,
+    stream: Stream,
 }
 
-/// Plays the episodes from the index `first` on.
+impl Policy for Players {
+    fn begin(&mut self, environment: &Environment) {
+        self.stream = Stream::new(environment.seed(), environment.index(), Purpose::Agent);
+    }
+
+    fn act(&mut self, environment: &Environment, agent: usize) -> Action {
+        self.agent.act(environment.state(), agent, &mut self.stream)
+    }
+}
+
+/// Plays the episodes. `progress` is called with the length of each that is done, from any thread.
 ///
 /// # Errors
-/// As [`run`].
-pub fn run_from(
-    scenario: &Arc<Scenario>,
-    options: &RunOptions,
-    first: u64,
-    progress: &(dyn Fn(u32) + Sync),
-) -> Result<Summary, Error> {
+/// [`Error::Environment`] where the options don't fit the scenario, [`Error::Threads`] where threads can't be had.
+pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32) + Sync) -> Result<Summary, Error> {
     let environment = Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
-    let names = environment.term_names().to_vec();
     let begin = Instant::now();
-    let play = |(environment, scratch): &mut (Environment, Scratch), index: u32| {
-        let episode = play_episode(environment, scratch, options, first + u64::from(index));
-        progress(episode.length);
-        episode
-    };
-    let worker = || (environment.clone(), Scratch::default());
-    let episodes: Vec<Episode> = match rayon::ThreadPoolBuilder::new().num_threads(options.threads).build() {
-        Ok(pool) if options.threads > 1 => {
-            pool.install(|| (0..options.episodes).into_par_iter().map_init(worker, play).collect())
-        }
-        // One thread needs no pool; where no threads are to be had, one must do.
-        _ => {
-            let mut own = worker();
-            (0..options.episodes).map(|index| play(&mut own, index)).collect()
-        }
-    };
-    Ok(summarise(episodes, names, begin.elapsed().as_secs_f64()))
+    let players = || Players { agent: options.agent, stream: Stream::new(options.seed, 0, Purpose::Agent) };
+    let episodes = run_episodes(
+        &environment,
+        options.seed,
+        options.episodes.clone(),
+        options.threads,
+        players,
+        |episode: &Result<EpisodeSummary, EpisodeError>| progress(episode.as_ref().map_or(0, |episode| episode.length)),
+    )
+    .map_err(|why| Error::Threads(why.to_string()))?;
+    Ok(summarise(episodes, environment.term_names(), begin.elapsed().as_secs_f64()))
 }
 
-/// Plays one episode to its end.
-pub fn play_episode(environment: &mut Environment, scratch: &mut Scratch, options: &RunOptions, index: u64) -> Episode {
-    let mut stream = Stream::new(options.seed, index, Purpose::Agent);
-    let mut error = environment.reset(Some(options.seed), Some(index)).err().map(Error::Draw);
-    let mut actions = [Action::Idle; PLAYERS_MAX];
-    let n = environment.n_agents().min(PLAYERS_MAX);
-    while environment.is_running() {
-        for (slot, action) in actions[..n].iter_mut().enumerate() {
-            *action = options.agent.act(environment.state(), slot, &mut stream);
-        }
-        match environment.step(&actions[..n], scratch) {
-            Ok(_) => {}
-            Err(StepError::Script(why)) => error = Some(Error::Script(why)),
-            // Neither can happen: the loop asks whether it runs, and acts for every agent.
-            Err(StepError::NotRunning { .. } | StepError::Actions { .. }) => break,
-        }
-    }
-    let n_terms = environment.term_names().len();
-    let mut terms = vec![0.0; n_terms];
-    for agent in 0..n {
-        for (sum, term) in terms.iter_mut().zip(environment.term_sums(agent)) {
-            *sum += term / n as f64;
-        }
-    }
-    let outcome = environment.outcome();
-    Episode {
-        outcome: outcome.map_or_else(|| "error".into(), |outcome| outcome.label.clone()),
-        verdict: outcome.and_then(|outcome| outcome.verdict),
-        score: environment.score(),
-        length: environment.steps(),
-        total: terms.iter().sum(),
-        terms,
-        statistics: environment.statistics().summary(),
-        digest: environment.digest(),
-        error,
-    }
-}
-
-fn summarise(episodes: Vec<Episode>, names: Vec<String>, seconds: f64) -> Summary {
-    let n = episodes.len().max(1) as f64;
-    let mean = |of: &dyn Fn(&Episode) -> f64| episodes.iter().map(of).sum::<f64>() / n;
-    let mut outcomes: Vec<(Arc<str>, Option<Verdict>, u32)> = Vec::new();
+fn summarise(episodes: Vec<Result<EpisodeSummary, EpisodeError>>, names: &[String], seconds: f64) -> Summary {
+    let mut outcomes: Vec<(String, Option<Verdict>, u32)> = Vec::new();
     for episode in &episodes {
-        match outcomes.iter_mut().find(|(label, verdict, _)| *label == episode.outcome && *verdict == episode.verdict) {
+        let (label, verdict) = episode.as_ref().map_or((BROKEN, None), |episode| (&episode.outcome, episode.verdict));
+        match outcomes.iter_mut().find(|(known, of, _)| known == label && *of == verdict) {
             Some((_, _, count)) => *count += 1,
-            None => outcomes.push((episode.outcome.clone(), episode.verdict, 1)),
+            None => outcomes.push((label.to_owned(), verdict, 1)),
         }
     }
     outcomes.sort_by(|a, b| b.2.cmp(&a.2).then_with(|| a.0.cmp(&b.0)));
-    let steps: u64 = episodes.iter().map(|episode| u64::from(episode.length)).sum();
-    let statistics: Vec<MatchStatistics> = episodes.iter().map(|episode| episode.statistics.clone()).collect();
+    let played: Vec<&EpisodeSummary> = episodes.iter().flatten().collect();
+    let n = played.len().max(1) as f64;
+    let mean = |of: &dyn Fn(&EpisodeSummary) -> f64| played.iter().map(|episode| of(episode)).sum::<f64>() / n;
+    let by_agent = |episode: &EpisodeSummary, of: &dyn Fn(usize) -> f64| {
+        let agents = episode.returns.len();
+        (0..agents).map(of).sum::<f64>() / agents.max(1) as f64
+    };
+    let steps: u64 = played.iter().map(|episode| u64::from(episode.length)).sum();
+    let statistics: Vec<MatchStatistics> = played.iter().map(|episode| episode.statistics.clone()).collect();
+    let term = |index: usize| {
+        mean(&|episode| by_agent(episode, &|agent| episode.terms[agent].get(index).copied().unwrap_or_default()))
+    };
     Summary {
         outcomes,
         score: [0, 1].map(|side| mean(&|episode| f64::from(episode.score[side]))),
-        mean_return: mean(&|episode| episode.total),
+        mean_return: mean(&|episode| by_agent(episode, &|agent| episode.returns[agent])),
         mean_length: mean(&|episode| f64::from(episode.length)),
         success_rate: mean(&|episode| f64::from(u8::from(episode.verdict == Some(Verdict::Success)))),
-        terms: names
-            .into_iter()
-            .enumerate()
-            .map(|(i, name)| (name, mean(&|episode| episode.terms.get(i).copied().unwrap_or_default())))
-            .collect(),
+        terms: names.iter().enumerate().map(|(index, name)| (name.clone(), term(index))).collect(),
         steps_per_second: if seconds > 0.0 { steps as f64 / seconds } else { 0.0 },
-        digest: digest::of_all(episodes.iter().map(|episode| episode.digest)),
+        digest: digest::of_all(played.iter().map(|episode| episode.digest)),
         match_stats: MatchStatistics::mean(&statistics),
         episodes,
     }
+}
+
+/// What broke the first of the episodes off that did not end, if any.
+pub fn first_error(summary: &Summary) -> Option<Error> {
+    summary.episodes.iter().find_map(|episode| episode.as_ref().err()).map(|why| Error::Episode(Box::new(why.clone())))
 }

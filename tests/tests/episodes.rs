@@ -4,15 +4,15 @@ use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{EnvironmentOptions, Physics};
 use setpiece::run::{RunOptions, Summary, run};
 
-fn play(name: &str, agent: Agent, episodes: u32) -> Summary {
+fn play(name: &str, agent: Agent, episodes: u64) -> Summary {
     play_with(name, agent, episodes, EnvironmentOptions::default())
 }
 
-fn play_with(name: &str, agent: Agent, episodes: u32, environment: EnvironmentOptions) -> Summary {
+fn play_with(name: &str, agent: Agent, episodes: u64, environment: EnvironmentOptions) -> Summary {
     let loaded = setpiece::load(name).unwrap();
-    let options = RunOptions { episodes, seed: 1, agent, threads: 2, environment };
-    let summary = run(&loaded.scenario, &options, &|_| {}).unwrap();
-    assert!(summary.episodes.iter().all(|episode| episode.error.is_none()), "{name}");
+    let options = RunOptions { episodes: 0..episodes, seed: 1, agent, threads: 2, environment };
+    let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
+    assert!(summary.episodes.iter().all(Result::is_ok), "{name}");
     summary
 }
 
@@ -46,7 +46,7 @@ fn chance_scores_now_and_then() {
 #[test]
 fn a_full_match_looks_like_football() {
     let summary = play("11_vs_11_stochastic", Agent::Bot, 20);
-    assert!(summary.episodes.iter().all(|episode| episode.length == 3000), "a match lasts exactly 3000 steps");
+    assert!(summary.episodes.iter().flatten().all(|episode| episode.length == 3000), "a match lasts exactly 3000 steps");
     let stats = &summary.match_stats;
     let within = |what: &str, value: f64, low: f64, high: f64| {
         assert!((low..=high).contains(&value), "{what} {value} outside {low}..{high}: {stats:?}");
@@ -67,8 +67,8 @@ fn every_scenario_plays_to_its_end() {
     for entry in setpiece::list() {
         for agent in [Agent::Random, Agent::Bot] {
             let summary = play(&entry.name, agent, 2);
-            for episode in &summary.episodes {
-                assert!(episode.total.is_finite() && episode.length > 0, "{}", entry.name);
+            for episode in summary.episodes.iter().flatten() {
+                assert!(episode.returns.iter().all(|paid| paid.is_finite()) && episode.length > 0, "{}", entry.name);
             }
         }
     }
@@ -81,8 +81,8 @@ fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
         ..EnvironmentOptions::default()
     };
     let summary = play_with("academy_empty_goal", Agent::RunAndShoot, 40, options.clone());
-    for episode in &summary.episodes {
-        let term = |name: &str| summary.terms.iter().position(|(term, _)| term == name).map(|i| episode.terms[i]).unwrap();
+    for episode in summary.episodes.iter().flatten() {
+        let term = |name: &str| summary.terms.iter().position(|(term, _)| term == name).map(|i| episode.terms[0][i]).unwrap();
         let checkpoints = term("checkpoints/carried") + term("checkpoints/goal");
         // Tenths, up to the rounding of sums.
         assert!((checkpoints * 10.0 - (checkpoints * 10.0).round()).abs() < 1e-9, "{checkpoints}");
@@ -129,8 +129,8 @@ fn the_golden_digest_holds() {
         let one = play(name, agent, episodes);
         let loaded = setpiece::load(name).unwrap();
         let options =
-            RunOptions { episodes, seed: 1, agent, threads: 1, environment: EnvironmentOptions::default() };
-        let single = run(&loaded.scenario, &options, &|_| {}).unwrap();
+            RunOptions { episodes: 0..episodes, seed: 1, agent, threads: 1, environment: EnvironmentOptions::default() };
+        let single = run(&loaded.scenario, &options, |_| {}).unwrap();
         assert_eq!(one.digest, single.digest, "{name}: threads matter");
         text += &format!("{name} {:016x}\n", one.digest);
     }

@@ -6,12 +6,11 @@ use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use indicatif::{ProgressBar, ProgressStyle};
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{EnvironmentOptions, Physics};
-use setpiece::run::{RunOptions, Summary, run};
+use setpiece::run::{RunOptions, Summary, first_error, run};
 use setpiece::watch::Watcher;
 use setpiece::{Error, Loaded};
 use std::io::IsTerminal;
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::time::Duration;
 
 /// How often a progress bar and a watcher look up.
@@ -23,8 +22,8 @@ pub(crate) struct RunArgs {
     #[arg(value_name = "SCENARIO")]
     scenario: String,
     /// How many episodes
-    #[arg(short = 'n', long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<u32>::new().range(1..))]
-    episodes: u32,
+    #[arg(short = 'n', long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
+    episodes: u64,
     /// Who plays for the agents
     #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
     agent: AgentName,
@@ -100,9 +99,8 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<ExitCode, Error> 
         Format::Json => out.line(&summary::json(&loaded.scenario, &options, &summary)),
         Format::Text => summary::print(&loaded.scenario, &options, &summary, out)?,
     }
-    let broken = summary.episodes.iter().find_map(|episode| episode.error.as_ref());
-    if let Some(error) = broken {
-        out.error(error);
+    if let Some(error) = first_error(&summary) {
+        out.error(&error);
         return Ok(ExitCode::FAILURE);
     }
     Ok(ExitCode::SUCCESS)
@@ -113,7 +111,7 @@ fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
     let bindings = setpiece::bind(&loaded.scenario, pairs)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     Ok(RunOptions {
-        episodes: args.episodes,
+        episodes: 0..args.episodes,
         seed: args.seed,
         agent: match args.agent {
             AgentName::Random => Agent::Random,
@@ -136,14 +134,14 @@ fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
 
 fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error> {
     if !std::io::stderr().is_terminal() {
-        return run(&loaded.scenario, options, &|_| {});
+        return run(&loaded.scenario, options, |_| {});
     }
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
-    let bar = ProgressBar::new(options.episodes.into());
+    let bar = ProgressBar::new(options.episodes.end - options.episodes.start);
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.enable_steady_tick(TICK);
     let steps = std::sync::atomic::AtomicU64::new(0);
-    let summary = run(&loaded.scenario, options, &|length| {
+    let summary = run(&loaded.scenario, options, |length| {
         let total = steps.fetch_add(length.into(), std::sync::atomic::Ordering::Relaxed) + u64::from(length);
         bar.set_message(total.to_string());
         bar.inc(1);
@@ -163,18 +161,16 @@ fn watch(args: &RunArgs, out: &Out) -> Result<ExitCode, Error> {
     let mut watcher = Watcher::new(&loaded.inputs)?;
     let mut options = options(args, &loaded)?;
     loop {
-        let mut episodes = Vec::new();
         out.line(&out.bold(&loaded.scenario.name, 0));
         for index in 0..args.episodes {
-            let one = RunOptions { episodes: 1, threads: 1, ..options.clone() };
-            let summary = setpiece::run::run_from(&loaded.scenario, &one, index.into(), &|_| {})?;
-            for episode in &summary.episodes {
-                out.line(&summary::episode_line(index, episode, out));
-                if let Some(error) = &episode.error {
-                    out.error(error);
-                }
+            let one = RunOptions { episodes: index..index + 1, threads: 1, ..options.clone() };
+            let summary = run(&loaded.scenario, &one, |_| {})?;
+            for episode in summary.episodes.iter().flatten() {
+                out.line(&summary::episode_line(episode, out));
             }
-            episodes.extend(summary.episodes);
+            if let Some(error) = first_error(&summary) {
+                out.error(&error);
+            }
             if watcher.changed(Duration::ZERO) && reload(args, &mut loaded, &mut options, &mut watcher, out)? {
                 out.line(&out.bold(&loaded.scenario.name, 0));
             }
@@ -208,6 +204,3 @@ fn reload(
         }
     }
 }
-
-/// Keeps the scenario's type in one place for the summary.
-pub(crate) type Shared = Arc<setpiece::scenario::Scenario>;

@@ -2,18 +2,19 @@
 
 use super::drawing::draw;
 use super::out::{Out, Paint};
-use super::play::Shared;
 use setpiece::Error;
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::Environment;
-use setpiece::run::{Episode, RunOptions, Summary};
-use setpiece::scenario::Verdict;
+use setpiece::engine::batch::EpisodeSummary;
+use setpiece::run::{RunOptions, Summary};
+use setpiece::scenario::{Scenario, Verdict};
+use std::sync::Arc;
 
 /// Width of the bars.
 const BAR: usize = 30;
 
 /// One JSON object, its keys in the documented order.
-pub(crate) fn json(scenario: &Shared, options: &RunOptions, summary: &Summary) -> String {
+pub(crate) fn json(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Summary) -> String {
     let mut outcomes = serde_json::Map::new();
     for (label, _, count) in &summary.outcomes {
         let sum = outcomes.get(&**label).and_then(serde_json::Value::as_u64).unwrap_or_default() + u64::from(*count);
@@ -24,7 +25,7 @@ pub(crate) fn json(scenario: &Shared, options: &RunOptions, summary: &Summary) -
     let [left, right] = summary.score;
     let value = serde_json::json!({
         "scenario": scenario.name,
-        "episodes": options.episodes,
+        "episodes": summary.episodes.len(),
         "seed": options.seed,
         "outcomes": outcomes,
         "score": { "left": left, "right": right },
@@ -40,24 +41,21 @@ pub(crate) fn json(scenario: &Shared, options: &RunOptions, summary: &Summary) -
 }
 
 /// The table, below a drawing of the first episode's start.
-pub(crate) fn print(scenario: &Shared, options: &RunOptions, summary: &Summary, out: &Out) -> Result<(), Error> {
+pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Summary, out: &Out) -> Result<(), Error> {
     out.line(&format!("{}  {}", out.bold(&scenario.name, 0), scenario.title()));
     let mut environment =
         Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
     if environment.reset(Some(options.seed), Some(0)).is_ok() {
         out.line(&draw(environment.state(), out));
     }
-    out.line(&out.dim(&format!(
-        "  {}, {} and the ball o",
-        "left team 0-9 attacks →", "right team a-k ←"
-    )));
+    out.line(&out.dim("  left team 0-9 attacks →, right team a-k ←, ball o"));
     out.line("");
     let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == options.agent).map_or("", |(name, _)| *name);
-    out.line(&format!("  {} episodes · agent {agent} · seed {}", options.episodes, options.seed));
+    out.line(&format!("  {} episodes · agent {agent} · seed {}", summary.episodes.len(), options.seed));
     out.line("");
     let width = summary.outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
     for (label, verdict, count) in &summary.outcomes {
-        let share = f64::from(*count) / f64::from(options.episodes);
+        let share = f64::from(*count) / summary.episodes.len() as f64;
         let bar = "█".repeat((share * BAR as f64).round() as usize);
         let (word, paint) = match verdict {
             Some(Verdict::Success) => ("success", Paint::Success),
@@ -91,7 +89,7 @@ pub(crate) fn print(scenario: &Shared, options: &RunOptions, summary: &Summary, 
 }
 
 /// One line about an episode, for watching.
-pub(crate) fn episode_line(index: u32, episode: &Episode, out: &Out) -> String {
+pub(crate) fn episode_line(episode: &EpisodeSummary, out: &Out) -> String {
     let paint = match episode.verdict {
         Some(Verdict::Success) => Paint::Success,
         Some(Verdict::Failure) => Paint::Failure,
@@ -99,9 +97,10 @@ pub(crate) fn episode_line(index: u32, episode: &Episode, out: &Out) -> String {
     };
     let [left, right] = episode.score;
     format!(
-        "  episode {index:>3}  {}  {left}:{right}  return {:+.3}  {} steps",
+        "  episode {:>3}  {}  {left}:{right}  return {:+.3}  {} steps",
+        episode.index,
         out.paint(&format!("{:14}", episode.outcome), paint),
-        episode.total,
+        episode.returns.iter().sum::<f64>(),
         episode.length
     )
 }

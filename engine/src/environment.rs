@@ -257,6 +257,11 @@ impl Environment {
         self.outcome.as_ref()
     }
 
+    /// The ending that held already when the episode began, if one did.
+    pub fn ends_at_start(&self) -> Option<&str> {
+        self.judge.endings().holds_at_start()
+    }
+
     /// Whether the episode can be stepped.
     pub fn is_running(&self) -> bool {
         self.running

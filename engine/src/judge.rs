@@ -74,6 +74,11 @@ impl Judge {
         &self.rewards
     }
 
+    /// The endings.
+    pub fn endings(&self) -> &EndingJudge {
+        &self.endings
+    }
+
     /// Begins an episode: the match stands at its start.
     pub fn reset(&mut self, game: &Match, drawn: &Drawn, params: &[f64]) {
         self.params.clear();

@@ -3,6 +3,7 @@
 use crate::load::Loaded;
 use setpiece_dsl::problem::{Code, Problem};
 use setpiece_engine::environment::{Environment, EnvironmentOptions};
+use setpiece_scenario::Instr;
 
 /// How many starts are drawn.
 const DRAWS: u64 = 200;
@@ -16,19 +17,21 @@ pub fn probe(loaded: &Loaded) -> Vec<Problem> {
         return problems;
     };
     let name = &loaded.scenario.name;
+    let draws = |instr: &Instr| matches!(instr, Instr::Random { .. } | Instr::EpisodeIndex);
+    let varies = loaded.scenario.start.program.code.iter().any(draws);
     let mut failed = 0;
     let mut requirement = String::new();
     let mut over = None;
     for index in 0..DRAWS {
         match environment.reset(Some(0), Some(index)) {
-            Ok(()) => over = over.or_else(|| environment.ends_at_once().map(str::to_owned)),
+            Ok(()) => over = over.or_else(|| environment.ends_at_start().map(str::to_owned)),
             Err(error) => {
                 failed += 1;
                 requirement = error.requirement;
             }
         }
         // Nothing more can be learned of a start that never changes.
-        if failed > 2 || (index > 0 && !environment.is_random()) {
+        if failed > 2 || (index > 0 && !varies) {
             break;
         }
     }

@@ -2,7 +2,7 @@
 
 use setpiece_dsl::problem::{Code, ScriptApi, ScriptProblem};
 use setpiece_dsl::source::Source;
-use setpiece_engine::judge::script::check::{ScriptFaultKind, check_script};
+use setpiece_engine::judge::{ScriptFaultKind, check_script};
 
 /// The engine's answer to [`ScriptApi`].
 pub(crate) struct EngineScripts;

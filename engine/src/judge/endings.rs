@@ -4,7 +4,7 @@ use crate::event::{Event, Events};
 use crate::judge::machine::{Input, Machine, truth};
 use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::state::Match;
-use setpiece_scenario::Endings;
+use setpiece_scenario::{Ending, Endings};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
 use std::sync::Arc;
 
@@ -32,6 +32,7 @@ pub struct EndingJudge {
     cells: Vec<f64>,
     memories: Vec<Memory>,
     faults: u32,
+    at_start: Option<usize>,
 }
 
 impl EndingJudge {
@@ -44,6 +45,7 @@ impl EndingJudge {
             cells: vec![0.0; endings.program.cells as usize],
             memories: vec![Memory::default(); endings.list.len()],
             faults: 0,
+            at_start: None,
             endings,
         }
     }
@@ -54,6 +56,13 @@ impl EndingJudge {
         self.memories.fill(Memory::default());
         self.faults = 0;
         self.run(&Input { silent: true, ..*input });
+        let holds = |ending: &Ending| ending.when.is_some_and(|when| truth(self.regs[when.index()]));
+        self.at_start = self.endings.list.iter().position(holds);
+    }
+
+    /// The first ending that held in the start state: such an episode is over before its first step.
+    pub fn holds_at_start(&self) -> Option<&str> {
+        self.at_start.map(|which| &*self.labels[which])
     }
 
     /// Judges a step: the first ending that holds, in their order, else the limit.

@@ -61,11 +61,16 @@ pub struct ScriptLoadError {
 
 /// A script's memory of the episode.
 #[derive(Clone, Debug)]
-pub struct Memory(Dynamic);
+pub struct Memory {
+    /// What the script calls `this`.
+    this: Dynamic,
+    /// Whether the episode's `reset` hook has been called.
+    begun: bool,
+}
 
 impl Default for Memory {
     fn default() -> Memory {
-        Memory(Dynamic::from_map(rhai::Map::new()))
+        Memory { this: Dynamic::from_map(rhai::Map::new()), begun: false }
     }
 }
 
@@ -96,7 +101,12 @@ struct Compiled {
     source: String,
     ast: AST,
     uses_me: bool,
+    /// Whether it has a `reset` hook.
+    resets: bool,
 }
+
+/// The hook that is called before a script's first hook of an episode.
+const RESET: &str = "reset";
 
 impl Scripts {
     /// Compiles a scenario's scripts.
@@ -111,7 +121,9 @@ impl Scripts {
                 column: error.position().position().unwrap_or(1),
                 message: host::parse_message(&error),
             })?;
+            let resets = ast.iter_functions().any(|function| function.name == RESET && function.params.len() == 1);
             Ok(Compiled {
+                resets,
                 name: script.name.clone(),
                 source: script.source.clone(),
                 uses_me: check::mentions_me(&ast),
@@ -189,8 +201,17 @@ impl Scripts {
     ) -> Result<Dynamic, ScriptError> {
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Dynamic::UNIT) };
         let now = Sight::now(scene, perspective);
+        if !memory.begun {
+            memory.begun = true;
+            if compiled.resets {
+                let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
+                let _ = host::engine()
+                    .call_fn_with_options::<Dynamic>(options, &mut Scope::new(), &compiled.ast, RESET, (now.ctx(),))
+                    .map_err(|error| compiled.fault(RESET, error, scene))?;
+            }
+        }
         let arguments = (now.ctx(), now.clone(), Sight::prev(scene, perspective), events_of(&now));
-        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.0);
+        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
         host::engine()
             .call_fn_with_options::<Dynamic>(options, &mut Scope::new(), &compiled.ast, hook, arguments)
             .map_err(|error| compiled.fault(hook, error, scene))

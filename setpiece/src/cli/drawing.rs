@@ -36,7 +36,8 @@ pub(crate) fn draw(game: &Match, out: &Out) -> String {
         }
         text.push_str(&format!("{right}\n"));
     }
-    text + &format!("  └{}┘", "─".repeat(COLUMNS))
+    text.push_str(&format!("  └{}┘", "─".repeat(COLUMNS)));
+    text
 }
 
 /// The half-way line, the boxes and the centre spot.

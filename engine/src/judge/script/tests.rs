@@ -121,6 +121,18 @@ fn memory_lasts_and_random_numbers_are_seeded() {
 }
 
 #[test]
+fn reset_is_called_once_an_episode() {
+    let source = "fn reset(ctx) { this.n = 10; }\nfn reward(ctx, now, prev, events) { this.n += 1; this.n }";
+    let scripts = scripts(source);
+    let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
+    for _ in 0..2 {
+        let (mut memory, scene) = (Memory::default(), scene(&[]));
+        let mut pay = || scripts.reward(0, &scene, perspective, &mut memory).unwrap();
+        assert_eq!([pay(), pay()], [11.0, 12.0]);
+    }
+}
+
+#[test]
 fn the_sandbox_holds() {
     for body in [
         "loop { }",

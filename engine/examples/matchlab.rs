@@ -2,6 +2,8 @@
 //!
 //! `cargo run -p setpiece-engine --example matchlab -- [full|scenarios|look|curves|kicks|shots|random] [N] [LEFT RIGHT]`
 
+#![allow(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used, reason = "a bench prints its figures")]
+
 #[path = "matchlab/layouts.rs"]
 mod layouts;
 #[path = "matchlab/tally.rs"]

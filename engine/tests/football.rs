@@ -1,5 +1,7 @@
 //! The game as a whole: movement against the measured curves, the referee's cases, agents on scenarios, full matches.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests fail by panicking")]
+
 #[path = "../examples/matchlab/layouts.rs"]
 #[allow(dead_code, reason = "the bench uses more of it")]
 mod layouts;

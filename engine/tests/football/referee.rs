@@ -10,7 +10,7 @@ use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Rule, Team};
 /// Sends the ball on its way as if a player had touched it last, and plays until play stops.
 fn roll(bench: &mut Bench, from: Vec3, vel: Vec3, last: PlayerId) {
     // Nobody is near enough to meet it.
-    for player in bench.game.players.iter_mut() {
+    for player in &mut bench.game.players {
         player.pos = Vec2::new(0.0, 39.0);
     }
     bench.game.ball = Ball { pos: from, vel, spin: Vec3::ZERO };

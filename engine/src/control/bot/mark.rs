@@ -77,9 +77,9 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
     // The back line keeps behind the ball, the midfield not far before it.
     let mindset = player.body.mind.mindset;
     if mindset < 0.3 {
-        to.x = to.x.min(view.ball.x - 10.0).max(-48.0);
+        to.x = to.x.min(view.ball.x - 14.0).max(-47.0);
     } else if mindset < 0.7 {
-        to.x = to.x.min(view.ball.x - 1.0).max(-44.0);
+        to.x = to.x.min(view.ball.x - 4.0).max(-43.0);
     }
     // Whoever is caught up the pitch runs back.
     let behind = own.x - to.x;

@@ -86,7 +86,7 @@ fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
     let own = player.pos * view.side;
     let (chance, target) = shot_chance(game, view, id);
     if chance > 0.035 {
-        offer(game, chance * 1.6, Act::Shoot(target));
+        offer(game, chance * 2.0, Act::Shoot(target));
     }
     let mates: arrayvec::ArrayVec<PlayerId, 11> =
         game.team(view.team).map(|(mate, _)| mate).filter(|mate| *mate != id).collect();

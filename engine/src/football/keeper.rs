@@ -109,7 +109,7 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
     let skill = 0.6 + 0.4 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
     let spare = (time_s - react_s).max(0.0);
     let timely = (0.30 + 1.5 * spare).min(0.97);
-    let chance = if ratio < 1.0 { (1.0 - 0.45 * ratio * ratio) * timely * skill } else { 0.0 };
+    let chance = if ratio < 1.0 { (1.0 - 0.75 * ratio * ratio) * timely * skill } else { 0.0 };
     let reaches = noise::roll(game) < chance;
     let at_hand = game.ball.vel.length();
     let holds = noise::roll(game) < (1.2 - at_hand / 30.0 - 0.5 * ratio).clamp(0.05, 0.95);

@@ -2,7 +2,14 @@
 //!
 //! `cargo run -p setpiece-engine --example matchlab -- [full|scenarios|look|curves|kicks|shots|random] [N] [LEFT RIGHT]`
 
-#![allow(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used, reason = "a bench prints its figures")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    clippy::unwrap_used,
+    clippy::format_push_string,
+    clippy::comparison_chain,
+    reason = "a bench prints its figures"
+)]
 
 #[path = "matchlab/layouts.rs"]
 mod layouts;
@@ -141,7 +148,7 @@ fn print_pitch(game: &Match) {
     let mut rows = vec![vec![' '; W]; H];
     let mut put = |x: f32, y: f32, c: char| {
         let col = ((x + 56.0).clamp(0.0, 111.0)) as usize;
-        let row = (((y + 37.0) / 2.0).clamp(0.0, 36.0)) as usize;
+        let row = (((y + 37.0) * 0.5).clamp(0.0, 36.0)) as usize;
         rows[row][col] = c;
     };
     for (i, p) in game.players.iter().enumerate().filter(|(_, p)| p.active) {

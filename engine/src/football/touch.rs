@@ -132,7 +132,7 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) {
         }
     }
     let velocity = touch_ahead(&player, to_ball, ahead, speed, pressed(game, id));
-    let wild = 0.09 * (1.15 - player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
+    let wild = 0.09 * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
     let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
     push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
 }
@@ -178,7 +178,7 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
     let control = player.skill(Stat::BallControl);
     let wildness = noise::roll(game);
-    let keep = ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (1.15 - control) * (0.15 + 0.75 * wildness);
+    let keep = ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (0.85 - 0.55 * control) * (0.15 + 0.75 * wildness);
     let wish = player.body.dribble;
     let to_ball = ball.pos.truncate() - player.pos;
     let soft = if wish.length_squared() > 0.25 {

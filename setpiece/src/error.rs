@@ -88,7 +88,9 @@ impl Error {
     pub fn code(&self) -> Code {
         match self {
             Error::Unknown { .. } => Code::UnknownScenario,
-            Error::File { why: FileFault::Missing { .. } | FileFault::Io(_) | FileFault::Write(_), .. } => Code::FileMissing,
+            Error::File { why: FileFault::Missing { .. } | FileFault::Io(_) | FileFault::Write(_), .. } => {
+                Code::FileMissing
+            }
             Error::File { why: FileFault::Directory, .. } => Code::FileIsDirectory,
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Code::NotUtf8,
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
@@ -117,7 +119,9 @@ impl Error {
         let meant = |name: &String| format!("did you mean `{name}`?");
         match self {
             Error::Unknown { similar: Some(name), .. } => Some(meant(name)),
-            Error::Unknown { .. } => Some("`setpiece list` shows the scenarios; a file's path ends in .pitch".to_owned()),
+            Error::Unknown { .. } => {
+                Some("`setpiece list` shows the scenarios; a file's path ends in .pitch".to_owned())
+            }
             Error::File { why: FileFault::Missing { similar }, .. } => similar.as_ref().map(meant),
             Error::File { why: FileFault::Directory, .. } => Some("name a .pitch file in it".to_owned()),
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Some("save it as UTF-8 text".to_owned()),

@@ -62,8 +62,8 @@ pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
         return compile_source(source);
     }
     let path = Path::new(name_or_path);
-    let looks_like_path =
-        name_or_path.contains(['/', '\\']) || path.extension().is_some_and(|ending| ending == "pitch" || ending == "pitchc");
+    let looks_like_path = name_or_path.contains(['/', '\\'])
+        || path.extension().is_some_and(|ending| ending == "pitch" || ending == "pitchc");
     if looks_like_path || path.exists() {
         return load_file(path);
     }
@@ -79,8 +79,8 @@ pub fn load_file(path: &Path) -> Result<Loaded, Error> {
     let compiled = path.extension().is_some_and(|ending| ending == "pitchc");
     let text = read_text(path, if compiled { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES })?;
     if compiled || text.starts_with("{\"format\"") {
-        let scenario = setpiece_scenario::file::from_json(&text)
-            .map_err(|why| Error::Format { path: path.to_owned(), why })?;
+        let scenario =
+            setpiece_scenario::file::from_json(&text).map_err(|why| Error::Format { path: path.to_owned(), why })?;
         return Ok(Loaded {
             scenario: Arc::new(scenario),
             warnings: Vec::new(),
@@ -125,10 +125,7 @@ fn is_on_disk(name: &str) -> bool {
 ///
 /// # Errors
 /// [`Error::Param`] for the first pair that can't be bound.
-pub fn bind<'a>(
-    scenario: &Scenario,
-    pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
-) -> Result<Bindings, Error> {
+pub fn bind<'a>(scenario: &Scenario, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Bindings, Error> {
     let mut bindings = Bindings::defaults(&scenario.params);
     for (name, value) in pairs {
         bindings.set_text(&scenario.params, name, value).map_err(|why| Error::Param {

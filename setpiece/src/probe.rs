@@ -37,8 +37,13 @@ pub fn probe(loaded: &Loaded) -> Vec<Problem> {
     }
     if failed > 2 {
         problems.push(
-            Problem::new(Code::ImpossibleToDraw, place, format!("`{name}` can't be started"), "no start meets its requirements")
-                .help(format!("`{requirement}` fails most often: loosen it, or place the players so that it holds")),
+            Problem::new(
+                Code::ImpossibleToDraw,
+                place,
+                format!("`{name}` can't be started"),
+                "no start meets its requirements",
+            )
+            .help(format!("`{requirement}` fails most often: loosen it, or place the players so that it holds")),
         );
     }
     if let Some(label) = over {

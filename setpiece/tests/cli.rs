@@ -60,10 +60,30 @@ fn lists_every_scenario_with_its_sides() {
 
 #[test]
 fn runs_a_scenario_of_the_library() {
-    let result = json(&["run", "academy_empty_goal_close", "--agent", "run_and_shoot", "--episodes", "20", "--seed", "1", "--format", "json"]);
+    let result = json(&[
+        "run",
+        "academy_empty_goal_close",
+        "--agent",
+        "run_and_shoot",
+        "--episodes",
+        "20",
+        "--seed",
+        "1",
+        "--format",
+        "json",
+    ]);
     let keys = [
-        "scenario", "episodes", "seed", "outcomes", "score", "mean_return", "mean_length", "success_rate", "terms",
-        "steps_per_second", "digest",
+        "scenario",
+        "episodes",
+        "seed",
+        "outcomes",
+        "score",
+        "mean_return",
+        "mean_length",
+        "success_rate",
+        "terms",
+        "steps_per_second",
+        "digest",
     ];
     for key in keys {
         assert!(!result[key].is_null(), "no `{key}` in {result}");
@@ -86,7 +106,20 @@ fn the_text_shows_the_start_and_the_outcomes() {
 #[test]
 fn threads_and_repetition_change_nothing() {
     let run = |threads: &str| {
-        json(&["run", "academy_3_vs_1_with_keeper", "--agent", "random", "--episodes", "12", "--seed", "5", "--threads", threads, "--format", "json"])
+        json(&[
+            "run",
+            "academy_3_vs_1_with_keeper",
+            "--agent",
+            "random",
+            "--episodes",
+            "12",
+            "--seed",
+            "5",
+            "--threads",
+            threads,
+            "--format",
+            "json",
+        ])
     };
     let (one, again, two) = (run("1"), run("1"), run("2"));
     for key in ["digest", "outcomes", "terms", "mean_return", "mean_length"] {
@@ -102,7 +135,24 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
     let compiled = folder.path().join("close.pitchc").to_string_lossy().into_owned();
     assert!(setpiece(&["build", &source, "-o", &compiled]).status.success());
     let run = |path: &str| {
-        json(&["run", path, "--agent", "random", "--set", "difficulty=0.95", "--episodes", "6", "--seed", "2", "--reward", "scoring", "--reward", "checkpoints", "--format", "json"])
+        json(&[
+            "run",
+            path,
+            "--agent",
+            "random",
+            "--set",
+            "difficulty=0.95",
+            "--episodes",
+            "6",
+            "--seed",
+            "2",
+            "--reward",
+            "scoring",
+            "--reward",
+            "checkpoints",
+            "--format",
+            "json",
+        ])
     };
     assert_eq!(run(&source)["digest"], run(&compiled)["digest"]);
     assert_eq!(run(&source)["terms"], run(&compiled)["terms"]);
@@ -140,7 +190,11 @@ fn a_file_that_is_no_text_is_one_clear_error() {
     check("bytes.pitch", b"scenario x {\n  \xff\xfe\n}", &["SP0003", "line 2"]);
     check("empty.pitch", b"", &["SP0"]);
     check("large.pitch", &vec![b'/'; 10 << 20], &["SP0002", "larger than"]);
-    check("deep.pitch", format!("scenario x {{ let y = {}1{} }}", "(".repeat(10_000), ")".repeat(10_000)).as_bytes(), &["SP0102"]);
+    check(
+        "deep.pitch",
+        format!("scenario x {{ let y = {}1{} }}", "(".repeat(10_000), ")".repeat(10_000)).as_bytes(),
+        &["SP0102"],
+    );
     check("braces.pitch", "{".repeat(10_000).as_bytes(), &["SP0102"]);
 }
 

@@ -46,7 +46,10 @@ fn chance_scores_now_and_then() {
 #[test]
 fn a_full_match_looks_like_football() {
     let summary = play("11_vs_11_stochastic", Agent::Bot, 20);
-    assert!(summary.episodes.iter().flatten().all(|episode| episode.length == 3000), "a match lasts exactly 3000 steps");
+    assert!(
+        summary.episodes.iter().flatten().all(|episode| episode.length == 3000),
+        "a match lasts exactly 3000 steps"
+    );
     let stats = &summary.match_stats;
     let within = |what: &str, value: f64, low: f64, high: f64| {
         assert!((low..=high).contains(&value), "{what} {value} outside {low}..{high}: {stats:?}");
@@ -82,7 +85,8 @@ fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
     };
     let summary = play_with("academy_empty_goal", Agent::RunAndShoot, 40, options.clone());
     for episode in summary.episodes.iter().flatten() {
-        let term = |name: &str| summary.terms.iter().position(|(term, _)| term == name).map(|i| episode.terms[0][i]).unwrap();
+        let term =
+            |name: &str| summary.terms.iter().position(|(term, _)| term == name).map(|i| episode.terms[0][i]).unwrap();
         let checkpoints = term("checkpoints/carried") + term("checkpoints/goal");
         // Tenths, up to the rounding of sums.
         assert!((checkpoints * 10.0 - (checkpoints * 10.0).round()).abs() < 1e-9, "{checkpoints}");
@@ -93,7 +97,8 @@ fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
         }
     }
     let random = play_with("11_vs_11_easy_stochastic", Agent::Bot, 1, options);
-    let carried: f64 = random.terms.iter().filter(|(name, _)| name.starts_with("checkpoints")).map(|(_, mean)| mean).sum();
+    let carried: f64 =
+        random.terms.iter().filter(|(name, _)| name.starts_with("checkpoints")).map(|(_, mean)| mean).sum();
     assert!((0.0..=1.0 + 1e-9).contains(&carried), "{carried}");
 }
 
@@ -128,8 +133,13 @@ fn the_golden_digest_holds() {
     ] {
         let one = play(name, agent, episodes);
         let loaded = setpiece::load(name).unwrap();
-        let options =
-            RunOptions { episodes: 0..episodes, seed: 1, agent, threads: 1, environment: EnvironmentOptions::default() };
+        let options = RunOptions {
+            episodes: 0..episodes,
+            seed: 1,
+            agent,
+            threads: 1,
+            environment: EnvironmentOptions::default(),
+        };
         let single = run(&loaded.scenario, &options, |_| {}).unwrap();
         assert_eq!(one.digest, single.digest, "{name}: threads matter");
         text += &format!("{name} {:016x}\n", one.digest);

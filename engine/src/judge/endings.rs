@@ -4,8 +4,8 @@ use crate::event::{Event, Events};
 use crate::judge::machine::{Input, Machine, truth};
 use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::state::Match;
-use setpiece_scenario::{Ending, Endings};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
+use setpiece_scenario::{Ending, Endings};
 use std::sync::Arc;
 
 /// The label of an episode that ran into its limit.

@@ -28,7 +28,7 @@ pub(crate) struct RunArgs {
     #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
     agent: AgentName,
     /// The seed: the same one gives the same episodes
-    #[arg(short, long, value_name = "S", default_value_t = 0)]
+    #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
     /// Set a parameter of the scenario; may be repeated
     #[arg(long, value_name = "PARAM=VALUE", value_parser = pair)]

@@ -3,41 +3,64 @@
 use super::drawing::draw;
 use super::out::{Out, Paint};
 use setpiece::Error;
+use setpiece::engine::batch::EpisodeSummary;
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::Environment;
-use setpiece::engine::batch::EpisodeSummary;
+use setpiece::engine::statistics::MatchMeans;
 use setpiece::run::{RunOptions, Summary};
 use setpiece::scenario::{Scenario, Verdict};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Width of the bars.
 const BAR: usize = 30;
 
-/// One JSON object, its keys in the documented order.
-pub(crate) fn json(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Summary) -> String {
-    let mut outcomes = serde_json::Map::new();
+/// The documented JSON object, its keys in this order.
+#[derive(serde::Serialize)]
+struct Report<'a> {
+    scenario: &'a str,
+    episodes: usize,
+    seed: u64,
+    outcomes: BTreeMap<&'a str, u32>,
+    score: Score,
+    mean_return: f64,
+    mean_length: f64,
+    success_rate: f64,
+    terms: BTreeMap<&'a str, f64>,
+    steps_per_second: f64,
+    match_stats: &'a MatchMeans,
+    digest: String,
+}
+
+/// Mean goals.
+#[derive(serde::Serialize)]
+struct Score {
+    left: f64,
+    right: f64,
+}
+
+/// What came of a run as one JSON object.
+pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary) -> String {
+    let mut outcomes = BTreeMap::new();
     for (label, _, count) in &summary.outcomes {
-        let sum = outcomes.get(&**label).and_then(serde_json::Value::as_u64).unwrap_or_default() + u64::from(*count);
-        outcomes.insert(label.to_string(), sum.into());
+        *outcomes.entry(label.as_str()).or_default() += count;
     }
-    let terms: serde_json::Map<_, _> =
-        summary.terms.iter().map(|(name, mean)| (name.clone(), serde_json::json!(mean))).collect();
     let [left, right] = summary.score;
-    let value = serde_json::json!({
-        "scenario": scenario.name,
-        "episodes": summary.episodes.len(),
-        "seed": options.seed,
-        "outcomes": outcomes,
-        "score": { "left": left, "right": right },
-        "mean_return": summary.mean_return,
-        "mean_length": summary.mean_length,
-        "success_rate": summary.success_rate,
-        "terms": terms,
-        "steps_per_second": summary.steps_per_second,
-        "match_stats": summary.match_stats,
-        "digest": format!("{:016x}", summary.digest),
-    });
-    value.to_string()
+    let report = Report {
+        scenario: &scenario.name,
+        episodes: summary.episodes.len(),
+        seed: options.seed,
+        outcomes,
+        score: Score { left, right },
+        mean_return: summary.mean_return,
+        mean_length: summary.mean_length,
+        success_rate: summary.success_rate,
+        terms: summary.terms.iter().map(|(name, mean)| (name.as_str(), *mean)).collect(),
+        steps_per_second: summary.steps_per_second,
+        match_stats: &summary.match_stats,
+        digest: format!("{:016x}", summary.digest),
+    };
+    serde_json::to_string(&report).unwrap_or_default()
 }
 
 /// The table, below a drawing of the first episode's start.
@@ -62,7 +85,11 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
             Some(Verdict::Failure) => ("failure", Paint::Failure),
             None => ("", Paint::Plain),
         };
-        out.line(&format!("  {label:width$}  {word:7}  {count:>5}  {:>5.1} %  {}", 100.0 * share, out.paint(&bar, paint)));
+        out.line(&format!(
+            "  {label:width$}  {word:7}  {count:>5}  {:>5.1} %  {}",
+            100.0 * share,
+            out.paint(&bar, paint)
+        ));
     }
     out.line("");
     let [left, right] = summary.score;

@@ -12,7 +12,8 @@ fn main() -> io::Result<()> {
     let mut table = String::from("&[\n");
     for file in files {
         let name = file.strip_prefix(&root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
-        table += &format!("    ({name:?}, include_str!({:?})),\n", file.display().to_string());
+        let path = file.display().to_string();
+        table.push_str(&["    (\"", &name, "\", include_str!(r\"", &path, "\")),\n"].concat());
     }
     table += "]\n";
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());

@@ -1,4 +1,5 @@
 //! The ball and what is hard: woodwork, nets, bodies; the fast mode against the full one.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::{Vec2, Vec3};
 use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS};

@@ -388,7 +388,9 @@ impl Instr {
             Instr::Each(each) => match &each.over {
                 Over::Players { team, except } => {
                     f(*team);
-                    except.iter().for_each(|&reg| f(reg));
+                    if let Some(reg) = except {
+                        f(*reg);
+                    }
                 }
                 Over::Events(filter) => {
                     for who in filter.by.iter().chain(&filter.to) {
@@ -409,7 +411,9 @@ impl Instr {
             }
             Instr::Give { value, guard, .. } | Instr::Assign { value, guard, .. } => {
                 f(*value);
-                guard.iter().for_each(|&reg| f(reg));
+                if let Some(reg) = guard {
+                    f(*reg);
+                }
             }
             Instr::Random { from, .. } => match from {
                 Distribution::Uniform(a, b) | Distribution::Normal(a, b) | Distribution::Integer(a, b) => {

@@ -2,7 +2,7 @@
 //!
 //! Times are the thread's CPU time, so that a busy machine changes little. Steps are played by the bot on one core, with
 //! the simple115v2 observation of every step written, as an agent would have it. Throughput is steps per CPU-second.
-#![allow(missing_docs, reason = "criterion's macros write undocumented functions")]
+#![allow(missing_docs, clippy::panic, reason = "criterion's macros write undocumented functions; a benchmark fails by panicking")]
 
 use cpu_time::ThreadTime;
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
@@ -65,7 +65,7 @@ fn steps(c: &mut Criterion<CpuTime>) {
     for (name, physics, label) in cases {
         let mut environment = environment(name, physics);
         let mut scratch = Scratch::default();
-        let mut floats = vec![0.0; observe::SIMPLE115_LEN];
+        let mut floats = vec![0.0; observe::layout::SIMPLE115];
         let mut seed = 0;
         group.bench_function(format!("{name}/{label}"), |b| {
             b.iter(|| {
@@ -75,7 +75,7 @@ fn steps(c: &mut Criterion<CpuTime>) {
                         environment.reset(Some(seed), None).unwrap_or_else(|error| panic!("{error}"));
                     }
                     environment.step(&[Action::BuiltinAi], &mut scratch).unwrap_or_else(|error| panic!("{error}"));
-                    observe::simple115v2(environment.state(), 0, &mut floats).unwrap_or_else(|error| panic!("{error}"));
+                    observe::simple115(environment.state(), 0, &mut floats).unwrap_or_else(|error| panic!("{error}"));
                     black_box(&floats);
                 }
             });

@@ -122,10 +122,11 @@ impl Error {
             Error::Unknown { .. } => {
                 Some("`setpiece list` shows the scenarios; a file's path ends in .pitch".to_owned())
             }
-            Error::File { why: FileFault::Missing { similar }, .. } => similar.as_ref().map(meant),
+            Error::File { why: FileFault::Missing { similar }, .. } | Error::Param { similar, .. } => {
+                similar.as_ref().map(meant)
+            }
             Error::File { why: FileFault::Directory, .. } => Some("name a .pitch file in it".to_owned()),
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Some("save it as UTF-8 text".to_owned()),
-            Error::Param { similar, .. } => similar.as_ref().map(meant),
             Error::Environment(EnvironmentError::Reward { name, known }) => {
                 nearest(name, known.iter().map(String::as_str)).map(|name| format!("did you mean `{name}`?"))
             }

@@ -34,7 +34,7 @@ pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let line = error.as_bytes()[..at].split(|&byte| byte == b'\n').count();
         fault(FileFault::NotUtf8 { line })
     })
 }

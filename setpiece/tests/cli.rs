@@ -1,4 +1,5 @@
 //! The real binary, end to end: what it prints, its exit codes, and that no input makes it panic.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

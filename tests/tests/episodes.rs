@@ -1,4 +1,5 @@
 //! What the library's scenarios must show when they are played.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{EnvironmentOptions, Physics};

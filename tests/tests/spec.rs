@@ -11,6 +11,7 @@
 //!
 //! Where the span begins in the first columns, `// @COLUMN+WIDTH SP0204: …` stands for the carets. With
 //! `SETPIECE_BLESS=1` the annotations are rewritten to what the compiler says.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece_dsl::problem::Problem;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};

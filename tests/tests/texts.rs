@@ -1,4 +1,5 @@
 //! Texts that people read: every `.pitch` example in them compiles without a problem, and the examples play.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::{Path, PathBuf};
 

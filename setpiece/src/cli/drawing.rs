@@ -30,14 +30,13 @@ pub(crate) fn draw(game: &Match, out: &Out) -> String {
         // The goal mouths stand open.
         let mouth = row == ROWS / 2;
         let (left, right) = if mouth { ('▐', '▌') } else { ('│', '│') };
-        text.push_str(&format!("  {left}"));
+        text.extend([' ', ' ', left]);
         for (sign, paint) in line {
             text.push_str(&out.paint(&sign.to_string(), *paint));
         }
-        text.push_str(&format!("{right}\n"));
+        text.extend([right, '\n']);
     }
-    text.push_str(&format!("  └{}┘", "─".repeat(COLUMNS)));
-    text
+    text + "  └" + "─".repeat(COLUMNS).as_str() + "┘"
 }
 
 /// The half-way line, the boxes and the centre spot.
@@ -56,7 +55,7 @@ fn markings(cells: &mut [[(char, Paint); COLUMNS]; ROWS]) {
 
 /// The cell of a place in metres; what lies outside the pitch is drawn at its edge.
 fn cell(x_m: f32, y_m: f32) -> (usize, usize) {
-    let column = (x_m / HALF_LENGTH_M as f32 + 1.0) / 2.0 * (COLUMNS - 1) as f32;
-    let row = (y_m / HALF_WIDTH_M as f32 + 1.0) / 2.0 * (ROWS - 1) as f32;
+    let column = f32::midpoint(x_m / HALF_LENGTH_M as f32, 1.0) * (COLUMNS - 1) as f32;
+    let row = f32::midpoint(y_m / HALF_WIDTH_M as f32, 1.0) * (ROWS - 1) as f32;
     ((row.round().max(0.0) as usize).min(ROWS - 1), (column.round().max(0.0) as usize).min(COLUMNS - 1))
 }

@@ -1,0 +1,17 @@
+"""The command `setpiece`, as `python -m setpiece` and as the script that the wheel installs."""
+
+import signal
+import sys
+
+from setpiece._native import run_command
+
+
+def main() -> int:
+    """Runs the command with the process's arguments and returns its exit code: 0, 1 (input) or 2 (usage)."""
+    # Python only notes an interrupt and lets native code go on; the default action ends the process at once.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    return run_command(sys.argv[1:])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

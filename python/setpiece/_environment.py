@@ -1,0 +1,226 @@
+"""A scenario as a Gymnasium environment."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from os import PathLike, fspath
+from typing import Any, ClassVar
+
+import gymnasium
+import numpy as np
+from gymnasium.envs.registration import EnvSpec
+from numpy.typing import NDArray
+
+from setpiece import _native
+from setpiece._errors import ParameterError
+from setpiece._native import Scenario, load
+from setpiece._spaces import action_space, check_observation, observation_space
+
+ParamValue = bool | int | float | str
+"""A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
+
+RESET_OPTIONS = ("episode", "params")
+SEED_MAX = 2**64 - 1
+
+
+class FootballEnv(gymnasium.Env[Any, Any]):
+    """One match of a scenario, judged by the scenario's own rewards and endings.
+
+    Actions are `Action` numbers, 0..18; observations are in the agent's own frame: it always attacks towards +x.
+
+    - One agent: action `Discrete(19)`, reward a float, observation without an agent axis.
+    - n agents: action `MultiDiscrete([19] * n)`, reward float32 `(n,)`, observation with a leading axis n (a tuple of n
+      dicts for `"raw"`), left team's agents first.
+
+    `info` has in every step `score` [left, right], `reward_terms` {"reward/label": paid in this step} and `action_mask`
+    (int8 `(19,)`, or `(n, 19)`); with `events=True` also `events`; in the last step also `outcome` (the ending's
+    name), `records`, and `setpiece` {"return": by term, "length", "seed", "index", "digest"}.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["ansi"], "render_fps": 10}
+
+    scenario: Scenario
+    """The scenario, with the parameters it was made with."""
+    agents: tuple[str, ...]
+    """The agents in order: a player's name, `left_CM_1`, or `left_1` for one that changes players."""
+
+    def __init__(
+        self,
+        scenario: Scenario | str | PathLike[str],
+        *,
+        observation: str = "simple115v2",
+        rewards: str | Sequence[str] | None = None,
+        params: Mapping[str, ParamValue] | None = None,
+        seed: int | None = None,
+        events: bool = False,
+        copy: bool = True,
+        render_mode: str | None = None,
+    ) -> None:
+        """Makes an environment; the arguments are those of `setpiece.make`."""
+        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
+            raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
+        self.render_mode = render_mode
+        if not isinstance(scenario, Scenario):
+            scenario = load(fspath(scenario))
+        self.scenario = scenario.with_params(**params) if params else scenario
+        self._observation = check_observation(observation)
+        self._native = _native.Environment(
+            self.scenario,
+            observation=self._observation,
+            rewards=_reward_names(rewards),
+            events=events,
+            copy=copy,
+        )
+        self.agents = tuple(agent.id for agent in self._native.agents)
+        self.action_space = action_space(len(self.agents))
+        self.observation_space = observation_space(self._native, self._observation)
+        self._first_seed = None if seed is None else _check_seed(seed)
+        self._seed: int | None = None
+        self._index = 0
+        self._params: dict[str, ParamValue] = {}
+        self._playing = False
+
+    def reset(
+        self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Draws a new start and returns its observation and `info`.
+
+        - `seed`: 0..2**64-1; begins a new series of episodes at index 0. Without it the index counts on. The start and
+          the play are a function of seed, index, parameters and actions.
+        - `options`: `{"params": {…}}` binds parameters for this and the following episodes, until other `params` are
+          given; `{"episode": n}` sets the index.
+
+        Raises `ParameterError` for options or parameters that are not there, `DrawError` where no start meets the
+        scenario's requirements.
+        """
+        episode, params = _read_options(options)
+        if seed is None and self._seed is None:
+            seed = self._first_seed
+        if seed is not None:
+            seed = _check_seed(seed)
+        super().reset(seed=seed)
+        if seed is not None:
+            self._seed, self._index = seed, 0
+        elif self._seed is None:
+            self._seed = int(self.np_random.integers(2**63))
+        if episode is not None:
+            self._index = episode
+        if params is not None:
+            self._params = params
+        self._playing = False
+        observation, info = self._native.reset(self._seed, self._index, self._params)
+        self._index += 1
+        self._playing = True
+        return observation, info
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """Plays 100 ms and returns observation, reward, terminated, truncated and `info`.
+
+        - `action`: an integer 0..18, or for n agents n of them.
+
+        `terminated` is an ending of the scenario (a goal, the ball lost), `truncated` its time limit. Raises
+        `ActionError` for another action, `ScriptError` where a script of the scenario fails.
+        """
+        if not self._playing:
+            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+        result = self._native.step(action)
+        self._playing = not (result[2] or result[3])
+        return result
+
+    def action_masks(self) -> NDArray[np.int8]:
+        """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
+        return self._native.action_mask()
+
+    def render(self) -> str | None:  # type: ignore[override]
+        """Returns a drawing of the pitch in text, for `render_mode="ansi"`; None without a render mode."""
+        return self._native.drawing() if self.render_mode == "ansi" else None
+
+    def __repr__(self) -> str:
+        return f"FootballEnv({self.scenario.name}, observation={self._observation}, agents={', '.join(self.agents)})"
+
+    def __str__(self) -> str:
+        return repr(self)
+
+
+def make(
+    scenario: Scenario | str | PathLike[str],
+    *,
+    observation: str = "simple115v2",
+    rewards: str | Sequence[str] | None = None,
+    params: Mapping[str, ParamValue] | None = None,
+    seed: int | None = None,
+    events: bool = False,
+    copy: bool = True,
+    render_mode: str | None = None,
+) -> FootballEnv:
+    """Makes an environment of a scenario.
+
+    - `scenario`: a name of the library, the path of a `.pitch` or `.pitchc` file, or a `Scenario`.
+    - `observation`: `"simple115v2"` (float32 `(115,)`), `"smm"` (uint8 `(72, 96, 4)`) or `"raw"` (a dict).
+    - `rewards`: names that replace the scenario's own choice: `"scoring,checkpoints"` or a list.
+    - `params`: parameters to bind: SI units, or strings as the language writes them.
+    - `seed`: the seed of the first `reset` that gets none.
+    - `events`: whether `info["events"]` lists what happened in each step.
+    - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one.
+    - `render_mode`: None or `"ansi"`.
+
+    Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.
+
+    >>> import setpiece
+    >>> env = setpiece.make("academy_3_vs_1_with_keeper", rewards="scoring,checkpoints", seed=7)
+    >>> observation, info = env.reset()
+    >>> observation, reward, terminated, truncated, info = env.step(setpiece.Action.SHORT_PASS)
+    >>> sorted(info)
+    ['action_mask', 'reward_terms', 'score']
+    """
+    kwargs: dict[str, Any] = {
+        "scenario": scenario,
+        "observation": observation,
+        "rewards": rewards,
+        "params": params,
+        "seed": seed,
+        "events": events,
+        "copy": copy,
+    }
+    env = FootballEnv(**kwargs, render_mode=render_mode)
+    # So that `env.spec.make()` gives another one, as for environments that Gymnasium made.
+    env.spec = EnvSpec(
+        id=f"setpiece/{env.scenario.name}-v0",
+        entry_point="setpiece._environment:FootballEnv",
+        kwargs={**kwargs, "render_mode": render_mode},
+    )
+    return env
+
+
+def _reward_names(rewards: str | Sequence[str] | None) -> list[str] | None:
+    if rewards is None:
+        return None
+    names = rewards.split(",") if isinstance(rewards, str) else rewards
+    return [name.strip() for name in names]
+
+
+def _check_seed(seed: int) -> int:
+    try:
+        number = seed.__index__()
+    except AttributeError:
+        raise ParameterError(f"expected a seed that is an integer, found `{seed!r}`", name="seed") from None
+    if not 0 <= number <= SEED_MAX:
+        raise ParameterError(f"seed {number} is outside 0..2**64-1", name="seed")
+    return number
+
+
+def _read_options(options: Mapping[str, Any] | None) -> tuple[int | None, dict[str, ParamValue] | None]:
+    options = options or {}
+    for key in options:
+        if key not in RESET_OPTIONS:
+            raise ParameterError(f"no reset option `{key}`; there are `{'`, `'.join(RESET_OPTIONS)}`", name=str(key))
+    params = options.get("params")
+    if params is not None and not isinstance(params, Mapping):
+        raise ParameterError(f"expected `params` as a mapping, found `{params!r}`", name="params")
+    episode = options.get("episode")
+    if episode is not None:
+        try:
+            episode = _check_seed(episode)
+        except ParameterError:
+            raise ParameterError(f"expected `episode` as an integer from 0, found `{episode!r}`", name="episode") from None
+    return episode, None if params is None else dict(params)

@@ -1,0 +1,132 @@
+"""Everything that can go wrong, as one tree of exceptions under `SetpieceError`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Label:
+    """A place that a diagnostic points at: lines and columns count from 1, columns in characters; the end is behind."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    text: str
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """A problem that the compiler found; the first label is the place itself, the others explain it."""
+
+    code: str
+    severity: Literal["error", "warning"]
+    message: str
+    help: str | None
+    labels: tuple[Label, ...]
+
+    def __str__(self) -> str:
+        """Returns the problem on one line: place, code and message."""
+        place = f"{self.labels[0].file}:{self.labels[0].line}:{self.labels[0].column}: " if self.labels else ""
+        return f"{place}{self.code}: {self.message}"
+
+
+class SetpieceError(Exception):
+    """Any error of this package; `code` is the stable code where there is one, `help` says what to do instead."""
+
+    code: str | None
+    help: str | None
+
+    def __init__(self, message: str, *, code: str | None = None, help: str | None = None) -> None:
+        super().__init__(message)
+        self.code = code
+        self.help = help
+
+    def __str__(self) -> str:
+        message = super().__str__()
+        return f"{message}\n  help: {self.help}" if self.help else message
+
+
+class CompileError(SetpieceError):
+    """A text has errors; `diagnostics` lists every error and warning, `str()` is the rendered report."""
+
+    diagnostics: list[Diagnostic]
+
+    def __init__(self, report: str, *, diagnostics: list[Diagnostic] | None = None, code: str | None = None) -> None:
+        super().__init__(report, code=code)
+        self.diagnostics = diagnostics or []
+
+
+class FileError(SetpieceError, OSError):
+    """A file is missing, a directory, too large, not UTF-8, or can't be read or written; `path` names it."""
+
+    path: str
+
+    def __init__(self, message: str, *, path: str = "", code: str | None = None, help: str | None = None) -> None:
+        super().__init__(message, code=code, help=help)
+        self.path = path
+
+
+class UnknownScenarioError(SetpieceError, LookupError):
+    """Neither a scenario of the library nor a file has this name; `name` is what was asked for."""
+
+    name: str
+
+    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+        super().__init__(message, code=code, help=help)
+        self.name = name
+
+
+class FormatError(SetpieceError):
+    """A compiled scenario is cut off, changed, of another version, or none at all."""
+
+
+class ParameterError(SetpieceError, ValueError):
+    """A parameter or option is unknown, of another type, or out of its range; `name` says which."""
+
+    name: str
+
+    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+        super().__init__(message, code=code, help=help)
+        self.name = name
+
+
+class RewardError(SetpieceError, ValueError):
+    """The scenario has no reward of this name."""
+
+
+class DrawError(SetpieceError):
+    """No start could be drawn: the scenario's requirements are never met together."""
+
+
+class ScriptError(SetpieceError):
+    """A script failed while an episode ran; says where, in which hook, and in which episode."""
+
+    script: str
+    line: int | None
+    column: int | None
+    hook: str
+    seed: int
+    step: int
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        script: str = "",
+        line: int | None = None,
+        column: int | None = None,
+        hook: str = "",
+        seed: int = 0,
+        step: int = 0,
+    ) -> None:
+        super().__init__(message)
+        self.script, self.line, self.column = script, line, column
+        self.hook, self.seed, self.step = hook, seed, step
+
+
+class ActionError(SetpieceError, ValueError):
+    """An action is of another type or shape, or out of range; the episode is untouched."""

@@ -1,0 +1,85 @@
+//! Errors: what the facade says becomes an exception of `setpiece._errors`.
+
+use crate::diagnostics;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use setpiece::Error;
+use setpiece::dsl::problem::{Code, nearest};
+use setpiece::scenario::{Param, ParamError};
+
+/// An exception of the package's own tree; `fields` become keyword arguments of its class.
+pub(crate) fn raise(py: Python<'_>, class: &str, message: &str, fields: &Bound<'_, PyDict>) -> PyErr {
+    let made = py
+        .import("setpiece._errors")
+        .and_then(|module| module.getattr(class))
+        .and_then(|class| class.call((message,), Some(fields)));
+    match made {
+        Ok(exception) => PyErr::from_value(exception),
+        Err(error) => error,
+    }
+}
+
+/// An exception without further fields.
+pub(crate) fn raise_plain(py: Python<'_>, class: &str, message: &str) -> PyErr {
+    raise(py, class, message, &PyDict::new(py))
+}
+
+/// The exception for an error of the facade.
+pub(crate) fn from_facade(py: Python<'_>, error: &Error) -> PyErr {
+    facade_fields(py, error).map_or_else(
+        |failed| failed,
+        |(class, message, fields)| raise(py, class, &message, &fields),
+    )
+}
+
+type Parts<'py> = (&'static str, String, Bound<'py, PyDict>);
+
+fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
+    let fields = PyDict::new(py);
+    fields.set_item("code", error.code().to_string())?;
+    if let Error::Compile(failure) = error {
+        fields.set_item("diagnostics", diagnostics::to_python(py, &failure.problems, &failure.sources)?)?;
+        return Ok(("CompileError", diagnostics::report(&failure.problems, &failure.sources), fields));
+    }
+    fields.set_item("help", error.help())?;
+    let class = match error {
+        Error::Unknown { name, .. } => {
+            fields.set_item("name", name)?;
+            "UnknownScenarioError"
+        }
+        Error::File { path, .. } => {
+            fields.set_item("path", path.to_string_lossy())?;
+            "FileError"
+        }
+        Error::Param { why, .. } => {
+            fields.set_item("name", param_name(why))?;
+            "ParameterError"
+        }
+        Error::Format { .. } | Error::Compile(_) => "FormatError",
+    };
+    Ok((class, error.to_string(), fields))
+}
+
+/// The exception for a parameter that can't be bound.
+pub(crate) fn from_param(py: Python<'_>, why: ParamError, params: &[Param]) -> PyErr {
+    let similar = match &why {
+        ParamError::Unknown { name, .. } => nearest(name, params.iter().map(|param| param.name.as_str())),
+        _ => None,
+    };
+    from_facade(py, &Error::Param { similar: similar.map(str::to_owned), why })
+}
+
+/// A `ParameterError` about something that the facade does not know of.
+pub(crate) fn parameter(py: Python<'_>, name: &str, message: &str) -> PyErr {
+    let fields = PyDict::new(py);
+    match fields.set_item("name", name).and_then(|()| fields.set_item("code", Code::BadParameter.to_string())) {
+        Ok(()) => raise(py, "ParameterError", message, &fields),
+        Err(error) => error,
+    }
+}
+
+fn param_name(why: &ParamError) -> &str {
+    match why {
+        ParamError::Unknown { name, .. } | ParamError::Type { name, .. } | ParamError::Range { name, .. } => name,
+    }
+}

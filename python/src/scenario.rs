@@ -1,0 +1,152 @@
+//! Scenarios: loading, compiling, binding, saving.
+
+use crate::params::{Param, bind};
+use crate::{diagnostics, errors};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PyMappingProxy};
+use setpiece::Loaded;
+use setpiece::scenario::{self as compiled, Bindings};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A compiled scenario: what `setpiece.load` and `setpiece.compile` return. It never changes.
+#[pyclass(frozen, module = "setpiece")]
+pub(crate) struct Scenario {
+    /// The defaults of its parameters are the values they are bound to.
+    inner: Arc<compiled::Scenario>,
+    /// What the compiler warned of.
+    warnings: Py<PyList>,
+}
+
+impl Scenario {
+    pub(crate) fn inner(&self) -> &Arc<compiled::Scenario> {
+        &self.inner
+    }
+
+    fn from_loaded(py: Python<'_>, loaded: Loaded) -> PyResult<Scenario> {
+        let warnings = diagnostics::to_python(py, &loaded.warnings, &loaded.sources)?;
+        Ok(Scenario { inner: loaded.scenario, warnings: warnings.unbind() })
+    }
+
+    fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+        compiled::file::to_json(&self.inner).map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))
+    }
+}
+
+#[pymethods]
+impl Scenario {
+    /// The name in the file.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// The first line of the documentation.
+    #[getter]
+    fn title(&self) -> &str {
+        self.inner.title()
+    }
+
+    /// The documentation written above it.
+    #[getter]
+    fn doc(&self) -> &str {
+        &self.inner.doc
+    }
+
+    /// The parameters by name, in the file's order; the mapping can't be changed.
+    #[getter]
+    fn params<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyMappingProxy>> {
+        let params = PyDict::new(py);
+        for param in &self.inner.params {
+            params.set_item(&param.name, Param::new(param.clone()).into_pyobject(py)?)?;
+        }
+        Ok(PyMappingProxy::new(py, params.as_mapping()))
+    }
+
+    /// The names of the rewards it pays, in the file's order.
+    #[getter]
+    fn rewards(&self) -> Vec<&str> {
+        self.inner.rewards.iter().map(|reward| reward.name.as_str()).collect()
+    }
+
+    /// What the compiler warned of: a list of `Diagnostic`.
+    #[getter]
+    fn warnings<'py>(&self, py: Python<'py>) -> Bound<'py, PyList> {
+        // A copy: the scenario never changes.
+        self.warnings.bind(py).get_slice(0, usize::MAX)
+    }
+
+    /// Returns the scenario with parameters bound: SI units, or strings as the language writes them (`"12m"`, `"60%"`).
+    ///
+    /// Raises `ParameterError` for a name, a type or a value that the scenario does not allow.
+    #[pyo3(signature = (**params))]
+    fn with_params(&self, py: Python<'_>, params: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
+        let mut inner = compiled::Scenario::clone(&self.inner);
+        if let Some(params) = params {
+            let Bindings(values) = bind(py, &inner.params, params)?;
+            for (param, value) in inner.params.iter_mut().zip(values) {
+                param.default = value;
+            }
+        }
+        Ok(Scenario { inner: Arc::new(inner), warnings: self.warnings.clone_ref(py) })
+    }
+
+    /// Writes the compiled scenario to a file (`.pitchc`): self-contained, parameters can still be bound.
+    ///
+    /// Raises `FileError` where it can't be written.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let text = self.to_json(py)?;
+        setpiece::files::write(&path, &text).map_err(|error| errors::from_facade(py, &error))
+    }
+
+    fn __repr__(&self) -> String {
+        let bound: Vec<String> = self.inner.params.iter().map(|param| format!("{}={}", param.name, param.default)).collect();
+        format!("Scenario({}{}{})", self.inner.name, if bound.is_empty() { "" } else { ": " }, bound.join(", "))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((py.import("setpiece._native")?.getattr("restore")?, (self.to_json(py)?,)))
+    }
+}
+
+/// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
+///
+/// Raises `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
+#[pyfunction]
+pub(crate) fn load(py: Python<'_>, name_or_path: PathBuf) -> PyResult<Scenario> {
+    let loaded = py.detach(|| setpiece::load(&name_or_path.to_string_lossy()));
+    Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
+}
+
+/// Compiles a text in the language; `name` is how reports call it.
+///
+/// Raises `CompileError`, whose `diagnostics` lists every problem.
+#[pyfunction]
+#[pyo3(signature = (text, name = "<text>"))]
+pub(crate) fn compile(py: Python<'_>, text: &str, name: &str) -> PyResult<Scenario> {
+    let loaded = py.detach(|| setpiece::compile_text(text, name));
+    Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
+}
+
+/// Name, title and players per side of every scenario of the library, by name.
+#[pyfunction]
+pub(crate) fn library(py: Python<'_>) -> Vec<(String, String, (usize, usize))> {
+    let entries = py.detach(setpiece::list);
+    entries.into_iter().map(|entry| (entry.name, entry.title, entry.players.into())).collect()
+}
+
+/// The scenario of a compiled file's text: how a pickled one comes back.
+#[pyfunction]
+pub(crate) fn restore(py: Python<'_>, text: &str) -> PyResult<Scenario> {
+    let inner = compiled::file::from_json(text)
+        .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
+    Ok(Scenario { inner: Arc::new(inner), warnings: PyList::empty(py).unbind() })
+}

@@ -1,0 +1,53 @@
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+
+Trajectory = list[tuple[Any, Any, bool, bool, dict[str, Any]]]
+
+
+
+@pytest.fixture
+def pitch_file(tmp_path: Path) -> Callable[[str], Path]:
+    """Writes a text to a `.pitch` file and returns its path."""
+
+    def write(text: str, name: str = "mine.pitch") -> Path:
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def play(
+    env: gymnasium.Env[Any, Any],
+    seed: int | None,
+    action: Callable[[], Any] | None = None,
+    steps: int = 10_000,
+    options: dict[str, Any] | None = None,
+) -> Trajectory:
+    """Plays an episode, at random where no action is given, and returns what `reset` and each `step` gave."""
+    generator = random.Random(0)
+    act = action or (lambda: generator.randrange(19))
+    observation, info = env.reset(seed=seed, options=options)
+    trajectory: Trajectory = [(observation, 0.0, False, False, info)]
+    for _ in range(steps):
+        trajectory.append(env.step(act()))
+        if trajectory[-1][2] or trajectory[-1][3]:
+            break
+    return trajectory
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two things from an environment are bit for bit the same."""
+    if isinstance(a, dict):
+        return isinstance(b, dict) and a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
+    if isinstance(a, (list, tuple)):
+        return type(a) is type(b) and len(a) == len(b) and all(map(same, a, b))
+    if isinstance(a, np.ndarray):
+        return isinstance(b, np.ndarray) and a.dtype == b.dtype and np.array_equal(a, b)
+    return type(a) is type(b) and a == b

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from operator import index
 from os import PathLike, fspath
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -20,7 +21,7 @@ ParamValue = bool | int | float | str
 """A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
 
 RESET_OPTIONS = ("episode", "params")
-SEED_MAX = 2**64 - 1
+NUMBER_MAX = 2**64 - 1
 
 
 class FootballEnv(gymnasium.Env[Any, Any]):
@@ -37,7 +38,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     name), `records`, and `setpiece` {"return": by term, "length", "seed", "index", "digest"}.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["ansi"], "render_fps": 10}
+    metadata = {"render_modes": ["ansi"], "render_fps": 10}
 
     scenario: Scenario
     """The scenario, with the parameters it was made with."""
@@ -74,15 +75,13 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self.agents = tuple(agent.id for agent in self._native.agents)
         self.action_space = action_space(len(self.agents))
         self.observation_space = observation_space(self._native, self._observation)
-        self._first_seed = None if seed is None else _check_seed(seed)
+        self._first_seed = None if seed is None else _check_number("seed", seed)
         self._seed: int | None = None
         self._index = 0
         self._params: dict[str, ParamValue] = {}
         self._playing = False
 
-    def reset(
-        self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
-    ) -> tuple[Any, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Draws a new start and returns its observation and `info`.
 
         - `seed`: 0..2**64-1; begins a new series of episodes at index 0. Without it the index counts on. The start and
@@ -97,7 +96,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if seed is None and self._seed is None:
             seed = self._first_seed
         if seed is not None:
-            seed = _check_seed(seed)
+            seed = _check_number("seed", seed)
         super().reset(seed=seed)
         if seed is not None:
             self._seed, self._index = seed, 0
@@ -131,7 +130,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
         return self._native.action_mask()
 
-    def render(self) -> str | None:  # type: ignore[override]
+    def render(self) -> str | None:
         """Returns a drawing of the pitch in text, for `render_mode="ansi"`; None without a render mode."""
         return self._native.drawing() if self.render_mode == "ansi" else None
 
@@ -199,13 +198,13 @@ def _reward_names(rewards: str | Sequence[str] | None) -> list[str] | None:
     return [name.strip() for name in names]
 
 
-def _check_seed(seed: int) -> int:
+def _check_number(name: str, value: object) -> int:
     try:
-        number = seed.__index__()
-    except AttributeError:
-        raise ParameterError(f"expected a seed that is an integer, found `{seed!r}`", name="seed") from None
-    if not 0 <= number <= SEED_MAX:
-        raise ParameterError(f"seed {number} is outside 0..2**64-1", name="seed")
+        number = index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise ParameterError(f"expected an integer as `{name}`, found `{value!r}`", name=name) from None
+    if not 0 <= number <= NUMBER_MAX:
+        raise ParameterError(f"`{name}` is {number}, outside 0..2**64-1", name=name)
     return number
 
 
@@ -219,8 +218,5 @@ def _read_options(options: Mapping[str, Any] | None) -> tuple[int | None, dict[s
         raise ParameterError(f"expected `params` as a mapping, found `{params!r}`", name="params")
     episode = options.get("episode")
     if episode is not None:
-        try:
-            episode = _check_seed(episode)
-        except ParameterError:
-            raise ParameterError(f"expected `episode` as an integer from 0, found `{episode!r}`", name="episode") from None
+        episode = _check_number("episode", episode)
     return episode, None if params is None else dict(params)

@@ -106,10 +106,11 @@ class ScriptError(SetpieceError):
     """A script failed while an episode ran; says where, in which hook, and in which episode."""
 
     script: str
-    line: int | None
-    column: int | None
+    line: int
+    column: int
     hook: str
     seed: int
+    episode: int
     step: int
 
     def __init__(
@@ -117,15 +118,18 @@ class ScriptError(SetpieceError):
         message: str,
         *,
         script: str = "",
-        line: int | None = None,
-        column: int | None = None,
+        line: int = 1,
+        column: int = 1,
         hook: str = "",
         seed: int = 0,
+        episode: int = 0,
         step: int = 0,
+        code: str | None = None,
+        help: str | None = None,
     ) -> None:
-        super().__init__(message)
+        super().__init__(message, code=code, help=help)
         self.script, self.line, self.column = script, line, column
-        self.hook, self.seed, self.step = hook, seed, step
+        self.hook, self.seed, self.episode, self.step = hook, seed, episode, step
 
 
 class ActionError(SetpieceError, ValueError):

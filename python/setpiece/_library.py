@@ -15,7 +15,7 @@ NAMESPACE = "setpiece"
 class Entry(str):
     """A scenario of the library: its name, with a title and the number of players on each side."""
 
-    title: str
+    title: str  # type: ignore[assignment]  # hides `str.title`, which no name needs
     players: tuple[int, int]
 
     def __new__(cls, name: str, title: str, players: tuple[int, int]) -> Entry:

@@ -11,6 +11,9 @@ from gymnasium import spaces
 from setpiece import _native
 from setpiece._errors import ParameterError
 
+COUNT_MAX = 2**32 - 1
+"""Greatest count of goals or steps: the engine counts in 32 bits."""
+
 OBSERVATIONS = ("simple115v2", "smm", "raw")
 
 
@@ -39,7 +42,7 @@ def observation_space(native: _native.Environment, observation: str) -> spaces.S
     """
     n_agents = len(native.agents)
     if observation == "raw":
-        parts = [_raw_space(native.players, native.n_steps_max, agent.team) for agent in native.agents]
+        parts = [_raw_space(native.players, agent.team) for agent in native.agents]
         return parts[0] if n_agents == 1 else spaces.Tuple(parts)
     if observation == "smm":
         shape = _native.SMM_SHAPE if n_agents == 1 else (n_agents, *_native.SMM_SHAPE)
@@ -48,3 +51,35 @@ def observation_space(native: _native.Environment, observation: str) -> spaces.S
     if n_agents > 1:
         low, high = np.tile(low, (n_agents, 1)), np.tile(high, (n_agents, 1))
     return spaces.Box(low, high, dtype=np.float32)
+
+
+def _raw_space(players: tuple[int, int], team: int) -> spaces.Dict:
+    """Returns the space of one agent's raw observation; its own team is the left one, whichever it is."""
+    low, high = _native.simple115v2_bounds()
+    places, strides, ball, ball_stride = slice(0, 2), slice(22, 24), slice(88, 91), slice(91, 94)
+
+    def like(block: slice, *size: int) -> spaces.Box:
+        shape = (*size, block.stop - block.start)
+        return spaces.Box(np.broadcast_to(low[block], shape), np.broadcast_to(high[block], shape), dtype=np.float64)
+
+    parts: dict[str, spaces.Space[Any]] = {
+        "ball": like(ball),
+        "ball_direction": like(ball_stride),
+        "ball_rotation": spaces.Box(-1.0, 1.0, (3,), dtype=np.float64),
+        "ball_owned_team": spaces.Discrete(3, start=-1),
+        "ball_owned_player": spaces.Discrete(12, start=-1),
+        "designated": spaces.Discrete(12, start=-1),
+        "active": spaces.Discrete(12, start=-1),
+        "sticky_actions": spaces.Box(0, 1, (10,), dtype=np.uint8),
+        "score": spaces.Box(0, COUNT_MAX, (2,), dtype=np.int64),
+        "steps_left": spaces.Box(-1, COUNT_MAX, (), dtype=np.int64),
+        "game_mode": spaces.Discrete(7),
+    }
+    for side, size in zip(("left_team", "right_team"), players if team == 0 else players[::-1], strict=True):
+        parts[side] = like(places, size)
+        parts[f"{side}_direction"] = like(strides, size)
+        parts[f"{side}_tired_factor"] = spaces.Box(0.0, 1.0, (size,), dtype=np.float64)
+        parts[f"{side}_yellow_card"] = spaces.Box(0, 1, (size,), dtype=np.bool_)
+        parts[f"{side}_active"] = spaces.Box(0, 1, (size,), dtype=np.bool_)
+        parts[f"{side}_roles"] = spaces.Box(0, 9, (size,), dtype=np.int64)
+    return spaces.Dict(parts)

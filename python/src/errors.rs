@@ -5,6 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use setpiece::Error;
 use setpiece::dsl::problem::{Code, nearest};
+use setpiece::engine::environment::EnvironmentError;
+use setpiece::engine::judge::ScriptError;
 use setpiece::scenario::{Param, ParamError};
 
 /// An exception of the package's own tree; `fields` become keyword arguments of its class.
@@ -55,9 +57,38 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
             fields.set_item("name", param_name(why))?;
             "ParameterError"
         }
+        Error::Environment(why) => {
+            if let EnvironmentError::Param(why) = why {
+                fields.set_item("name", param_name(why))?;
+            }
+            environment_class(why)
+        }
+        Error::Draw(_) => "DrawError",
+        Error::Script(why) => {
+            script_fields(&fields, why)?;
+            "ScriptError"
+        }
         Error::Format { .. } | Error::Compile(_) => "FormatError",
     };
     Ok((class, error.to_string(), fields))
+}
+
+fn environment_class(why: &EnvironmentError) -> &'static str {
+    match why {
+        EnvironmentError::Reward { .. } => "RewardError",
+        EnvironmentError::Param(_) | EnvironmentError::Bindings { .. } | EnvironmentError::Roster => "ParameterError",
+        EnvironmentError::Agents(_) | EnvironmentError::Script(_) => "SetpieceError",
+    }
+}
+
+fn script_fields(fields: &Bound<'_, PyDict>, why: &ScriptError) -> PyResult<()> {
+    fields.set_item("script", &why.script)?;
+    fields.set_item("line", why.line)?;
+    fields.set_item("column", why.column)?;
+    fields.set_item("hook", &why.hook)?;
+    fields.set_item("seed", why.seed)?;
+    fields.set_item("episode", why.index)?;
+    fields.set_item("step", why.step)
 }
 
 /// The exception for a parameter that can't be bound.

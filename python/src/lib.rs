@@ -1,5 +1,6 @@
 //! The Python module `setpiece._native`: conversions between Python and the facade, nothing else.
 
+mod actions;
 mod diagnostics;
 mod environment;
 mod errors;
@@ -17,7 +18,7 @@ mod _native {
     #[pymodule_export]
     use crate::environment::{AgentInfo, Environment};
     #[pymodule_export]
-    use crate::observation::{raw_bounds, simple115v2_bounds};
+    use crate::observation::simple115v2_bounds;
     #[pymodule_export]
     use crate::params::Param;
     #[pymodule_export]

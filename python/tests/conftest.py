@@ -10,7 +10,6 @@ import pytest
 Trajectory = list[tuple[Any, Any, bool, bool, dict[str, Any]]]
 
 
-
 @pytest.fixture
 def pitch_file(tmp_path: Path) -> Callable[[str], Path]:
     """Writes a text to a `.pitch` file and returns its path."""

@@ -248,7 +248,8 @@ def test_step_needs_an_episode() -> None:
 
 
 def test_unknown_options_are_named() -> None:
-    for options in ({"param": {}}, {"params": 3}, {"params": {3: 4}}, {"episode": -1}, {"episode": "one"}):
+    wrong: list[Any] = [{"param": {}}, {"params": 3}, {"params": {3: 4}}, {"episode": -1}, {"episode": "one"}]
+    for options in wrong:
         with pytest.raises(setpiece.ParameterError):
             setpiece.make(CLOSE).reset(options=options)
     with pytest.raises(setpiece.ParameterError, match="did you mean `simple115v2`"):
@@ -418,7 +419,7 @@ def test_failing_script_says_where(pitch_file: PitchFile, tmp_path: Path) -> Non
 
 
 def test_requirements_that_are_never_met() -> None:
-    text = 'scenario s {\n ball at uniform((0, 0), (0.1, 0.1))\n team left { CM at (0, 0) }\n'
+    text = "scenario s {\n ball at uniform((0, 0), (0.1, 0.1))\n team left { CM at (0, 0) }\n"
+    env = setpiece.make(setpiece.compile(text + ' require ball.x > 0.5 as "too far"\n end limit 10 steps\n}\n'))
     with pytest.raises(setpiece.DrawError, match="too far"):
-        scenario = setpiece.compile(text + ' require ball.x > 0.5 as "too far"\n end limit 10 steps\n}\n')
-        setpiece.make(scenario).reset(seed=1)
+        env.reset(seed=1)

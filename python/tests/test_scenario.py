@@ -17,7 +17,7 @@ def test_list_names_titles_players() -> None:
     entries = setpiece.list()
     assert len(entries) == 17
     assert entries == sorted(entries)
-    corner = entries[entries.index("academy_corner")]
+    corner = next(entry for entry in entries if entry == "academy_corner")
     assert corner.players == (11, 11)
     assert corner.title
     assert pickle.loads(pickle.dumps(corner)).players == (11, 11)
@@ -105,7 +105,12 @@ def raise_version(text: str) -> str:
 
 @pytest.mark.parametrize(
     ("damage", "words"),
-    [(cut_in_half, "cut off"), (change_a_value, "checksum"), (raise_version, "version 99"), (str.upper, "not a compiled")],
+    [
+        (cut_in_half, "cut off"),
+        (change_a_value, "checksum"),
+        (raise_version, "version 99"),
+        (str.upper, "not a compiled"),
+    ],
 )
 def test_damaged_file_is_refused(tmp_path: Path, damage: Callable[[str], str], words: str) -> None:
     path = tmp_path / "close.pitchc"
@@ -175,7 +180,7 @@ def test_three_mistakes_are_three_diagnostics() -> None:
 
 def test_columns_count_characters() -> None:
     with pytest.raises(setpiece.CompileError) as caught:
-        setpiece.compile('scenario s {\n  /* äöü⚽ */ team left { CBB at (0, 0) }\n}\n')
+        setpiece.compile("scenario s {\n  /* äöü⚽ */ team left { CBB at (0, 0) }\n}\n")
     label = next(one for one in caught.value.diagnostics if one.code == "SP0203").labels[0]
     assert (label.file, label.line, label.column, label.end_line, label.end_column) == ("<text>", 2, 27, 2, 30)
 

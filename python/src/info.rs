@@ -1,0 +1,109 @@
+//! `info`: what a step says beside observation and reward.
+
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::intern;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PyString};
+use setpiece::engine::environment::Environment as Engine;
+use setpiece::engine::event::Event;
+use setpiece::engine::observe;
+use setpiece::engine::state::PlayerId;
+use setpiece::scenario::pitch::{PLAYERS_MAX, to_normalised};
+use setpiece::scenario::{Action, Verdict};
+
+/// Writes the `info` of steps; keeps the words that recur.
+pub(crate) struct InfoWriter {
+    /// The reward terms' names.
+    terms: Vec<Py<PyString>>,
+    /// The players' names, by id; `None` where nobody is.
+    players: Vec<Option<Py<PyString>>>,
+    events: bool,
+}
+
+impl InfoWriter {
+    pub(crate) fn new(py: Python<'_>, engine: &Engine, events: bool) -> InfoWriter {
+        let word = |text: &str| PyString::new(py, text).unbind();
+        InfoWriter {
+            terms: engine.term_names().iter().map(|name| word(name)).collect(),
+            players: (0..PLAYERS_MAX as u8).map(|id| engine.player_name(PlayerId(id)).map(|name| word(&name))).collect(),
+            events,
+        }
+    }
+
+    /// The `info` of the step just played, or of the reset.
+    pub(crate) fn write<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
+        let info = PyDict::new(py);
+        info.set_item(intern!(py, "score"), PyList::new(py, engine.score())?)?;
+        info.set_item(intern!(py, "reward_terms"), self.terms(py, engine, Engine::terms)?)?;
+        info.set_item(intern!(py, "action_mask"), action_mask(py, engine)?)?;
+        if self.events {
+            let events: PyResult<Vec<_>> = engine.events().iter().map(|event| self.event(py, event)).collect();
+            info.set_item(intern!(py, "events"), events?)?;
+        }
+        if let Some(outcome) = engine.outcome() {
+            info.set_item(intern!(py, "outcome"), &*outcome.label)?;
+            info.set_item(intern!(py, "records"), PyDict::new(py))?;
+            let summary = PyDict::new(py);
+            summary.set_item("return", self.terms(py, engine, Engine::term_sums)?)?;
+            summary.set_item("length", engine.steps())?;
+            summary.set_item("seed", engine.seed())?;
+            summary.set_item("index", engine.index())?;
+            summary.set_item("digest", format!("{:016x}", engine.digest()))?;
+            summary.set_item("success", outcome.verdict == Some(Verdict::Success))?;
+            summary.set_item("faults", engine.faults())?;
+            info.set_item(intern!(py, "setpiece"), summary)?;
+        }
+        Ok(info)
+    }
+
+    /// Values by term: a float for one agent, float64 `(n,)` for n.
+    fn terms<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Engine,
+        values: for<'a> fn(&'a Engine, usize) -> &'a [f64],
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let terms = PyDict::new(py);
+        let n_agents = engine.n_agents();
+        for (which, name) in self.terms.iter().enumerate() {
+            let value = |agent| values(engine, agent).get(which).copied().unwrap_or_default();
+            if n_agents == 1 {
+                terms.set_item(name, value(0))?;
+            } else {
+                terms.set_item(name, PyArray1::from_iter(py, (0..n_agents).map(value)))?;
+            }
+        }
+        Ok(terms)
+    }
+
+    /// An event: `x`, `y` normalised and `z` in metres, in the world's frame; `length` in metres, `speed` in m/s.
+    fn event<'py>(&self, py: Python<'py>, event: &Event) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        let player = |id: Option<PlayerId>| id.and_then(|id| self.players.get(id.index())?.as_ref());
+        let (x, y) = to_normalised(f64::from(event.at.x), f64::from(event.at.y));
+        dict.set_item(intern!(py, "kind"), event.kind.name())?;
+        dict.set_item(intern!(py, "qualifier"), event.qualifier.map(|word| word.name()))?;
+        dict.set_item(intern!(py, "team"), event.team.map(|team| team.name()))?;
+        dict.set_item(intern!(py, "by"), player(event.by))?;
+        dict.set_item(intern!(py, "to"), player(event.to))?;
+        dict.set_item(intern!(py, "tick"), event.tick)?;
+        dict.set_item(intern!(py, "x"), x)?;
+        dict.set_item(intern!(py, "y"), y)?;
+        dict.set_item(intern!(py, "z"), event.at.z)?;
+        dict.set_item(intern!(py, "length"), event.length_m)?;
+        dict.set_item(intern!(py, "speed"), event.speed_mps)?;
+        Ok(dict)
+    }
+}
+
+/// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n.
+pub(crate) fn action_mask<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
+    const N: usize = Action::DEFAULT_SET;
+    let n_agents = engine.n_agents();
+    let row = |agent| observe::action_mask(engine.state(), agent).unwrap_or([false; N]).map(i8::from);
+    if n_agents == 1 {
+        return Ok(PyArray1::from_slice(py, &row(0)).into_any());
+    }
+    let rows: Vec<i8> = (0..n_agents).flat_map(row).collect();
+    Ok(PyArray1::from_vec(py, rows).reshape([n_agents, N])?.into_any())
+}

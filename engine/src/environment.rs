@@ -216,6 +216,13 @@ impl Environment {
         &self.ids
     }
 
+    /// A player's name, else his team, role and number among its players of that role (`left_CM_1`); none where nobody
+    /// is.
+    pub fn player_name(&self, player: PlayerId) -> Option<String> {
+        let present = self.roster.present.get(player.index()).copied().unwrap_or_default();
+        present.then(|| player_name(&self.scenario, player.team(), player))
+    }
+
     /// The agents' slots: team, player, held actions.
     pub fn agents(&self) -> &[AgentSlot] {
         &self.game.agents

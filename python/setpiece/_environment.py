@@ -13,7 +13,7 @@ from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import ParameterError
+from setpiece._errors import ParameterError, ScriptError
 from setpiece._native import Scenario, load
 from setpiece._spaces import action_space, check_observation, observation_space
 
@@ -35,7 +35,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     `info` has in every step `score` [left, right], `reward_terms` {"reward/label": paid in this step} and `action_mask`
     (int8 `(19,)`, or `(n, 19)`); with `events=True` also `events`; in the last step also `outcome` (the ending's
-    name), `records`, and `setpiece` {"return": by term, "length", "seed", "index", "digest"}.
+    name), `records`, and `setpiece` {"return": by term, "length", "seed", "index", "digest", "success", "faults"}: whether the
+    ending is a success of the agents' side, and how many payments were impossible (a division by zero) and left out.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 10}
@@ -122,7 +123,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """
         if not self._playing:
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
-        result = self._native.step(action)
+        try:
+            result = self._native.step(action)
+        except ScriptError:
+            self._playing = False
+            raise
         self._playing = not (result[2] or result[3])
         return result
 

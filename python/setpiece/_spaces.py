@@ -55,7 +55,7 @@ def observation_space(native: _native.Environment, observation: str) -> spaces.S
 
 def _raw_space(players: tuple[int, int], team: int) -> spaces.Dict:
     """Returns the space of one agent's raw observation; its own team is the left one, whichever it is."""
-    low, high = _native.simple115v2_bounds()
+    low, high = (bound.astype(np.float64) for bound in _native.simple115v2_bounds())
     places, strides, ball, ball_stride = slice(0, 2), slice(22, 24), slice(88, 91), slice(91, 94)
 
     def like(block: slice, *size: int) -> spaces.Box:

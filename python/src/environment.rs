@@ -9,7 +9,8 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use setpiece::Error;
-use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, Scratch, StepError};
+use setpiece::engine::batch::EpisodeError;
+use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, Scratch};
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::pitch::TEAM_MAX;
 use setpiece::scenario::{Action, Team};
@@ -88,10 +89,9 @@ impl Environment {
         params: &Bound<'py, PyDict>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         let bindings = bind(py, &self.engine.scenario().params, params)?;
-        self.engine.set_bindings(bindings).map_err(|error| from_engine(py, error))?;
+        self.engine.set_bindings(&bindings).map_err(|error| from_engine(py, error))?;
         let engine = &mut self.engine;
-        py.detach(|| engine.reset(Some(seed), Some(episode)))
-            .map_err(|why| errors::from_facade(py, &Error::Draw(why)))?;
+        py.detach(|| engine.reset(Some(seed), Some(episode))).map_err(|why| from_episode(py, why.into()))?;
         Ok((self.observer.observe(py, &self.engine)?, self.info.write(py, &self.engine)?))
     }
 
@@ -99,7 +99,7 @@ impl Environment {
     fn step<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
         actions::read(action, &mut self.actions)?;
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
-        let result = py.detach(|| engine.step(actions, scratch)).map_err(|error| from_step(py, error))?;
+        let result = py.detach(|| engine.step(actions, scratch)).map_err(|why| from_episode(py, why.into()))?;
         let observation = self.observer.observe(py, &self.engine)?;
         let reward = match self.engine.rewards() {
             [one] => f64::from(*one).into_pyobject(py)?.into_any(),
@@ -124,9 +124,6 @@ fn from_engine(py: Python<'_>, error: EnvironmentError) -> PyErr {
     errors::from_facade(py, &Error::Environment(error))
 }
 
-fn from_step(py: Python<'_>, error: StepError) -> PyErr {
-    match error {
-        StepError::Script(why) => errors::from_facade(py, &Error::Script(why)),
-        other => errors::raise_plain(py, "SetpieceError", &other.to_string()),
-    }
+fn from_episode(py: Python<'_>, error: EpisodeError) -> PyErr {
+    errors::from_facade(py, &Error::Episode(Box::new(error)))
 }

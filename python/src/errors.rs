@@ -5,7 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use setpiece::Error;
 use setpiece::dsl::problem::{Code, nearest};
-use setpiece::engine::environment::EnvironmentError;
+use setpiece::engine::batch::EpisodeError;
+use setpiece::engine::environment::{EnvironmentError, StepError};
 use setpiece::engine::judge::ScriptError;
 use setpiece::scenario::{Param, ParamError};
 
@@ -63,11 +64,15 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
             }
             environment_class(why)
         }
-        Error::Draw(_) => "DrawError",
-        Error::Script(why) => {
-            script_fields(&fields, why)?;
-            "ScriptError"
-        }
+        Error::Episode(why) => match &**why {
+            EpisodeError::Draw(_) => "DrawError",
+            EpisodeError::Step(StepError::Script(why)) => {
+                script_fields(&fields, why)?;
+                "ScriptError"
+            }
+            EpisodeError::Step(_) | EpisodeError::Endless(_) => "SetpieceError",
+        },
+        Error::Threads(_) => "SetpieceError",
         Error::Format { .. } | Error::Compile(_) => "FormatError",
     };
     Ok((class, error.to_string(), fields))

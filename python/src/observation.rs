@@ -100,11 +100,11 @@ impl<T: Element> Buffer<T> {
             Some(array) => array.bind(py).clone(),
             None => PyArrayDyn::zeros(py, self.shape.as_slice(), false),
         };
-        let locked = |why: String| errors::raise_plain(py, "SetpieceError", &why);
-        let mut guard = array
-            .try_readwrite()
-            .map_err(|why| locked(format!("the array of observations can't be written: {why} (made with `copy=False`)")))?;
-        let values = guard.as_slice_mut().map_err(|why| locked(why.to_string()))?;
+        // Only a shared array can be: a user has set its flag.
+        let read_only = "the array of observations is read-only: leave it writeable, or make the environment with `copy=True`";
+        let locked = || errors::raise_plain(py, "SetpieceError", read_only);
+        let mut guard = array.try_readwrite().map_err(|_| locked())?;
+        let values = guard.as_slice_mut().map_err(|_| locked())?;
         for (agent, out) in values.chunks_exact_mut(array.len() / n_agents).enumerate() {
             write(agent, out).map_err(|why| from_observe(py, why))?;
         }

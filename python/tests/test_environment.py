@@ -146,7 +146,8 @@ def test_goal_ends_the_episode_and_pays() -> None:
     assert info["reward_terms"]["scoring/goal"] == 1.0
     assert info["records"] == {}
     summary = info["setpiece"]
-    assert summary.keys() == {"return", "length", "seed", "index", "digest"}
+    assert summary.keys() == {"return", "length", "seed", "index", "digest", "success", "faults"}
+    assert (summary["success"], summary["faults"]) == (True, 0)
     assert summary["return"] == {"scoring/goal": 1.0, "scoring/conceded": 0.0}
     assert summary["length"] == len(trajectory) - 1
     goal = next(event for event in info["events"] if event["kind"] == "goal")
@@ -419,7 +420,7 @@ def test_failing_script_says_where(pitch_file: PitchFile, tmp_path: Path) -> Non
 
 
 def test_requirements_that_are_never_met() -> None:
-    text = "scenario s {\n ball at uniform((0, 0), (0.1, 0.1))\n team left { CM at (0, 0) }\n"
+    text = "scenario s {\n ball at (uniform(0, 0.1), 0)\n team left { CM at (0, 0) }\n"
     env = setpiece.make(setpiece.compile(text + ' require ball.x > 0.5 as "too far"\n end limit 10 steps\n}\n'))
     with pytest.raises(setpiece.DrawError, match="too far"):
         env.reset(seed=1)

@@ -152,7 +152,7 @@ WRONG = """scenario wrong {
     team left {
         CBB at (0.4, 0)
     }
-    reward {
+    reward mine {
         give 1 on gaol by us
         give 1s as "time"
     }
@@ -182,7 +182,7 @@ def test_columns_count_characters() -> None:
     with pytest.raises(setpiece.CompileError) as caught:
         setpiece.compile("scenario s {\n  /* äöü⚽ */ team left { CBB at (0, 0) }\n}\n")
     label = next(one for one in caught.value.diagnostics if one.code == "SP0203").labels[0]
-    assert (label.file, label.line, label.column, label.end_line, label.end_column) == ("<text>", 2, 27, 2, 30)
+    assert (label.file, label.line, label.column, label.end_line, label.end_column) == ("<text>", 2, 26, 2, 29)
 
 
 @pytest.mark.parametrize("text", ["", "\n\n", "// nothing\n", "\0", "scenario", "(" * 10_000, "x" * 2_000_000])

@@ -34,9 +34,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
       dicts for `"raw"`), left team's agents first.
 
     `info` has in every step `score` [left, right], `reward_terms` {"reward/label": paid in this step} and `action_mask`
-    (int8 `(19,)`, or `(n, 19)`); with `events=True` also `events`; in the last step also `outcome` (the ending's
-    name), `records`, and `setpiece` {"return": by term, "length", "seed", "index", "digest", "success", "faults"}: whether the
-    ending is a success of the agents' side, and how many payments were impossible (a division by zero) and left out.
+    (int8 `(19,)`, or `(n, 19)`); with `events=True` also `events`. In the last step it has also:
+
+    - `outcome`: the ending's name; `records`: the scenario's own records.
+    - `setpiece`: `return` by term, `length` in steps, `seed`, `index`, `digest` of the final state, `success` of the
+      side with agents, and `faults`: payments that were impossible (a division by zero) and left out.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 10}

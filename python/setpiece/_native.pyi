@@ -10,6 +10,22 @@ from numpy.typing import NDArray
 
 from setpiece._errors import Diagnostic
 
+__all__ = [
+    "ACTIONS",
+    "SMM_SHAPE",
+    "AgentInfo",
+    "Environment",
+    "Param",
+    "Scenario",
+    "__version__",
+    "compile",
+    "library",
+    "load",
+    "restore",
+    "run_command",
+    "simple115v2_bounds",
+]
+
 __version__: Final[str]
 ACTIONS: Final[tuple[tuple[str, str], ...]]
 SMM_SHAPE: Final[tuple[int, int, int]]

@@ -15,11 +15,7 @@ pub(crate) fn report(problems: &[Problem], sources: &Sources) -> String {
 }
 
 /// A list of `Diagnostic`, by file and place.
-pub(crate) fn to_python<'py>(
-    py: Python<'py>,
-    problems: &[Problem],
-    sources: &Sources,
-) -> PyResult<Bound<'py, PyList>> {
+pub(crate) fn to_python<'py>(py: Python<'py>, problems: &[Problem], sources: &Sources) -> PyResult<Bound<'py, PyList>> {
     let module = py.import("setpiece._errors")?;
     let (class, label_class) = (module.getattr("Diagnostic")?, module.getattr("Label")?);
     let list = PyList::empty(py);

@@ -29,10 +29,8 @@ pub(crate) fn raise_plain(py: Python<'_>, class: &str, message: &str) -> PyErr {
 
 /// The exception for an error of the facade.
 pub(crate) fn from_facade(py: Python<'_>, error: &Error) -> PyErr {
-    facade_fields(py, error).map_or_else(
-        |failed| failed,
-        |(class, message, fields)| raise(py, class, &message, &fields),
-    )
+    facade_fields(py, error)
+        .map_or_else(|failed| failed, |(class, message, fields)| raise(py, class, &message, &fields))
 }
 
 type Parts<'py> = (&'static str, String, Bound<'py, PyDict>);

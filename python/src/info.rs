@@ -25,7 +25,9 @@ impl InfoWriter {
         let word = |text: &str| PyString::new(py, text).unbind();
         InfoWriter {
             terms: engine.term_names().iter().map(|name| word(name)).collect(),
-            players: (0..PLAYERS_MAX as u8).map(|id| engine.player_name(PlayerId(id)).map(|name| word(&name))).collect(),
+            players: (0..PLAYERS_MAX as u8)
+                .map(|id| engine.player_name(PlayerId(id)).map(|name| word(&name)))
+                .collect(),
             events,
         }
     }

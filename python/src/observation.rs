@@ -101,7 +101,8 @@ impl<T: Element> Buffer<T> {
             None => PyArrayDyn::zeros(py, self.shape.as_slice(), false),
         };
         // Only a shared array can be: a user has set its flag.
-        let read_only = "the array of observations is read-only: leave it writeable, or make the environment with `copy=True`";
+        let read_only =
+            "the array of observations is read-only: leave it writeable, or make the environment with `copy=True`";
         let locked = || errors::raise_plain(py, "SetpieceError", read_only);
         let mut guard = array.try_readwrite().map_err(|_| locked())?;
         let values = guard.as_slice_mut().map_err(|_| locked())?;

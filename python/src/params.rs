@@ -96,11 +96,10 @@ pub(crate) fn bind(py: Python<'_>, params: &[compiled::Param], given: &Bound<'_,
                 return Err(errors::parameter(py, "params", &message));
             }
         };
-        bind_one(params, &mut bindings, &name, &value)
-            .map_err(|fault| match fault {
-                Fault::Param(why) => errors::from_param(py, why, params),
-                Fault::Python(error) => error,
-            })?;
+        bind_one(params, &mut bindings, &name, &value).map_err(|fault| match fault {
+            Fault::Param(why) => errors::from_param(py, why, params),
+            Fault::Python(error) => error,
+        })?;
     }
     Ok(bindings)
 }
@@ -137,7 +136,10 @@ fn bind_one(
         // An unknown name is told as such, whatever the value.
         Err(match ty {
             Some(ty) => ParamError::Type { name: name.to_owned(), ty, found }.into(),
-            None => ParamError::Unknown { name: name.to_owned(), known: params.iter().map(|p| p.name.clone()).collect() }.into(),
+            None => {
+                ParamError::Unknown { name: name.to_owned(), known: params.iter().map(|p| p.name.clone()).collect() }
+                    .into()
+            }
         })
     };
     let is_bool = value.is_instance_of::<PyBool>();

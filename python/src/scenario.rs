@@ -100,7 +100,8 @@ impl Scenario {
     }
 
     fn __repr__(&self) -> String {
-        let bound: Vec<String> = self.inner.params.iter().map(|param| format!("{}={}", param.name, param.default)).collect();
+        let bound: Vec<String> =
+            self.inner.params.iter().map(|param| format!("{}={}", param.name, param.default)).collect();
         format!("Scenario({}{}{})", self.inner.name, if bound.is_empty() { "" } else { ": " }, bound.join(", "))
     }
 
@@ -128,7 +129,7 @@ pub(crate) fn load(py: Python<'_>, name_or_path: PathBuf) -> PyResult<Scenario> 
 
 /// Compiles a text in the language; `name` is how reports call it.
 ///
-/// Raises `CompileError`, whose `diagnostics` lists every problem.
+/// Raises `CompileError`, whose `diagnostics` lists every problem, or `FileError` above 1 MiB.
 #[pyfunction]
 #[pyo3(signature = (text, name = "<text>"))]
 pub(crate) fn compile(py: Python<'_>, text: &str, name: &str) -> PyResult<Scenario> {
@@ -146,7 +147,7 @@ pub(crate) fn library(py: Python<'_>) -> Vec<(String, String, (usize, usize))> {
 /// The scenario of a compiled file's text: how a pickled one comes back.
 #[pyfunction]
 pub(crate) fn restore(py: Python<'_>, text: &str) -> PyResult<Scenario> {
-    let inner = compiled::file::from_json(text)
-        .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
+    let inner =
+        compiled::file::from_json(text).map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
     Ok(Scenario { inner: Arc::new(inner), warnings: PyList::empty(py).unbind() })
 }

@@ -185,11 +185,16 @@ def test_columns_count_characters() -> None:
     assert (label.file, label.line, label.column, label.end_line, label.end_column) == ("<text>", 2, 26, 2, 29)
 
 
-@pytest.mark.parametrize("text", ["", "\n\n", "// nothing\n", "\0", "scenario", "(" * 10_000, "x" * 2_000_000])
+@pytest.mark.parametrize("text", ["", "\n\n", "// nothing\n", "\0", "scenario", "(" * 10_000, "x" * 10_000])
 def test_odd_texts_are_compile_errors(text: str) -> None:
     with pytest.raises(setpiece.CompileError) as caught:
         setpiece.compile(text)
     assert caught.value.diagnostics
+
+
+def test_a_text_of_two_megabytes_is_refused() -> None:
+    with pytest.raises(setpiece.FileError, match="larger than 1 MiB"):
+        setpiece.compile("// long\n" * 250_000)
 
 
 def test_errors_survive_pickling() -> None:

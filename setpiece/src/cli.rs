@@ -3,16 +3,20 @@
 //! Exit codes: 0 fine, 1 the input has errors, 2 the command line has.
 
 mod check;
-mod drawing;
 mod out;
 mod play;
 mod summary;
 
+use crate::Error;
 use clap::{Parser, Subcommand, ValueEnum};
 use out::Out;
-use setpiece::Error;
+use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::ExitCode;
+
+/// Exit code where all is well.
+const FINE: u8 = 0;
+/// Exit code where the input has errors.
+const FAULT: u8 = 1;
 
 /// Football scenarios from text files, and the engine that runs them.
 #[derive(Parser, Debug)]
@@ -76,8 +80,20 @@ pub(crate) enum MessageFormat {
     Json,
 }
 
+/// Runs the command with its arguments, the program's name first, and returns the exit code.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    match Args::try_parse_from(arguments) {
+        Ok(args) => run(args),
+        Err(error) => {
+            // Help and version come this way too; where they can't be printed nothing can.
+            let _ = error.print();
+            error.exit_code() as u8
+        }
+    }
+}
+
 /// Runs a command.
-pub(crate) fn run(args: Args) -> ExitCode {
+fn run(args: Args) -> u8 {
     let out = Out::new(args.color);
     let result = match args.command {
         Command::List => Ok(list(&out)),
@@ -89,27 +105,27 @@ pub(crate) fn run(args: Args) -> ExitCode {
         Ok(code) => code,
         Err(error) => {
             out.error(&error);
-            ExitCode::FAILURE
+            FAULT
         }
     }
 }
 
-fn list(out: &Out) -> ExitCode {
-    let entries = setpiece::list();
+fn list(out: &Out) -> u8 {
+    let entries = crate::list();
     let width = entries.iter().map(|entry| entry.name.len()).max().unwrap_or_default();
     for entry in entries {
         let [left, right] = entry.players;
         out.line(&format!("{:width$}  {left:>2} v {right:<2}  {}", out.bold(&entry.name, width), entry.title));
     }
-    ExitCode::SUCCESS
+    FINE
 }
 
-fn build(source: &str, output: &std::path::Path, out: &Out) -> Result<ExitCode, Error> {
-    let loaded = setpiece::load(source)?;
+fn build(source: &str, output: &std::path::Path, out: &Out) -> Result<u8, Error> {
+    let loaded = crate::load(source)?;
     out.warnings(&loaded);
-    let text = setpiece::scenario::file::to_json(&loaded.scenario)
+    let text = crate::scenario::file::to_json(&loaded.scenario)
         .map_err(|why| Error::Format { path: output.to_owned(), why })?;
-    setpiece::files::write(output, &text)?;
+    crate::files::write(output, &text)?;
     out.line(&format!("{} → {} ({} bytes)", loaded.scenario.name, output.display(), text.len()));
-    Ok(ExitCode::SUCCESS)
+    Ok(FINE)
 }

@@ -4,6 +4,9 @@
 //! scenario, [`run`] plays episodes of it, [`watch`] recompiles it when its files change, [`probe`] looks for what only
 //! a dry run can find.
 
+#[cfg(feature = "cli")]
+pub mod cli;
+pub mod drawing;
 pub mod error;
 pub mod files;
 pub mod load;

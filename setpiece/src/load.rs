@@ -1,6 +1,6 @@
 //! Loading: a name, a path, a text or a compiled file becomes a scenario.
 
-use crate::error::{Error, Failure};
+use crate::error::{Error, Failure, FileFault};
 use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, read_text};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
@@ -95,8 +95,11 @@ pub fn load_file(path: &Path) -> Result<Loaded, Error> {
 /// Compiles a text; `name` is how reports call it.
 ///
 /// # Errors
-/// [`Error::Compile`] with every report.
+/// [`Error::Compile`] with every report; [`Error::File`] where it is larger than a file may be.
 pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
+    if text.len() as u64 > SOURCE_MAX_BYTES {
+        return Err(Error::File { path: name.into(), why: FileFault::TooLarge { max: SOURCE_MAX_BYTES } });
+    }
     compile_source(Source { name: name.to_owned(), text: text.into() })
 }
 

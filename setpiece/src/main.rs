@@ -1,10 +1,7 @@
 //! The command `setpiece`.
 
-mod cli;
-
-use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::run(cli::Args::parse())
+    ExitCode::from(setpiece::cli::main(std::env::args_os()))
 }

@@ -61,7 +61,9 @@ pub(crate) fn python() -> Result<(), String> {
     // Run from the tests' folder, so that the installed wheel is tested and not the source tree.
     let tests = root.join("python/tests");
     let tool = |args: &[&str]| run(Command::new(&python).args(args).current_dir(&tests));
-    tool(&["-m", "ruff", "check", "--config", "../pyproject.toml", ".."])?;
+    for task in [["ruff", "check"].as_slice(), &["ruff", "format", "--check"]] {
+        run(Command::new(&python).arg("-m").args(task).current_dir(root.join("python")))?;
+    }
     tool(&["-m", "mypy", "--strict", "--config-file", "../pyproject.toml", "-p", "setpiece"])?;
     tool(&["-m", "mypy.stubtest", "setpiece._native"])?;
     tool(&["-m", "pytest", "--quiet", "-c", "../pyproject.toml", "--rootdir", ".", "."])

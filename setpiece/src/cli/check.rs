@@ -1,19 +1,18 @@
 //! `setpiece check`: every problem of some files.
 
-use super::{MessageFormat, out::Out};
-use setpiece::dsl::problem::Severity;
-use setpiece::dsl::report::{Format, render};
-use setpiece::{Error, load_file};
+use super::{FAULT, FINE, MessageFormat, out::Out};
+use crate::dsl::problem::Severity;
+use crate::dsl::report::{Format, render};
+use crate::{Error, load_file};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Compiles each file and prints what was found.
-pub(crate) fn check(files: &[PathBuf], format: MessageFormat, out: &Out) -> ExitCode {
+pub(crate) fn check(files: &[PathBuf], format: MessageFormat, out: &Out) -> u8 {
     let mut failed = false;
     let mut array = Vec::new();
     for file in files {
         let (problems, sources) = match load_file(file) {
-            Ok(loaded) => (setpiece::probe::probe(&loaded), loaded.sources),
+            Ok(loaded) => (crate::probe::probe(&loaded), loaded.sources),
             Err(Error::Compile(failure)) => (failure.problems, failure.sources),
             Err(error) => {
                 failed = true;
@@ -44,7 +43,7 @@ pub(crate) fn check(files: &[PathBuf], format: MessageFormat, out: &Out) -> Exit
     if format == MessageFormat::Json {
         out.line(&serde_json::Value::Array(array).to_string());
     }
-    if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+    if failed { FAULT } else { FINE }
 }
 
 /// A fault that has no place in a text, in the shape of the others.

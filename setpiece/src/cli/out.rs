@@ -1,33 +1,17 @@
 //! Printing: text to standard output, problems to standard error, colour where it is wanted.
 
 use super::Colour;
+use crate::drawing::Paint;
+use crate::dsl::report::{Format, render};
+use crate::dsl::{problem::Problem, source::Sources};
+use crate::{Error, Loaded};
 use owo_colors::OwoColorize;
-use setpiece::dsl::report::{Format, render};
-use setpiece::dsl::{problem::Problem, source::Sources};
-use setpiece::{Error, Loaded};
 use std::io::{IsTerminal, Write};
 
 /// Where and how to print.
 pub(crate) struct Out {
     stdout_colour: bool,
     stderr_colour: bool,
-}
-
-/// What a colour stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Paint {
-    /// The left team.
-    Left,
-    /// The right team.
-    Right,
-    /// The ball.
-    Ball,
-    /// A success.
-    Success,
-    /// A failure.
-    Failure,
-    /// Anything else.
-    Plain,
 }
 
 impl Out {

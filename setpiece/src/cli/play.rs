@@ -1,16 +1,14 @@
 //! `setpiece run`: episodes of a scenario, once or whenever its file changes.
 
-use super::out::Out;
-use super::summary;
+use super::{FAULT, FINE, out::Out, summary};
+use crate::engine::control::agents::Agent;
+use crate::engine::environment::{EnvironmentOptions, Physics};
+use crate::run::{RunOptions, Summary, first_error, run};
+use crate::watch::Watcher;
+use crate::{Error, Loaded};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use indicatif::{ProgressBar, ProgressStyle};
-use setpiece::engine::control::agents::Agent;
-use setpiece::engine::environment::{EnvironmentOptions, Physics};
-use setpiece::run::{RunOptions, Summary, first_error, run};
-use setpiece::watch::Watcher;
-use setpiece::{Error, Loaded};
 use std::io::IsTerminal;
-use std::process::ExitCode;
 use std::time::Duration;
 
 /// How often a progress bar and a watcher look up.
@@ -87,11 +85,11 @@ fn pair(text: &str) -> Result<(String, String), String> {
 }
 
 /// Runs the command.
-pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<ExitCode, Error> {
+pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     if args.watch {
         return watch(args, out);
     }
-    let loaded = setpiece::load(&args.scenario)?;
+    let loaded = crate::load(&args.scenario)?;
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
     let summary = with_progress(&loaded, &options)?;
@@ -101,14 +99,14 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<ExitCode, Error> 
     }
     if let Some(error) = first_error(&summary) {
         out.error(&error);
-        return Ok(ExitCode::FAILURE);
+        return Ok(FAULT);
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(FINE)
 }
 
 fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
     let pairs = args.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
-    let bindings = setpiece::bind(&loaded.scenario, pairs)?;
+    let bindings = crate::bind(&loaded.scenario, pairs)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     Ok(RunOptions {
         episodes: 0..args.episodes,
@@ -151,12 +149,12 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 }
 
 /// Runs episode by episode: a changed file takes effect at the next one, a broken one leaves the last good one running.
-fn watch(args: &RunArgs, out: &Out) -> Result<ExitCode, Error> {
-    let mut loaded = setpiece::load(&args.scenario)?;
+fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
+    let mut loaded = crate::load(&args.scenario)?;
     out.warnings(&loaded);
     if loaded.inputs.is_empty() {
         out.fault("SP0001", &format!("`{}` is no file: there is nothing to watch", args.scenario), None);
-        return Ok(ExitCode::FAILURE);
+        return Ok(FAULT);
     }
     let mut watcher = Watcher::new(&loaded.inputs)?;
     let mut options = options(args, &loaded)?;
@@ -188,7 +186,7 @@ fn reload(
     watcher: &mut Watcher,
     out: &Out,
 ) -> Result<bool, Error> {
-    let fresh = setpiece::load(&args.scenario).and_then(|fresh| Ok((options(args, &fresh)?, fresh)));
+    let fresh = crate::load(&args.scenario).and_then(|fresh| Ok((options(args, &fresh)?, fresh)));
     match fresh {
         Ok((fresh_options, fresh)) => {
             out.warnings(&fresh);

@@ -1,14 +1,14 @@
 //! What came of a run: a table, one JSON object, or one line per episode.
 
-use super::drawing::draw;
-use super::out::{Out, Paint};
-use setpiece::Error;
-use setpiece::engine::batch::EpisodeSummary;
-use setpiece::engine::control::agents::Agent;
-use setpiece::engine::environment::Environment;
-use setpiece::engine::statistics::MatchMeans;
-use setpiece::run::{RunOptions, Summary};
-use setpiece::scenario::{Scenario, Verdict};
+use super::out::Out;
+use crate::Error;
+use crate::drawing::{Paint, draw_painted};
+use crate::engine::batch::EpisodeSummary;
+use crate::engine::control::agents::Agent;
+use crate::engine::environment::Environment;
+use crate::engine::statistics::MatchMeans;
+use crate::run::{RunOptions, Summary};
+use crate::scenario::{Scenario, Verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -69,7 +69,7 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
     let mut environment =
         Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
     if environment.reset(Some(options.seed), Some(0)).is_ok() {
-        out.line(&draw(environment.state(), out));
+        out.line(&draw_painted(environment.state(), |sign, paint| out.paint(&sign.to_string(), paint)));
     }
     out.line(&out.dim("  left team 0-9 attacks →, right team a-k ←, ball o"));
     out.line("");

@@ -1,17 +1,38 @@
 //! A drawing in text of where everybody stands.
 
-use super::out::{Out, Paint};
-use setpiece::engine::state::Match;
-use setpiece::scenario::Team;
-use setpiece::scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_engine::state::Match;
+use setpiece_scenario::Team;
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+
+/// What a colour stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Paint {
+    /// The left team.
+    Left,
+    /// The right team.
+    Right,
+    /// The ball.
+    Ball,
+    /// A success.
+    Success,
+    /// A failure.
+    Failure,
+    /// Anything else.
+    Plain,
+}
 
 /// Columns and rows of the pitch inside its border.
 const COLUMNS: usize = 65;
 const ROWS: usize = 19;
 
-/// Draws a match from above: players of the left team as digits in source order, of the right as letters, the
-/// ball as `o`.
-pub(crate) fn draw(game: &Match, out: &Out) -> String {
+/// Draws a match from above, without colours: players of the left team as digits in source order, of the right as
+/// letters, the ball as `o`.
+pub fn draw(game: &Match) -> String {
+    draw_painted(game, |sign, _| sign.to_string())
+}
+
+/// The same, each sign painted for what it stands for.
+pub fn draw_painted(game: &Match, paint_sign: impl Fn(char, Paint) -> String) -> String {
     let mut cells = [[(' ', Paint::Plain); COLUMNS]; ROWS];
     markings(&mut cells);
     for team in Team::ALL {
@@ -32,7 +53,7 @@ pub(crate) fn draw(game: &Match, out: &Out) -> String {
         let (left, right) = if mouth { ('▐', '▌') } else { ('│', '│') };
         text.extend([' ', ' ', left]);
         for (sign, paint) in line {
-            text.push_str(&out.paint(&sign.to_string(), *paint));
+            text.push_str(&paint_sign(*sign, *paint));
         }
         text.extend([right, '\n']);
     }

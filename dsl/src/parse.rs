@@ -26,6 +26,9 @@ use setpiece_grammar::{PitchParser, Rule};
 /// Brackets may be nested this deep.
 pub const MAX_BRACKETS: usize = 64;
 
+/// `if`s and phrases such as `by …` may be nested this deep without brackets.
+pub const MAX_NESTED: u32 = 64;
+
 /// An expression may have this many operators and calls on the way from its root to a leaf.
 pub const MAX_OPERATORS: u32 = 256;
 

@@ -33,7 +33,9 @@ pub fn render(problems: &[Problem], sources: &Sources, format: Format) -> String
     let sorted = sorted(problems);
     match format {
         Format::Human { color, width } => human::render(&sorted, sources, color, width),
-        Format::Json => serde_json::to_string_pretty(&diagnostics(problems, sources)).unwrap_or_else(|_| "[]".to_owned()),
+        Format::Json => {
+            serde_json::to_string_pretty(&diagnostics(problems, sources)).unwrap_or_else(|_| "[]".to_owned())
+        }
         Format::Short => short(&sorted, sources),
     }
 }
@@ -41,7 +43,8 @@ pub fn render(problems: &[Problem], sources: &Sources, format: Format) -> String
 /// Problems by file, place and code.
 fn sorted(problems: &[Problem]) -> Vec<&Problem> {
     let mut sorted: Vec<&Problem> = problems.iter().collect();
-    sorted.sort_by_key(|problem| (problem.labels.first().map(|label| (label.span.file, label.span.start)), problem.code));
+    sorted
+        .sort_by_key(|problem| (problem.labels.first().map(|label| (label.span.file, label.span.start)), problem.code));
     sorted
 }
 

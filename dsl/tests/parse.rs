@@ -99,7 +99,10 @@ fn line_endings_and_a_byte_order_mark_make_no_difference() {
     let crlf = EVERYTHING.replace('\n', "\r\n");
     let (file, problems) = read(&crlf);
     assert_eq!((file.items.len(), problems), (15, vec![]));
-    assert_eq!(file.items.first().map(|item| item.doc.as_str()), Some("Every construct of the language once.\nSecond line."));
+    assert_eq!(
+        file.items.first().map(|item| item.doc.as_str()),
+        Some("Every construct of the language once.\nSecond line.")
+    );
     let (file, problems) = read(&format!("\u{FEFF}{EVERYTHING}"));
     assert_eq!((file.items.len(), problems), (15, vec![]));
 }

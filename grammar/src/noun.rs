@@ -231,6 +231,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::junk_end => "the end of the line",
         Rule::continuing => "a word",
         Rule::closer => "a closing bracket",
+        Rule::opener => "an opening bracket",
         Rule::group => "brackets",
         Rule::group_inner => "something",
         Rule::file_probe => "a scenario",

@@ -75,13 +75,29 @@ pub(super) struct Reader<'t> {
     pub(super) operators: u32,
     /// Blocks around the current statement.
     blocks: u32,
+    /// Bytes that may still be read again to say what was expected.
+    effort: usize,
 }
+
+/// Bytes of a file that may be read again, beyond twice its length.
+const LEAST_EFFORT: usize = 1 << 18;
 
 impl<'t> Reader<'t> {
     pub(super) fn new(file: FileId, original: &'t str, scan: &'t Scan<'_>) -> Reader<'t> {
         let (text, comments) = (&*scan.text, &*scan.comments);
         let (told, problems) = (disjoint(scan.told.clone()), Vec::new());
-        Reader { file, original, text, comments, told, problems, base: 0, operators: 0, blocks: 0 }
+        Reader {
+            file,
+            original,
+            text,
+            comments,
+            told,
+            problems,
+            base: 0,
+            operators: 0,
+            blocks: 0,
+            effort: LEAST_EFFORT + 2 * original.len(),
+        }
     }
 
     pub(super) fn into_problems(self) -> Vec<Problem> {
@@ -91,11 +107,28 @@ impl<'t> Reader<'t> {
     /// Reports a problem, unless one that explains it was told before.
     pub(super) fn push(&mut self, problem: Problem) {
         let start = problem.labels.first().map_or(0, |label| label.span.start as usize);
-        let index = self.told.partition_point(|told| told.end <= start);
-        let told = self.told.get(index).is_some_and(|told| told.contains(&start));
-        if !told && self.problems.len() < MAX_PROBLEMS {
+        if !self.is_told(&(start..start + 1)) && self.problems.len() < MAX_PROBLEMS {
             self.problems.push(problem);
         }
+    }
+
+    /// Whether nothing that stands in a range would be told.
+    pub(super) fn is_told(&self, range: &Range<usize>) -> bool {
+        let index = self.told.partition_point(|told| told.end <= range.start);
+        self.told.get(index).is_some_and(|told| told.start <= range.start && range.end <= told.end)
+    }
+
+    /// Whether more problems can be told.
+    pub(super) fn is_full(&self) -> bool {
+        self.problems.len() >= MAX_PROBLEMS
+    }
+
+    /// Whether so many bytes may be read again; takes them from what is left.
+    pub(super) fn spend(&mut self, bytes: usize) -> bool {
+        // A short text costs something too.
+        let left = self.effort.checked_sub(bytes + 64);
+        self.effort = left.unwrap_or(self.effort);
+        left.is_some()
     }
 
     /// A node's range in the text, without the blanks and comments that its last optional parts swallowed.

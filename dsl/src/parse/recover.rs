@@ -38,6 +38,11 @@ impl Reader<'_> {
                 super::item::add_doc(&mut doc, &child);
             } else if rule == Rule::junk {
                 let range = self.range(&child);
+                if self.is_full() || self.is_told(&range) {
+                    statements.push(broken(self.span(&child), std::mem::take(&mut doc)));
+                    before = None;
+                    continue;
+                }
                 let indent = self.indent(range.start);
                 // A further line of a statement that was told about is no news.
                 if told.as_ref().is_none_or(|told| indent <= told.indent) {
@@ -72,6 +77,10 @@ impl Reader<'_> {
         let continued = before.filter(|before| !self.text.get(..before.end).unwrap_or_default().ends_with('}'));
         let start = continued.as_ref().map_or(junk.start, |before| before.start);
         let slice = self.text.get(start..junk.end).unwrap_or_default();
+        if !self.spend(slice.len()) {
+            let problem = self.expectation(context, &junk, None, junk.start, &[]);
+            return self.push(problem);
+        }
         let (at, positives) = match PitchParser::parse(context.probe(), slice) {
             Ok(_) => (junk.start, Vec::new()),
             Err(error) => {
@@ -86,7 +95,10 @@ impl Reader<'_> {
         let mut positives = positives;
         // A lone word could always have been an option's key: the word is the news, not the missing colon.
         let first = token(text_from(self.text, junk.start));
-        if context != Context::Fields && positives == [Rule::colon] && self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty()) {
+        if context != Context::Fields
+            && positives == [Rule::colon]
+            && self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty())
+        {
             at = junk.start;
             positives.clear();
         }
@@ -104,6 +116,9 @@ impl Reader<'_> {
         let first = token(text.get(junk.start..).unwrap_or_default());
         let Some(keyword) = nearest(first, context.keywords().iter().copied()) else { return };
         let Some(rule) = context.block_of(keyword) else { return };
+        if !self.spend(junk.end - brace) {
+            return;
+        }
         let Ok(mut pairs) = PitchParser::parse(rule, text.get(brace..junk.end).unwrap_or_default()) else { return };
         let Some(node) = pairs.next() else { return };
         let (base, operators) = (std::mem::replace(&mut self.base, brace), std::mem::take(&mut self.operators));

@@ -2,12 +2,16 @@
 //!
 //! Everything behind this step may rely on balanced brackets, closed strings and a bounded depth.
 
+mod chain;
+
 use super::{MAX_BRACKETS, MAX_PROBLEMS, span};
 use crate::problem::{Code, Problem};
 use crate::source::FileId;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
+
+use chain::Chain;
 
 /// What the first look finds.
 pub(super) struct Scan<'t> {
@@ -23,6 +27,21 @@ pub(super) struct Scan<'t> {
 
 /// Looks at a text.
 pub(super) fn scan(text: &str, file: FileId) -> Scan<'_> {
+    let Scanner { mends, tail, mut scan, .. } = look(text, file);
+    if !mends.is_empty() || !tail.is_empty() {
+        let mended = mended(text, &mends, &tail);
+        if look(&mended, file).scan.problems.is_empty() {
+            scan.text = Cow::Owned(mended);
+        } else {
+            // Mending went astray: what the brackets hold can't be known.
+            scan.text = Cow::Borrowed("");
+            scan.told.push(0..usize::MAX);
+        }
+    }
+    scan
+}
+
+fn look(text: &str, file: FileId) -> Scanner<'_> {
     let mut scanner = Scanner {
         bytes: text.as_bytes(),
         file,
@@ -31,15 +50,16 @@ pub(super) fn scan(text: &str, file: FileId) -> Scan<'_> {
         mends: BTreeMap::new(),
         tail: String::new(),
         line_start: true,
+        line_from: 0,
         indent: 0,
+        skips: Vec::new(),
+        chain: Chain::default(),
+        chunk: 0,
+        lost: Vec::new(),
         scan: Scan { text: Cow::Borrowed(text), comments: Vec::new(), told: Vec::new(), problems: Vec::new() },
     };
     scanner.run(text);
-    let Scanner { mends, tail, mut scan, .. } = scanner;
-    if !mends.is_empty() || !tail.is_empty() {
-        scan.text = Cow::Owned(mended(text, &mends, &tail));
-    }
-    scan
+    scanner
 }
 
 /// The text with bytes replaced (ASCII by ASCII) and the missing end added.
@@ -61,6 +81,15 @@ struct Open {
     byte: u8,
     /// The indentation of its line.
     indent: usize,
+    /// What nests around it.
+    chain: Chain,
+}
+
+/// A part of the text that no bracket may be written into.
+struct Skip {
+    range: Range<usize>,
+    /// Whether it goes on to the end of its line, which it needs.
+    line: bool,
 }
 
 struct Scanner<'t> {
@@ -74,7 +103,16 @@ struct Scanner<'t> {
     tail: String,
     /// Only blanks stand before here on this line.
     line_start: bool,
+    /// Where this line begins.
+    line_from: usize,
     indent: usize,
+    /// Strings and comments, in order.
+    skips: Vec<Skip>,
+    chain: Chain,
+    /// Where the item under way begins.
+    chunk: usize,
+    /// From where on nothing more is told about the item under way, as its brackets are lost.
+    lost: Vec<usize>,
     scan: Scan<'t>,
 }
 
@@ -88,6 +126,7 @@ impl Scanner<'_> {
                     self.line_start = true;
                     self.indent = 0;
                     at += 1;
+                    self.line_from = at;
                     continue;
                 }
                 b' ' | b'\t' if self.line_start => {
@@ -101,17 +140,37 @@ impl Scanner<'_> {
                 b'"' => self.string(at),
                 b'(' | b'[' | b'{' => self.opening(at, byte),
                 b')' | b']' | b'}' => self.closing(at, byte),
-                _ => {
-                    if self.line_start && self.indent == 0 && !self.open.is_empty() && begins_item(rest) {
-                        self.close_all(at);
+                b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'_' => {
+                    if self.line_start && self.indent == 0 {
+                        self.left_edge(at, rest);
                     }
-                    at + 1
+                    let word = rest.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_').next();
+                    self.word(at, word.unwrap_or_default())
                 }
+                _ => self.sign(at, byte, rest),
             };
             self.line_start = false;
             at = next;
         }
         self.finish();
+    }
+
+    /// A word at the left edge may begin an item.
+    fn left_edge(&mut self, at: usize, rest: &[u8]) {
+        let only_item = begins_item(rest);
+        if only_item {
+            self.close_all(at);
+        }
+        if only_item || (self.open.is_empty() && rest.starts_with(b"reward ")) {
+            self.end_chunk(at);
+        }
+    }
+
+    /// An item ends: nothing more is told about it behind a lost bracket.
+    fn end_chunk(&mut self, at: usize) {
+        self.chunk = at;
+        let lost = self.lost.drain(..).min();
+        self.scan.told.extend(lost.map(|from| from..at));
     }
 
     fn find(&self, from: usize, what: &[u8]) -> Option<usize> {
@@ -125,6 +184,7 @@ impl Scanner<'_> {
         if !rest.starts_with(b"///") || rest.starts_with(b"////") {
             self.scan.comments.push(at..end);
         }
+        self.skips.push(Skip { range: at..end, line: true });
         end
     }
 
@@ -142,16 +202,20 @@ impl Scanner<'_> {
             );
             self.scan.told.push(at..usize::MAX);
             self.tail.push_str("*/");
+            self.lost.push(self.chunk);
             text.len()
         };
+        self.skips.push(Skip { range: at..end, line: false });
         self.scan.comments.push(at..end);
         end
     }
 
     fn raw_string(&mut self, at: usize, text: &str) -> usize {
         if let Some(end) = self.find(at + 3, b"\"\"\"") {
+            self.skips.push(Skip { range: at..end + 3, line: false });
             return end + 3;
         }
+        self.lost.push(self.chunk);
         self.problem(at, 3, Code::UnclosedString, "this script is not closed", "opened here", "close it with `\"\"\"`");
         self.scan.told.push(at..usize::MAX);
         self.tail.push_str("\"\"\"");
@@ -162,7 +226,10 @@ impl Scanner<'_> {
         let mut end = at + 1;
         loop {
             match self.bytes.get(end) {
-                Some(b'"') => return end + 1,
+                Some(b'"') => {
+                    self.skips.push(Skip { range: at..end + 1, line: false });
+                    return end + 1;
+                }
                 Some(b'\\') if matches!(self.bytes.get(end + 1), Some(b'"' | b'\\')) => end += 2,
                 Some(b'\n') | None => break,
                 Some(_) => end += 1,
@@ -176,10 +243,16 @@ impl Scanner<'_> {
             "opened here",
             "close it with `\"` on its line",
         );
-        self.scan.told.push(at..end);
+        self.skips.push(Skip { range: at..end, line: true });
+        self.scan.told.push(self.line_from..end + 1);
+        if self.bytes.get(at..end).is_some_and(|text| text.iter().any(|byte| b"(){}[]".contains(byte))) {
+            // The quote that is missing stands further left: this swallows brackets.
+            self.lost.push(self.chunk);
+        }
         if end < self.bytes.len() {
             self.mends.insert(end, b'"');
             self.line_start = true;
+            self.line_from = end + 1;
         } else {
             self.tail.push('"');
         }
@@ -202,7 +275,10 @@ impl Scanner<'_> {
             self.deep = Some((self.open.first().map_or(at, |open| open.at), 1));
             self.mends.insert(at, b' ');
         } else {
-            self.open.push(Open { at, byte, indent: self.indent });
+            self.open.push(Open { at, byte, indent: self.indent, chain: self.chain });
+            if byte == b'{' {
+                self.unchain(at, Chain::default());
+            }
         }
         at + 1
     }
@@ -235,13 +311,20 @@ impl Scanner<'_> {
                 while self.open.len() > index + 1 {
                     self.unclosed(at, Some(at));
                 }
-                self.open.pop();
+                if let Some(open) = self.open.pop() {
+                    self.unchain(at, if byte == b'}' { Chain::default() } else { open.chain });
+                }
             }
             _ => {
                 let closer = byte as char;
                 let (message, label) = (format!("nothing is open that this `{closer}` closes"), "no opening bracket");
                 self.problem(at, 1, Code::Syntax, &message, label, &format!("take the `{closer}` away"));
                 self.mends.insert(at, b' ');
+                if byte == b'}' {
+                    self.lost.push(self.chunk);
+                } else {
+                    self.scan.told.push(self.line_from..at + 1);
+                }
             }
         }
         at + 1
@@ -264,6 +347,10 @@ impl Scanner<'_> {
         };
         let end = if open.byte == b'{' { self.blank_before(at, open.at) } else { self.line_end(open.at, at) };
         self.scan.told.push(open.at..at + 1);
+        if open.byte == b'{' {
+            self.lost.push(open.at);
+        }
+        self.unchain(at, if open.byte == b'{' { Chain::default() } else { open.chain });
         match end {
             Some(end) => self.mends.insert(end, wanted),
             // No blank to write the bracket into: take the opening one away.
@@ -290,23 +377,31 @@ impl Scanner<'_> {
     /// The last unused newline or blank before `at`.
     fn blank_before(&self, at: usize, after: usize) -> Option<usize> {
         let range = self.bytes.get(after..at)?;
-        let free =
-            |i: &usize| range.get(*i).is_some_and(u8::is_ascii_whitespace) && !self.mends.contains_key(&(after + i));
-        (0..range.len()).rev().take(4096).find(free).map(|i| after + i).filter(|i| !self.in_comment(*i))
+        (0..range.len()).rev().take(4096).map(|i| after + i).find(|i| self.is_free(*i))
     }
 
     /// The end of the line of `from`.
     fn line_end(&self, from: usize, before: usize) -> Option<usize> {
         let end = from + self.bytes.get(from..before)?.iter().position(|byte| *byte == b'\n')?;
-        let comment = self.scan.comments.iter().rev().find(|comment| comment.end == end && comment.start > from);
-        let end = comment.map_or(end, |comment| comment.start.saturating_sub(1));
-        let free = self.bytes.get(end).is_some_and(u8::is_ascii_whitespace) && !self.mends.contains_key(&end);
-        free.then_some(end)
+        let end = match self.skip_at(end) {
+            Some(skip) if skip.line && skip.range.start > from => skip.range.start.saturating_sub(1),
+            _ => end,
+        };
+        self.is_free(end).then_some(end)
     }
 
-    fn in_comment(&self, at: usize) -> bool {
-        let index = self.scan.comments.partition_point(|comment| comment.end <= at);
-        self.scan.comments.get(index).is_some_and(|comment| comment.contains(&at))
+    /// Whether a bracket may be written over this byte: an unused blank outside of strings and comments.
+    fn is_free(&self, at: usize) -> bool {
+        self.bytes.get(at).is_some_and(u8::is_ascii_whitespace)
+            && !self.mends.contains_key(&at)
+            && self.skip_at(at).is_none()
+    }
+
+    /// The string or comment that holds this byte or needs it as its end.
+    fn skip_at(&self, at: usize) -> Option<&Skip> {
+        let index = self.skips.partition_point(|skip| skip.range.end < at);
+        let holds = |skip: &&Skip| skip.range.contains(&at) || (skip.line && skip.range.end == at);
+        self.skips.get(index..)?.iter().take(2).find(holds)
     }
 
     fn finish(&mut self) {
@@ -324,6 +419,8 @@ impl Scanner<'_> {
             self.problem(at, 1, Code::UnclosedBracket, &message, "opened here", &format!("close it with `{wanted}`"));
             self.scan.told.push(at..usize::MAX);
         }
+        self.unchain(self.bytes.len(), Chain::default());
+        self.end_chunk(usize::MAX);
         if !self.open.is_empty() {
             // A comment without a newline at the end would swallow the brackets.
             self.tail.push('\n');

@@ -3,7 +3,10 @@
 use super::{MAX_SHOWN, count};
 use crate::problem::{Label, Problem, Severity};
 use crate::source::{FileId, Sources};
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode, ThemeCharacters, ThemeStyles};
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode, ThemeCharacters,
+    ThemeStyles,
+};
 use std::fmt;
 use std::sync::Arc;
 
@@ -11,7 +14,8 @@ use std::sync::Arc;
 pub(super) fn render(problems: &[&Problem], sources: &Sources, color: bool, width: usize) -> String {
     let styles = if color { ThemeStyles::ansi() } else { ThemeStyles::none() };
     let theme = GraphicalTheme { characters: ThemeCharacters::unicode(), styles };
-    let handler = GraphicalReportHandler::new_themed(theme).with_width(width.max(40)).with_context_lines(1).with_links(false);
+    let handler =
+        GraphicalReportHandler::new_themed(theme).with_width(width.max(40)).with_context_lines(1).with_links(false);
     let mut text = String::new();
     for problem in problems.iter().take(MAX_SHOWN) {
         let drawn = handler.render_report(&mut text, &Picture::of(problem, sources));

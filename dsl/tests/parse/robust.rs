@@ -1,11 +1,16 @@
 //! No text makes the parser panic, hang or lose its place.
 
-use super::{EVERYTHING, read};
+use super::{EVERYTHING, read, told};
 use proptest::prelude::*;
 
 fn check(text: &str) {
     let (file, problems) = read(text);
-    for span in problems.iter().flat_map(|problem| &problem.labels).map(|label| label.span).chain(file.items.iter().map(|item| item.span)) {
+    for span in problems
+        .iter()
+        .flat_map(|problem| &problem.labels)
+        .map(|label| label.span)
+        .chain(file.items.iter().map(|item| item.span))
+    {
         assert!(text.get(span.start as usize..span.end as usize).is_some(), "{span:?} is no span of {text:?}");
     }
 }
@@ -18,6 +23,84 @@ fn what_nests_without_brackets_is_bounded_too() {
         check(&format!("scenario s {{ let x = {} a }}", "count of 1 + ".repeat(n)));
         check(&format!("reward r {{ {} {} }}", "when a { ".repeat(n), "} ".repeat(n)));
     }
+}
+
+#[test]
+fn chains_of_any_length_end_in_a_problem() {
+    for n in [1_000, 20_000] {
+        for (link, tail) in [
+            ("1+", "1"),
+            ("1 and ", "1"),
+            ("not ", "a"),
+            ("- ", "a"),
+            ("a.", "b"),
+            ("if a then b else ", "c"),
+            ("if ", "c"),
+            ("count of ", "goal"),
+            ("pass by ", "us"),
+            ("a < ", "b"),
+            ("a|", "b"),
+            ("else if if a then b ", "c"),
+        ] {
+            let problems = told(&format!("scenario s {{ let x = {}{tail} }}", link.repeat(n)));
+            assert!(!problems.is_empty() && problems.len() < 5, "{link}: {problems:?}");
+        }
+    }
+    assert!(!told(&format!("reward r {{ when a {{ }} {} }}", "else when b { } ".repeat(20_000))).is_empty());
+}
+
+#[test]
+fn odd_signs_are_parsed_however_many() {
+    for text in [
+        "\0",
+        "{",
+        "}",
+        "(",
+        ")",
+        "\"",
+        "/*",
+        "\"\"\"",
+        "'",
+        "///",
+        "😀",
+        "scenario",
+        "scenario s",
+        "\u{FEFF}",
+        "}{",
+        "@@@",
+        "a\n",
+        "/* */ (}",
+        "scenario s { let x = }\n",
+        "/// (\n suite x { ",
+    ] {
+        for n in [1, 5_000] {
+            check(&text.repeat(n));
+            check(&format!("scenario s {{\n{}\n}}", text.repeat(n)));
+        }
+    }
+}
+
+#[test]
+fn nothing_that_nests_is_tried_twice() {
+    for (open, close) in [
+        ("(1, ", ")"),
+        ("f(a: (", "))"),
+        ("if a then b else if (", ")"),
+        ("if (", ") then a else if a then b else c"),
+        ("f(x for p in (", "))"),
+        ("f(p in (", ") where a)"),
+        ("count of (", ")"),
+        ("pass by (", ")"),
+        ("own (", ")"),
+    ] {
+        let deep = 60 / open.matches('(').count();
+        for inner in ["1", "1 1", ""] {
+            check(&format!("scenario s {{ let x = {}{inner}{} }}", open.repeat(deep), close.repeat(deep)));
+        }
+    }
+    check(&format!("scenario s {{ let x = {} }}", "if a then b else if ".repeat(60)));
+    check(&format!("suite s {{\n /// {}\n}}", "(".repeat(60)));
+    check(&format!("{} 1 {}", "scenaro s { ".repeat(60), "} ".repeat(60)));
 }
 
 fn tokens() -> Vec<&'static str> {

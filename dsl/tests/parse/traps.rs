@@ -1,7 +1,9 @@
 //! The traps of `language-details.md`, one test each.
 
 use super::{player, read, reward, scenario, team, told};
-use setpiece_dsl::ast::{BinaryOp, Domain, Expr, ExprKind, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind, TeamStmtKind};
+use setpiece_dsl::ast::{
+    BinaryOp, Domain, Expr, ExprKind, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind, TeamStmtKind,
+};
 use setpiece_dsl::parse::MAX_BRACKETS;
 use setpiece_scenario::vocabulary::{Role, Unit};
 
@@ -27,7 +29,9 @@ fn p1_a_calls_bracket_touches_its_name() {
 
 #[test]
 fn p2_a_blocks_head_is_not_a_gives_clause() {
-    let body = reward("give 0.1 * x\n on goal by us { x = 1 }\n give 0.01\n when c { x = 2 }\n give 1\n on goal when c { x = 3 }");
+    let body = reward(
+        "give 0.1 * x\n on goal by us { x = 1 }\n give 0.01\n when c { x = 2 }\n give 1\n on goal when c { x = 3 }",
+    );
     let kinds: Vec<_> = body.iter().map(|statement| matches!(statement.kind, RewardStmtKind::Give(_))).collect();
     assert_eq!(kinds, [true, false, true, false, true, false]);
     match body.first().map(|statement| &statement.kind) {
@@ -81,7 +85,9 @@ fn p5_in_is_told_by_its_place() {
 
 #[test]
 fn p6_phrases_leave_their_words() {
-    let body = team("AM between ball and left.goal at 30%\nCM ahead of AM1 by 2m when n > 1\nCF in left.box | right.box facing ball");
+    let body = team(
+        "AM between ball and left.goal at 30%\nCM ahead of AM1 by 2m when n > 1\nCF in left.box | right.box facing ball",
+    );
     assert_eq!(body.len(), 3);
     assert_eq!(reward("give 1 on pass by us from us.box | us.third when a and b").len(), 1);
 }
@@ -131,14 +137,17 @@ fn p10_brackets_are_counted_before_parsing() {
 
 #[test]
 fn p11_spans_are_trimmed() {
-    let text = "scenario s {\n    team left { CB at (0.5, 0) // behind\n /* more */ }\n  // end\n}\n\nconst A = 1 ; // one\n";
+    let text =
+        "scenario s {\n    team left { CB at (0.5, 0) // behind\n /* more */ }\n  // end\n}\n\nconst A = 1 ; // one\n";
     let (file, problems) = read(text);
     assert_eq!(problems, []);
     let texts: Vec<_> = file.items.iter().map(|item| &text[item.span.start as usize..item.span.end as usize]).collect();
     assert!(texts.first().is_some_and(|text| text.ends_with("// end\n}")), "{texts:?}");
     assert_eq!(texts.last(), Some(&"const A = 1"));
     let Some(ItemKind::Scenario(scenario)) = file.items.first().map(|item| &item.kind) else { panic!("no scenario") };
-    let Some(ScenarioStmtKind::Team { body, .. }) = scenario.body.first().map(|statement| &statement.kind) else { panic!("no team") };
+    let Some(ScenarioStmtKind::Team { body, .. }) = scenario.body.first().map(|statement| &statement.kind) else {
+        panic!("no team")
+    };
     let span = body.first().expect("a player").span;
     assert_eq!(&text[span.start as usize..span.end as usize], "CB at (0.5, 0)");
 }
@@ -164,9 +173,13 @@ fn p14_event_names_are_reserved_as_values_only() {
     assert!(matches!(value("goal").kind, ExprKind::Event(_)));
     assert!(matches!(value("left.goal").kind, ExprKind::Member(..)));
     assert!(matches!(value("f(goal: 1)").kind, ExprKind::Call { .. }));
-    for text in ["let corner = 1", "param pass = 1", "let in = 1", "let CB = 3", "const when = 1", "let (a, shot) = b"] {
+    for text in ["let corner = 1", "param pass = 1", "let in = 1", "let CB = 3", "const when = 1", "let (a, shot) = b"]
+    {
         let problems = told(&format!("scenario s {{ {text} }}"));
-        assert!(problems.len() == 1 && problems.iter().all(|problem| problem.starts_with("SP0107")), "{text}: {problems:?}");
+        assert!(
+            problems.len() == 1 && problems.iter().all(|problem| problem.starts_with("SP0107")),
+            "{text}: {problems:?}"
+        );
     }
     assert_eq!(reward("x = 1\n give 1 on pass completed\n x = 2").len(), 3);
 }

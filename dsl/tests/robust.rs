@@ -119,3 +119,32 @@ fn definitions_that_double_are_refused_in_time() {
     );
     assert!(outcome(&text).scenario.is_none());
 }
+
+/// A good source without its brackets and quotes one by one: what follows from the lost one is not told.
+#[test]
+fn a_lost_bracket_or_quote_is_a_few_problems() {
+    let mut wrong = Vec::new();
+    for (at, sign) in GOOD.char_indices().filter(|(_, sign)| "(){}[]\"".contains(*sign)) {
+        let text = format!("{}{}", &GOOD[..at], &GOOD[at + 1..]);
+        let problems = outcome(&text).problems;
+        if !(1..=4).contains(&problems.len()) {
+            let line = GOOD[..at].matches('\n').count() + 1;
+            let told: Vec<String> = problems.iter().map(|p| format!("{} {}", p.code, p.message)).collect();
+            wrong.push(format!("line {line}, `{sign}`: {told:#?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn three_mistakes_of_three_stages_are_three_problems() {
+    let problems = outcome(
+        "scenario mistakes extends academy {\n ball at (0.6, 0)\n team left { GK at (-1, 0) CBB at (0.5, 0) }\n \
+         reward scorin\n end success soon when elapsed > 3m\n}\n",
+    )
+    .problems;
+    let told: Vec<_> = problems.iter().map(|problem| (problem.code.to_string(), problem.help.as_deref())).collect();
+    let wanted =
+        [("SP0203", Some("did you mean `CB`?")), ("SP0201", Some("did you mean `scoring`?")), ("SP0302", None)];
+    assert_eq!(told, wanted.map(|(code, help)| (code.to_owned(), help)));
+}

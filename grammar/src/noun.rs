@@ -3,7 +3,7 @@
 use crate::Rule;
 
 /// What an author calls the thing that a rule reads, with its article: "a point, for example `(0.5, 0)`".
-#[allow(clippy::too_many_lines, reason = "one flat match")]
+#[allow(clippy::too_many_lines, clippy::match_same_arms, reason = "one flat match, in the grammar's order")]
 pub const fn noun(rule: Rule) -> &'static str {
     match rule {
         Rule::kw_abstract => "`abstract`",
@@ -187,7 +187,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::rules => "`rules`",
         Rule::agents => "`agents`",
         Rule::ball => "`ball`",
-        Rule::team => "`team`",
+        Rule::team | Rule::team_head => "`team`",
         Rule::kickoff => "`kickoff`",
         Rule::start => "`start`",
         Rule::require => "`require`",

@@ -93,12 +93,18 @@ impl Reader<'_> {
         };
         let mut at = at.max(junk.start);
         let mut positives = positives;
-        // A lone word could always have been an option's key: the word is the news, not the missing colon.
+        // A lone word could always have been an option's key or a state: the word is the news, not the missing sign.
         let first = token(text_from(self.text, junk.start));
-        if context != Context::Fields
-            && positives == [Rule::colon]
-            && self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty())
-        {
+        let behind = self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty());
+        let lone = match context {
+            Context::Fields => false,
+            Context::Reward if positives == [Rule::equals] => {
+                let further = if continued.is_some() { context.further() } else { &[] };
+                nearest(first, context.keywords().iter().chain(further).copied()).is_some()
+            }
+            _ => positives == [Rule::colon],
+        };
+        if lone && behind {
             at = junk.start;
             positives.clear();
         }

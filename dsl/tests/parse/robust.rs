@@ -151,3 +151,22 @@ proptest! {
         check(&tokens.concat());
     }
 }
+
+#[test]
+fn a_lost_bracket_or_quote_is_a_few_problems() {
+    let mut wrong = Vec::new();
+    let scripts = EVERYTHING.find("\"\"\"").unwrap_or(0)..EVERYTHING.rfind("\"\"\"").unwrap_or(0);
+    for (at, sign) in EVERYTHING.char_indices().filter(|(_, sign)| "(){}[]\"".contains(*sign)) {
+        let line = EVERYTHING[..at].rsplit('\n').next().unwrap_or_default();
+        if line.contains("//") || line.contains("/*") || scripts.contains(&at) {
+            continue;
+        }
+        let text = format!("{}{}", &EVERYTHING[..at], &EVERYTHING[at + 1..]);
+        let problems = told(&text);
+        if !(1..=4).contains(&problems.len()) {
+            let line = EVERYTHING[..at].matches('\n').count() + 1;
+            wrong.push(format!("line {line}, `{sign}`: {problems:#?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -27,6 +27,13 @@ words! {
     stray_bracket: "scenario s {\n    ball at (0, 0))\n}\n}";
     block_after_give: "reward r {\n    give 1 on goal by us { x = 1 }\n}";
     comparison_chain: "reward r {\n    give 1 when 0 < ball.x < 0.5\n}";
+    too_deep: &format!("scenario s {{\n    let x = {}1{}\n}}", "(".repeat(70), ")".repeat(70));
+    too_deep_without_brackets: &format!("scenario s {{\n    let x = {}c\n}}", "if a then b else if ".repeat(70));
+    bad_head: "scenario s extnds academy {\n    bal at (0, 0)\n}\nscenario extends academy { }";
+    other_languages: "scenario s {\n    require a && b\n    let x = .5\n    let d = 7 % 2\n    let s = 'abc'\n    if x = 3 { }\n}";
+    unknown_role: "scenario s {\n    team left {\n        CBB at (0.5, 0)\n        2 XY in left.box\n        striker: CFF at (0, 0)\n    }\n}";
+    misspelt_keywords: "scenario s {\n    rewrd scoring\n    team left {\n        palce CF at (0, 0)\n        CM at (0, 0) facng ball\n        each outfeld { ai: lazy }\n    }\n}\nreward r {\n    give 1 whn goal\n    gve 2\n}";
+    incomplete: "scenario s {\n    ball at\n    team left { }\n    let x =\n}\nreward r {\n    give\n    give 1 on\n    when { give 1 }\n    on goal by { give 1 }\n}";
     reserved_names: "scenario s {\n    let in = 3\n    let corner = 1\n    let CB = 2\n}";
 }
 
@@ -45,4 +52,17 @@ fn twenty_are_shown_and_all_are_counted() {
     let report = report(&text);
     assert_eq!(report.matches("SP0101").count(), 20);
     assert!(report.ends_with("30 errors; 10 of them not shown\n"), "{report}");
+}
+
+#[test]
+fn labels_of_two_files_are_two_pictures() {
+    use setpiece_dsl::problem::{Code, Problem};
+    use setpiece_dsl::source::{FileId, Source, Span};
+    let mut sources = sources("import \"lib.pitch\"\nfn width() = 3m\n");
+    sources.add(Source { name: "lib.pitch".into(), text: "// Shared.\nfn width() = 2m\n".into() });
+    let at = |file, start| Span { file: FileId(file), start, end: start + 5 };
+    let problem = Problem::new(Code::DuplicateName, at(0, 22), "`width` is defined twice", "here again")
+        .label(at(1, 14), "first here")
+        .help("give one of them another name");
+    insta::assert_snapshot!("two_files", render(&[problem], &sources, Format::Human { color: false, width: 100 }));
 }

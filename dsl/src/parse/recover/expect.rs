@@ -9,7 +9,7 @@ use setpiece_scenario::vocabulary::{Role, Unit};
 use std::ops::Range;
 
 /// Words that follow a role.
-const AFTER_ROLE: &[&str] = &[
+pub(super) const AFTER_ROLE: &[&str] = &[
     "at", "in", "ahead", "behind", "left", "right", "between", "beyond", "offset", "absent", "facing", "jitter",
     "when", "{",
 ];
@@ -87,12 +87,22 @@ impl Reader<'_> {
             let units = Unit::ALL.iter().map(|unit| unit.name());
             let known: Vec<_> = units.clone().map(|unit| format!("`{unit}`")).collect();
             let problem = Problem::new(Code::Syntax, span, format!("unknown unit `{word}`"), "no unit has this name");
-            return Some(match nearest(word, units) {
+            return Some(match nearest(word, units).filter(|_| meant(word).is_none()) {
                 Some(unit) => problem.help(format!("did you mean `{number}{}{unit}`?", blank_before(unit))),
+                None if meant(word).is_some() => {
+                    problem.help(format!("did you mean `{number}{}`?", meant(word).unwrap_or_default()))
+                }
                 None => problem.help(format!("the units are {}", known.join(", "))),
             });
         }
-        let unit = Unit::from_name(word)?;
+        let Some(unit) = Unit::from_name(word) else {
+            let counted =
+                nearest(word.trim_end_matches(|char: char| char.is_ascii_digit()), ["step", "steps", "episodes"]);
+            let counted = counted.filter(|_| word.len() >= 4)?;
+            let message = format!("unknown unit `{word}`");
+            let help = format!("did you mean `{number} {}`?", if counted == "step" { "steps" } else { counted });
+            return Some(Problem::new(Code::Syntax, self.at(at), message, "no unit has this name").help(help));
+        };
         let gap = line.len() - digits.len();
         let span = self.between(at - gap - number.len(), at + word.len());
         Some(
@@ -121,8 +131,8 @@ impl Reader<'_> {
         }
         let behind = token(self.text.get(self.next_token(at + word.len())..).unwrap_or_default());
         let starts = at == junk.start;
-        let counted =
-            self.text.get(junk.start..at).is_some_and(|text| text.trim_end().bytes().all(|byte| byte.is_ascii_digit()));
+        let ahead = self.text.get(junk.start..at).unwrap_or_default().trim_end();
+        let counted = !ahead.is_empty() && ahead.bytes().all(|byte| byte.is_ascii_digit());
         let continuing = positives.iter().filter_map(|rule| keyword(*rule));
         if context == Context::Team && (starts || counted) {
             if let Some(problem) = self.unknown_role_of_field(context, before, word) {
@@ -130,7 +140,7 @@ impl Reader<'_> {
             }
             let like_role = word.len() <= 4 && word.bytes().all(|byte| byte.is_ascii_uppercase());
             let followed = AFTER_ROLE.contains(&behind) && Role::from_name(word).is_none();
-            let keyword = nearest(word, context.keywords().iter().copied().chain(continuing.clone()));
+            let keyword = nearest(word, context.keywords().iter().copied().chain(AFTER_ROLE.iter().copied()));
             if like_role || counted || (followed && keyword.is_none()) {
                 return Some(self.unknown_role(word, self.at(at)));
             }
@@ -139,11 +149,9 @@ impl Reader<'_> {
             if let Some(problem) = self.misplaced(context, word, at) {
                 return Some(problem);
             }
-            let all = context.keywords().iter().copied().chain(if before.is_some() {
-                continuing.clone().collect()
-            } else {
-                Vec::new()
-            });
+            let further = if before.is_some() { context.further() } else { &[] };
+            let all = context.keywords().iter().chain(further).copied();
+            let all = all.chain(continuing.filter(|_| before.is_some()));
             let meant = nearest(word, all).filter(|meant| *meant != word)?;
             return Some(self.misspelt(noun(context.statement()), word, at, meant));
         }
@@ -187,6 +195,21 @@ impl Reader<'_> {
         (name && (role || is_reserved(word)))
             .then(|| reserved(word, self.at(at), if role { "roles" } else { "the language" }))
     }
+}
+
+/// The unit behind another language's name for it.
+fn meant(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "degree" | "degrees" => "deg",
+        "radian" | "radians" => "rad",
+        "sec" | "secs" | "second" | "seconds" => "s",
+        "msec" | "millis" => "ms",
+        "meter" | "meters" | "metre" | "metres" => "m",
+        "kmh" | "kph" => "km/h",
+        "mps" => "m/s",
+        "percent" => "%",
+        _ => return None,
+    })
 }
 
 /// Whether a word is reserved everywhere.

@@ -83,6 +83,16 @@ impl Context {
         }
     }
 
+    /// The words with which a statement may go on.
+    pub(super) const fn further(self) -> &'static [&'static str] {
+        match self {
+            Context::Scenario => &["jitter", "when", "with", "as"],
+            Context::Team => super::expect::AFTER_ROLE,
+            Context::Reward => &["per", "once", "on", "when", "as", "else"],
+            Context::File | Context::Fields => &[],
+        }
+    }
+
     /// The rule of the block that belongs to a keyword.
     pub(super) fn block_of(self, keyword: &str) -> Option<Rule> {
         Some(match (self, keyword) {

@@ -57,9 +57,10 @@ pub struct Origins {
 /// Compiles a root file and everything it imports.
 ///
 /// Every scenario of the root that is not abstract is checked; the wanted one, or the last, comes out.
+#[allow(clippy::needless_pass_by_value, reason = "a caller has no more use for the root, which the outcome holds")]
 pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> Outcome {
     let mut problems = Vec::new();
-    let mut library = load(root, loader, &mut problems);
+    let mut library = load(&root, loader, &mut problems);
     let mut scripts = Scripts::new(options.scripts);
     load_scripts(&mut library, &mut scripts, loader);
 

@@ -108,7 +108,7 @@ impl Reader<'_> {
             at = junk.start;
             positives.clear();
         }
-        let problem = self.expectation(context, &junk, continued, at, &positives);
+        let problem = self.expectation(context, &junk, continued.as_ref(), at, &positives);
         self.push(problem);
         self.read_block(context, &junk, at);
     }

@@ -41,7 +41,7 @@ pub(crate) struct NamedItem<'a> {
 }
 
 /// Loads a root and everything it imports.
-pub(crate) fn load(root: Source, loader: &dyn SourceLoader, problems: &mut Vec<Problem>) -> Library {
+pub(crate) fn load(root: &Source, loader: &dyn SourceLoader, problems: &mut Vec<Problem>) -> Library {
     let mut library = Library {
         sources: Sources::default(),
         files: Vec::new(),
@@ -51,7 +51,7 @@ pub(crate) fn load(root: Source, loader: &dyn SourceLoader, problems: &mut Vec<P
         seen: Vec::new(),
     };
     let mut loading = Loading { library: &mut library, loader, problems, stack: Vec::new() };
-    loading.file(&root);
+    loading.file(root);
     // A missing prelude is no mistake of the author's.
     if let Ok(source) = loader.load(PRELUDE, PRELUDE) {
         let known = loading.known(&source.name);

@@ -20,7 +20,7 @@ impl Reader<'_> {
         &self,
         context: Context,
         junk: &Range<usize>,
-        before: Option<Range<usize>>,
+        before: Option<&Range<usize>>,
         at: usize,
         positives: &[Rule],
     ) -> Problem {
@@ -29,9 +29,7 @@ impl Reader<'_> {
         let outside = at >= junk.end;
         let special = self
             .unit(at)
-            .or_else(|| {
-                if outside { None } else { self.role_or_keyword(context, junk, before.as_ref(), at, word, positives) }
-            })
+            .or_else(|| if outside { None } else { self.role_or_keyword(context, junk, before, at, word, positives) })
             .or_else(|| self.reserved_name(at, word, positives));
         if let Some(problem) = special {
             return problem;
@@ -142,7 +140,7 @@ impl Reader<'_> {
             let followed = AFTER_ROLE.contains(&behind) && Role::from_name(word).is_none();
             let keyword = nearest(word, context.keywords().iter().copied().chain(AFTER_ROLE.iter().copied()));
             if like_role || counted || (followed && keyword.is_none()) {
-                return Some(self.unknown_role(word, self.at(at)));
+                return Some(Self::unknown_role(word, self.at(at)));
             }
         }
         if starts {
@@ -164,7 +162,7 @@ impl Reader<'_> {
         Problem::new(Code::Syntax, self.at(at), message, "no such word here").help(format!("did you mean `{meant}`?"))
     }
 
-    fn unknown_role(&self, word: &str, span: Span) -> Problem {
+    fn unknown_role(word: &str, span: Span) -> Problem {
         let roles = Role::ALL.iter().map(|role| role.name());
         let problem = Problem::new(Code::UnknownRole, span, format!("unknown role `{word}`"), "no role has this name");
         match nearest(word, roles.clone()) {
@@ -185,7 +183,7 @@ impl Reader<'_> {
             return None;
         }
         let end = before?.end;
-        Some(self.unknown_role(value, self.between(end - value.len(), end)))
+        Some(Self::unknown_role(value, self.between(end - value.len(), end)))
     }
 
     /// A reserved word or role where a name is wanted.

@@ -50,10 +50,9 @@ impl Scanner<'_> {
     /// Signs that end an expression; returns the sign's end.
     pub(super) fn sign(&mut self, at: usize, byte: u8, rest: &[u8]) -> usize {
         match byte {
-            b',' | b':' => self.unchain(at, self.outer()),
             b'=' if rest.starts_with(b"==") => return at + 2,
             b'!' | b'<' | b'>' if rest.get(1) == Some(&b'=') => return at + 2,
-            b'=' => self.unchain(at, self.outer()),
+            b',' | b':' | b'=' => self.unchain(at, self.outer()),
             _ => {}
         }
         at + 1

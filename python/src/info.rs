@@ -9,7 +9,7 @@ use setpiece::engine::event::Event;
 use setpiece::engine::observe;
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::pitch::{PLAYERS_MAX, to_normalised};
-use setpiece::scenario::{Action, Verdict};
+use setpiece::scenario::{Action, Qualifier, Team, Verdict};
 
 /// Writes the `info` of steps; keeps the words that recur.
 pub(crate) struct InfoWriter {
@@ -84,8 +84,8 @@ impl InfoWriter {
         let player = |id: Option<PlayerId>| id.and_then(|id| self.players.get(id.index())?.as_ref());
         let (x, y) = to_normalised(f64::from(event.at.x), f64::from(event.at.y));
         dict.set_item(intern!(py, "kind"), event.kind.name())?;
-        dict.set_item(intern!(py, "qualifier"), event.qualifier.map(|word| word.name()))?;
-        dict.set_item(intern!(py, "team"), event.team.map(|team| team.name()))?;
+        dict.set_item(intern!(py, "qualifier"), event.qualifier.map(Qualifier::name))?;
+        dict.set_item(intern!(py, "team"), event.team.map(Team::name))?;
         dict.set_item(intern!(py, "by"), player(event.by))?;
         dict.set_item(intern!(py, "to"), player(event.to))?;
         dict.set_item(intern!(py, "tick"), event.tick)?;

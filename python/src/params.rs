@@ -89,12 +89,9 @@ pub(crate) fn to_python<'py>(py: Python<'py>, param: &compiled::Param, value: f6
 pub(crate) fn bind(py: Python<'_>, params: &[compiled::Param], given: &Bound<'_, PyDict>) -> PyResult<Bindings> {
     let mut bindings = Bindings::defaults(params);
     for (name, value) in given {
-        let name: String = match name.extract() {
-            Ok(name) => name,
-            Err(_) => {
-                let message = format!("expected a parameter's name, found `{}`", name.repr()?);
-                return Err(errors::parameter(py, "params", &message));
-            }
+        let Ok(name) = name.extract::<String>() else {
+            let message = format!("expected a parameter's name, found `{}`", name.repr()?);
+            return Err(errors::parameter(py, "params", &message));
         };
         bind_one(params, &mut bindings, &name, &value).map_err(|fault| match fault {
             Fault::Param(why) => errors::from_param(py, why, params),

@@ -94,6 +94,7 @@ impl Scenario {
     /// Writes the compiled scenario to a file (`.pitchc`): self-contained, parameters can still be bound.
     ///
     /// Raises `FileError` where it can't be written.
+    #[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let text = self.to_json(py)?;
         setpiece::files::write(&path, &text).map_err(|error| errors::from_facade(py, &error))
@@ -122,6 +123,7 @@ impl Scenario {
 ///
 /// Raises `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
 #[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
 pub(crate) fn load(py: Python<'_>, name_or_path: PathBuf) -> PyResult<Scenario> {
     let loaded = py.detach(|| setpiece::load(&name_or_path.to_string_lossy()));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)

@@ -2,7 +2,11 @@
 //!
 //! Times are the thread's CPU time, so that a busy machine changes little. Steps are played by the bot on one core, with
 //! the simple115v2 observation of every step written, as an agent would have it. Throughput is steps per CPU-second.
-#![allow(missing_docs, clippy::panic, reason = "criterion's macros write undocumented functions; a benchmark fails by panicking")]
+#![allow(
+    missing_docs,
+    clippy::panic,
+    reason = "criterion's macros write undocumented functions; a benchmark fails by panicking"
+)]
 
 use cpu_time::ThreadTime;
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};

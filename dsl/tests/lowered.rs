@@ -1,4 +1,5 @@
 //! The programs that the standard rewards and a scenario become.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
 use setpiece_dsl::{CompileOptions, compile};

@@ -1,4 +1,5 @@
 //! Parsing: every construct, every trap, and the words of every report.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 #[path = "parse/robust.rs"]
 mod robust;

@@ -1,4 +1,5 @@
 //! Broken sources: whatever is cut out of a good one, the compiler answers with problems, never with a panic.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece_dsl::problem::Severity;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};

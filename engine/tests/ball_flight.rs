@@ -1,4 +1,4 @@
-//! The ball's free motion against figures measured on Google Research Football's ball (`measured.md` § 3, and the
+//! The ball's free motion against figures measured on Google Research Football's ball (means, and the
 //! series it is drawn from): speeds within 8 %, heights within 25 %.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -104,7 +104,7 @@ fn rolling_slows_as_measured() {
 
 #[test]
 fn a_rolling_shot_loses_speed_as_measured() {
-    // Every second step of a rolling shot, `measured.md` § 3; 18 → 17 is a bounce of that series, left out here.
+    // Every second step of a rolling shot; 18 → 17 is a bounce of that series, left out here.
     let mut ball = kicked(13.0, 0.0, 0.0);
     let mut scratch = Scratch::default();
     for wanted in [11.0, 10.0, 9.0, 7.4, 6.6, 6.0] {

@@ -1,4 +1,4 @@
-//! The traps of `language-details.md`, one test each.
+//! The traps of parsing, one test each.
 
 use super::{player, read, reward, scenario, team, told};
 use setpiece_dsl::ast::{

@@ -1,6 +1,6 @@
 //! The figures of the ball's world, each with its source.
 //!
-//! "Measured" means: taken from the flight of Google Research Football's ball, `measured.md` § 3 and the series it is
+//! "Measured" means: taken from the flight of Google Research Football's ball and the series it is
 //! drawn from. "Laws" are the IFAB's Laws of the Game. "Fitted" means: chosen so that the measured series are met.
 
 /// Length of a tick, s: ten to an agent's step.
@@ -53,7 +53,7 @@ pub const ROLL_TWIST_DECAY: f32 = 2.0;
 /// Radius of posts and crossbar, m. Laws: at most 0.12 m across; 0.07 is Google Research Football's, and lets the ball
 /// be met at the 0.18 m from the axis that it uses.
 pub const FRAME_RADIUS: f32 = 0.07;
-/// Share of the speed that woodwork gives back straight. `engine-rules.md` § 3: × 0.8.
+/// Share of the speed that woodwork gives back straight. GRF: × 0.8.
 pub const FRAME_BOUNCE: f32 = 0.8;
 /// Friction of woodwork on leather. Chosen: painted metal.
 pub const FRAME_FRICTION: f32 = 0.2;

@@ -27,10 +27,13 @@ pub(super) struct Scan<'t> {
 
 /// Looks at a text.
 pub(super) fn scan(text: &str, file: FileId) -> Scan<'_> {
-    let Scanner { mends, tail, mut scan, .. } = look(text, file);
+    // Indentation decides only where brackets don't agree without it.
+    let plain = look(text, file, false);
+    let Scanner { mends, tail, mut scan, .. } =
+        if plain.scan.problems.is_empty() { plain } else { look(text, file, true) };
     if !mends.is_empty() || !tail.is_empty() {
         let mended = mended(text, &mends, &tail);
-        if look(&mended, file).scan.problems.is_empty() {
+        if look(&mended, file, false).scan.problems.is_empty() {
             scan.text = Cow::Owned(mended);
         } else {
             // Mending went astray: what the brackets hold can't be known.
@@ -41,10 +44,11 @@ pub(super) fn scan(text: &str, file: FileId) -> Scan<'_> {
     scan
 }
 
-fn look(text: &str, file: FileId) -> Scanner<'_> {
+fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
     let mut scanner = Scanner {
         bytes: text.as_bytes(),
         file,
+        by_indent,
         open: Vec::new(),
         deep: None,
         mends: BTreeMap::new(),
@@ -95,6 +99,8 @@ struct Skip {
 struct Scanner<'t> {
     bytes: &'t [u8],
     file: FileId,
+    /// Whether indentation tells which bracket is meant.
+    by_indent: bool,
     open: Vec<Open>,
     /// Where a group that is too deep begins and how many brackets are open in it.
     deep: Option<(usize, usize)>,
@@ -300,7 +306,7 @@ impl Scanner<'_> {
             _ => b'{',
         };
         // A `}` that stands further left than the line of the `{` on top closes one further out.
-        let dedented = byte == b'}' && self.line_start;
+        let dedented = self.by_indent && byte == b'}' && self.line_start;
         let fits = |open: &Open| open.byte == opening && !(dedented && open.indent > self.indent);
         let matching =
             self.open.iter().rposition(fits).or_else(|| self.open.iter().rposition(|open| open.byte == opening));

@@ -236,3 +236,8 @@ fn p20_an_if_has_then_and_else() {
     assert!(matches!(value("if a then 1 else if b then 2 else 3").kind, ExprKind::If(..)));
     assert_eq!(told("scenario s { let x = if a then 1 }").len(), 1);
 }
+
+#[test]
+fn indentation_means_nothing_where_brackets_agree() {
+    assert_eq!(told("scenario s {\n        team left { CB at (0, 0)\n  }\n    }"), Vec::<String>::new());
+}

@@ -104,7 +104,7 @@ pub struct Field {
 /// The value of a field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldValue {
-    /// An expression; `on` and `off` are [`ExprKind::Bool`].
+    /// An expression; `on` and `off` are [`super::ExprKind::Bool`].
     Expr(Expr),
     /// `{ … }`
     Fields(Vec<Field>, Span),

@@ -8,6 +8,7 @@ mod play;
 mod summary;
 
 use crate::Error;
+use crate::dsl::problem::Code;
 use clap::{Parser, Subcommand, ValueEnum};
 use out::Out;
 use std::ffi::OsString;
@@ -102,6 +103,10 @@ fn run(args: Args) -> u8 {
         Command::Run(args) => play::run_command(&args, &out),
     };
     match result {
+        Ok(_) if out.failed() => {
+            out.fault(&Code::FileMissing.to_string(), "the output can't be written", None);
+            FAULT
+        }
         Ok(code) => code,
         Err(error) => {
             out.error(&error);
@@ -123,6 +128,7 @@ fn list(out: &Out) -> u8 {
 fn build(source: &str, output: &std::path::Path, out: &Out) -> Result<u8, Error> {
     let loaded = crate::load(source)?;
     out.warnings(&loaded);
+    crate::files::refuse_overwriting(output, &loaded.inputs)?;
     let text = crate::scenario::file::to_json(&loaded.scenario)
         .map_err(|why| Error::Format { path: output.to_owned(), why })?;
     crate::files::write(output, &text)?;

@@ -92,6 +92,19 @@ fn beside(from: &str, path: &str) -> PathBuf {
     full
 }
 
+/// Refuses an output that is one of the inputs.
+///
+/// # Errors
+/// [`Error::File`] where it is.
+pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
+    let same = |input: &PathBuf| matches!((input.canonicalize(), output.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if inputs.iter().any(same) {
+        let why = FileFault::Write("it is what the scenario is made of".to_owned());
+        return Err(Error::File { path: output.to_owned(), why });
+    }
+    Ok(())
+}
+
 /// Writes a file whole or not at all: a temporary neighbour is renamed over it.
 ///
 /// # Errors

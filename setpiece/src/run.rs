@@ -84,7 +84,7 @@ pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32
         &environment,
         options.seed,
         options.episodes.clone(),
-        options.threads,
+        options.threads.min(options.episodes.clone().count().max(1)),
         players,
         |episode: &Result<EpisodeSummary, EpisodeError>| progress(episode.as_ref().map_or(0, |episode| episode.length)),
     )
@@ -104,7 +104,8 @@ fn summarise(episodes: Vec<Result<EpisodeSummary, EpisodeError>>, names: &[Strin
     outcomes.sort_by(|a, b| b.2.cmp(&a.2).then_with(|| a.0.cmp(&b.0)));
     let played: Vec<&EpisodeSummary> = episodes.iter().flatten().collect();
     let n = played.len().max(1) as f64;
-    let mean = |of: &dyn Fn(&EpisodeSummary) -> f64| played.iter().map(|episode| of(episode)).sum::<f64>() / n;
+    // An empty sum of floats is -0.
+    let mean = |of: &dyn Fn(&EpisodeSummary) -> f64| played.iter().map(|episode| of(episode)).sum::<f64>() / n + 0.0;
     let by_agent = |episode: &EpisodeSummary, of: &dyn Fn(usize) -> f64| {
         let agents = episode.returns.len();
         (0..agents).map(of).sum::<f64>() / agents.max(1) as f64

@@ -178,6 +178,8 @@ fn a_name_or_file_that_is_not_there_is_one_clear_error() {
     fails(&["run", &folder.path().to_string_lossy()], 1, &["SP0006", "is a directory"]);
     fails(&["check", &folder.path().to_string_lossy()], 1, &["SP0006"]);
     fails(&["build", &close, "-o", "/no/such/folder/x.pitchc"], 1, &["SP0001", "can't be written"]);
+    fails(&["build", &close, "-o", &close], 1, &["SP0001", "can't be written"]);
+    assert_eq!(std::fs::read_to_string(&close).unwrap(), CLOSE, "the source is still there");
 }
 
 #[test]
@@ -273,6 +275,17 @@ fn rewards_come_from_the_files() {
     assert!(one["terms"]["mine/goal"].as_f64().unwrap() > 0.5, "{one}");
     let ratio = five["terms"]["mine/goal"].as_f64().unwrap() / one["terms"]["mine/goal"].as_f64().unwrap();
     assert!((ratio - 5.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_reward_of_the_files_own_takes_the_place_of_the_librarys() {
+    let folder = folder();
+    let own = format!("reward scoring {{ give 5 on goal by us as \"goal\" }}\n{CLOSE}");
+    let path = write(folder.path(), "own.pitch", own);
+    let result =
+        json(&["run", &path, "--agent", "run_and_shoot", "--episodes", "5", "--seed", "1", "--format", "json"]);
+    assert_eq!(result["terms"]["scoring/goal"], 5.0, "{result}");
+    assert!(result["terms"]["scoring/conceded"].is_null(), "{result}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ use crate::ast::{
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use crate::resolve::reward_chain;
+use crate::source::FileId;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Reg, Reward, RewardBody, UnaryOp};
 
 /// A reward's statements with what its parameters are bound to.
@@ -46,7 +47,10 @@ pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, 
             ))
         }
         RewardUseKind::Named(reference) => {
-            let found = world.library.find(reference.name.span.file, &reference.name.node);
+            // A parent's `reward NAME` means the scenario's own file first: names bind late.
+            let root = FileId(0);
+            let own = world.library.find(root, &reference.name.node).filter(|found| found.name.span.file == root);
+            let found = own.or_else(|| world.library.find(reference.name.span.file, &reference.name.node));
             let item = found.and_then(|found| match &found.item.kind {
                 crate::ast::ItemKind::Reward(reward) => Some((found, reward)),
                 _ => None,

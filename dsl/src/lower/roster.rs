@@ -317,7 +317,8 @@ fn adjust<'w>(
     for role in absent {
         let before = players.len();
         players.retain(|player| player.role != role.node);
-        if before == players.len() && before > 0 {
+        // A team is said to have no keeper by `GK absent`, whether a formation brings one or not.
+        if before == players.len() && before > 0 && role.node != Role::GK {
             world.report(Problem::new(
                 Code::NothingToRemove,
                 role.span,

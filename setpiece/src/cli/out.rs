@@ -6,12 +6,14 @@ use crate::dsl::report::{Format, render};
 use crate::dsl::{problem::Problem, source::Sources};
 use crate::{Error, Loaded};
 use owo_colors::OwoColorize;
+use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 
 /// Where and how to print.
 pub(crate) struct Out {
     stdout_colour: bool,
     stderr_colour: bool,
+    failed: Cell<bool>,
 }
 
 impl Out {
@@ -25,13 +27,23 @@ impl Out {
         Out {
             stdout_colour: wanted(std::io::stdout().is_terminal()),
             stderr_colour: wanted(std::io::stderr().is_terminal()),
+            failed: Cell::new(false),
         }
     }
 
-    /// Prints a line; a reader that has gone away (`| head`) is no error.
-    #[allow(clippy::unused_self, reason = "printing is the job of the value that knows how")]
+    /// Prints a line; a reader that has gone away (`| head`) is no error, a full disk is.
     pub(crate) fn line(&self, text: &str) {
-        let _ = writeln!(std::io::stdout(), "{text}");
+        let mut stdout = std::io::stdout();
+        if let Err(why) = writeln!(stdout, "{text}").and_then(|()| stdout.flush())
+            && why.kind() != std::io::ErrorKind::BrokenPipe
+        {
+            self.failed.set(true);
+        }
+    }
+
+    /// Whether something could not be printed.
+    pub(crate) fn failed(&self) -> bool {
+        self.failed.get()
     }
 
     /// Prints a line to standard error.

@@ -2,7 +2,6 @@
 
 use super::Lower;
 use super::roster::Rostered;
-use super::script::embed;
 use super::value::Repr;
 use crate::ast::{Expr, ExprKind, Field, FieldValue};
 use crate::check::options::{self, PLAYER, TEAM};
@@ -96,9 +95,12 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
             }
         }
         ("ai", FieldValue::Script(script)) => {
-            if let Some(script) = embed(lower.world, script, "act") {
-                options.ai = Ai::Script(script);
-            }
+            lower.world.report(Problem::new(
+                Code::NotYet,
+                script.span,
+                "`ai: script` is not supported yet",
+                "no script can play a player so far",
+            ));
         }
         (key, FieldValue::Expr(expr)) => expression(lower, key, expr, options),
         ("stats", FieldValue::Script(script)) => not_a_group(lower, script.span),

@@ -54,6 +54,22 @@ pub struct Origins {
     pub requires: Vec<Span>,
 }
 
+/// The formations of a text that need no argument; `None` if it declares nothing at all.
+pub fn parts(text: &str) -> Option<Vec<String>> {
+    let source = Source { name: String::new(), text: text.into() };
+    let file = crate::parse::parse(&source, FileId(0), &mut Vec::new());
+    let declares = |kind: &ItemKind| !matches!(kind, ItemKind::Import { .. } | ItemKind::Broken);
+    file.items.iter().any(|item| declares(&item.kind)).then(|| {
+        let formation = |kind: &ItemKind| match kind {
+            ItemKind::Formation(item) if item.params.iter().all(|param| param.default.is_some()) => {
+                Some(item.name.node.clone())
+            }
+            _ => None,
+        };
+        file.items.iter().filter_map(|item| formation(&item.kind)).collect()
+    })
+}
+
 /// Compiles a root file and everything it imports.
 ///
 /// Every scenario of the root that is not abstract is checked; the wanted one, or the last, comes out.
@@ -76,7 +92,15 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         }
     }
     let wanted = pick(&candidates, options.scenario.as_deref(), &library, &mut problems);
-    for (item, doc) in candidates.iter().filter(|(item, _)| !item.is_abstract) {
+    for (item, doc) in &candidates {
+        if item.is_abstract {
+            let mut found = Vec::new();
+            compile_one(&library, &scripts, item, doc, &mut found);
+            // What is missing, a child may bring.
+            found.retain(|problem| !follows_from_gaps(problem.code) && problem.code != Code::UnknownName);
+            problems.append(&mut found);
+            continue;
+        }
         let lowered = compile_one(&library, &scripts, item, doc, &mut problems);
         if wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item)) {
             chosen = Some(lowered);
@@ -88,9 +112,19 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         (span.map(|span| (span.file, span.start, span.end)), problem.code, problem.message.clone())
     });
     problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
-    if problems.iter().any(|problem| matches!(problem.code.number(), 101..=107 | 203 | 207)) {
+    if problems.iter().any(|problem| matches!(problem.code.number(), 1..=4 | 6 | 101..=107 | 203 | 207..=210)) {
         problems.retain(|problem| !follows_from_gaps(problem.code));
     }
+    let unread: Vec<Span> =
+        problems.iter().filter(|problem| problem.code.number() / 100 == 1).filter_map(place).collect();
+    problems.retain(|problem| {
+        let around = |inner: &Span, outer: Span| {
+            outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end && outer != *inner
+        };
+        // What holds a part that could not be read is not what the author wrote.
+        problem.code.number() / 100 == 1
+            || !place(problem).is_some_and(|span| unread.iter().any(|part| around(part, span)))
+    });
     if let Some((scenario, origins)) = &chosen
         && !has_errors(&problems)
         && let Err(fault) = setpiece_scenario::verify::verify(scenario)
@@ -108,6 +142,10 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         None => (None, Origins::default()),
     };
     Outcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
+}
+
+fn place(problem: &Problem) -> Option<Span> {
+    problem.labels.first().map(|label| label.span)
 }
 
 fn has_errors(problems: &[Problem]) -> bool {

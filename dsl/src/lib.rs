@@ -13,4 +13,4 @@ pub mod report;
 mod resolve;
 pub mod source;
 
-pub use compile::{CompileOptions, Origins, Outcome, compile};
+pub use compile::{CompileOptions, Origins, Outcome, compile, parts};

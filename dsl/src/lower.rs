@@ -27,7 +27,7 @@ use interval::Interval;
 use param::ParamInfo;
 use roster::Rostered;
 use setpiece_scenario::vocabulary::{EventKind, Team};
-use setpiece_scenario::{Reg, When};
+use setpiece_scenario::{BinaryOp, Reg, Require, When};
 use start::{LetSlot, StartState};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -283,6 +283,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             (Ty::LENGTH, Ty::Number) => {
                 problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")
             }
+            (Ty::Number, Ty::Int) => problem.help("write a whole number"),
             (_, Ty::Number) if both_numbers => problem.help("divide by a value of the same unit to get a plain number"),
             (_, wanted) if found.is_plain() && both_numbers => match wanted.example() {
                 Some(example) => problem.help(format!("write the unit: `{example}`")),
@@ -308,16 +309,51 @@ impl<'c, 'w> Lower<'c, 'w> {
         interval::interval(&self.code, reg, &self.world.ranges())
     }
 
-    /// Reports a value that may be outside its range, as far as that is known now.
-    pub(crate) fn check_range(&self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) {
-        if let Some((low, high)) = self.interval(reg)
-            && (low < range.0 || high > range.1)
-        {
-            let text = self.world.text(span);
-            self.report(
-                Problem::new(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
-                    .help(format!("write a value in {shown}")),
-            );
+    /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw.
+    pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) {
+        match self.interval(reg) {
+            Some((low, high)) if low >= range.0 && high <= range.1 => {}
+            Some(_) => {
+                let text = self.world.text(span);
+                self.report(
+                    Problem::new(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
+                        .help(format!("write a value in {shown}")),
+                );
+            }
+            None => {
+                let (low, high) = (self.code.constant(range.0), self.code.constant(range.1));
+                let above = self.code.binary(BinaryOp::Ge, reg, low);
+                let below = self.code.binary(BinaryOp::Le, reg, high);
+                let inside = self.code.binary(BinaryOp::And, above, below);
+                self.imply(inside, format!("{what} is {shown}"));
+            }
+        }
+    }
+
+    /// Reports a velocity above the greatest speed, m/s; what can't be told now becomes a requirement of the draw.
+    pub(crate) fn check_speed(&mut self, (x, y, z): (Reg, Reg, Reg), greatest: f64, what: &str, span: Span) {
+        let ground = self.code.binary(BinaryOp::Hypot, x, y);
+        let speed = self.code.binary(BinaryOp::Hypot, ground, z);
+        if self.interval(speed).is_some_and(|(_, high)| high <= greatest) {
+            return;
+        }
+        if self.interval(speed).is_some_and(|(low, _)| low > greatest) {
+            let message = format!("{what} is never faster than {greatest} m/s");
+            self.report(Problem::new(Code::OutOfRange, span, message, "").help("write a smaller velocity"));
+            return;
+        }
+        let limit = self.code.constant(greatest);
+        let slower = self.code.binary(BinaryOp::Le, speed, limit);
+        self.imply(slower, format!("{what} is not faster than {greatest} m/s"));
+    }
+
+    /// Makes a condition a requirement of the draw, unless it is known to hold; outside the start there is none.
+    pub(crate) fn imply(&mut self, condition: Reg, label: String) {
+        let known = self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
+        if self.stage == Stage::Start && !known {
+            // The message puts the label into backticks.
+            let label = label.replace('`', "");
+            self.start.implied.push(Require { condition, probability: None, label });
         }
     }
 

@@ -147,6 +147,7 @@ codes! {
     NothingToRemove = 212 Error "there is nothing to remove";
     Recursion = 216 Error "a definition uses itself";
     UnusedName = 213 Warning "a name is never used";
+    LikelyTypo = 217 Warning "a name looks like another";
     NoScenario = 214 Error "the file has no scenario to run";
     WrongScope = 215 Error "this can't be used here";
     // SP03xx: types and units.
@@ -169,6 +170,7 @@ codes! {
     BadAgents = 410 Error "agents don't fit the team";
     NoEnding = 411 Warning "the episode never ends";
     TwoKeepers = 412 Error "a team has two keepers";
+    AbsentPlayer = 413 Error "a player is absent and placed";
     // SP05xx: scripts.
     ScriptSyntax = 501 Error "a script can't be read";
     ScriptHook = 502 Error "a script lacks its hook";

@@ -41,6 +41,11 @@ pub trait SourceLoader {
     /// # Errors
     /// A [`LoadError`] that the report shows.
     fn load(&self, path: &str, from: &str) -> Result<Source, LoadError>;
+
+    /// Names of scenarios that every file may extend without an import, with the path each is loaded by.
+    fn scenarios(&self) -> Vec<(String, String)> {
+        Vec::new()
+    }
 }
 
 /// Why a source can't be loaded.

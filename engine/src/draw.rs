@@ -26,7 +26,7 @@ const COIN_ATTEMPT: u32 = u32::MAX;
 
 /// No start was found that meets what is required.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no start in {attempts} attempts: `{requirement}` failed in {failures} of them (seed {seed}, episode {index})")]
+#[error("{} (seed {seed}, episode {index})", self.what())]
 pub struct DrawError {
     /// The requirement that failed most often: the author's words, or the pitch's.
     pub requirement: String,
@@ -38,6 +38,16 @@ pub struct DrawError {
     pub seed: u64,
     /// The episode's index.
     pub index: u64,
+}
+
+impl DrawError {
+    fn what(&self) -> String {
+        let DrawError { requirement, failures, attempts, .. } = self;
+        match attempts {
+            1 => format!("no start: `{requirement}` does not hold"),
+            _ => format!("no start in {attempts} attempts: `{requirement}` failed in {failures} of them"),
+        }
+    }
 }
 
 /// Draws starts of one scenario; keeps its registers, so that a draw allocates little.
@@ -87,9 +97,24 @@ impl Drawer {
             self.run(scenario, bindings, DrawKey { seed, index, attempt });
             match self.failed(scenario, roster, seed, index) {
                 None => return Ok(self.start(scenario, roster, seed, index)),
-                Some(which) => self.failures[which] += 1,
+                Some(which) => {
+                    self.failures[which] += 1;
+                    if !self.is_drawn(scenario, which) {
+                        return Err(self.error(scenario, seed, index, 1));
+                    }
+                }
             }
         }
+        Err(self.error(scenario, seed, index, attempts))
+    }
+
+    /// Whether a requirement may hold in another attempt.
+    fn is_drawn(&self, scenario: &Scenario, which: usize) -> bool {
+        scenario.start.requires.get(which).is_none_or(|require| self.is_random(require.condition))
+    }
+
+    /// What to say of a start that was not found.
+    fn error(&self, scenario: &Scenario, seed: u64, index: u64, attempts: u32) -> DrawError {
         let (which, failures) = self
             .failures
             .iter()
@@ -101,7 +126,7 @@ impl Drawer {
             Some(require) => require.label.clone(),
             None => place::Fault::ALL[which - scenario.start.requires.len()].words().to_owned(),
         };
-        Err(DrawError { requirement, failures, attempts, seed, index })
+        DrawError { requirement, failures, attempts, seed, index }
     }
 
     /// A start that was not checked against any requirement: for what is needed before the first episode.

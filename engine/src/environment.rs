@@ -334,6 +334,10 @@ fn bound(scenario: &Scenario, bindings: Option<&Bindings>) -> Result<Bindings, E
 
 fn chosen_rewards(scenario: &Scenario, names: Option<&[String]>) -> Result<Arc<[Reward]>, EnvironmentError> {
     let Some(names) = names else { return Ok(scenario.rewards.clone().into()) };
+    if let Some(twice) = names.iter().enumerate().find(|(at, name)| names.iter().take(*at).any(|other| other == *name))
+    {
+        return Err(EnvironmentError::RewardTwice(twice.1.clone()));
+    }
     let chosen = names.iter().map(|name| {
         scenario.reward(name).cloned().ok_or_else(|| {
             let mut known: Vec<String> =

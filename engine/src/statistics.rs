@@ -205,7 +205,8 @@ impl MatchStatistics {
     /// The average of several matches' figures; teams' counts are left out, as they would not be whole.
     pub fn mean(of: &[MatchStatistics]) -> MatchMeans {
         let n = of.len().max(1) as f64;
-        let mean = |figure: &dyn Fn(&MatchStatistics) -> f64| of.iter().map(figure).sum::<f64>() / n;
+        // An empty sum of floats is -0.
+        let mean = |figure: &dyn Fn(&MatchStatistics) -> f64| of.iter().map(figure).sum::<f64>() / n + 0.0;
         let team = |side: usize, figure: fn(&TeamStatistics) -> u32| mean(&|m| f64::from(figure(&m.teams[side])));
         let sides = |figure: fn(&TeamStatistics) -> u32| [team(0, figure), team(1, figure)];
         let minutes = |m: &MatchStatistics| f64::from(m.steps) / STEPS_PER_S;

@@ -78,7 +78,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
 
 fn environment_class(why: &EnvironmentError) -> &'static str {
     match why {
-        EnvironmentError::Reward { .. } => "RewardError",
+        EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => "RewardError",
         EnvironmentError::Param(_) | EnvironmentError::Bindings { .. } | EnvironmentError::Roster => "ParameterError",
         EnvironmentError::Agents(_) | EnvironmentError::Script(_) => "SetpieceError",
     }

@@ -84,11 +84,15 @@ pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
 /// # Errors
 /// [`FormatError`] for anything but an unchanged file of this version.
 pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
+    if text.trim().is_empty() {
+        return Err(FormatError::NotAScenario("it is empty".to_owned()));
+    }
     let envelope: In<'_> = serde_json::from_str(text).map_err(|error| {
         if error.is_eof() && text.trim_start().starts_with('{') {
             FormatError::Truncated
         } else {
-            FormatError::NotAScenario(error.to_string())
+            let (line, column) = (error.line(), error.column());
+            FormatError::NotAScenario(format!("line {line}, column {column} is not what `setpiece build` writes"))
         }
     })?;
     if envelope.format.as_deref() != Some(FORMAT_NAME) {

@@ -71,7 +71,7 @@ impl std::fmt::Display for ParamError {
                 write!(f, "no parameter `{name}`; the scenario has `{}`", known.join("`, `"))
             }
             ParamError::Type { name, ty, found } => {
-                write!(f, "parameter `{name}`: expected a {ty}, found `{found}`")
+                write!(f, "parameter `{name}`: expected {}, found `{found}`", ty.noun())
             }
             ParamError::Range { name, found, allowed } => {
                 write!(f, "parameter `{name}` is {found}, outside {allowed}")
@@ -183,7 +183,7 @@ impl Param {
     pub fn admit(&self, value: f64) -> Result<f64, ParamError> {
         let whole = matches!(self.ty, Type::Int | Type::Bool | Type::Team | Type::String);
         if !value.is_finite() || (whole && value.fract() != 0.0) {
-            return Err(ParamError::Type { name: self.name.clone(), ty: self.ty, found: value.to_string() });
+            return Err(ParamError::Type { name: self.name.clone(), ty: self.ty, found: self.show(value) });
         }
         let inside = match self.ty {
             Type::Bool => value == 0.0 || value == 1.0,
@@ -195,7 +195,32 @@ impl Param {
         if inside {
             Ok(value)
         } else {
-            Err(ParamError::Range { name: self.name.clone(), found: value.to_string(), allowed: self.allowed() })
+            Err(ParamError::Range { name: self.name.clone(), found: self.show(value), allowed: self.allowed() })
+        }
+    }
+
+    /// A value as the language writes it: `0.9`, `60%`, `12m`, `400 steps`, `on`, `left`, a word.
+    pub fn show(&self, value: f64) -> String {
+        // Twelve digits behind the point hide what binary fractions add.
+        let number = |value: f64| {
+            let rounded = (value * 1e12).round() / 1e12;
+            if rounded.is_finite() { rounded } else { value }
+        };
+        match self.ty {
+            Type::Bool => if value == 0.0 { "off" } else { "on" }.to_owned(),
+            Type::Team if value == 0.0 => "left".to_owned(),
+            Type::Team if value == 1.0 => "right".to_owned(),
+            Type::Team => "none".to_owned(),
+            Type::String => self.choices.get(value as usize).cloned().unwrap_or_else(|| number(value).to_string()),
+            Type::Percent => format!("{}%", number(value * 100.0)),
+            Type::Length => format!("{}m", number(value)),
+            Type::Speed => format!("{}m/s", number(value)),
+            Type::Angle => format!("{}deg", number(value.to_degrees())),
+            Type::Duration => match number(value * 10.0) {
+                steps if steps.fract() == 0.0 => format!("{steps} steps"),
+                _ => format!("{}s", number(value)),
+            },
+            _ => number(value).to_string(),
         }
     }
 
@@ -205,14 +230,14 @@ impl Param {
             return format!("one of {}", self.choices.join(", "));
         }
         if !self.values.is_empty() {
-            let words: Vec<String> = self.values.iter().map(f64::to_string).collect();
+            let words: Vec<String> = self.values.iter().map(|value| self.show(*value)).collect();
             return format!("one of {}", words.join(", "));
         }
         match (self.ty, self.range) {
-            (_, Some((low, high))) => format!("{low}..{high}"),
+            (_, Some((low, high))) => format!("{}..{}", self.show(low), self.show(high)),
             (Type::Bool, None) => "on, off".to_owned(),
             (Type::Team, None) => "left, right, none".to_owned(),
-            (ty, None) => format!("any {ty}"),
+            (ty, None) => ty.noun().to_owned(),
         }
     }
 }

@@ -11,10 +11,14 @@
 use cpu_time::ThreadTime;
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use setpiece::dsl::source::Source;
+use setpiece::dsl::{CompileOptions, compile};
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Physics, Scratch};
 use setpiece::engine::observe;
+use setpiece::files::FileLoader;
 use setpiece::scenario::Action;
 use std::hint::black_box;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// The thread's CPU time in place of the wall clock's.
@@ -103,11 +107,29 @@ fn resets(c: &mut Criterion<CpuTime>) {
     group.finish();
 }
 
+/// Every file of the library, with all that it imports: from its text to what would be run.
 fn compilation(c: &mut Criterion<CpuTime>) {
     let mut group = c.benchmark_group("compile");
-    for entry in setpiece::list() {
-        group.bench_function(&entry.name, |b| {
-            b.iter_batched(|| entry.name.clone(), |name| black_box(setpiece::load(&name)), BatchSize::SmallInput);
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../stdlib-scenarios");
+    let mut folders = vec![PathBuf::from(root)];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() { folders.push(path) } else { files.push(path) }
+        }
+    }
+    files.sort();
+    for path in files {
+        let name = path.strip_prefix(root).unwrap_or(&path).display().to_string();
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let source = Source { name: format!("std/{name}"), text: text.into() };
+        group.bench_function(name, |b| {
+            b.iter_batched(
+                || source.clone(),
+                |source| black_box(compile(source, &FileLoader, &CompileOptions::default())),
+                BatchSize::SmallInput,
+            );
         });
     }
     group.finish();

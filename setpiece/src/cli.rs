@@ -47,9 +47,9 @@ enum Command {
     List,
     /// Compile files and report every problem; exit code 1 if one is an error
     Check {
-        /// The .pitch files
+        /// .pitch files, or names of the library
         #[arg(required = true, value_name = "FILE")]
-        files: Vec<PathBuf>,
+        files: Vec<String>,
         /// How to print the problems
         #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
         message_format: MessageFormat,

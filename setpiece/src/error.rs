@@ -98,7 +98,7 @@ impl Error {
             Error::Format { .. } => Code::BadCompiled,
             Error::Param { .. } => Code::BadParameter,
             Error::Environment(why) => match why {
-                EnvironmentError::Reward { .. } => Code::UnknownReward,
+                EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => Code::UnknownReward,
                 EnvironmentError::Param(_) | EnvironmentError::Bindings { .. } | EnvironmentError::Roster => {
                     Code::BadParameter
                 }

@@ -49,6 +49,8 @@ fn similar_file(path: &Path) -> Option<String> {
         .collect();
     names.sort();
     let wanted = path.file_name()?.to_string_lossy().into_owned();
+    // A link that leads nowhere is its own neighbour.
+    names.retain(|name| *name != wanted);
     setpiece_dsl::problem::nearest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
@@ -73,6 +75,10 @@ impl SourceLoader for FileLoader {
                 Err(LoadError { message: error.to_string(), similar })
             }
         }
+    }
+
+    fn scenarios(&self) -> Vec<(String, String)> {
+        stdlib::scenarios().map(|(name, source)| (name.to_owned(), source.name)).collect()
     }
 }
 

@@ -18,7 +18,7 @@ mod stdlib;
 pub mod watch;
 
 pub use error::Error;
-pub use load::{Entry, Loaded, bind, compile_text, list, load, load_file};
+pub use load::{Entry, Loaded, bind, check, compile_text, list, load, load_file};
 pub use setpiece_dsl as dsl;
 pub use setpiece_engine as engine;
 pub use setpiece_scenario as scenario;

@@ -4,7 +4,7 @@ use crate::error::{Error, Failure, FileFault};
 use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, read_text};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
-use setpiece_dsl::problem::{Problem, Severity, nearest};
+use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
 use setpiece_dsl::{CompileOptions, compile};
 use setpiece_scenario::{Bindings, Scenario, Team};
@@ -101,6 +101,34 @@ pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
         return Err(Error::File { path: name.into(), why: FileFault::TooLarge { max: SOURCE_MAX_BYTES } });
     }
     compile_source(Source { name: name.to_owned(), text: text.into() })
+}
+
+/// Compiles a name, a path or a text's file for its problems alone: a file of rewards or formations, which has nothing
+/// to run, is checked as a scenario would use it.
+///
+/// # Errors
+/// As [`load`], but for problems of the text, which come back in order.
+pub fn check(name_or_path: &str) -> Result<(Vec<Problem>, Sources), Error> {
+    let failure = match load(name_or_path) {
+        Ok(loaded) => return Ok((crate::probe::probe(&loaded), loaded.sources)),
+        Err(Error::Compile(failure)) => failure,
+        Err(error) => return Err(error),
+    };
+    let errors = || failure.problems.iter().filter(|problem| problem.severity() == Severity::Error);
+    let only_parts = errors().all(|problem| problem.code == Code::NoScenario) && !name_or_path.contains('"');
+    let root = failure.sources.iter().next().map(|(_, source)| source.clone());
+    let parts = root.as_ref().and_then(|root| setpiece_dsl::parts(&root.text));
+    let (Some(root), Some(formations), true) = (root, parts, only_parts) else {
+        return Ok((failure.problems, failure.sources));
+    };
+    let mut user = format!("import \"{}\"\n", root.name);
+    let teams = formations.iter().map(|name| format!("team left {{ formation: {name} }}"));
+    for (index, team) in teams.chain(["team left { CM at (-0.1, 0) }".to_owned()]).enumerate() {
+        user.push_str(&format!("scenario part_{index} {{ ball at centre  {team}  end limit 1 step }}\n"));
+    }
+    let options = CompileOptions { scenario: None, scripts: Some(&EngineScripts) };
+    let outcome = compile(Source { name: "<check>".to_owned(), text: user.into() }, &FileLoader, &options);
+    Ok((outcome.problems, outcome.sources))
 }
 
 fn compile_source(source: Source) -> Result<Loaded, Error> {

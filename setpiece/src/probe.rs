@@ -31,11 +31,11 @@ pub fn probe(loaded: &Loaded) -> Vec<Problem> {
             }
         }
         // Nothing more can be learned of a start that never changes.
-        if failed > 2 || (index > 0 && !varies) {
+        if failed > 2 || !varies {
             break;
         }
     }
-    if failed > 2 {
+    if failed > 2 || (failed > 0 && !varies) {
         problems.push(
             Problem::new(
                 Code::ImpossibleToDraw,

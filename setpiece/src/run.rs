@@ -50,6 +50,8 @@ pub struct Summary {
     pub terms: Vec<(String, f64)>,
     /// Steps per second of wall time.
     pub steps_per_second: f64,
+    /// Values paid by rewards that were no finite numbers and were left out, over all episodes.
+    pub faults: u64,
     /// Of all episodes' final states, in order.
     pub digest: u64,
     /// What the matches were like, on average.
@@ -123,6 +125,7 @@ fn summarise(episodes: Vec<Result<EpisodeSummary, EpisodeError>>, names: &[Strin
         success_rate: mean(&|episode| f64::from(u8::from(episode.verdict == Some(Verdict::Success)))),
         terms: names.iter().enumerate().map(|(index, name)| (name.clone(), term(index))).collect(),
         steps_per_second: if seconds > 0.0 { steps as f64 / seconds } else { 0.0 },
+        faults: played.iter().map(|episode| u64::from(episode.faults)).sum(),
         digest: digest::of_all(played.iter().map(|episode| episode.digest)),
         match_stats: MatchStatistics::mean(&statistics),
         episodes,

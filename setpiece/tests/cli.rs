@@ -215,6 +215,55 @@ fn wrong_options_are_one_clear_error() {
 }
 
 #[test]
+fn a_parameter_that_makes_no_start_is_one_clear_error() {
+    let folder = folder();
+    let source = CLOSE
+        .replace("ball at (0.77, 0)", "param x = 0.77\n    param n = 5\n    ball at (x, 0)\n    end limit n * 1 step");
+    let path = write(folder.path(), "free.pitch", source);
+    assert!(setpiece(&["run", &path, "--episodes", "1"]).status.success());
+    let off = fails(&["run", &path, "--set", "x=3"], 1, &["SP0701", "`the ball lies on the pitch` does not hold"]);
+    assert!(!off.contains("attempts"), "nothing is drawn: {off}");
+    fails(&["run", &path, "--set", "n=0"], 1, &["SP0701", "the limit is 1 step"]);
+    fails(&["run", &path, "--set", "n=2.5"], 1, &["SP0008", "expected a whole number, found `2.5`"]);
+    fails(&["run", "academy_corner", "--set", "difficulty=2"], 1, &["SP0008", "is 2, outside 0..1"]);
+    fails(&["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"], 1, &["SP0009", "asked for twice"]);
+}
+
+#[test]
+fn values_that_are_not_finite_are_told() {
+    let folder = folder();
+    let source = CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
+    let path = write(folder.path(), "faulty.pitch", source);
+    let output = text(&setpiece(&["run", &path, "--episodes", "2"]).stdout);
+    assert!(output.contains("values were not finite"), "{output}");
+    assert!(json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn checks_names_and_files_that_have_nothing_to_run() {
+    let folder = folder();
+    assert!(setpiece(&["check", "academy_corner"]).status.success());
+    let parts = "/// Paid per goal.\nreward mine { give 1 as \"goal\" when goal by us }\nformation pair { GK at (-1, 0)  CB at (-0.5, 0) }\n";
+    let path = write(folder.path(), "parts.pitch", parts);
+    let output = setpiece(&["check", &path]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let wrong = write(folder.path(), "wrong.pitch", parts.replace("-0.5", "fot").replace("give 1", "give 1m"));
+    fails(&["check", &wrong], 1, &["`fot`", "SP0302", "wrong.pitch:2", "wrong.pitch:3"]);
+    let nothing = write(folder.path(), "nothing.pitch", "// only a comment\n");
+    fails(&["check", &nothing], 1, &["SP0214"]);
+}
+
+#[test]
+fn reports_of_very_long_lines_are_short() {
+    let folder = folder();
+    let deep = format!("scenario s {{ ball at {}0{} }}", "(".repeat(10_000), ")".repeat(10_000));
+    let path = write(folder.path(), "deep.pitch", deep);
+    let told = fails(&["check", &path], 1, &["SP0102"]);
+    assert_eq!(told.matches("SP0").count(), 1, "one report: {told}");
+    assert!(told.len() < 2000, "{} bytes", told.len());
+}
+
+#[test]
 fn three_mistakes_get_three_located_reports() {
     let folder = folder();
     let path = write(

@@ -39,6 +39,17 @@ impl SourceLoader for CaseLoader {
         let near = setpiece_dsl::problem::nearest(path, names.iter().map(String::as_str)).map(str::to_owned);
         Err(LoadError { message: format!("no file `{path}`"), similar: near.into_iter().collect() })
     }
+
+    fn scenarios(&self) -> Vec<(String, String)> {
+        let mut files = Vec::new();
+        pitch_files(&root().join("stdlib-scenarios"), &mut files);
+        let name = |file: &PathBuf| {
+            let stem = file.file_stem()?.to_str()?.to_owned();
+            let inner = file.strip_prefix(root().join("stdlib-scenarios")).ok()?.to_str()?.to_owned();
+            inner.contains('/').then(|| (stem, format!("std/{inner}")))
+        };
+        files.iter().filter_map(name).collect()
+    }
 }
 
 /// One case: its header line and its files, the root first.

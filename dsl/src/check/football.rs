@@ -8,18 +8,12 @@ use crate::lower::team::PlayerOptions;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Team;
-use setpiece_scenario::{BallStart, BinaryOp, Instr, Reg, Require, UnaryOp};
+use setpiece_scenario::{BallStart, BinaryOp, Instr, Reg, UnaryOp};
 
 /// Nearer than this two players stand on one spot.
 const SAME_SPOT_M: f64 = 0.3;
 /// Nearer than this two players are not drawn.
 const DRAWN_GAP_M: f64 = 0.6;
-
-/// What the draw must look after.
-pub(crate) struct Placed {
-    /// Requirements on places that are not constant.
-    pub(crate) apart: Vec<Require>,
-}
 
 /// One of the situations in which the players stand somewhere: the start, or either kick-off.
 type Situation = Vec<(Reg, Reg)>;
@@ -30,9 +24,13 @@ pub(crate) fn check_places(
     places: &[(Reg, Reg)],
     options: &[PlayerOptions],
     ball: Option<&BallStart>,
-) -> Placed {
+) {
     if let (Some(ball), Some((stmt, _))) = (ball, lower.world.flat.ball) {
-        check_on_pitch(lower, (ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M), "the ball", stmt.place.span);
+        let (place, limit) = ((ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M));
+        if check_on_pitch(lower, place, limit, "the ball", stmt.place.span) == Known::Later {
+            let inside = within(lower, place, limit);
+            lower.imply(inside, "the ball lies on the pitch".to_owned());
+        }
     }
     let mut on_pitch = Vec::new();
     let mut apart = Vec::new();
@@ -42,7 +40,7 @@ pub(crate) fn check_places(
             let Some(player) = lower.world.roster.get(index) else { continue };
             let (shown, span) = (player.shown(), player.place.map_or(player.span, |place| place.span));
             if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == Known::Later {
-                on_pitch.push(inside_rim(lower, *place));
+                on_pitch.push(within(lower, *place, (RIM_X_M, RIM_Y_M)));
             }
         }
         for a in 0..situation.len() {
@@ -53,14 +51,11 @@ pub(crate) fn check_places(
             }
         }
     }
-    let mut requires = Vec::new();
     for (regs, label) in [(on_pitch, "everybody stands on the pitch"), (apart, "nobody stands on another's spot")] {
-        let all = regs.into_iter().reduce(|a, b| lower.code.binary(BinaryOp::And, a, b));
-        if let Some(condition) = all.filter(|&reg| lower.code.constant_of(reg) != Some(1.0)) {
-            requires.push(Require { condition, probability: None, label: label.to_owned() });
+        if let Some(all) = regs.into_iter().reduce(|a, b| lower.code.binary(BinaryOp::And, a, b)) {
+            lower.imply(all, label.to_owned());
         }
     }
-    Placed { apart: requires }
 }
 
 fn situations(lower: &Lower<'_, '_>, places: &[(Reg, Reg)]) -> Vec<Situation> {
@@ -111,13 +106,13 @@ fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), w
     if within(x, limit.0) && within(y, limit.1) { Known::Now } else { Known::Later }
 }
 
-fn inside_rim(lower: &mut Lower<'_, '_>, place: (Reg, Reg)) -> Reg {
+fn within(lower: &mut Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64)) -> Reg {
     let mut inside = |value: Reg, limit: f64| {
         let limit = lower.code.constant(limit);
         let size = lower.code.unary(UnaryOp::Abs, value);
         lower.code.binary(BinaryOp::Le, size, limit)
     };
-    let (x, y) = (inside(place.0, RIM_X_M), inside(place.1, RIM_Y_M));
+    let (x, y) = (inside(place.0, limit.0), inside(place.1, limit.1));
     lower.code.binary(BinaryOp::And, x, y)
 }
 

@@ -3,7 +3,7 @@
 use super::value::{Frame, Scope};
 use super::{Lower, Stage, World, script};
 use crate::ast::{EndCondition, ItemKind};
-use crate::problem::{Code, Problem};
+use crate::problem::{Code, Problem, nearest};
 use crate::resolve::FlatEnding;
 use setpiece_scenario::vocabulary::Verdict;
 use setpiece_scenario::{Ending, Endings, Reg};
@@ -40,6 +40,20 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
         Some(word) => Verdict::from_name(&word.node),
         None => None,
     };
+    if let (Some(label), None) = (ending.label, verdict)
+        && let Some(meant) = nearest(&label.name.node, Verdict::ALL.iter().map(|verdict| verdict.name()))
+    {
+        let name = &label.name.node;
+        lower.report(
+            Problem::new(
+                Code::LikelyTypo,
+                label.name.span,
+                format!("`{name}` is a label, no verdict"),
+                "neither success nor failure",
+            )
+            .help(format!("did you mean `{meant}`?")),
+        );
+    }
     let label = match (ending.label, verdict) {
         (Some(label), _) => label.name.node.clone(),
         (None, Some(verdict)) => verdict.name().to_owned(),
@@ -66,7 +80,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
                 let name = &reference.name.node;
                 let problem =
                     Problem::new(Code::UnknownName, reference.name.span, format!("no `ending` is called `{name}`"), "");
-                let near = crate::problem::nearest(name, known.iter().copied()).is_some();
+                let near = nearest(name, known.iter().copied()).is_some();
                 lower.report(if near {
                     problem.did_you_mean(name, known)
                 } else {

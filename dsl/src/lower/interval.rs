@@ -70,6 +70,10 @@ fn binary(op: BinaryOp, a: Interval, b: Interval) -> Option<Interval> {
         | BinaryOp::And
         | BinaryOp::Or => (0.0, 1.0),
         BinaryOp::Mod if b.0 > 0.0 => (0.0, b.1),
+        BinaryOp::Hypot => {
+            let size = |a: Interval| if a.0 <= 0.0 && a.1 >= 0.0 { 0.0 } else { a.0.abs().min(a.1.abs()) };
+            (size(a).hypot(size(b)), a.0.abs().max(a.1.abs()).hypot(b.0.abs().max(b.1.abs())))
+        }
         _ => return None,
     })
 }

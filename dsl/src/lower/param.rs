@@ -93,6 +93,9 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         declared,
     };
     let Some(expr) = flat.value else {
+        if world.flat.item.is_abstract {
+            return info;
+        }
         world.report(
             Problem::new(
                 Code::WrongArguments,

@@ -347,6 +347,12 @@ impl<'w> Writer<'_, 'w> {
         if give.label.is_none() {
             self.unlabelled += 1;
         }
+        if let Some(label) = give.label.as_ref().filter(|label| label.node.trim().is_empty()) {
+            self.lower.report(
+                Problem::new(Code::OutOfRange, label.span, "a label has at least one letter", "")
+                    .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
+            );
+        }
         let label = give.label.as_ref().map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
         let term = self.term(label);
         if give.on.is_empty() {

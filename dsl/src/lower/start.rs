@@ -19,6 +19,11 @@ use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
 use std::collections::BTreeMap;
 
+/// Seconds of a step.
+const STEP_S: f64 = 0.1;
+/// Longest duration that a start may name: a million steps.
+pub(crate) const LONGEST_S: f64 = 1.0e5;
+
 /// A player's places at kick-offs: when his team kicks off, and when the others do.
 pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
 
@@ -33,6 +38,8 @@ pub(crate) struct StartState<'w> {
     pub(crate) layouts: Vec<Option<Layouts>>,
     /// The ball's place.
     pub(crate) ball: Found<(Reg, Reg)>,
+    /// What must hold of values that are known at the draw only.
+    pub(crate) implied: Vec<Require>,
     lets: BTreeMap<&'w str, Option<Value<'w>>>,
     first: Option<Reg>,
     drawing: String,
@@ -120,9 +127,9 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     let limit = lower.limit();
     let (score, elapsed) = lower.start_fields();
     let mut requires = lower.requires();
-    let football::Placed { apart } = football::check_places(&mut lower, &places, &options, ball.as_ref());
-    requires.extend(apart);
+    football::check_places(&mut lower, &places, &options, ball.as_ref());
     let kickoff = lower.kickoff(&places);
+    requires.append(&mut lower.start.implied);
 
     let lets = lower.let_slots();
     let mut wanted: Vec<Reg> = Vec::new();
@@ -345,8 +352,21 @@ impl<'w> Lower<'_, 'w> {
         let (expr, _) = self.world.flat.limit?;
         let reg = self.want_reg(expr, Ty::DURATION);
         self.check_not_drawn(reg, "the limit", expr.span);
-        self.check_range(reg, (0.1, 1.0e6), "the limit", expr.span, "`1 step` or more");
+        self.check_range(reg, (STEP_S, LONGEST_S), "the limit", expr.span, "`1 step..1000000 steps`");
+        self.check_steps(reg, "the limit", expr.span);
         Some(reg)
+    }
+
+    /// Reports a constant duration that is no whole number of steps.
+    pub(crate) fn check_steps(&self, reg: Reg, what: &str, span: Span) {
+        let Some(steps) = self.code.constant_of(reg).map(|seconds| seconds / STEP_S) else { return };
+        if (steps - steps.round()).abs() > 1e-6 {
+            let message = format!("{what} is `{}`: {steps:.3} steps", self.world.text(span));
+            self.report(
+                Problem::new(Code::OutOfRange, span, message, "not a whole number of steps")
+                    .help(format!("write `{} steps`; a step is 0.1 s", steps.round().max(1.0))),
+            );
+        }
     }
 
     fn requires(&mut self) -> Vec<Require> {

@@ -8,7 +8,7 @@ use crate::check::options::{self, PLAYER, TEAM};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::{Stat, Team};
-use setpiece_scenario::{Ai, BinaryOp, Reg};
+use setpiece_scenario::{Ai, Reg};
 
 /// The options of a player.
 pub(crate) struct PlayerOptions {
@@ -46,6 +46,9 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
     }
     found.unwrap_or_else(|| lower.code.constant(if team == Team::Left { 1.0 } else { 0.6 }))
 }
+
+/// The fastest sprints on record.
+const FASTEST_PLAYER_MPS: f64 = 12.0;
 
 /// A number of 0..1.
 fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
@@ -134,13 +137,8 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
                 );
             }
             let velocity = lower.pair(&value);
-            let speed = lower.code.binary(BinaryOp::Hypot, velocity.0, velocity.1);
-            if let (Some(x), Some(y)) = (lower.code.constant_of(velocity.0), lower.code.constant_of(velocity.1))
-                && x * x + y * y > 12.0 * 12.0
-            {
-                lower.report(Problem::new(Code::OutOfRange, expr.span, "nobody runs faster than 12 m/s", ""));
-            }
-            debug_assert!(speed.index() < usize::MAX);
+            let zero = lower.code.constant(0.0);
+            lower.check_speed((velocity.0, velocity.1, zero), FASTEST_PLAYER_MPS, "a player", expr.span);
             options.velocity = Some(velocity);
         }
         "controllable" => {

@@ -46,7 +46,12 @@ impl Reader<'_> {
                 let indent = self.indent(range.start);
                 // A further line of a statement that was told about is no news.
                 if told.as_ref().is_none_or(|told| indent <= told.indent) {
-                    self.recover(context, range.clone(), before.clone());
+                    let condemned = self.recover(context, range.clone(), before.clone());
+                    if let Some(last) = statements.last_mut().filter(|_| condemned)
+                        && let Some(before) = &before
+                    {
+                        *last = broken(self.between(before.start, before.end), String::new());
+                    }
                     told = Some(Told {
                         indent: before.as_ref().map_or(indent, |before| indent.min(self.indent(before.start))),
                     });
@@ -72,14 +77,15 @@ impl Reader<'_> {
 
     /// Re-reads junk to say what was expected, and reads the blocks in it for further problems.
     ///
-    /// - `before`: the statement in front of it, which may be the one that goes wrong here.
-    fn recover(&mut self, context: Context, junk: Range<usize>, before: Option<Range<usize>>) {
+    /// - `before`: the statement in front of it, which may be the one that goes wrong here; `true` if it means nothing.
+    fn recover(&mut self, context: Context, junk: Range<usize>, before: Option<Range<usize>>) -> bool {
         let continued = before.filter(|before| !self.text.get(..before.end).unwrap_or_default().ends_with('}'));
         let start = continued.as_ref().map_or(junk.start, |before| before.start);
         let slice = self.text.get(start..junk.end).unwrap_or_default();
         if !self.spend(slice.len()) {
             let problem = self.expectation(context, &junk, None, junk.start, &[]);
-            return self.push(problem);
+            self.push(problem);
+            return false;
         }
         let (at, positives) = match PitchParser::parse(context.probe(), slice) {
             Ok(_) => (junk.start, Vec::new()),
@@ -109,8 +115,10 @@ impl Reader<'_> {
             positives.clear();
         }
         let problem = self.expectation(context, &junk, continued.as_ref(), at, &positives);
+        let condemned = problem.code == Code::UnknownRole && continued.is_some();
         self.push(problem);
         self.read_block(context, &junk, at);
+        condemned
     }
 
     /// Reads the block behind a head that went wrong, for the problems in it.

@@ -137,11 +137,12 @@ impl Reader<'_> {
         };
         let per_second = nodes.eat(Rule::per_second);
         let once = nodes.want(Rule::kw_once).map(|once| self.span(&once));
+        let label = self.label(&mut nodes);
         let on = nodes.want(Rule::give_on).and_then(|on| Nodes::of(on).seek(Rule::events));
         let on = on.map(|on| self.events(on)).unwrap_or_default();
         let when = nodes.want(Rule::give_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
         let when = when.map(|when| self.expr(when));
-        Some(GiveStmt { value, per_second, once, on, when, label: self.label(&mut nodes) })
+        Some(GiveStmt { value, per_second, once, on, when, label: label.or_else(|| self.label(&mut nodes)) })
     }
 }
 

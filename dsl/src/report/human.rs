@@ -4,11 +4,17 @@ use super::{MAX_SHOWN, count};
 use crate::problem::{Label, Problem, Severity};
 use crate::source::{FileId, Sources};
 use miette::{
-    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode, ThemeCharacters,
-    ThemeStyles,
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
+    SourceSpan, SpanContents, ThemeCharacters, ThemeStyles,
 };
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
+
+/// Longest line that is shown whole, bytes; of a longer one what is near the mark.
+const LINE_MAX: usize = 240;
+/// What is shown of a long line on either side of the mark's beginning, bytes.
+const AROUND: usize = 60;
 
 /// Draws the first problems and counts all.
 pub(super) fn render(problems: &[&Problem], sources: &Sources, color: bool, width: usize) -> String {
@@ -35,7 +41,7 @@ struct Picture {
     severity: miette::Severity,
     message: String,
     help: Option<String>,
-    source: Option<NamedSource<Arc<str>>>,
+    source: Option<Shown>,
     labels: Vec<LabeledSpan>,
     notes: Vec<Picture>,
 }
@@ -43,9 +49,23 @@ struct Picture {
 impl Picture {
     fn of(problem: &Problem, sources: &Sources) -> Picture {
         let file = problem.labels.first().map(|label| label.span.file);
-        let (here, elsewhere): (Vec<&Label>, Vec<&Label>) =
-            problem.labels.iter().partition(|label| Some(label.span.file) == file);
-        let mark = |(i, label): (usize, &Label)| span(label, i == 0);
+        let source = file.and_then(|file| Shown::of(file, sources));
+        // Only labels that fit into one drawing share it.
+        let primary_is_long = match (&source, problem.labels.first()) {
+            (Some(source), Some(label)) => source.is_long_at(label.span.start as usize),
+            _ => false,
+        };
+        let mut here = Vec::new();
+        let mut elsewhere = Vec::new();
+        for (i, label) in problem.labels.iter().enumerate() {
+            let long = source.as_ref().is_some_and(|source| source.is_long_at(label.span.start as usize));
+            let apart = i > 0 && (Some(label.span.file) != file || primary_is_long || long);
+            if apart {
+                elsewhere.push(Picture::note(label, sources));
+            } else {
+                here.push(span(label, source.as_ref(), i == 0));
+            }
+        }
         Picture {
             code: Some(problem.code.to_string()),
             severity: match problem.severity() {
@@ -54,34 +74,103 @@ impl Picture {
             },
             message: problem.message.clone(),
             help: problem.help.clone(),
-            source: file.and_then(|file| source(file, sources)),
-            labels: here.into_iter().enumerate().map(mark).collect(),
-            notes: elsewhere.into_iter().map(|label| Picture::note(label, sources)).collect(),
+            source,
+            labels: here,
+            notes: elsewhere,
         }
     }
 
-    /// A label of another file.
+    /// A label that has a drawing of its own.
     fn note(label: &Label, sources: &Sources) -> Picture {
         let (message, bare) = (label.text.clone(), Label { span: label.span, text: String::new() });
+        let source = Shown::of(label.span.file, sources);
+        let labels = vec![span(&bare, source.as_ref(), true)];
         Picture {
             code: None,
             severity: miette::Severity::Advice,
             message,
             help: None,
-            source: source(label.span.file, sources),
-            labels: vec![span(&bare, true)],
+            source,
+            labels,
             notes: Vec::new(),
         }
     }
 }
 
-fn source(file: FileId, sources: &Sources) -> Option<NamedSource<Arc<str>>> {
-    sources.get(file).map(|source| NamedSource::new(&source.name, Arc::clone(&source.text)))
+/// A file as reports show it: whole lines, but of a very long one only what is near the mark.
+#[derive(Debug)]
+struct Shown {
+    name: String,
+    text: Arc<str>,
 }
 
-fn span(label: &Label, primary: bool) -> LabeledSpan {
+impl Shown {
+    fn of(file: FileId, sources: &Sources) -> Option<Shown> {
+        sources.get(file).map(|source| Shown { name: source.name.clone(), text: Arc::clone(&source.text) })
+    }
+
+    /// The line around an offset, without its end.
+    fn line(&self, at: usize) -> Range<usize> {
+        let at = self.boundary(at);
+        let start = self.text.get(..at).and_then(|text| text.rfind('\n')).map_or(0, |at| at + 1);
+        let end = self.text.get(at..).and_then(|text| text.find('\n')).map_or(self.text.len(), |length| at + length);
+        start..end
+    }
+
+    fn is_long_at(&self, at: usize) -> bool {
+        self.line(at).len() > LINE_MAX
+    }
+
+    /// The character boundary at or before an offset.
+    fn boundary(&self, at: usize) -> usize {
+        let mut at = at.min(self.text.len());
+        while !self.text.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    }
+
+    /// The part of a mark that is drawn.
+    fn mark(&self, range: Range<usize>) -> Range<usize> {
+        if !self.is_long_at(range.start) {
+            return range;
+        }
+        let end = self.boundary(range.start + AROUND).min(self.line(range.start).end);
+        range.start..range.end.min(end).max(range.start)
+    }
+}
+
+impl SourceCode for Shown {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let whole = self.text.as_ref().read_span(span, before, after)?;
+        let named = |data: &'a [u8], at: SourceSpan, line: usize, column: usize, lines: usize| {
+            Ok(Box::new(MietteSpanContents::new_named(self.name.clone(), data, at, line, column, lines)) as Box<_>)
+        };
+        let longest = whole.data().split(|byte| *byte == b'\n').map(<[u8]>::len).max().unwrap_or_default();
+        if longest <= LINE_MAX {
+            let (start, length) = (whole.span().offset(), whole.span().len());
+            let data = self.text.as_bytes().get(start..start + length).unwrap_or_default();
+            return named(data, *whole.span(), whole.line(), whole.column(), whole.line_count());
+        }
+        let line = self.line(span.offset());
+        let start = self.boundary(span.offset().saturating_sub(AROUND).max(line.start));
+        let end = self.boundary((span.offset() + 2 * AROUND).max(span.offset() + span.len()).min(line.end));
+        let number = self.text.get(..line.start).map_or(0, |text| text.matches('\n').count());
+        let column = self.text.get(line.start..start).map_or(0, |text| text.chars().count());
+        let data = self.text.as_bytes().get(start..end).unwrap_or_default();
+        named(data, SourceSpan::new(start.into(), end - start), number, column, 1)
+    }
+}
+
+fn span(label: &Label, source: Option<&Shown>, primary: bool) -> LabeledSpan {
     let text = (!label.text.is_empty()).then(|| label.text.clone());
     let range = label.span.start as usize..label.span.end as usize;
+    let range = source.map_or(range.clone(), |source| source.mark(range));
     if primary { LabeledSpan::new_primary_with_span(text, range) } else { LabeledSpan::new_with_span(text, range) }
 }
 

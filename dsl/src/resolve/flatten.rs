@@ -329,6 +329,24 @@ impl<'a> Adding<'a, '_> {
         };
         let Some(flat) = self.flat.teams.get_mut(index) else { return };
         for stmt in body {
+            let TeamStmtKind::Absent(role) = &stmt.kind else { continue };
+            let placed = body
+                .iter()
+                .find(|other| matches!(&other.kind, TeamStmtKind::Player(player) if player.role.node == role.node));
+            if let Some(placed) = placed {
+                self.problems.push(
+                    Problem::new(
+                        Code::AbsentPlayer,
+                        role.span,
+                        format!("`{}` is absent and placed", role.node),
+                        "absent here",
+                    )
+                    .label(placed.span, "placed here")
+                    .help("leave one of the two lines out"),
+                );
+            }
+        }
+        for stmt in body {
             match &stmt.kind {
                 TeamStmtKind::Player(player) => flat.players.push((player, stmt.span)),
                 TeamStmtKind::Override { who, change } => {

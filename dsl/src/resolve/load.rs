@@ -17,8 +17,12 @@ pub(crate) struct Library {
     pub(crate) files: Vec<File>,
     /// Names the loader was asked for, in order.
     pub(crate) inputs: Vec<String>,
+    /// Scenarios that every file may extend without an import: name and path.
+    pub(crate) scenarios: Vec<(String, String)>,
     imports: Vec<Vec<Import>>,
     prelude: Option<FileId>,
+    /// Files of such scenarios, loaded because one of them is extended.
+    extended: Vec<FileId>,
     seen: Vec<BTreeMap<String, Vec<ItemAt>>>,
 }
 
@@ -46,8 +50,10 @@ pub(crate) fn load(root: &Source, loader: &dyn SourceLoader, problems: &mut Vec<
         sources: Sources::default(),
         files: Vec::new(),
         inputs: vec![root.name.clone()],
+        scenarios: loader.scenarios(),
         imports: Vec::new(),
         prelude: None,
+        extended: Vec::new(),
         seen: Vec::new(),
     };
     let mut loading = Loading { library: &mut library, loader, problems, stack: Vec::new() };
@@ -56,8 +62,9 @@ pub(crate) fn load(root: &Source, loader: &dyn SourceLoader, problems: &mut Vec<
     if let Ok(source) = loader.load(PRELUDE, PRELUDE) {
         let known = loading.known(&source.name);
         let prelude = known.unwrap_or_else(|| loading.file(&source));
-        library.prelude = Some(prelude);
+        loading.library.prelude = Some(prelude);
     }
+    loading.extended_scenarios();
     library.collect_names(problems);
     library
 }
@@ -70,6 +77,27 @@ struct Loading<'a> {
 }
 
 impl Loading<'_> {
+    /// Loads the library's scenarios that some file extends and no file declares.
+    fn extended_scenarios(&mut self) {
+        let mut next = 0;
+        while let Some(file) = self.library.files.get(next) {
+            next += 1;
+            let parents: Vec<String> = file.items.iter().filter_map(parent).map(str::to_owned).collect();
+            for name in parents {
+                let items = self.library.files.iter().flat_map(|file| &file.items);
+                let declared = items.filter_map(item_name).any(|known| known.node == name);
+                let path =
+                    self.library.scenarios.iter().find(|(known, _)| *known == name).map(|(_, path)| path.clone());
+                let Some(source) = path.filter(|_| !declared).and_then(|path| self.loader.load(&path, &path).ok())
+                else {
+                    continue;
+                };
+                let file = self.file(&source);
+                self.library.extended.push(file);
+            }
+        }
+    }
+
     fn known(&self, name: &str) -> Option<FileId> {
         self.library.sources.iter().find(|(_, source)| source.name == name).map(|(id, _)| id)
     }
@@ -178,6 +206,9 @@ impl Library {
                 self.exports(prelude, &own, &mut vec![false; self.files.len()], "", &mut given);
                 merge(&mut names, given);
             }
+            for extended in &self.extended {
+                merge(&mut names, own.get(extended.0 as usize).cloned().unwrap_or_default());
+            }
             seen.push(names);
         }
         self.seen = seen;
@@ -244,6 +275,14 @@ fn own_names(file: &File, problems: &mut Vec<Problem>) -> BTreeMap<String, Vec<I
         names.insert(name.node.clone(), vec![ItemAt(file.id, index)]);
     }
     names
+}
+
+/// The name of the scenario that an item extends.
+fn parent(item: &Item) -> Option<&str> {
+    match &item.kind {
+        ItemKind::Scenario(scenario) => scenario.extends.as_ref().map(|parent| parent.name.node.as_str()),
+        _ => None,
+    }
 }
 
 /// The name of an item, if it has one.

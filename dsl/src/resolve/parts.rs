@@ -59,10 +59,12 @@ pub(super) fn chain<'a, T>(
     while let Some(parent_ref) = extends(at) {
         let name = &parent_ref.name;
         let Some(parent) = library.find(name.span.file, &name.node).and_then(|found| pick(&found.item.kind)) else {
+            let given = library.scenarios.iter().filter(|_| noun == "scenario").map(|(name, _)| name.as_str());
             let candidates: Vec<&str> = library
                 .visible(name.span.file)
                 .filter(|(_, found)| pick(&found.item.kind).is_some_and(|other| !std::ptr::eq(other, at)))
                 .map(|(name, _)| name)
+                .chain(given)
                 .collect();
             problems.push(
                 Problem::new(
@@ -75,7 +77,11 @@ pub(super) fn chain<'a, T>(
             );
             break;
         };
-        if chain.iter().any(|(known, _)| std::ptr::eq(*known, parent)) {
+        if let Some(begin) = chain.iter().position(|(known, _)| std::ptr::eq(*known, parent)) {
+            // Whoever meets the circle tells of it at the same place.
+            let circle = chain.iter().skip(begin + 1).filter_map(|(_, reference)| *reference);
+            let first = circle.map(|reference| &reference.name).chain([name]).min_by_key(|name| name.span);
+            let name = first.unwrap_or(name);
             problems.push(Problem::new(
                 Code::ExtendsCycle,
                 name.span,

@@ -87,14 +87,21 @@ fn a_required_share_is_not_biased_by_redraws() {
 fn the_requirement_that_fails_most_is_named() {
     let mut scenario = striker(-20.0, 20.0);
     let at = scenario.players[0].start.x;
-    let (far, never) = (push(&mut scenario, Instr::Const(10.0)), push(&mut scenario, Instr::Const(0.0)));
+    let far = push(&mut scenario, Instr::Const(10.0));
     let up = push(&mut scenario, Instr::Binary(BinaryOp::Gt, at, far));
     scenario.start.requires.push(Require { condition: up, probability: None, label: "up".to_owned() });
-    scenario.start.requires.push(Require { condition: never, probability: None, label: "impossible".to_owned() });
+    let down = push(&mut scenario, Instr::Binary(BinaryOp::Lt, at, far));
+    scenario.start.requires.push(Require { condition: down, probability: None, label: "down".to_owned() });
     let error = draw(&scenario, 1, 0).unwrap_err();
     assert_eq!(error.attempts, ATTEMPTS_MAX);
     assert_eq!(error.requirement, "up");
     assert!(error.failures > ATTEMPTS_MAX / 2, "{error}");
+
+    // What no draw can change is tried once.
+    let never = push(&mut scenario, Instr::Const(0.0));
+    scenario.start.requires.insert(0, Require { condition: never, probability: None, label: "impossible".to_owned() });
+    let error = draw(&scenario, 1, 0).unwrap_err();
+    assert_eq!((error.attempts, error.requirement.as_str()), (1, "impossible"));
 }
 
 #[test]

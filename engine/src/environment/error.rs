@@ -16,6 +16,9 @@ pub enum EnvironmentError {
         /// What there is.
         known: Vec<String>,
     },
+    /// A reward was asked for twice.
+    #[error("reward `{0}` is asked for twice")]
+    RewardTwice(String),
     /// A parameter's value is not allowed.
     #[error(transparent)]
     Param(#[from] ParamError),

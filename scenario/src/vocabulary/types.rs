@@ -27,6 +27,33 @@ words! {
     }
 }
 
+impl Type {
+    /// The type in a sentence, with an example where its writing is not plain.
+    pub const fn noun(self) -> &'static str {
+        match self {
+            Type::Number => "a number",
+            Type::Int => "a whole number",
+            Type::Bool => "`on` or `off`",
+            Type::Percent => "a share such as 60%",
+            Type::Length => "a length such as 12m",
+            Type::Duration => "a duration such as 3s or 30 steps",
+            Type::Speed => "a speed such as 5m/s",
+            Type::Angle => "an angle such as 45deg",
+            Type::Point => "a point",
+            Type::Vector => "a vector",
+            Type::Region => "a region",
+            Type::Player => "a player",
+            Type::Set => "some players",
+            Type::Team => "`left`, `right` or `none`",
+            Type::Formation => "a formation",
+            Type::Behavior => "a behavior",
+            Type::String => "a word",
+            Type::Mode => "a game mode",
+            Type::Role => "a role",
+        }
+    }
+}
+
 words! {
     /// A unit that touches its number.
     Unit {

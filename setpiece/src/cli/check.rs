@@ -1,19 +1,17 @@
 //! `setpiece check`: every problem of some files.
 
 use super::{FAULT, FINE, MessageFormat, out::Out};
+use crate::Error;
 use crate::dsl::problem::Severity;
 use crate::dsl::report::{Format, render};
-use crate::{Error, load_file};
-use std::path::{Path, PathBuf};
 
 /// Compiles each file and prints what was found.
-pub(crate) fn check(files: &[PathBuf], format: MessageFormat, out: &Out) -> u8 {
+pub(crate) fn check(files: &[String], format: MessageFormat, out: &Out) -> u8 {
     let mut failed = false;
     let mut array = Vec::new();
     for file in files {
-        let (problems, sources) = match load_file(file) {
-            Ok(loaded) => (crate::probe::probe(&loaded), loaded.sources),
-            Err(Error::Compile(failure)) => (failure.problems, failure.sources),
+        let (problems, sources) = match crate::check(file) {
+            Ok(found) => found,
             Err(error) => {
                 failed = true;
                 match format {
@@ -26,11 +24,11 @@ pub(crate) fn check(files: &[PathBuf], format: MessageFormat, out: &Out) -> u8 {
         let errors = problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
         failed |= errors > 0;
         match format {
-            MessageFormat::Human if problems.is_empty() => out.line(&format!("{}: no problems", file.display())),
+            MessageFormat::Human if problems.is_empty() => out.line(&format!("{file}: no problems")),
             MessageFormat::Human => {
                 out.problems(&problems, &sources);
                 let warnings = problems.len() - errors;
-                out.line(&format!("{}: {} and {}", file.display(), count(errors, "error"), count(warnings, "warning")));
+                out.line(&format!("{}: {} and {}", file, count(errors, "error"), count(warnings, "warning")));
             }
             MessageFormat::Json => {
                 let text = render(&problems, &sources, Format::Json);
@@ -47,10 +45,10 @@ pub(crate) fn check(files: &[PathBuf], format: MessageFormat, out: &Out) -> u8 {
 }
 
 /// A fault that has no place in a text, in the shape of the others.
-fn bare(error: &Error, file: &Path) -> serde_json::Value {
+fn bare(error: &Error, file: &str) -> serde_json::Value {
     serde_json::json!({
         "code": error.code().to_string(), "severity": "error", "message": error.to_string(), "help": error.help(),
-        "labels": [], "file": file.display().to_string(),
+        "labels": [], "file": file,
     })
 }
 

@@ -27,6 +27,7 @@ struct Report<'a> {
     mean_length: f64,
     success_rate: f64,
     terms: BTreeMap<&'a str, f64>,
+    faults: u64,
     steps_per_second: f64,
     match_stats: &'a MatchMeans,
     digest: String,
@@ -56,6 +57,7 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
         mean_length: summary.mean_length,
         success_rate: summary.success_rate,
         terms: summary.terms.iter().map(|(name, mean)| (name.as_str(), *mean)).collect(),
+        faults: summary.faults,
         steps_per_second: summary.steps_per_second,
         match_stats: &summary.match_stats,
         digest: format!("{:016x}", summary.digest),
@@ -97,6 +99,10 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
     out.line(&format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
     for (name, mean) in &summary.terms {
         out.line(&format!("  {:width$}    {mean:+.3}  {name}", ""));
+    }
+    if summary.faults > 0 {
+        let told = format!("{} values were not finite and were not paid: a division by zero?", summary.faults);
+        out.line(&format!("  {:width$}    {}", "", out.paint(&told, Paint::Failure)));
     }
     out.line(&format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
     if scenario.endings.list.is_empty() {

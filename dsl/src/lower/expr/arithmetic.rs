@@ -206,7 +206,7 @@ impl<'w> Lower<'_, 'w> {
     fn order(&mut self, op: ast::BinaryOp, a: &'w Expr, b: &'w Expr) -> Value<'w> {
         let (x, y) = (self.expr(a), self.expr(b));
         if x.is_error() || y.is_error() {
-            return Value::one(Ty::Error, self.code.constant(0.0));
+            return Value::error();
         }
         match (x.ty.dim(), y.ty.dim()) {
             (Some(left), Some(right)) if left == right => {}

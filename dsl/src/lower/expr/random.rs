@@ -75,15 +75,58 @@ impl<'w> Lower<'_, 'w> {
             }
         };
         if let Some((a, b)) = ends
-            && let (Some(low), Some(high)) = (self.interval(a), self.interval(b))
-            && low.0 > high.1
+            && !self.check_ends(a, b, span)
         {
-            return self.fail(
-                Problem::new(Code::OutOfRange, span, "the upper end lies below the lower one", "")
-                    .help("write the lower end first"),
-            );
+            return Value::error();
+        }
+        if let Distribution::Normal(_, sd) | Distribution::TruncatedNormal(_, sd, _, _) = distribution {
+            let at = rest.first().map_or(span, |sd| sd.span);
+            self.check_range(sd, (0.0, f64::MAX), "the standard deviation", at, "`0` or more");
         }
         Value::one(wanted, self.random(distribution))
+    }
+
+    /// Reports ends that are the wrong way round; `false` if they always are.
+    fn check_ends(&mut self, a: Reg, b: Reg, span: Span) -> bool {
+        if let (Some(low), Some(high)) = (self.interval(a), self.interval(b)) {
+            if low.0 > high.1 {
+                self.report(
+                    Problem::new(Code::OutOfRange, span, "the upper end lies below the lower one", "")
+                        .help("write the lower end first"),
+                );
+                return false;
+            }
+            if low.1 <= high.0 {
+                return true;
+            }
+        }
+        let ordered = self.code.binary(BinaryOp::Le, a, b);
+        let text = self.world.text(span);
+        self.imply(ordered, format!("the lower end of `{text}` lies below the upper one"));
+        true
+    }
+
+    /// Reports weights that are negative, or all nothing.
+    fn check_weights(&mut self, weights: &[(Reg, Span)], span: Span) {
+        for &(weight, at) in weights {
+            self.check_range(weight, (0.0, f64::MAX), "the weight", at, "`0` or more");
+        }
+        let sum = weights.iter().map(|(weight, _)| *weight).reduce(|a, b| self.code.binary(BinaryOp::Add, a, b));
+        let Some(sum) = sum else { return };
+        if self.interval(sum).is_some_and(|(low, _)| low > 0.0) {
+            return;
+        }
+        if self.code.constant_of(sum) == Some(0.0) {
+            self.report(
+                Problem::new(Code::OutOfRange, span, "every choice has the weight 0", "")
+                    .help("give one of them a weight above 0"),
+            );
+            return;
+        }
+        let zero = self.code.constant(0.0);
+        let any = self.code.binary(BinaryOp::Gt, sum, zero);
+        let text = self.world.text(span);
+        self.imply(any, format!("a weight of `{text}` is above 0"));
     }
 
     /// `choice(a, b, c)`, `choice(a: 3, b: 1)`
@@ -113,6 +156,10 @@ impl<'w> Lower<'_, 'w> {
         }
         if options.iter().any(|(value, _)| value.is_error()) {
             return Value::error();
+        }
+        if weighted {
+            let given: Vec<(Reg, Span)> = weights.iter().zip(args).map(|(reg, arg)| (*reg, arg.value.span)).collect();
+            self.check_weights(&given, span);
         }
         let index = self.random(Distribution::Weighted(weights));
         let mut options = options.into_iter().enumerate().rev();

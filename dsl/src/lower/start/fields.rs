@@ -4,10 +4,16 @@ use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind};
 use crate::check::options::{self, BALL, START};
 use crate::check::types::Ty;
 use crate::lower::Lower;
+use crate::lower::start::LONGEST_S;
 use crate::lower::value::Repr;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::{Rule, StartKind};
 use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
+
+/// No kicked ball is faster; the hardest shots on record are slower by a fifth.
+const FASTEST_BALL_MPS: f64 = 70.0;
+/// Radians per second; a hard free kick spins at about 60.
+const FASTEST_SPIN: f64 = 200.0;
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
@@ -47,7 +53,8 @@ impl<'w> Lower<'_, 'w> {
             let Some(expr) = options::expression(self, field) else { continue };
             if field.key.node == "elapsed" {
                 let reg = self.want_reg(expr, Ty::DURATION);
-                self.check_range(reg, (0.0, f64::MAX), "`elapsed`", expr.span, "`0 steps` or more");
+                self.check_range(reg, (0.0, LONGEST_S), "`elapsed`", expr.span, "`0 steps..1000000 steps`");
+                self.check_steps(reg, "`elapsed`", expr.span);
                 elapsed = Some(reg);
                 continue;
             }
@@ -96,11 +103,13 @@ impl<'w> Lower<'_, 'w> {
                 "velocity" => {
                     let value = lower.want(expr, Ty::Velocity);
                     let zero = lower.code.constant(0.0);
-                    start.velocity = Some(match value.repr {
+                    let velocity = match value.repr {
                         Repr::Three(x, y, z) => (x, y, z),
                         Repr::Two(x, y) => (x, y, zero),
                         _ => (zero, zero, zero),
-                    });
+                    };
+                    lower.check_speed(velocity, FASTEST_BALL_MPS, "the ball", expr.span);
+                    start.velocity = Some(velocity);
                 }
                 "height" => {
                     let reg = lower.want_reg(expr, Ty::LENGTH);
@@ -118,7 +127,12 @@ impl<'w> Lower<'_, 'w> {
         if let ExprKind::Tuple(parts) = &expr.kind
             && let [x, y, z] = parts.as_slice()
         {
-            return Some((self.want_reg(x, Ty::Number), self.want_reg(y, Ty::Number), self.want_reg(z, Ty::Number)));
+            let mut about = |expr: &'w Expr| {
+                let reg = self.want_reg(expr, Ty::Number);
+                self.check_range(reg, (-FASTEST_SPIN, FASTEST_SPIN), "the spin", expr.span, "`-200..200`");
+                reg
+            };
+            return Some((about(x), about(y), about(z)));
         }
         self.report(
             Problem::new(Code::WrongType, expr.span, "expected the spin about three axes", "")
@@ -169,23 +183,24 @@ impl<'w> Lower<'_, 'w> {
             (Rule::HalfTime, _) => {
                 let value = self.expr(expr);
                 let reg = self.reg(&value);
-                match value.ty {
+                let steps = match value.ty {
                     Ty::Error => return None,
-                    Ty::Int => {}
+                    Ty::Int => reg,
                     Ty::DURATION => {
+                        self.check_steps(reg, "`half_time`", expr.span);
                         let step = self.code.constant(0.1);
                         let steps = self.code.binary(BinaryOp::Div, reg, step);
-                        let steps = self.code.unary(UnaryOp::Round, steps);
-                        return Some(steps);
+                        self.code.unary(UnaryOp::Round, steps)
                     }
                     ty => {
                         let problem = self.mismatch(ty, Ty::DURATION, expr.span);
                         self.report(problem.help("write `half_time: off` or `half_time: 1500 steps`"));
                         return None;
                     }
-                }
-                self.check_range(reg, (0.0, f64::MAX), "`half_time`", expr.span, "`0 steps` or more");
-                Some(reg)
+                };
+                let most = LONGEST_S * 10.0;
+                self.check_range(steps, (0.0, most), "`half_time`", expr.span, "`0 steps..1000000 steps`");
+                Some(steps)
             }
             _ => {
                 let value = self.expr(expr);

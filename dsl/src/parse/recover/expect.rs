@@ -43,7 +43,8 @@ impl Reader<'_> {
         let found = if word.is_empty() { "the end of the file".to_owned() } else { format!("`{word}`") };
         let label = if starts { "no statement begins like this" } else { "this can't stand here" };
         let problem = Problem::new(Code::Syntax, self.at(at), format!("expected {wanted}, found {found}"), label);
-        hint(problem, word, self.text.get(at..).unwrap_or_default())
+        let (done, rest) = self.text.split_at_checked(at).unwrap_or_default();
+        hint(problem, word, done, rest)
     }
 
     /// The offset of the next token behind blanks and comments.
@@ -274,8 +275,11 @@ fn list(context: Context, positives: &[Rule]) -> String {
 }
 
 /// Help for habits of other languages.
-fn hint(problem: Problem, word: &str, rest: &str) -> Problem {
+fn hint(problem: Problem, word: &str, done: &str, rest: &str) -> Problem {
     let help = match word {
+        // One of them joins regions.
+        "&" if done.ends_with('&') => "write `and`",
+        "|" if done.ends_with('|') => "write `or`",
         "&&" => "write `and`",
         "||" => "write `or`",
         "!" => "write `not`",

@@ -70,6 +70,8 @@ pub fn check_script(source: &str, hook: &str) -> Vec<ScriptFault> {
         }
     };
     let mut faults: Vec<ScriptFault> = check_hook(source, hook, &ast).into_iter().collect();
+    faults.extend(check_reset(source, &ast));
+    faults.extend(check_top_level(source, &ast));
     let mut names = Names::of(source, hook, &ast);
     ast.walk(&mut |path: &[ASTNode]| {
         names.visit(path);
@@ -110,6 +112,22 @@ fn check_hook(source: &str, hook: &str, ast: &AST) -> Option<ScriptFault> {
             message: format!("`{hook}` takes {} arguments, found {found}", arguments.len()),
             help,
         },
+    })
+}
+
+/// A script may have a `reset` beside its hook; with other arguments it would never be called.
+fn check_reset(source: &str, ast: &AST) -> Option<ScriptFault> {
+    ast.iter_functions().any(|f| f.name == "reset").then(|| check_hook(source, "reset", ast)).flatten()
+}
+
+/// Nothing runs a script's statements outside its functions.
+fn check_top_level(source: &str, ast: &AST) -> Option<ScriptFault> {
+    let statement = ast.statements().iter().find(|statement| !matches!(statement, Stmt::Noop(_)))?;
+    Some(ScriptFault {
+        kind: ScriptFaultKind::Hook,
+        range: word_at(source, position_offset(source, statement.position())),
+        message: "statements outside functions never run".to_owned(),
+        help: Some("write them into a function; what lasts between steps is kept in `this`".to_owned()),
     })
 }
 

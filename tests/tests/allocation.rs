@@ -1,0 +1,42 @@
+//! After warm-up a step allocates nothing: neither the game, nor the bots, nor judging, nor observing.
+//!
+//! The exception is rapier itself, whose solver allocates when it resolves a rigid contact of a free ball: in a match of
+//! eleven a side less than one step in fifty.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::observe;
+use setpiece::scenario::Action;
+
+/// Steps of some episodes after the first one, and how many of them allocated.
+fn steps(name: &str, episodes: u64) -> (u32, u32) {
+    let loaded = setpiece::load(name).unwrap();
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut scratch = Scratch::default();
+    let mut floats = vec![0.0; observe::layout::SIMPLE115];
+    let (mut played, mut allocated) = (0, 0);
+    for index in 0..=episodes {
+        environment.reset(Some(1), Some(index)).unwrap();
+        while environment.is_running() {
+            let counted = allocation_counter::measure(|| {
+                environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+                observe::simple115(environment.state(), 0, &mut floats).unwrap();
+            });
+            // The first episode warms up; an outcome's label may be made when one ends.
+            if index > 0 && environment.is_running() {
+                played += 1;
+                allocated += u32::from(counted.count_total > 0);
+            }
+        }
+    }
+    (played, allocated)
+}
+
+#[test]
+fn a_step_without_rigid_contact_allocates_nothing() {
+    let (played, allocated) = steps("11_vs_11_stochastic", 1);
+    assert!(played == 2999 && allocated * 50 < played, "{allocated} of {played}");
+    // Nobody is near enough to the ball's way for a rigid contact.
+    let (played, allocated) = steps("academy_empty_goal", 5);
+    assert!(played > 200 && allocated * 50 < played, "{allocated} of {played}");
+}

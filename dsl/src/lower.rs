@@ -16,6 +16,7 @@ pub(crate) mod roster;
 pub(crate) mod script;
 pub(crate) mod start;
 pub(crate) mod team;
+pub(crate) mod triangles;
 pub(crate) mod value;
 
 use crate::ast::{Expr, Span};

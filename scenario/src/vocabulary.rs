@@ -15,7 +15,7 @@ mod types;
 pub use action::{Action, StickyAction};
 pub use event::{EventField, EventKind, Qualifier};
 pub use function::Function;
-pub use places::{Landmark, RegionName};
+pub use places::{Landmark, PitchRegion, RegionName, RegionShape};
 pub use property::{Field, Owner, PROPERTIES, Property};
 pub use role::{Role, Stat, Team};
 pub use rule::{GameMode, Rule, StartKind, Verdict};

@@ -8,6 +8,7 @@ mod member;
 mod name;
 mod random;
 mod region;
+mod sample;
 mod set;
 mod temporal;
 
@@ -97,6 +98,10 @@ impl<'w> Lower<'_, 'w> {
                 Problem::new(Code::WrongScope, span, "`own` needs a team", "no team is known here")
                     .help("use it in a `team`, a `formation` or a `reward`; elsewhere write world coordinates"),
             );
+        }
+        if let Some(path) = path_of(inner) {
+            let team = self.team.map_or_else(Value::error, |team| Value::one(Ty::Team, team));
+            return self.member_of_team(&team, &path, inner.span, span);
         }
         self.in_frame(Frame::Own, |lower| lower.expr(inner))
     }
@@ -190,5 +195,14 @@ impl<'w> Lower<'_, 'w> {
             self.report(problem);
         }
         self.reg(&value)
+    }
+}
+
+/// `a.b` of `own.a.b`.
+fn path_of(expr: &Expr) -> Option<String> {
+    match &expr.kind {
+        ExprKind::Name(name) => Some(name.clone()),
+        ExprKind::Member(of, member) => Some(format!("{}.{}", path_of(of)?, member.node)),
+        _ => None,
     }
 }

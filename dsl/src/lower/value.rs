@@ -56,6 +56,19 @@ pub(crate) enum RegionValue {
     Rect((Reg, Reg), (Reg, Reg)),
     /// A disc: centre and radius.
     Circle((Reg, Reg), Reg),
+    /// A slice of a disc: from an angle on, as wide as another; radians, world frame.
+    Sector {
+        /// The tip.
+        centre: (Reg, Reg),
+        /// How far it reaches.
+        radius: Reg,
+        /// Where it begins.
+        from: Reg,
+        /// How wide it is, 0 to a full turn.
+        width: Reg,
+    },
+    /// Between corners, in order.
+    Polygon(Vec<(Reg, Reg)>),
     /// In one or the other.
     Union(Rc<RegionValue>, Rc<RegionValue>),
     /// In both.
@@ -101,14 +114,27 @@ impl<'w> Value<'w> {
 
 impl RegionValue {
     fn regs(&self) -> Vec<Reg> {
+        let mut regs = Vec::new();
+        self.map(&mut |reg| {
+            regs.push(reg);
+            reg
+        });
+        regs
+    }
+
+    /// The same shape with other registers.
+    pub(crate) fn map(&self, f: &mut dyn FnMut(Reg) -> Reg) -> RegionValue {
+        let pair = |(x, y): (Reg, Reg), f: &mut dyn FnMut(Reg) -> Reg| (f(x), f(y));
         match self {
-            RegionValue::Rect(a, b) => vec![a.0, a.1, b.0, b.1],
-            RegionValue::Circle(c, r) => vec![c.0, c.1, *r],
-            RegionValue::Union(a, b) | RegionValue::Intersection(a, b) | RegionValue::Difference(a, b) => {
-                let mut regs = a.regs();
-                regs.extend(b.regs());
-                regs
+            RegionValue::Rect(a, b) => RegionValue::Rect(pair(*a, f), pair(*b, f)),
+            RegionValue::Circle(centre, radius) => RegionValue::Circle(pair(*centre, f), f(*radius)),
+            RegionValue::Sector { centre, radius, from, width } => {
+                RegionValue::Sector { centre: pair(*centre, f), radius: f(*radius), from: f(*from), width: f(*width) }
             }
+            RegionValue::Polygon(corners) => RegionValue::Polygon(corners.iter().map(|&at| pair(at, f)).collect()),
+            RegionValue::Union(a, b) => RegionValue::Union(Rc::new(a.map(f)), Rc::new(b.map(f))),
+            RegionValue::Intersection(a, b) => RegionValue::Intersection(Rc::new(a.map(f)), Rc::new(b.map(f))),
+            RegionValue::Difference(a, b) => RegionValue::Difference(Rc::new(a.map(f)), Rc::new(b.map(f))),
         }
     }
 }

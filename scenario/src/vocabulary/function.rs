@@ -53,5 +53,8 @@ words! {
         Alternate = "alternate", "alternate(a, b): a in even episodes, b in odd ones";
         Rect = "rect", "rect(from, to): a rectangle";
         Circle = "circle", "circle(centre, radius): a disc";
+        Polygon = "polygon", "polygon(a, b, c, …): between corners, in order";
+        Sector = "sector", "sector(at, radius, from, to): the slice of a disc between two angles";
+        MinGap = "min_gap", "min_gap(team) or min_gap(players): the least distance between two of them at the start";
     }
 }

@@ -45,6 +45,26 @@ words! {
     }
 }
 
+impl Role {
+    /// Where the role stands in a 4-3-3, normalised own frame; a pair stands on either side of it.
+    ///
+    /// Source: the default kick-off layout of Google Research Football's full matches.
+    pub const fn zone(self) -> (f64, f64) {
+        match self {
+            Role::GK => (-1.0, 0.0),
+            Role::CB => (-0.5, 0.0),
+            Role::LB => (-0.422, -0.19576),
+            Role::RB => (-0.422, 0.19576),
+            Role::DM => (-0.35, 0.0),
+            Role::CM => (-0.267574, 0.0),
+            Role::LM => (-0.01, -0.2161),
+            Role::RM => (-0.01, 0.2161),
+            Role::AM => (-0.1, 0.0),
+            Role::CF => (-0.01, 0.0),
+        }
+    }
+}
+
 words! {
     /// A statistic of a player, 0..1.
     Stat {

@@ -19,7 +19,7 @@ impl<'w> Lower<'_, 'w> {
                 self.aggregate(function, args, span)
             }
             F::Choice => self.choice(args, span),
-            F::Rect | F::Circle => self.region_call(function, args, span),
+            F::Rect | F::Circle | F::Polygon | F::Sector => self.region_call(function, args, span),
             _ => {
                 let (names, required) = signature(function);
                 let Some(given) = self.arguments(&name.node, args, span, names, required) else {
@@ -44,6 +44,7 @@ impl<'w> Lower<'_, 'w> {
                     }
                     (F::Nearest, &[set, to]) => self.nearest(set, to),
                     (F::Pressed, &[who, within]) => self.pressed(who, within),
+                    (F::MinGap, &[set]) => self.min_gap(set, span),
                     _ => self.math(function, &given, span),
                 }
             }
@@ -305,6 +306,18 @@ fn signature(function: Function) -> (&'static [&'static str], usize) {
         F::TruncatedNormal => (&["mean", "sd", "low", "high"], 4),
         F::Rect => (&["from", "to"], 2),
         F::Circle => (&["centre", "radius"], 2),
-        F::Min | F::Max | F::Count | F::Any | F::All | F::Sum | F::Mean | F::MinBy | F::MaxBy | F::Choice => (&[], 0),
+        F::Sector => (&["at", "radius", "from", "to"], 4),
+        F::MinGap => (&["players"], 1),
+        F::Min
+        | F::Max
+        | F::Count
+        | F::Any
+        | F::All
+        | F::Sum
+        | F::Mean
+        | F::MinBy
+        | F::MaxBy
+        | F::Choice
+        | F::Polygon => (&[], 0),
     }
 }

@@ -1,27 +1,32 @@
 //! What stands behind a dot: properties, landmarks, regions, coordinates.
 
 use super::super::Lower;
-use super::super::value::{RegionValue, Repr, Value};
+use super::super::value::{Repr, Value};
 use crate::ast::{Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, X_SCALE_M, Y_SCALE_M};
-use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, RegionName};
-use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
-use std::rc::Rc;
+use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
+use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role};
+use setpiece_scenario::{BinaryOp, UnaryOp};
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn member(&mut self, of: &'w Expr, member: &'w Ident, span: Span) -> Value<'w> {
         match &of.kind {
             // `left.corner.top` is one name with a dot in it.
-            ExprKind::Member(team, part) if is_team_part(&part.node) => {
+            ExprKind::Member(team, part) if is_team_part(&part.node, &member.node) => {
                 let name = format!("{}.{}", part.node, member.node);
                 return self.team_member(team, &name, part.span.to(member.span), span);
             }
             ExprKind::Name(name) if name == "event" && self.scope.find(name).is_none() => {
                 return self.event_member(member, span);
             }
-            ExprKind::Name(name) if name == "middle" && member.node == "third" => return self.middle_third(),
+            ExprKind::Name(name) if is_pitch_part(name) && self.scope.find(name).is_none() => {
+                let dotted = format!("{name}.{}", member.node);
+                return match PitchRegion::from_name(&dotted) {
+                    Some(region) => self.pitch_region(region),
+                    None => self.no_pitch_region(&dotted, span),
+                };
+            }
             // `defence.f_4_4_2`: an item of a file that was imported under a name.
             ExprKind::Name(name) if self.scope.find(name).is_none() => {
                 let dotted = format!("{name}.{}", member.node);
@@ -71,7 +76,7 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn member_of_team(&mut self, team: &Value<'w>, name: &str, at: Span, of: Span) -> Value<'w> {
+    pub(super) fn member_of_team(&mut self, team: &Value<'w>, name: &str, at: Span, of: Span) -> Value<'w> {
         let reg = self.reg(team);
         if let Some(landmark) = Landmark::from_name(name) {
             let (x, y) = landmark.left_m();
@@ -79,13 +84,17 @@ impl<'w> Lower<'_, 'w> {
             let (x, y) = (self.code.constant(x), self.code.constant(y));
             return Value::two(Ty::Point, (self.code.binary(BinaryOp::Mul, x, side), y));
         }
-        if let Some(region) = RegionName::from_name(name) {
-            let (x0, y0, x1, y1) = region.left_rect_m();
+        if let Some(role) = name.strip_prefix("zone.").and_then(Role::from_name) {
+            let (x, y) = role.zone();
             let side = self.code.unary(UnaryOp::Side, reg);
-            let (x0, x1) = (self.code.constant(x0), self.code.constant(x1));
-            let (y0, y1) = (self.code.constant(y0), self.code.constant(y1));
-            let (x0, x1) = (self.code.binary(BinaryOp::Mul, x0, side), self.code.binary(BinaryOp::Mul, x1, side));
-            return rect((x0, y0), (x1, y1));
+            let (x, y) = (self.code.constant(x * X_SCALE_M), self.code.constant(y * Y_SCALE_M));
+            return Value::two(
+                Ty::Point,
+                (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side)),
+            );
+        }
+        if let Some(region) = RegionName::from_name(name) {
+            return self.team_region(region, reg);
         }
         if name == "score" {
             return self
@@ -94,7 +103,7 @@ impl<'w> Lower<'_, 'w> {
         }
         let mut known: Vec<&str> = Landmark::ALL.iter().map(|landmark| landmark.name()).collect();
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
-        known.push("score");
+        known.extend(["zone.CM", "score"]);
         let text = self.world.text(of);
         let problem =
             Problem::new(Code::UnknownMember, at, format!("`{text}` has no landmark or region `{name}`"), "not known");
@@ -104,13 +113,6 @@ impl<'w> Lower<'_, 'w> {
         } else {
             problem.help(format!("a team has `{}`", known.join("`, `")))
         })
-    }
-
-    fn middle_third(&mut self) -> Value<'w> {
-        let x = HALF_LENGTH_M / 3.0;
-        let (x0, x1) = (self.code.constant(-x), self.code.constant(x));
-        let (y0, y1) = (self.code.constant(-HALF_WIDTH_M), self.code.constant(HALF_WIDTH_M));
-        rect((x0, y0), (x1, y1))
     }
 
     fn score_member(&mut self, member: &'w Ident, span: Span) -> Value<'w> {
@@ -269,11 +271,14 @@ impl<'w> Lower<'_, 'w> {
     }
 }
 
-/// Whether a name is the first half of a landmark's, as in `corner.top`.
-fn is_team_part(name: &str) -> bool {
-    Landmark::ALL.iter().any(|landmark| landmark.name().split_once('.').is_some_and(|(head, _)| head == name))
+/// Whether two names with a dot between them are one name of a team: `corner.top`, `goal.mouth`, `zone.CM`.
+fn is_team_part(head: &str, tail: &str) -> bool {
+    let dotted = format!("{head}.{tail}");
+    // The heads that are nothing by themselves: what is wrong behind them is told as one name.
+    matches!(head, "corner" | "zone") || RegionName::from_name(&dotted).is_some()
 }
 
-fn rect<'w>(a: (Reg, Reg), b: (Reg, Reg)) -> Value<'w> {
-    Value { ty: Ty::Region, repr: Repr::Region(Rc::new(RegionValue::Rect(a, b))) }
+/// Whether a name is the first half of a region's that belongs to no team: `flank.top`.
+fn is_pitch_part(name: &str) -> bool {
+    PitchRegion::ALL.iter().any(|region| region.name().split_once('.').is_some_and(|(head, _)| head == name))
 }

@@ -1,14 +1,13 @@
 //! Names: of locals, the scenario, the file, and the language itself, in this order.
 
-use super::super::value::{Binding, Frame, RegionValue, Repr, Scope, SetValue, Value};
+use super::super::value::{Binding, Frame, Repr, Scope, SetValue, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{FormationItem, ItemKind, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, TEAM_MAX};
-use setpiece_scenario::vocabulary::{Field, Owner, PROPERTIES, Property, Team, Type};
+use setpiece_scenario::pitch::TEAM_MAX;
+use setpiece_scenario::vocabulary::{Field, Owner, PROPERTIES, PitchRegion, Property, Team, Type};
 use setpiece_scenario::{Reg, UnaryOp, When};
-use std::rc::Rc;
 
 /// Names of the language that are no properties.
 const BUILTIN: &[&str] = &[
@@ -199,15 +198,7 @@ impl<'w> Lower<'_, 'w> {
                 let zero = self.code.constant(0.0);
                 Value::two(Ty::Point, (zero, zero))
             }
-            "pitch" => {
-                let (x, y) = (self.code.constant(HALF_LENGTH_M), self.code.constant(HALF_WIDTH_M));
-                let (nx, ny) = (self.code.constant(-HALF_LENGTH_M), self.code.constant(-HALF_WIDTH_M));
-                region(RegionValue::Rect((nx, ny), (x, y)))
-            }
-            "centre_circle" => {
-                let (zero, r) = (self.code.constant(0.0), self.code.constant(CIRCLE_RADIUS_M));
-                region(RegionValue::Circle((zero, zero), r))
-            }
+            "pitch" | "centre_circle" => self.pitch_region(PitchRegion::from_name(name)?),
             "players" => {
                 let both = self.code.constant(-1.0);
                 Value { ty: Ty::Set, repr: Repr::Set(SetValue { team: both, except: None }) }
@@ -320,10 +311,6 @@ fn match_property(name: &str) -> Option<&'static Property> {
     let of_match = |property: &&Property| property.owner == Owner::Match && property.name == name;
     debug_assert!(PROPERTIES.iter().all(|property| property.ty != Type::Behavior));
     PROPERTIES.iter().find(of_match)
-}
-
-fn region<'w>(value: RegionValue) -> Value<'w> {
-    Value { ty: Ty::Region, repr: Repr::Region(Rc::new(value)) }
 }
 
 fn formation_value(formation: &FormationItem) -> Value<'_> {

@@ -1,6 +1,6 @@
 //! Draws: in the start program only.
 
-use super::super::value::{RegionValue, Value};
+use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Arg, Expr, Span};
 use crate::check::types::Ty;
@@ -191,43 +191,8 @@ impl<'w> Lower<'_, 'w> {
         self.choose(even, (&x, a), (&y, b))
     }
 
-    /// A point drawn uniformly in a region.
-    pub(crate) fn draw_in(&mut self, region: &RegionValue, span: Span) -> Option<(Reg, Reg)> {
-        match region {
-            RegionValue::Rect(a, b) => {
-                let mut along = |a: Reg, b: Reg| {
-                    let (low, high) = (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
-                    self.random(Distribution::Uniform(low, high))
-                };
-                let x = along(a.0, b.0);
-                Some((x, along(a.1, b.1)))
-            }
-            RegionValue::Circle(centre, radius) => Some(self.draw_in_disc(*centre, *radius)),
-            _ => {
-                self.report(
-                    Problem::new(Code::NotYet, span, "a draw in a composed region is not supported yet", "")
-                        .help("draw in a rectangle or circle around it and `require` the rest"),
-                );
-                None
-            }
-        }
-    }
-
-    /// A point drawn uniformly in a disc.
-    pub(crate) fn draw_in_disc(&mut self, centre: (Reg, Reg), radius: Reg) -> (Reg, Reg) {
-        let (zero, one) = (self.code.constant(0.0), self.code.constant(1.0));
-        let turn = self.code.constant(std::f64::consts::TAU);
-        let share = self.random(Distribution::Uniform(zero, one));
-        let angle = self.random(Distribution::Uniform(zero, turn));
-        let root = self.code.unary(UnaryOp::Sqrt, share);
-        let r = self.code.binary(BinaryOp::Mul, radius, root);
-        let (cos, sin) = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
-        let (dx, dy) = (self.code.binary(BinaryOp::Mul, r, cos), self.code.binary(BinaryOp::Mul, r, sin));
-        (self.code.binary(BinaryOp::Add, centre.0, dx), self.code.binary(BinaryOp::Add, centre.1, dy))
-    }
-
     /// Draws from the stream of what is being drawn: its name and the draw's ordinal in it.
-    fn random(&mut self, from: Distribution) -> Reg {
+    pub(super) fn random(&mut self, from: Distribution) -> Reg {
         let ordinal = self.start.next_draw();
         let key = stream_key(self.start.drawing(), ordinal);
         self.code.random(key, from)

@@ -1,12 +1,18 @@
-//! Regions: constructors, and whether a point lies inside.
+//! Regions: the named ones, constructors, and whether a point lies inside.
 
 use super::super::Lower;
 use super::super::value::{RegionValue, Repr, Value};
 use crate::ast::{Arg, Expr, Span};
 use crate::check::types::Ty;
-use setpiece_scenario::vocabulary::Function;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::CIRCLE_RADIUS_M;
+use setpiece_scenario::vocabulary::{Function, PitchRegion, RegionName, RegionShape};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
+use std::f64::consts::TAU;
 use std::rc::Rc;
+
+/// Most corners of a polygon.
+const CORNERS_MAX: usize = 64;
 
 impl<'w> Lower<'_, 'w> {
     /// Lowers a region; `None` after a report.
@@ -17,24 +23,142 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    pub(super) fn region_call(&mut self, function: Function, args: &'w [Arg], span: Span) -> Value<'w> {
-        let names: &[&str] = if function == Function::Rect { &["from", "to"] } else { &["centre", "radius"] };
-        let Some(given) = self.arguments(function.name(), args, span, names, 2) else { return Value::error() };
-        let &[Some(a), Some(b)] = given.as_slice() else { return Value::error() };
-        let first = self.want(a, Ty::Point);
-        let second = self.want(b, if function == Function::Rect { Ty::Point } else { Ty::LENGTH });
-        if first.is_error() || second.is_error() {
-            return Value::error();
+    /// A region that belongs to no team.
+    pub(super) fn pitch_region(&mut self, region: PitchRegion) -> Value<'w> {
+        if let Some(rect) = region.rect_m() {
+            return value(self.constant_rect(rect));
         }
-        let corner = self.pair(&first);
-        let region = match function {
-            Function::Rect => RegionValue::Rect(corner, self.pair(&second)),
-            _ => RegionValue::Circle(corner, self.reg(&second)),
-        };
-        Value { ty: Ty::Region, repr: Repr::Region(Rc::new(region)) }
+        let (zero, radius) = (self.code.constant(0.0), self.code.constant(CIRCLE_RADIUS_M));
+        value(RegionValue::Circle((zero, zero), radius))
     }
 
-    /// Whether a point lies in a region, its edge included.
+    pub(super) fn no_pitch_region(&self, name: &str, span: Span) -> Value<'w> {
+        let known = PitchRegion::ALL.iter().map(|region| region.name());
+        let problem = Problem::new(Code::UnknownMember, span, format!("no region is called `{name}`"), "not known");
+        let near = crate::problem::nearest(name, known.clone()).is_some();
+        let all = known.clone().collect::<Vec<_>>().join("`, `");
+        self.fail(if near { problem.did_you_mean(name, known) } else { problem.help(format!("there is `{all}`")) })
+    }
+
+    /// A region of a team's end: the left team's shape, rotated for the right one.
+    pub(super) fn team_region(&mut self, region: RegionName, team: Reg) -> Value<'w> {
+        let side = self.code.unary(UnaryOp::Side, team);
+        let left = match region.left_shape_m() {
+            RegionShape::Rect(x0, y0, x1, y1) => self.constant_rect((x0, y0, x1, y1)),
+            RegionShape::DiscWithout((x, y, radius), rect) => {
+                let centre = (self.code.constant(x), self.code.constant(y));
+                let disc = RegionValue::Circle(centre, self.code.constant(radius));
+                RegionValue::Difference(Rc::new(disc), Rc::new(self.constant_rect(rect)))
+            }
+        };
+        value(self.at_side(&left, side))
+    }
+
+    /// A shape symmetric about the x axis at the left (+1) or the right (-1) end.
+    fn at_side(&mut self, region: &RegionValue, side: Reg) -> RegionValue {
+        let mut turn = |(x, y): (Reg, Reg)| (self.code.binary(BinaryOp::Mul, x, side), y);
+        match region {
+            RegionValue::Rect(a, b) => RegionValue::Rect(turn(*a), turn(*b)),
+            RegionValue::Circle(centre, radius) => RegionValue::Circle(turn(*centre), *radius),
+            RegionValue::Difference(a, b) => {
+                let (a, b) = (self.at_side(a, side), self.at_side(b, side));
+                RegionValue::Difference(Rc::new(a), Rc::new(b))
+            }
+            other => other.clone(),
+        }
+    }
+
+    fn constant_rect(&mut self, (x0, y0, x1, y1): (f64, f64, f64, f64)) -> RegionValue {
+        let (x0, y0) = (self.code.constant(x0), self.code.constant(y0));
+        RegionValue::Rect((x0, y0), (self.code.constant(x1), self.code.constant(y1)))
+    }
+
+    pub(super) fn region_call(&mut self, function: Function, args: &'w [Arg], span: Span) -> Value<'w> {
+        if function == Function::Polygon {
+            return self.polygon(args, span);
+        }
+        let names: &[&str] = match function {
+            Function::Rect => &["from", "to"],
+            Function::Circle => &["centre", "radius"],
+            _ => &["at", "radius", "from", "to"],
+        };
+        let Some(given) = self.arguments(function.name(), args, span, names, names.len()) else {
+            return Value::error();
+        };
+        let given: Vec<&'w Expr> = given.into_iter().flatten().collect();
+        match *given.as_slice() {
+            [a, b] if function == Function::Rect => {
+                let (a, b) = (self.want(a, Ty::Point), self.want(b, Ty::Point));
+                if a.is_error() || b.is_error() {
+                    return Value::error();
+                }
+                value(RegionValue::Rect(self.pair(&a), self.pair(&b)))
+            }
+            [centre, radius] => match self.disc(centre, radius) {
+                Some((centre, radius)) => value(RegionValue::Circle(centre, radius)),
+                None => Value::error(),
+            },
+            [at, radius, from, to] => {
+                let disc = self.disc(at, radius);
+                let (from, to) = (self.want(from, Ty::ANGLE), self.want(to, Ty::ANGLE));
+                let Some((centre, radius)) = disc.filter(|_| !from.is_error() && !to.is_error()) else {
+                    return Value::error();
+                };
+                let (from, to) = (self.reg(&from), self.reg(&to));
+                let width = self.width_of(from, to);
+                let from = self.turned_angle(from);
+                value(RegionValue::Sector { centre, radius, from, width })
+            }
+            _ => Value::error(),
+        }
+    }
+
+    fn disc(&mut self, centre: &'w Expr, radius: &'w Expr) -> Option<((Reg, Reg), Reg)> {
+        let (at, length) = (self.want(centre, Ty::Point), self.want(radius, Ty::LENGTH));
+        if at.is_error() || length.is_error() {
+            return None;
+        }
+        let length = self.reg(&length);
+        self.check_range(length, (0.0, 200.0), "the radius", radius.span, "`0m..200m`");
+        Some((self.pair(&at), length))
+    }
+
+    /// How wide a sector is that begins and ends at two angles: a full turn if they lie one apart.
+    fn width_of(&mut self, from: Reg, to: Reg) -> Reg {
+        let turn = self.code.constant(TAU);
+        let apart = self.code.binary(BinaryOp::Sub, to, from);
+        let full = self.code.constant(TAU - 1e-9);
+        let is_full = self.code.binary(BinaryOp::Ge, apart, full);
+        let rest = self.code.binary(BinaryOp::Mod, apart, turn);
+        self.code.select(is_full, turn, rest)
+    }
+
+    fn polygon(&mut self, args: &'w [Arg], span: Span) -> Value<'w> {
+        if !(3..=CORNERS_MAX).contains(&args.len()) {
+            let message = format!("a polygon has 3 to {CORNERS_MAX} corners, found {}", args.len());
+            return self.fail(
+                Problem::new(Code::WrongArguments, span, message, "")
+                    .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
+            );
+        }
+        let mut corners = Vec::new();
+        for arg in args {
+            if arg.key.is_some() || arg.binder.is_some() || arg.filter.is_some() {
+                return self.fail(
+                    Problem::new(Code::WrongArguments, arg.span, "a polygon's corners have no names", "")
+                        .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
+                );
+            }
+            let corner = self.want(&arg.value, Ty::Point);
+            if corner.is_error() {
+                return corner;
+            }
+            corners.push(self.pair(&corner));
+        }
+        value(RegionValue::Polygon(corners))
+    }
+
+    /// Whether a point lies in a region, its edge included but for a polygon's.
     pub(crate) fn inside(&mut self, place: (Reg, Reg), region: &RegionValue) -> Reg {
         match region {
             RegionValue::Rect(a, b) => {
@@ -46,6 +170,18 @@ impl<'w> Lower<'_, 'w> {
                 let distance = self.distance(place, *centre);
                 self.code.binary(BinaryOp::Le, distance, *radius)
             }
+            RegionValue::Sector { centre, radius, from, width } => {
+                let distance = self.distance(place, *centre);
+                let near = self.code.binary(BinaryOp::Le, distance, *radius);
+                let dx = self.code.binary(BinaryOp::Sub, place.0, centre.0);
+                let dy = self.code.binary(BinaryOp::Sub, place.1, centre.1);
+                let angle = self.code.binary(BinaryOp::Atan2, dy, dx);
+                let (turn, over) = (self.code.constant(TAU), self.code.binary(BinaryOp::Sub, angle, *from));
+                let over = self.code.binary(BinaryOp::Mod, over, turn);
+                let within = self.code.binary(BinaryOp::Le, over, *width);
+                self.code.binary(BinaryOp::And, near, within)
+            }
+            RegionValue::Polygon(corners) => self.inside_polygon(place, corners),
             RegionValue::Union(a, b) => {
                 let (a, b) = (self.inside(place, a), self.inside(place, b));
                 self.code.binary(BinaryOp::Or, a, b)
@@ -62,6 +198,25 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
+    /// The even-odd rule: how many edges a ray towards +x crosses.
+    fn inside_polygon(&mut self, (x, y): (Reg, Reg), corners: &[(Reg, Reg)]) -> Reg {
+        let mut inside = self.code.bool(false);
+        for (p, q) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let from_above = self.code.binary(BinaryOp::Gt, p.1, y);
+            let to_above = self.code.binary(BinaryOp::Gt, q.1, y);
+            let spans = self.code.binary(BinaryOp::Ne, from_above, to_above);
+            // The point lies left of the edge; multiplied out, so that nothing is divided by.
+            let (dx, dy) = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+            let (ox, oy) = (self.code.binary(BinaryOp::Sub, x, p.0), self.code.binary(BinaryOp::Sub, y, p.1));
+            let (a, b) = (self.code.binary(BinaryOp::Mul, ox, dy), self.code.binary(BinaryOp::Mul, dx, oy));
+            let (less, more) = (self.code.binary(BinaryOp::Lt, a, b), self.code.binary(BinaryOp::Gt, a, b));
+            let left_of = self.code.select(to_above, less, more);
+            let crosses = self.code.binary(BinaryOp::And, spans, left_of);
+            inside = self.code.binary(BinaryOp::Ne, inside, crosses);
+        }
+        inside
+    }
+
     /// Whether a value lies between two ends, given in any order.
     fn between(&mut self, value: Reg, a: Reg, b: Reg) -> Reg {
         let (low, high) = (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
@@ -69,4 +224,8 @@ impl<'w> Lower<'_, 'w> {
         let below = self.code.binary(BinaryOp::Le, value, high);
         self.code.binary(BinaryOp::And, above, below)
     }
+}
+
+fn value<'w>(region: RegionValue) -> Value<'w> {
+    Value { ty: Ty::Region, repr: Repr::Region(Rc::new(region)) }
 }

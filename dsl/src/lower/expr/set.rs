@@ -44,6 +44,38 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
+    /// `min_gap(players)`: the least distance between two of some players at the start.
+    pub(super) fn min_gap(&mut self, set: &'w Expr, span: Span) -> Value<'w> {
+        if self.stage != Stage::Start {
+            return self.fail(
+                Problem::new(Code::WrongScope, span, "`min_gap` is about the start", "the match is under way here")
+                    .help("in a match write `min(distance(p, q) for p in S)`"),
+            );
+        }
+        let Some(set) = self.want_set(set) else { return Value::error() };
+        let Some(team) = self.code.constant_of(set.team) else {
+            return self.fail(Problem::new(Code::NotConstant, span, "whose gap is meant must be known", ""));
+        };
+        let world = self.world;
+        let meant = |player: &crate::lower::roster::Rostered<'_>| team < 0.0 || player.team.index() as f64 == team;
+        let indices: Vec<usize> = (0..world.roster.len()).filter(|&i| world.roster.get(i).is_some_and(meant)).collect();
+        let places: Vec<(Reg, Reg)> = indices.iter().map(|&i| self.place_of_rostered(i, span)).collect();
+        let mut least: Option<Reg> = None;
+        for (nth, &one) in places.iter().enumerate() {
+            for &other in places.iter().skip(nth + 1) {
+                let gap = self.distance(one, other);
+                least = Some(least.map_or(gap, |least| self.code.binary(BinaryOp::Min, least, gap)));
+            }
+        }
+        match least {
+            Some(reg) => Value::one(Ty::LENGTH, reg),
+            None => self.fail(
+                Problem::new(Code::Impossible, span, "a gap needs two players", "there are fewer")
+                    .help("leave the requirement out"),
+            ),
+        }
+    }
+
     /// Reports a loop over players where no match is under way, or inside too many others.
     fn players_known(&self, span: Span, what: &str) -> bool {
         let known = self.stage.is_step();

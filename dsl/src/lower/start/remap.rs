@@ -1,6 +1,6 @@
 //! Values and the start in other registers: where a program's registers went, or what a step program reads instead.
 
-use crate::lower::value::{RegionValue, Repr, SetValue, Value};
+use crate::lower::value::{Repr, SetValue, Value};
 use setpiece_scenario::{
     Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting, SideAgents, Start,
 };
@@ -9,24 +9,13 @@ use std::rc::Rc;
 impl<'w> Value<'w> {
     /// The same value in other registers.
     pub(super) fn map(&self, f: &mut dyn FnMut(Reg) -> Reg) -> Value<'w> {
-        fn region(value: &RegionValue, f: &mut dyn FnMut(Reg) -> Reg) -> RegionValue {
-            match value {
-                RegionValue::Rect(a, b) => RegionValue::Rect((f(a.0), f(a.1)), (f(b.0), f(b.1))),
-                RegionValue::Circle(c, r) => RegionValue::Circle((f(c.0), f(c.1)), f(*r)),
-                RegionValue::Union(a, b) => RegionValue::Union(Rc::new(region(a, f)), Rc::new(region(b, f))),
-                RegionValue::Intersection(a, b) => {
-                    RegionValue::Intersection(Rc::new(region(a, f)), Rc::new(region(b, f)))
-                }
-                RegionValue::Difference(a, b) => RegionValue::Difference(Rc::new(region(a, f)), Rc::new(region(b, f))),
-            }
-        }
         let repr = match &self.repr {
             Repr::One(a) => Repr::One(f(*a)),
             Repr::Two(a, b) => Repr::Two(f(*a), f(*b)),
             Repr::Three(a, b, c) => Repr::Three(f(*a), f(*b), f(*c)),
             Repr::Choice(a, words) => Repr::Choice(f(*a), words.clone()),
             Repr::Set(set) => Repr::Set(SetValue { team: f(set.team), except: set.except.map(&mut *f) }),
-            Repr::Region(value) => Repr::Region(Rc::new(region(value, f))),
+            Repr::Region(value) => Repr::Region(Rc::new(value.map(f))),
             Repr::List(list) => Repr::List(list.iter().map(|value| value.map(f)).collect()),
             Repr::Nothing | Repr::Text(_) | Repr::Formation(_) => self.repr.clone(),
         };

@@ -4,8 +4,9 @@ use crate::ast::{
     EndCondition, EndStmt, FieldValue, ItemKind, RewardUseKind, ScenarioItem, ScenarioStmtKind, ScriptRef,
     ScriptSource, Span, TeamStmt, TeamStmtKind,
 };
+use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
-use crate::lower::{World, ending, param, reward, roster, start};
+use crate::lower::{World, ending, observation, param, record, reward, roster, start};
 use crate::problem::{Code, Problem, ScriptApi, Severity};
 use crate::resolve::{Library, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
@@ -212,12 +213,17 @@ fn compile_one<'a>(
     doc: &'a str,
     problems: &mut Vec<Problem>,
 ) -> (Scenario, Origins) {
-    let flat = flatten(library, item, problems);
+    let mut flat = flatten(library, item, problems);
+    let mirror = Mirror::of(flat.mirror, problems);
+    if mirror == Mirror::Ends {
+        flat.teams.swap(0, 1);
+    }
     let mut world = World {
         library,
         flat: &flat,
         params: Vec::new(),
         lets: Vec::new(),
+        mirror,
         roster: Vec::new(),
         agents: None,
         scripts: RefCell::default(),
@@ -239,6 +245,8 @@ fn compile_one<'a>(
         }
     }
     let endings = ending::lower_endings(&world);
+    let records = record::lower_records(&world);
+    let observation = observation::lower_observation(&world);
     let library_rewards = reward::lower_library(&world);
     report_unused(&world);
 
@@ -261,6 +269,8 @@ fn compile_one<'a>(
         rewards,
         library: library_rewards,
         endings,
+        records,
+        observation,
     };
     problems.extend(world.problems.take());
     (scenario, origins)
@@ -276,7 +286,8 @@ fn report_unused(world: &World<'_>) {
     let root = FileId(0);
     let params = world.params.iter().map(|param| ("parameter", param.name));
     let lets = world.flat.lets.iter().map(|binding| ("`let`", &binding.name));
-    let declared: Vec<_> = params.chain(lets).collect();
+    let shuffled = world.flat.tuples.iter().flat_map(|(names, _)| names.iter().map(|name| ("`let`", name)));
+    let declared: Vec<_> = params.chain(lets).chain(shuffled).collect();
     for (what, name) in declared {
         let used = world.used.borrow().contains(&name.span);
         if name.span.file == root && !used && !name.node.starts_with('_') {

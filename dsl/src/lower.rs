@@ -9,8 +9,11 @@ pub(crate) mod ending;
 pub(crate) mod expr;
 pub(crate) mod fold;
 pub(crate) mod interval;
+pub(crate) mod mirror;
+pub(crate) mod observation;
 pub(crate) mod param;
 pub(crate) mod place;
+pub(crate) mod record;
 pub(crate) mod reward;
 pub(crate) mod roster;
 pub(crate) mod script;
@@ -25,6 +28,7 @@ use crate::problem::{Code, Problem};
 use crate::resolve::{Flat, Library};
 use builder::Builder;
 use interval::Interval;
+use mirror::Mirror;
 use param::ParamInfo;
 use roster::Rostered;
 use setpiece_scenario::vocabulary::{EventKind, Team};
@@ -44,6 +48,8 @@ pub(crate) struct World<'w> {
     pub(crate) params: Vec<ParamInfo<'w>>,
     /// Its `let`s, once the start is lowered.
     pub(crate) lets: Vec<LetSlot<'w>>,
+    /// Whether it is seen in a mirror.
+    pub(crate) mirror: Mirror,
     /// Its players.
     pub(crate) roster: Vec<Rostered<'w>>,
     /// The one team that has agents.
@@ -95,12 +101,21 @@ pub(crate) enum Stage {
     Reward,
     /// The endings, at every step.
     Ending,
+    /// A record, at every step.
+    Record,
+    /// The scenario's observation, after every step and reset.
+    Observation,
 }
 
 impl Stage {
     /// Whether the match is under way.
     pub(crate) fn is_step(self) -> bool {
-        matches!(self, Stage::Reward | Stage::Ending)
+        matches!(self, Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation)
+    }
+
+    /// Whether it runs for an agent, so that there is a `me`.
+    pub(crate) fn has_me(self) -> bool {
+        matches!(self, Stage::Reward | Stage::Record | Stage::Observation)
     }
 }
 
@@ -299,8 +314,9 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// +1 or -1 where the own frame is read, `None` where it is the world's.
     pub(crate) fn side(&mut self) -> Option<Reg> {
-        match (self.scope.frame, self.team) {
-            (Frame::Own, Some(team)) => Some(self.code.unary(setpiece_scenario::UnaryOp::Side, team)),
+        match (self.scope.frame, self.team, self.world.mirror) {
+            (Frame::Own, Some(team), _) => Some(self.code.unary(setpiece_scenario::UnaryOp::Side, team)),
+            (_, _, Mirror::Ends) => Some(self.code.constant(-1.0)),
             _ => None,
         }
     }

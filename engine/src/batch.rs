@@ -6,6 +6,7 @@
 use crate::control::agents::Agent;
 use crate::draw::DrawError;
 use crate::environment::{Environment, Scratch, StepError, StepResult};
+use crate::judge::Recorded;
 use crate::random::{Purpose, Stream};
 use crate::statistics::MatchStatistics;
 use rayon::prelude::*;
@@ -75,6 +76,8 @@ pub struct EpisodeSummary {
     pub terms: Vec<Vec<f64>>,
     /// Payments that were stopped because their value was impossible.
     pub faults: u32,
+    /// What the scenario's records say, by name.
+    pub records: Vec<(String, Recorded)>,
     /// The fingerprint of its last state.
     pub digest: u64,
     /// What it was like.
@@ -91,7 +94,7 @@ pub enum EpisodeError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// Neither an ending nor a limit came within a day of play.
-    #[error("the episode has no end: none in {0} steps")]
+    #[error("the episode has no end{}", if *.0 == 0 { String::new() } else { format!(": none in {} steps", .0) })]
     Endless(u32),
 }
 
@@ -146,6 +149,7 @@ pub fn run_episode(
         returns: terms.iter().map(|terms| terms.iter().sum()).collect(),
         terms,
         faults: environment.faults(),
+        records: environment.records().map(|(name, value)| (name.to_owned(), value)).collect(),
         digest: environment.digest(),
         statistics: environment.statistics().summary(),
     })

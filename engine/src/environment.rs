@@ -14,7 +14,8 @@ use crate::draw::{DrawError, Drawer, Roster};
 use crate::event::{Event, Events};
 use crate::football;
 use crate::judge::script::Scripts;
-use crate::judge::{Judge, Outcome};
+use crate::judge::{Judge, Outcome, Recorded};
+use crate::observe::ObserveError;
 use crate::start::Drawn;
 use crate::state::{AgentSlot, Match, PlayerId};
 use crate::statistics::Statistics;
@@ -252,6 +253,32 @@ impl Environment {
     /// of nobody).
     pub fn faults(&self) -> u32 {
         self.judge.rewards().faults()
+    }
+
+    /// What the scenario's records say so far, in source order.
+    pub fn records(&self) -> impl Iterator<Item = (&str, Recorded)> {
+        self.judge.records().values()
+    }
+
+    /// The names of the numbers of the scenario's own observation (`observe vector`), in order; empty without one.
+    pub fn observed_names(&self) -> Vec<String> {
+        self.judge.observed_names()
+    }
+
+    /// Writes the scenario's own observation for an agent: quantities in SI units, places normalised, own frame.
+    ///
+    /// # Errors
+    /// [`ObserveError`] where there is no such agent, or `out` has another length than the observation.
+    pub fn observe_vector(&mut self, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+        let n_agents = self.game.agents.len();
+        if agent >= n_agents {
+            return Err(ObserveError::Agent { agent, n_agents });
+        }
+        let found = out.len();
+        if self.judge.observe(&self.game, agent, out) {
+            return Ok(());
+        }
+        Err(ObserveError::Size { expected: self.judge.observed_names().len(), found })
     }
 
     /// The events of the last step, in order.

@@ -8,16 +8,20 @@
 //! - [`view`]: the part of a match that programs and scripts may read.
 //! - [`machine`]: runs register programs.
 //! - [`rewards`], [`endings`]: what the scenario pays, and how it ends.
+//! - [`records`], [`observation`]: what it measures, and what it shows its agents.
 //! - [`script`]: the same by Rhai hooks.
 
 pub mod endings;
 pub mod machine;
+pub mod observation;
+pub mod records;
 pub mod rewards;
 pub mod script;
 pub mod view;
 
 pub use endings::{EndingJudge, Outcome};
 pub use machine::Machine;
+pub use records::{RecordJudge, Recorded};
 pub use rewards::RewardJudge;
 pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
 pub use view::View;
@@ -27,6 +31,7 @@ use crate::random::{Purpose, Stream};
 use crate::start::Drawn;
 use crate::state::Match;
 use machine::Input;
+use observation::ObservationJudge;
 use script::{Params, Scene, Scripts};
 use setpiece_scenario::{Endings, Reward, Scenario};
 use std::sync::Arc;
@@ -36,6 +41,8 @@ use std::sync::Arc;
 pub struct Judge {
     endings: EndingJudge,
     rewards: RewardJudge,
+    records: RecordJudge,
+    observation: Option<ObservationJudge>,
     scripts: Scripts,
     /// Whether a reward or an ending asks a script.
     scripted: bool,
@@ -47,6 +54,8 @@ pub struct Judge {
     seed: u64,
     index: u64,
     prev: View,
+    /// What `prev` was in the step just judged: what an observation compares with.
+    before: View,
 }
 
 impl Judge {
@@ -58,6 +67,8 @@ impl Judge {
             scripted: rewards.iter().any(script_reward) || endings.list.iter().any(|ending| ending.script.is_some()),
             endings: EndingJudge::new(endings),
             rewards: RewardJudge::new(rewards, &scripts, n_agents),
+            records: RecordJudge::new(&scenario.records, n_agents),
+            observation: scenario.observation.as_ref().map(ObservationJudge::new),
             scripts,
             random: Stream::new(0, 0, Purpose::Script),
             params: Vec::new(),
@@ -66,7 +77,39 @@ impl Judge {
             seed: 0,
             index: 0,
             prev: View::EMPTY,
+            before: View::EMPTY,
         }
+    }
+
+    /// What has been measured.
+    pub fn records(&self) -> &RecordJudge {
+        &self.records
+    }
+
+    /// The names of the declared observation's numbers; none without one.
+    pub fn observed_names(&self) -> Vec<String> {
+        self.observation.iter().flat_map(ObservationJudge::names).map(str::to_owned).collect()
+    }
+
+    /// Writes the declared observation of an agent; `false` where there is none of that length.
+    pub fn observe(&mut self, game: &Match, agent: usize, out: &mut [f32]) -> bool {
+        let Some(observation) = &mut self.observation else { return false };
+        if out.len() != observation.names().len() || agent >= game.agents.len() {
+            return false;
+        }
+        let input = Input {
+            now: &self.prev,
+            prev: &self.before,
+            events: &[],
+            params: &self.params,
+            lets: &self.lets,
+            index: self.index,
+            us: endings::judged_side(game),
+            me: None,
+            silent: false,
+        };
+        observation.write(game, agent, &input, out);
+        true
     }
 
     /// What has been paid.
@@ -91,6 +134,7 @@ impl Judge {
         (self.seed, self.index) = (drawn.seed, drawn.index);
         self.random = Stream::new(drawn.seed, drawn.index, Purpose::Script);
         self.prev = View::of(game);
+        self.before = self.prev;
         let start = self.prev;
         let input = Input {
             now: &start,
@@ -105,6 +149,7 @@ impl Judge {
         };
         self.endings.reset(&input);
         self.rewards.reset(game, &input);
+        self.records.reset(game, &input);
     }
 
     /// Judges a step: `game` stands before any restart. Where the episode ends, the event `end` is added.
@@ -134,6 +179,7 @@ impl Judge {
         }
         let shown = scene.as_ref().map(|scene| (&self.scripts, scene));
         self.rewards.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
+        self.records.step(game, &Input { events: events.as_slice(), ..shared });
         if let Some(scene) = scene {
             self.random = scene.random();
         }
@@ -142,6 +188,9 @@ impl Judge {
 
     /// Remembers the state that the step leaves behind, after its restart: what the next step's `prev` reads.
     pub fn settle(&mut self, game: &Match) {
+        if self.observation.is_some() {
+            self.before = self.prev;
+        }
         self.prev = View::of(game);
     }
 

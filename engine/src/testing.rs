@@ -174,6 +174,8 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
         rewards: Vec::new(),
         library: Vec::new(),
         endings: Endings::default(),
+        records: Vec::new(),
+        observation: None,
     }
 }
 

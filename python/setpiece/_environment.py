@@ -46,7 +46,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     scenario: Scenario
     """The scenario, with the parameters it was made with."""
     agents: tuple[str, ...]
-    """The agents in order: a player's name, `left_CM_1`, or `left_1` for one that changes players."""
+    """The agents in order: a player's name, `left_CM_1`, or `left_0` for one that changes players."""
 
     def __init__(
         self,
@@ -101,17 +101,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if seed is not None:
             seed = _check_number("seed", seed)
         super().reset(seed=seed)
-        if seed is not None:
-            self._seed, self._index = seed, 0
-        elif self._seed is None:
-            self._seed = int(self.np_random.integers(2**63))
-        if episode is not None:
-            self._index = episode
-        if params is not None:
-            self._params = params
+        number, at = (self._seed, self._index) if seed is None else (seed, 0)
+        if number is None:
+            number = int(self.np_random.integers(2**63))
+        at = at if episode is None else episode
+        params = self._params if params is None else params
         self._playing = False
-        observation, info = self._native.reset(self._seed, self._index, self._params)
-        self._index += 1
+        observation, info = self._native.reset(number, at, params)
+        # A reset that fails leaves no trace but that nothing is being played.
+        self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
         self._playing = True
         return observation, info
 
@@ -162,7 +160,8 @@ def make(
     """Makes an environment of a scenario.
 
     - `scenario`: a name of the library, the path of a `.pitch` or `.pitchc` file, or a `Scenario`.
-    - `observation`: `"simple115v2"` (float32 `(115,)`), `"smm"` (uint8 `(72, 96, 4)`) or `"raw"` (a dict).
+    - `observation`: `"simple115v2"` (float32 `(115,)`), `"smm"` (uint8 `(72, 96, 4)`), `"raw"` (a dict) or
+      `"vector"` (float32 `(n,)`: what the scenario's `observe vector` declares).
     - `rewards`: names that replace the scenario's own choice: `"scoring,checkpoints"` or a list.
     - `params`: parameters to bind: SI units, or strings as the language writes them.
     - `seed`: the seed of the first `reset` that gets none.
@@ -202,11 +201,15 @@ def _reward_names(rewards: str | Sequence[str] | None) -> list[str] | None:
     if rewards is None:
         return None
     names = rewards.split(",") if isinstance(rewards, str) else rewards
+    if not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
+        raise ParameterError(f"expected `rewards` as names, found `{rewards!r}`", name="rewards")
     return [name.strip() for name in names]
 
 
 def _check_number(name: str, value: object) -> int:
     try:
+        if isinstance(value, bool):
+            raise TypeError
         number = index(value)  # type: ignore[arg-type]
     except TypeError:
         raise ParameterError(f"expected an integer as `{name}`, found `{value!r}`", name=name) from None
@@ -216,7 +219,9 @@ def _check_number(name: str, value: object) -> int:
 
 
 def _read_options(options: Mapping[str, Any] | None) -> tuple[int | None, dict[str, ParamValue] | None]:
-    options = options or {}
+    options = {} if options is None else options
+    if not isinstance(options, Mapping):
+        raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
     for key in options:
         if key not in RESET_OPTIONS:
             raise ParameterError(f"no reset option `{key}`; there are `{'`, `'.join(RESET_OPTIONS)}`", name=str(key))

@@ -14,7 +14,10 @@ from setpiece._errors import ParameterError
 COUNT_MAX = 2**32 - 1
 """Greatest count of goals or steps: the engine counts in 32 bits."""
 
-OBSERVATIONS = ("simple115v2", "smm", "raw")
+OBSERVATIONS = ("simple115v2", "smm", "raw", "vector")
+
+OBSERVED_MAX = 1.0e6
+"""Greatest size of a number of a scenario's own observation: what is beyond is held there."""
 
 
 def check_observation(name: object) -> str:
@@ -47,6 +50,9 @@ def observation_space(native: _native.Environment, observation: str) -> spaces.S
     if observation == "smm":
         shape = _native.SMM_SHAPE if n_agents == 1 else (n_agents, *_native.SMM_SHAPE)
         return spaces.Box(0, 255, shape, np.uint8)
+    if observation == "vector":
+        width = len(native.observed)
+        return spaces.Box(-OBSERVED_MAX, OBSERVED_MAX, (width,) if n_agents == 1 else (n_agents, width), np.float32)
     low, high = _native.simple115v2_bounds()
     if n_agents > 1:
         low, high = np.tile(low, (n_agents, 1)), np.tile(high, (n_agents, 1))

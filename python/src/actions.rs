@@ -2,7 +2,7 @@
 
 use crate::errors;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyString};
+use pyo3::types::{PyBool, PyDict, PySet, PyString};
 use setpiece::scenario::Action;
 
 /// Longest part of a value that an error shows, characters.
@@ -31,7 +31,10 @@ fn one(given: &Bound<'_, PyAny>) -> Option<Action> {
 }
 
 fn several(given: &Bound<'_, PyAny>, actions: &mut [Action]) -> bool {
-    if given.is_instance_of::<PyString>() || given.len().ok() != Some(actions.len()) {
+    // What has keys has no order; a text's letters are no actions.
+    let unordered =
+        given.is_instance_of::<PyString>() || given.is_instance_of::<PyDict>() || given.is_instance_of::<PySet>();
+    if unordered || given.len().ok() != Some(actions.len()) {
         return false;
     }
     let Ok(items) = given.try_iter() else { return false };

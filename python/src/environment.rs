@@ -57,7 +57,14 @@ impl Environment {
         let kind = Kind::from_name(observation)
             .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
         Ok(Environment {
-            observer: Observer::new(py, kind, &engine, copy),
+            observer: {
+                if matches!(kind, Kind::Vector) && engine.observed_names().is_empty() {
+                    let name = &engine.scenario().name;
+                    let message = format!("`{name}` declares no observation: it has no `observe vector {{ … }}`");
+                    return Err(errors::parameter(py, "observation", &message));
+                }
+                Observer::new(py, kind, &engine, copy)
+            },
             info: InfoWriter::new(py, &engine, events),
             actions: vec![Action::Idle; engine.n_agents()],
             scratch: Scratch::default(),
@@ -70,6 +77,12 @@ impl Environment {
     fn agents(&self) -> Vec<AgentInfo> {
         let teams = self.engine.roster().agents.iter().map(|(team, _)| team.index());
         self.engine.agent_ids().iter().zip(teams).map(|(id, team)| AgentInfo { id: id.clone(), team }).collect()
+    }
+
+    /// The names of the numbers of the scenario's own observation, in order; empty without one.
+    #[getter]
+    fn observed(&self) -> Vec<String> {
+        self.engine.observed_names()
     }
 
     /// Players of the left and the right team, as raw observations count them.
@@ -92,7 +105,7 @@ impl Environment {
         self.engine.set_bindings(&bindings).map_err(|error| from_engine(py, error))?;
         let engine = &mut self.engine;
         py.detach(|| engine.reset(Some(seed), Some(episode))).map_err(|why| from_episode(py, why.into()))?;
-        Ok((self.observer.observe(py, &self.engine)?, self.info.write(py, &self.engine)?))
+        Ok((self.observer.observe(py, &mut self.engine)?, self.info.write(py, &self.engine)?))
     }
 
     /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the interpreter meanwhile.
@@ -100,7 +113,7 @@ impl Environment {
         actions::read(action, &mut self.actions)?;
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
         let result = py.detach(|| engine.step(actions, scratch)).map_err(|why| from_episode(py, why.into()))?;
-        let observation = self.observer.observe(py, &self.engine)?;
+        let observation = self.observer.observe(py, &mut self.engine)?;
         let reward = match self.engine.rewards() {
             [one] => f64::from(*one).into_pyobject(py)?.into_any(),
             several => PyArray1::from_slice(py, several).into_any(),

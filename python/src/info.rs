@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString};
 use setpiece::engine::environment::Environment as Engine;
 use setpiece::engine::event::Event;
+use setpiece::engine::judge::Recorded;
 use setpiece::engine::observe;
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::pitch::{PLAYERS_MAX, to_normalised};
@@ -44,7 +45,7 @@ impl InfoWriter {
         }
         if let Some(outcome) = engine.outcome() {
             info.set_item(intern!(py, "outcome"), &*outcome.label)?;
-            info.set_item(intern!(py, "records"), PyDict::new(py))?;
+            info.set_item(intern!(py, "records"), records(py, engine)?)?;
             let summary = PyDict::new(py);
             summary.set_item("return", self.terms(py, engine, Engine::term_sums)?)?;
             summary.set_item("length", engine.steps())?;
@@ -96,6 +97,32 @@ impl InfoWriter {
         dict.set_item(intern!(py, "speed"), event.speed_mps)?;
         Ok(dict)
     }
+}
+
+/// The records: floats (`None` where one could not be computed), `(x, y)` for a place, float64 arrays for series:
+/// `(steps,)` or `(steps, 2)`; with several agents what depends on the agent is a list.
+fn records<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (name, value) in engine.records() {
+        dict.set_item(name, recorded(py, value)?)?;
+    }
+    Ok(dict)
+}
+
+fn recorded(py: Python<'_>, value: Recorded) -> PyResult<Bound<'_, PyAny>> {
+    Ok(match value {
+        Recorded::Number(value) => value.into_pyobject(py)?,
+        Recorded::Place([x, y]) => (x, y).into_pyobject(py)?.into_any(),
+        Recorded::Numbers(values) => PyArray1::from_vec(py, values).into_any(),
+        Recorded::Places(places) => {
+            let n = places.len();
+            PyArray1::from_vec(py, places.into_flattened()).reshape([n, 2])?.into_any()
+        }
+        Recorded::PerAgent(values) => {
+            let values: PyResult<Vec<_>> = values.into_iter().map(|value| recorded(py, value)).collect();
+            PyList::new(py, values?)?.into_any()
+        }
+    })
 }
 
 /// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n.

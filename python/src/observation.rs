@@ -22,6 +22,8 @@ pub(crate) enum Kind {
     Smm,
     /// A dict.
     Raw,
+    /// float32 `(n,)`: the scenario's own.
+    Vector,
 }
 
 impl Kind {
@@ -31,6 +33,7 @@ impl Kind {
             "simple115v2" => Some(Kind::Simple115v2),
             "smm" => Some(Kind::Smm),
             "raw" => Some(Kind::Raw),
+            "vector" => Some(Kind::Vector),
             _ => None,
         }
     }
@@ -41,6 +44,7 @@ pub(crate) enum Observer {
     Simple115v2(Buffer<f32>),
     Smm(Buffer<u8>),
     Raw,
+    Vector(Buffer<f32>),
 }
 
 /// An array of a shape: the same one every time, or a new one.
@@ -57,13 +61,19 @@ impl Observer {
             Kind::Simple115v2 => Observer::Simple115v2(Buffer::new(py, n_agents, &[SIMPLE115], copy)),
             Kind::Smm => Observer::Smm(Buffer::new(py, n_agents, &[SMM_SHAPE.0, SMM_SHAPE.1, SMM_SHAPE.2], copy)),
             Kind::Raw => Observer::Raw,
+            Kind::Vector => Observer::Vector(Buffer::new(py, n_agents, &[engine.observed_names().len()], copy)),
         }
     }
 
     /// What the agents see of the match as it stands.
-    pub(crate) fn observe<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
-        let (game, n_agents) = (engine.state(), engine.n_agents());
+    pub(crate) fn observe<'py>(&self, py: Python<'py>, engine: &mut Engine) -> PyResult<Bound<'py, PyAny>> {
+        let n_agents = engine.n_agents();
+        if let Observer::Vector(buffer) = self {
+            return buffer.fill(py, n_agents, |agent, out| engine.observe_vector(agent, out));
+        }
+        let game = engine.state();
         match self {
+            Observer::Vector(_) => Ok(py.None().into_bound(py)),
             Observer::Simple115v2(buffer) => buffer.fill(py, n_agents, |agent, out| simple115(game, agent, out)),
             Observer::Smm(buffer) => {
                 buffer.fill(py, n_agents, |agent, out| smm(game, agent, SMM_WIDTH, SMM_HEIGHT, out))
@@ -94,7 +104,7 @@ impl<T: Element> Buffer<T> {
         &self,
         py: Python<'py>,
         n_agents: usize,
-        write: impl Fn(usize, &mut [T]) -> Result<(), ObserveError>,
+        mut write: impl FnMut(usize, &mut [T]) -> Result<(), ObserveError>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let array = match &self.shared {
             Some(array) => array.bind(py).clone(),

@@ -97,6 +97,7 @@ impl Scenario {
     #[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let text = self.to_json(py)?;
+        setpiece::files::refuse_overwriting(&path, &[]).map_err(|error| errors::from_facade(py, &error))?;
         setpiece::files::write(&path, &text).map_err(|error| errors::from_facade(py, &error))
     }
 

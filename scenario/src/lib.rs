@@ -19,8 +19,8 @@ pub use program::{
     BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp, When, Who,
 };
 pub use scenario::{
-    Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Others, PlayerSlot, PlayerStart, Require, Reward,
-    RewardBody, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
+    Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Observation, ObservedValue, Others, PlayerSlot,
+    PlayerStart, Record, Require, Reward, RewardBody, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
 };
 pub use vocabulary::{
     Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team, Type, Verdict,

@@ -32,6 +32,8 @@ pub const SIX_YARD_DEPTH_M: f64 = 5.5;
 pub const SIX_YARD_HALF_WIDTH_M: f64 = 9.16;
 /// Distance of the penalty spot from the goal line.
 pub const PENALTY_SPOT_M: f64 = 11.0;
+/// Distance of the goal-kick spot from the goal line.
+pub const GOAL_KICK_SPOT_M: f64 = 4.4;
 /// Radius of the centre circle, of the D, and the distance opponents keep at a free kick.
 pub const CIRCLE_RADIUS_M: f64 = 9.15;
 /// Radius of the ball.

@@ -39,6 +39,9 @@ pub struct Program {
     pub cells: u32,
 }
 
+/// Most that a `give` pays at once: a step's reward is a float32 and holds hundreds of millions of them.
+pub const PAY_MAX: f64 = 1.0e30;
+
 impl Program {
     /// Whether a value of the program depends on the agent's player (`me`), so that it must run once per agent.
     pub fn uses_me(&self) -> bool {

@@ -33,6 +33,12 @@ pub struct Scenario {
     pub library: Vec<Reward>,
     /// When an episode ends.
     pub endings: Endings,
+    /// What is measured of an episode.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub records: Vec<Record>,
+    /// The scenario's own observation, if it declares one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub observation: Option<Observation>,
 }
 
 impl Scenario {
@@ -327,4 +333,36 @@ pub struct Ending {
     /// Or a script's `done` hook.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub script: Option<u32>,
+}
+
+/// A metric of an episode: a program run at every step after the rewards, and the registers that hold the metric so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// The name `info["records"]` shows.
+    pub name: String,
+    /// Run at every step; once per agent where it reads `me`.
+    pub program: Program,
+    /// One register, or two of a place.
+    pub values: Vec<Reg>,
+    /// Whether every step's value is kept rather than the last one's.
+    #[serde(default)]
+    pub series: bool,
+}
+
+/// An observation that a scenario declares: a program run for each agent, one register per number.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Observation {
+    /// Run after every step and reset, in the agent's own frame; it remembers nothing.
+    pub program: Program,
+    /// The numbers, in order.
+    pub values: Vec<ObservedValue>,
+}
+
+/// A number of an [`Observation`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ObservedValue {
+    /// The label, else the author's text.
+    pub name: String,
+    /// Where it is.
+    pub value: Reg,
 }

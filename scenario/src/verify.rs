@@ -57,6 +57,20 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
             }
         }
     }
+    for record in &scenario.records {
+        check(&record.name, &record.program, Place::Step { terms: 0 })?;
+        record.values.iter().try_for_each(|&reg| visible(&record.program, reg))?;
+        if !(1..=2).contains(&record.values.len()) {
+            return Err(format!("{}: a record has one value or two", record.name));
+        }
+    }
+    if let Some(observation) = &scenario.observation {
+        check("the observation", &observation.program, Place::Step { terms: 0 })?;
+        observation.values.iter().try_for_each(|value| visible(&observation.program, value.value))?;
+        if observation.program.cells > 0 {
+            return Err("the observation remembers something".to_owned());
+        }
+    }
     verify_start(scenario)
 }
 

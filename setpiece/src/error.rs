@@ -126,6 +126,9 @@ impl Error {
                 similar.as_ref().map(meant)
             }
             Error::File { why: FileFault::Directory, .. } => Some("name a .pitch file in it".to_owned()),
+            Error::File { why: FileFault::NotUtf8 { .. }, path } if path.extension().is_some_and(|e| e == "pitchc") => {
+                Some("it is damaged: build it again from its source".to_owned())
+            }
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Some("save it as UTF-8 text".to_owned()),
             Error::Environment(EnvironmentError::Reward { name, known }) => {
                 nearest(name, known.iter().map(String::as_str)).map(|name| format!("did you mean `{name}`?"))

@@ -98,11 +98,15 @@ fn beside(from: &str, path: &str) -> PathBuf {
     full
 }
 
-/// Refuses an output that is one of the inputs.
+/// Refuses an output for a compiled scenario that is one of its inputs, or would pass for a source.
 ///
 /// # Errors
 /// [`Error::File`] where it is.
 pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
+    if output.extension().is_some_and(|ending| ending == "pitch" || ending == "rhai") {
+        let why = FileFault::Write("a compiled scenario ends in .pitchc".to_owned());
+        return Err(Error::File { path: output.to_owned(), why });
+    }
     let same = |input: &PathBuf| matches!((input.canonicalize(), output.canonicalize()), (Ok(a), Ok(b)) if a == b);
     if inputs.iter().any(same) {
         let why = FileFault::Write("it is what the scenario is made of".to_owned());
@@ -118,7 +122,8 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
 pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     let fault = |error: std::io::Error| Error::File { path: path.to_owned(), why: FileFault::Write(error.to_string()) };
     if path.is_dir() {
-        return Err(Error::File { path: path.to_owned(), why: FileFault::Directory });
+        let why = FileFault::Write("it is a directory".to_owned());
+        return Err(Error::File { path: path.to_owned(), why });
     }
     let Some(name) = path.file_name() else {
         return Err(fault(std::io::Error::other("it has no file name")));

@@ -50,6 +50,8 @@ pub struct Summary {
     pub terms: Vec<(String, f64)>,
     /// Steps per second of wall time.
     pub steps_per_second: f64,
+    /// Mean of each record that is a number, over the episodes that have one; of one per agent their mean.
+    pub records: Vec<(String, f64)>,
     /// Values paid by rewards that were no finite numbers and were left out, over all episodes.
     pub faults: u64,
     /// Of all episodes' final states, in order.
@@ -79,6 +81,9 @@ impl Policy for Players {
 /// # Errors
 /// [`Error::Environment`] where the options don't fit the scenario, [`Error::Threads`] where threads can't be had.
 pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32) + Sync) -> Result<Summary, Error> {
+    if scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
+        return Err(Error::Episode(Box::new(EpisodeError::Endless(0))));
+    }
     let environment = Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
     let begin = Instant::now();
     let players = || Players { agent: options.agent, stream: Stream::new(options.seed, 0, Purpose::Agent) };
@@ -125,11 +130,24 @@ fn summarise(episodes: Vec<Result<EpisodeSummary, EpisodeError>>, names: &[Strin
         success_rate: mean(&|episode| f64::from(u8::from(episode.verdict == Some(Verdict::Success)))),
         terms: names.iter().enumerate().map(|(index, name)| (name.clone(), term(index))).collect(),
         steps_per_second: if seconds > 0.0 { steps as f64 / seconds } else { 0.0 },
+        records: record_means(&played),
         faults: played.iter().map(|episode| u64::from(episode.faults)).sum(),
         digest: digest::of_all(played.iter().map(|episode| episode.digest)),
         match_stats: MatchStatistics::mean(&statistics),
         episodes,
     }
+}
+
+fn record_means(played: &[&EpisodeSummary]) -> Vec<(String, f64)> {
+    let Some(first) = played.first() else { return Vec::new() };
+    let mut means = Vec::new();
+    for (which, (name, _)) in first.records.iter().enumerate() {
+        let numbers: Vec<f64> = played.iter().filter_map(|episode| episode.records.get(which)?.1.number()).collect();
+        if !numbers.is_empty() {
+            means.push((name.clone(), numbers.iter().sum::<f64>() / numbers.len() as f64));
+        }
+    }
+    means
 }
 
 /// What broke the first of the episodes off that did not end, if any.

@@ -240,6 +240,44 @@ fn values_that_are_not_finite_are_told() {
 }
 
 #[test]
+fn a_value_that_grows_beyond_numbers_is_not_paid() {
+    let folder = folder();
+    let source = CLOSE.replace("ball at", "reward x { state n = 1  n = n * 1e10  give n as \"grows\" }\n    ball at");
+    let path = write(folder.path(), "grows.pitch", source);
+    let result = json(&["run", &path, "--episodes", "1", "--format", "json"]);
+    assert!(result["faults"].as_u64().unwrap() > 0);
+    assert!(result["mean_return"].as_f64().unwrap().abs() < 1e31);
+}
+
+#[test]
+fn an_imported_copy_of_a_reward_takes_the_librarys_place() {
+    let folder = folder();
+    let copy = include_str!("../../stdlib-scenarios/rewards.pitch").replace("give +1 on goal", "give +3 on goal");
+    write(folder.path(), "mine.pitch", copy);
+    let path = write(folder.path(), "close.pitch", format!("import \"mine.pitch\"\n{CLOSE}"));
+    let result = json(&["run", &path, "--agent", "run_and_shoot", "--episodes", "10", "--format", "json"]);
+    assert_eq!(result["terms"]["scoring/goal"], 3.0 * result["success_rate"].as_f64().unwrap());
+}
+
+#[test]
+fn an_episode_without_an_end_is_refused_at_once() {
+    let folder = folder();
+    let path = write(folder.path(), "endless.pitch", "scenario s { ball at centre  team left { CM at (-0.1, 0) } }");
+    fails(&["run", &path], 1, &["SP0703", "has no end"]);
+}
+
+#[test]
+fn a_compiled_scenario_is_never_written_over_a_source() {
+    let folder = folder();
+    let path = write(folder.path(), "close.pitch", CLOSE);
+    let other = write(folder.path(), "other.pitch", CLOSE);
+    fails(&["build", &path, "-o", &path], 1, &["SP0001"]);
+    fails(&["build", &path, "-o", &other], 1, &["ends in .pitchc"]);
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), CLOSE);
+    fails(&["build", &path, "-o", &folder.path().to_string_lossy()], 1, &["it is a directory"]);
+}
+
+#[test]
 fn checks_names_and_files_that_have_nothing_to_run() {
     let folder = folder();
     assert!(setpiece(&["check", "academy_corner"]).status.success());

@@ -1,6 +1,7 @@
 //! `agents { }`: who is played by agents.
 
 use super::Lower;
+use super::mirror::Mirror;
 use super::start::of_team;
 use super::team::PlayerOptions;
 use crate::ast::{Expr, ExprKind, Field, Span};
@@ -14,7 +15,10 @@ use setpiece_scenario::{Agents, Others, SideAgents, Switching};
 pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions]) -> Agents {
     let (one, none) = (lower.code.constant(1.0), lower.code.constant(0.0));
     let mut agents = Agents {
-        sides: [SideAgents::Count(one), SideAgents::Count(none)],
+        sides: match lower.world.mirror {
+            Mirror::Ends => [SideAgents::Count(none), SideAgents::Count(one)],
+            _ => [SideAgents::Count(one), SideAgents::Count(none)],
+        },
         others: Others::Bot,
         switching: Switching::Auto,
     };
@@ -37,7 +41,7 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
                 }
             }
             side => {
-                let team = if side == "left" { Team::Left } else { Team::Right };
+                let team = lower.world.mirror.team(if side == "left" { Team::Left } else { Team::Right });
                 if let Some(found) = lower_side(lower, expr, team)
                     && let (Some(slot), Some(at)) = (agents.sides.get_mut(team.index()), at.get_mut(team.index()))
                 {

@@ -12,6 +12,7 @@ mod sample;
 mod set;
 mod temporal;
 
+use super::mirror::Mirror;
 use super::value::{Frame, Repr, Value};
 use super::{DEPTH_MAX, Lower};
 use crate::ast::{Expr, ExprKind, Span, UnaryOp};
@@ -19,7 +20,7 @@ use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::Unit;
-use setpiece_scenario::{BinaryOp, Reg};
+use setpiece_scenario::{BinaryOp, Reg, UnaryOp as WorldOp};
 
 /// Whether an expression is written as `(x, y)`, signs and brackets aside.
 pub(crate) fn is_tuple(expr: &Expr) -> bool {
@@ -56,7 +57,10 @@ impl<'w> Lower<'_, 'w> {
             ExprKind::Bool(value) => Value::one(Ty::Bool, self.code.bool(*value)),
             ExprKind::String(text) => Value { ty: Ty::String, repr: Repr::Text(text.clone()) },
             ExprKind::Name(name) => self.name(name, span),
-            ExprKind::Role(role) => Value::one(Ty::Role, self.code.constant(role.index() as f64)),
+            ExprKind::Role(role) => {
+                let role = self.world.mirror.role(*role);
+                Value::one(Ty::Role, self.code.constant(role.index() as f64))
+            }
             ExprKind::Member(of, member) => self.member(of, member, span),
             ExprKind::Own(inner) => self.own(inner, span),
             ExprKind::Tuple(parts) => self.tuple(parts, span),
@@ -71,9 +75,7 @@ impl<'w> Lower<'_, 'w> {
             ExprKind::HasBall(who) => self.has_ball(who),
             ExprKind::Changes(what, to) => self.changes(what, to.as_deref(), span),
             ExprKind::Event(event) => self.event_happened(event),
-            ExprKind::OverTime { kind, .. } => {
-                self.fail(Problem::new(Code::NotYet, span, format!("`{} of …` is not supported yet", kind.node), ""))
-            }
+            ExprKind::OverTime { kind, of } => self.over_episode(kind, of, span),
             ExprKind::Broken => Value::error(),
         }
     }
@@ -165,22 +167,28 @@ impl<'w> Lower<'_, 'w> {
 
     /// A pair of the reader's frame in the world's, or back: both frames differ by half a turn.
     pub(crate) fn turned(&mut self, (x, y): (Reg, Reg)) -> (Reg, Reg) {
-        match self.side() {
+        let (x, y) = match self.side() {
             Some(side) => (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side)),
             None => (x, y),
-        }
+        };
+        (x, if self.world.mirror == Mirror::Flanks { self.code.unary(WorldOp::Neg, y) } else { y })
     }
 
     /// An angle of the reader's frame in the world's, or back.
     pub(crate) fn turned_angle(&mut self, angle: Reg) -> Reg {
-        let Some(side) = self.side() else { return angle };
+        let flipped = |lower: &mut Self, angle: Reg| match lower.world.mirror {
+            Mirror::Flanks => lower.code.unary(WorldOp::Neg, angle),
+            _ => angle,
+        };
+        let Some(side) = self.side() else { return flipped(self, angle) };
         // side 1 adds nothing, side -1 adds half a turn.
         let one = self.code.constant(1.0);
         let half = self.code.constant(std::f64::consts::FRAC_PI_2);
         let away = self.code.binary(BinaryOp::Sub, one, side);
         let turn = self.code.binary(BinaryOp::Mul, away, half);
         let sum = self.code.binary(BinaryOp::Add, angle, turn);
-        self.code.unary(setpiece_scenario::UnaryOp::Wrap, sum)
+        let turned = self.code.unary(WorldOp::Wrap, sum);
+        flipped(self, turned)
     }
 
     /// A truth value.

@@ -1,5 +1,6 @@
 //! Where things are: at the start by their place statements, in the match by its state.
 
+use super::mirror::Mirror;
 use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
@@ -129,7 +130,7 @@ impl<'w> Lower<'_, 'w> {
         self.start.ball = Found::Busy;
         let place = match self.world.flat.ball {
             Some((ball, _)) => self.drawing("ball", |lower| lower.compute_ball(ball)),
-            None => self.nowhere(),
+            None => self.place_of_start().unwrap_or_else(|| self.nowhere()),
         };
         self.start.ball = Found::Done(place);
         place
@@ -212,7 +213,12 @@ impl<'w> Lower<'_, 'w> {
                 let origin = self.pair(&origin);
                 let length = self.want_reg(by, Ty::LENGTH);
                 let ahead = self.ahead(view, of.span);
-                let (dx, dy) = match direction.node.as_str() {
+                let direction = match (direction.node.as_str(), self.world.mirror) {
+                    ("right", Mirror::Flanks) => "left",
+                    ("left", Mirror::Flanks) => "right",
+                    (direction, _) => direction,
+                };
+                let (dx, dy) = match direction {
                     "ahead" => ahead,
                     "behind" => (self.code.unary(UnaryOp::Neg, ahead.0), self.code.unary(UnaryOp::Neg, ahead.1)),
                     "right" => (self.code.unary(UnaryOp::Neg, ahead.1), ahead.0),

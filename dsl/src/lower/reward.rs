@@ -1,7 +1,7 @@
 //! Rewards: a program at every step that pays into terms, and one at reset that sets the states.
 
 use super::value::{Binding, Frame, Scope, Value};
-use super::{Lower, Stage, World, param};
+use super::{Lower, Stage, World, fold, param};
 use crate::ast::{
     Arg, Binding as Let, EventExpr, Expr, GiveStmt, RewardItem, RewardStmt, RewardStmtKind, RewardUse, RewardUseKind,
     Span,
@@ -10,7 +10,8 @@ use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use crate::resolve::reward_chain;
 use crate::source::FileId;
-use setpiece_scenario::{BinaryOp, Fold, FoldKind, Reg, Reward, RewardBody, UnaryOp};
+use setpiece_scenario::program::PAY_MAX;
+use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, Reward, RewardBody, UnaryOp};
 
 /// A reward's statements with what its parameters are bound to.
 struct Body<'w> {
@@ -47,9 +48,9 @@ pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, 
             ))
         }
         RewardUseKind::Named(reference) => {
-            // A parent's `reward NAME` means the scenario's own file first: names bind late.
-            let root = FileId(0);
-            let own = world.library.find(root, &reference.name.node).filter(|found| found.name.span.file == root);
+            // A parent's `reward NAME` means what the scenario's own file sees first: names bind late.
+            let own = world.library.find(FileId(0), &reference.name.node);
+            let own = own.filter(|found| matches!(found.item.kind, crate::ast::ItemKind::Reward(_)));
             let found = own.or_else(|| world.library.find(reference.name.span.file, &reference.name.node));
             let item = found.and_then(|found| match &found.item.kind {
                 crate::ast::ItemKind::Reward(reward) => Some((found, reward)),
@@ -417,6 +418,7 @@ impl<'w> Writer<'_, 'w> {
     fn amount(&mut self, give: &'w GiveStmt) -> Reg {
         let value = self.lower.want(&give.value, Ty::Number);
         let mut reg = self.lower.reg(&value);
+        self.check_payable(reg, &give.value);
         if give.per_second {
             let step = self.lower.code.constant(0.1);
             reg = self.lower.code.binary(BinaryOp::Mul, reg, step);
@@ -424,6 +426,22 @@ impl<'w> Writer<'_, 'w> {
         match self.weight {
             Some(weight) => self.lower.code.binary(BinaryOp::Mul, reg, weight),
             None => reg,
+        }
+    }
+
+    /// Reports a constant that is more than can be paid.
+    fn check_payable(&self, reg: Reg, value: &Expr) {
+        let code = &self.lower.code;
+        let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
+            Some(&Instr::Binary(op, a, b)) => fold::binary(op, code.constant_of(a)?, code.constant_of(b)?),
+            _ => None,
+        });
+        if paid.is_some_and(|paid| !(paid.abs() <= PAY_MAX)) {
+            let text = self.lower.world.text(value.span);
+            self.lower.report(
+                Problem::new(Code::OutOfRange, value.span, format!("`{text}` is more than can be paid"), "")
+                    .help("rewards are small numbers: `give 1`"),
+            );
         }
     }
 

@@ -78,6 +78,9 @@ pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
         roster.extend(players);
     }
     check_names(world, &roster);
+    for player in &mut roster {
+        player.role = world.mirror.role(player.role);
+    }
     roster
 }
 

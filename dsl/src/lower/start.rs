@@ -1,6 +1,7 @@
 //! The start program: `let`s, places, the ball, rules and requirements.
 
 mod fields;
+mod kind;
 mod remap;
 
 use super::agents::{lower_agents, side_with_agents};
@@ -15,7 +16,7 @@ use crate::check::football;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use remap::{map_agents, map_slot, map_start};
-use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
 use std::collections::BTreeMap;
 
@@ -42,6 +43,7 @@ pub(crate) struct StartState<'w> {
     pub(crate) implied: Vec<Require>,
     lets: BTreeMap<&'w str, Option<Value<'w>>>,
     first: Option<Reg>,
+    kind: Option<(StartKind, Option<Reg>)>,
     drawing: String,
     draws: BTreeMap<String, u32>,
 }
@@ -109,6 +111,9 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     }
     for binding in &world.flat.lets {
         lower.scenario_let(&binding.name.node, binding.name.span);
+    }
+    for name in world.flat.tuples.iter().flat_map(|(names, _)| *names) {
+        lower.scenario_let(&name.node, name.span);
     }
     if let Some((_, _, span)) = world.flat.kickoff {
         lower.first_team();
@@ -231,7 +236,9 @@ impl<'w> Lower<'_, 'w> {
                     "a constant is known before",
                 ));
             }
-            Stage::Init | Stage::Reward | Stage::Ending => return self.step_let(name),
+            Stage::Init | Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation => {
+                return self.step_let(name);
+            }
         }
         match self.start.lets.get(name) {
             Some(Some(value)) => return value.clone(),
@@ -246,6 +253,9 @@ impl<'w> Lower<'_, 'w> {
             None => {}
         }
         let world = self.world;
+        if let Some((names, expr)) = world.flat.tuples.iter().find(|(names, _)| names.iter().any(|n| n.node == name)) {
+            return self.shuffled_let(name, names, expr);
+        }
         let binding = world.flat.lets.iter().find(|binding| binding.name.node == name);
         let bound = world.params.iter().find(|param| param.name.node == name);
         let (expr, ty): (&'w Expr, _) = match (binding, bound) {
@@ -281,6 +291,24 @@ impl<'w> Lower<'_, 'w> {
         }
         self.start.lets.insert(name, Some(value.clone()));
         value
+    }
+
+    /// `let (a, b) = shuffle(x, y)`: all its names at once, from the stream of the first.
+    fn shuffled_let(&mut self, name: &'w str, names: &'w [crate::ast::Ident], expr: &'w Expr) -> Value<'w> {
+        for one in names {
+            self.start.lets.insert(&one.node, None);
+        }
+        let team = self.team.take();
+        let stream = names.first().map_or(name, |first| first.node.as_str());
+        let values = self.within(Scope::new(true, Frame::World), |lower| {
+            lower.drawing(&format!("let {stream}"), |lower| lower.shuffle(expr, names.len()))
+        });
+        self.team = team;
+        for (index, one) in names.iter().enumerate() {
+            let value = values.as_ref().and_then(|values| values.get(index)).cloned().unwrap_or_else(Value::error);
+            self.start.lets.insert(&one.node, Some(value));
+        }
+        self.start.lets.get(name).cloned().flatten().unwrap_or_else(Value::error)
     }
 
     fn step_let(&mut self, name: &str) -> Value<'w> {
@@ -361,7 +389,12 @@ impl<'w> Lower<'_, 'w> {
     pub(crate) fn check_steps(&self, reg: Reg, what: &str, span: Span) {
         let Some(steps) = self.code.constant_of(reg).map(|seconds| seconds / STEP_S) else { return };
         if (steps - steps.round()).abs() > 1e-6 {
-            let message = format!("{what} is `{}`: {steps:.3} steps", self.world.text(span));
+            let text = self.world.text(span);
+            let message = if text.ends_with("steps") {
+                format!("{what} is `{text}`")
+            } else {
+                format!("{what} is `{text}`: {steps:.3} steps")
+            };
             self.report(
                 Problem::new(Code::OutOfRange, span, message, "not a whole number of steps")
                     .help(format!("write `{} steps`; a step is 0.1 s", steps.round().max(1.0))),

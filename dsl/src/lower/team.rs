@@ -44,7 +44,7 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
             found = Some(lower.drawing(&format!("{team} difficulty"), |lower| share(lower, expr, "`difficulty`")));
         }
     }
-    found.unwrap_or_else(|| lower.code.constant(if team == Team::Left { 1.0 } else { 0.6 }))
+    found.unwrap_or_else(|| lower.code.constant(if world.mirror.team(team) == Team::Left { 1.0 } else { 0.6 }))
 }
 
 /// The fastest sprints on record.

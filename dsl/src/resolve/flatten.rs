@@ -44,7 +44,18 @@ pub(crate) struct Flat<'a> {
     pub(crate) limit: Option<(&'a Expr, Span)>,
     /// Requirements.
     pub(crate) requires: Vec<&'a ScenarioStmt>,
+    /// Records.
+    pub(crate) records: Vec<&'a Binding>,
+    /// `observe vector { … }`
+    pub(crate) observed: Option<(&'a [Observed], Span)>,
+    /// `let (a, b) = shuffle(…)`
+    pub(crate) tuples: Vec<(&'a [Ident], &'a Expr)>,
+    /// `mirror: flanks`
+    pub(crate) mirror: Option<&'a Ident>,
 }
+
+/// A line of `observe vector { … }`: a value and its label.
+pub(crate) type Observed = (Expr, Option<Spanned<String>>);
 
 /// A parameter: its declaration, and the argument or newer default that stands for the declared one.
 #[derive(Clone, Copy)]
@@ -115,6 +126,10 @@ pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems
         ends: Vec::new(),
         limit: None,
         requires: Vec::new(),
+        records: Vec::new(),
+        observed: None,
+        tuples: Vec::new(),
+        mirror: None,
     };
     for (level, (scenario, _)) in links.iter().enumerate() {
         let mut adding = Adding { flat: &mut flat, problems, is_child: level > 0, own: Vec::new() };
@@ -191,22 +206,51 @@ impl<'a> Adding<'a, '_> {
             ScenarioStmtKind::End(end) => self.end(end, stmt.span),
             ScenarioStmtKind::Require { .. } => self.flat.requires.push(stmt),
             ScenarioStmtKind::LetTuple { names, value } => {
-                let span = names.first().map_or(value.span, |name| name.span.to(value.span));
-                self.not_yet("shuffle", span);
+                for name in names {
+                    self.declare("let", name);
+                    self.flat.lets.retain(|known| known.name.node != name.node);
+                }
+                let redeclared = |known: &[Ident]| known.iter().any(|one| names.iter().any(|n| n.node == one.node));
+                self.flat.tuples.retain(|(known, _)| !redeclared(known));
+                self.flat.tuples.push((names, value));
             }
-            ScenarioStmtKind::Record(binding) => self.not_yet("record", binding.name.span),
-            ScenarioStmtKind::Mirror(kind) => self.not_yet("mirror", kind.span),
-            ScenarioStmtKind::Observe(_) => self.not_yet("observe", stmt.span),
+            ScenarioStmtKind::Record(binding) => self.record(binding),
+            ScenarioStmtKind::Mirror(kind) => {
+                self.only_once("`mirror`", stmt.span);
+                self.flat.mirror = Some(kind);
+            }
+            ScenarioStmtKind::Observe(observed) => {
+                self.only_once("`observe vector`", stmt.span);
+                self.flat.observed = Some((observed, stmt.span));
+            }
             ScenarioStmtKind::Remove { .. } | ScenarioStmtKind::Broken => {}
         }
     }
 
-    fn not_yet(&mut self, what: &str, span: Span) {
-        self.problems.push(Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), ""));
+    /// Records have names of their own: they stand apart from values.
+    fn record(&mut self, binding: &'a Binding) {
+        let name = &binding.name;
+        if let Some((_, _, first)) = self.own.iter().find(|(kind, known, _)| *kind == "record" && *known == name.node) {
+            self.problems.push(
+                Problem::new(
+                    Code::DuplicateName,
+                    name.span,
+                    format!("record `{}` is declared twice", name.node),
+                    "declared again here",
+                )
+                .label(*first, "first declared here"),
+            );
+            return;
+        }
+        self.own.push(("record", name.node.clone(), name.span));
+        replace(&mut self.flat.records, binding, |known| &known.name.node);
     }
 
     fn declare(&mut self, kind: &'static str, name: &Ident) {
-        let clash = self.own.iter().find(|(_, known, _)| *known == name.node);
+        let clash = self
+            .own
+            .iter()
+            .find(|(kind, known, _)| *known == name.node && !matches!(*kind, "record" | "reward" | "end"));
         if let Some((_, _, first)) = clash {
             self.problems.push(
                 Problem::new(
@@ -436,6 +480,7 @@ impl<'a> Adding<'a, '_> {
             };
             let candidates: Vec<&str> = match what.node.as_str() {
                 "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
+                "record" => self.flat.records.iter().map(|known| known.name.node.as_str()).collect(),
                 "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.name.node.as_str())).collect(),
                 _ => Vec::new(),
             };
@@ -450,6 +495,7 @@ impl<'a> Adding<'a, '_> {
         match (what, name) {
             ("ball", _) => flat.ball.take().is_some(),
             ("reward", Some(name)) => removed(&mut flat.rewards, |(known, _, _)| known == name),
+            ("record", Some(name)) => removed(&mut flat.records, |known| known.name.node == name),
             ("end", Some("limit")) => flat.limit.take().is_some(),
             ("end", Some(name)) => removed(&mut flat.ends, |end| {
                 end.label.map_or_else(

@@ -6,7 +6,7 @@ use crate::football::{forecast, reach, restart, stats};
 use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
+use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
 use setpiece_scenario::vocabulary::{GameMode, Rule, StartKind, Stat, Team};
 
 /// The match that a drawn start begins with.
@@ -55,21 +55,30 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
         StartKind::Corner => (GameMode::Corner, Vec2::new(half_x * side, half_y * top)),
         StartKind::FreeKick => (GameMode::FreeKick, ball),
         StartKind::ThrowIn => (GameMode::ThrowIn, Vec2::new(ball.x, half_y * top)),
-        StartKind::GoalKick => (GameMode::GoalKick, Vec2::new(-0.92 * half_x * side, 0.0)),
+        StartKind::GoalKick => (GameMode::GoalKick, Vec2::new((GOAL_KICK_SPOT_M as f32 - half_x) * side, 0.0)),
         StartKind::Penalty => (GameMode::Penalty, Vec2::new((half_x - PENALTY_SPOT_M as f32) * side, 0.0)),
     };
-    let placed: [Vec2; PLAYERS_MAX] = std::array::from_fn(|i| game.players[i].pos);
+    let placed: [(Vec2, Vec2); PLAYERS_MAX] = std::array::from_fn(|i| (game.players[i].pos, game.players[i].vel));
     restart::place(game, Restart { mode, team, spot });
-    // The scenario's own places stand, but for the taker's.
+    // What the scenario says of its players stands, but for the taker.
     let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
     if mode != GameMode::KickOff {
-        for (i, place) in placed.into_iter().enumerate() {
+        for (i, (place, velocity)) in placed.into_iter().enumerate() {
             if taker.is_none_or(|id| id.index() != i) {
-                game.players[i].pos = place;
+                (game.players[i].pos, game.players[i].vel) = (place, velocity);
             }
         }
         restart::face_ball(game);
+        for (i, player) in game.players.iter_mut().enumerate() {
+            let told = drawn.players[i].as_ref().and_then(|start| start.heading_rad);
+            if let Some(heading) = told.filter(|_| taker.is_none_or(|id| id.index() != i)) {
+                player.heading_rad = heading;
+                player.body.facing = crate::math::unit(heading);
+            }
+        }
+        forecast::renew(game);
         reach::assess(game);
+        crate::control::switching::reassign(game);
     }
 }
 

@@ -6,7 +6,7 @@ use crate::football::{report, restart};
 use crate::physics::{self, Line};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
 
 /// Judges the tick in which the ball came from `before`.
@@ -61,7 +61,7 @@ fn out(game: &mut Match, events: &mut Events, line: Line) {
             let corner = Vec2::new(HALF_LENGTH_M as f32 * ball.x.signum(), HALF_WIDTH_M as f32 * top);
             stop(game, events, GameMode::Corner, defenders.other(), corner);
         } else {
-            let spot = Vec2::new(0.92 * HALF_LENGTH_M as f32 * ball.x.signum(), 0.0);
+            let spot = Vec2::new((HALF_LENGTH_M - GOAL_KICK_SPOT_M) as f32 * ball.x.signum(), 0.0);
             stop(game, events, GameMode::GoalKick, defenders, spot);
         }
     } else {

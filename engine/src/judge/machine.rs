@@ -15,6 +15,7 @@ use fold::Folding;
 pub use operators::truth;
 use operators::{binary, unary};
 use setpiece_scenario::pitch::STEPS_PER_S;
+use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Qualifier, Team};
 use setpiece_scenario::{Distribution, Each, EventFilter, Instr, Over, Program, Reg, When, Who};
 
@@ -128,7 +129,7 @@ impl Machine<'_> {
             Instr::Give { term, value, guard } => {
                 if self.allowed(*guard) {
                     let value = self.value(*value);
-                    if value.is_finite() {
+                    if value.abs() <= PAY_MAX {
                         self.terms[*term as usize] += value;
                     } else {
                         *self.faults += 1;

@@ -6,6 +6,7 @@
 use crate::judge::machine::{Input, Machine};
 use crate::judge::script::{Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::state::{Match, PlayerId};
+use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Program, Reward, RewardBody};
 use std::sync::Arc;
@@ -167,7 +168,7 @@ impl RewardJudge {
                         if let Some(memory) = self.states[which].memories.get_mut(instance) {
                             let value = scripts.reward(*script, scene, perspective, memory)?;
                             let at = judged.agent * self.names.len() + self.states[which].first_term;
-                            if value.is_finite() {
+                            if (value * weight).abs() <= PAY_MAX {
                                 self.terms[at] += value * weight;
                             } else {
                                 self.faults += 1;

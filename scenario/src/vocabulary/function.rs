@@ -49,6 +49,7 @@ words! {
         Normal = "normal", "normal(mean, sd): drawn at reset";
         TruncatedNormal = "truncated_normal", "truncated_normal(mean, sd, low, high): drawn at reset";
         Choice = "choice", "choice(a, b, …) or choice(a: weight, …): drawn at reset";
+        Shuffle = "shuffle", "let (a, b) = shuffle(x, y): the same values in an order drawn at reset";
         Integer = "integer", "integer(low, high): a whole number drawn at reset, both ends included";
         Alternate = "alternate", "alternate(a, b): a in even episodes, b in odd ones";
         Rect = "rect", "rect(from, to): a rectangle";

@@ -31,8 +31,8 @@ pub(crate) struct RunArgs {
     /// Set a parameter of the scenario; may be repeated
     #[arg(long, value_name = "PARAM=VALUE", value_parser = pair)]
     set: Vec<(String, String)>,
-    /// Pay this reward in place of the scenario's own; may be repeated
-    #[arg(long, value_name = "NAME")]
+    /// Pay this reward in place of the scenario's own; may be repeated, or several with commas between them
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
     reward: Vec<String>,
     /// How the ball's contacts are found [default: as the scenario says]
     #[arg(long, value_enum)]
@@ -93,6 +93,9 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
     let summary = with_progress(&loaded, &options)?;
+    if let Some(error) = first_error(&summary).filter(|_| summary.episodes.iter().all(Result::is_err)) {
+        return Err(error);
+    }
     match args.format {
         Format::Json => out.line(&summary::json(&loaded.scenario, &options, &summary)),
         Format::Text => summary::print(&loaded.scenario, &options, &summary, out)?,

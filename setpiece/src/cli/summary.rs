@@ -27,6 +27,7 @@ struct Report<'a> {
     mean_length: f64,
     success_rate: f64,
     terms: BTreeMap<&'a str, f64>,
+    records: BTreeMap<&'a str, f64>,
     faults: u64,
     steps_per_second: f64,
     match_stats: &'a MatchMeans,
@@ -57,6 +58,7 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
         mean_length: summary.mean_length,
         success_rate: summary.success_rate,
         terms: summary.terms.iter().map(|(name, mean)| (name.as_str(), *mean)).collect(),
+        records: summary.records.iter().map(|(name, mean)| (name.as_str(), *mean)).collect(),
         faults: summary.faults,
         steps_per_second: summary.steps_per_second,
         match_stats: &summary.match_stats,
@@ -105,6 +107,9 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
         out.line(&format!("  {:width$}    {}", "", out.paint(&told, Paint::Failure)));
     }
     out.line(&format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
+    for (index, (name, mean)) in summary.records.iter().enumerate() {
+        out.line(&format!("  {:width$}  {mean:.3}  {name}", if index == 0 { "records" } else { "" }));
+    }
     if scenario.endings.list.is_empty() {
         let m = &summary.match_stats;
         out.line(&format!(

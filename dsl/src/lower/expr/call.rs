@@ -109,9 +109,13 @@ impl<'w> Lower<'_, 'w> {
                     None => lower.expr(expr),
                 })
             });
+            let told = self.world.problems.borrow().len();
             if let (Some(domain), Some(value)) = (&param.domain, &value) {
                 self.check_domain(value, domain, expr, &param.name.node);
             }
+            // What a wrong argument would do further on is no news.
+            let wrong = self.world.problems.borrow().len() > told;
+            let value = value.map(|value| if wrong { Value::error() } else { value });
             scope.bind(&param.name.node, Binding::Expr { expr, scope: home, ty, now: value, at: param.name.span });
         }
     }

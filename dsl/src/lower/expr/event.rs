@@ -1,8 +1,8 @@
 //! Events: as conditions, and as loops over the events of a step.
 
-use super::super::Lower;
 use super::super::builder::OpenLoop;
 use super::super::value::{Repr, Value};
+use super::super::{Lower, Stage};
 use crate::ast::{EventExpr, Expr};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -79,6 +79,13 @@ impl<'w> Lower<'_, 'w> {
                     "this is computed before the match",
                 )
                 .help("events belong to rewards and endings"),
+            );
+            return None;
+        }
+        if self.stage == Stage::Observation {
+            self.report(
+                Problem::new(Code::WrongScope, event.span, "an observation shows the state, not what happened", "")
+                    .help("use the event in a reward, an ending or a record"),
             );
             return None;
         }

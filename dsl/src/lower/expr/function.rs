@@ -19,6 +19,10 @@ impl<'w> Lower<'_, 'w> {
                 self.aggregate(function, args, span)
             }
             F::Choice => self.choice(args, span),
+            F::Shuffle => self.fail(
+                Problem::new(Code::WrongScope, span, "`shuffle` gives several values", "one is wanted here")
+                    .help("give each a name: `let (a, b) = shuffle(x, y)`"),
+            ),
             F::Rect | F::Circle | F::Polygon | F::Sector => self.region_call(function, args, span),
             _ => {
                 let (names, required) = signature(function);
@@ -318,6 +322,7 @@ fn signature(function: Function) -> (&'static [&'static str], usize) {
         | F::MinBy
         | F::MaxBy
         | F::Choice
+        | F::Shuffle
         | F::Polygon => (&[], 0),
     }
 }

@@ -82,10 +82,11 @@ impl<'w> Lower<'_, 'w> {
             let (x, y) = landmark.left_m();
             let side = self.code.unary(UnaryOp::Side, reg);
             let (x, y) = (self.code.constant(x), self.code.constant(y));
+            let y = self.picture_y(y);
             return Value::two(Ty::Point, (self.code.binary(BinaryOp::Mul, x, side), y));
         }
         if let Some(role) = name.strip_prefix("zone.").and_then(Role::from_name) {
-            let (x, y) = role.zone();
+            let (x, y) = self.world.mirror.role(role).zone();
             let side = self.code.unary(UnaryOp::Side, reg);
             let (x, y) = (self.code.constant(x * X_SCALE_M), self.code.constant(y * Y_SCALE_M));
             return Value::two(

@@ -109,6 +109,11 @@ impl<'w> Lower<'_, 'w> {
             world.mark_used(binding.name.span);
             return Some(self.scenario_let(name, span));
         }
+        let mut shuffled = world.flat.tuples.iter().flat_map(|(names, _)| *names);
+        if let Some(known) = shuffled.find(|known| known.node == name) {
+            world.mark_used(known.span);
+            return Some(self.scenario_let(name, span));
+        }
         if let Some(binding) = world.flat.consts.iter().find(|binding| binding.name.node == name) {
             world.mark_used(binding.name.span);
             return Some(self.constant_item(binding, span));
@@ -188,8 +193,8 @@ impl<'w> Lower<'_, 'w> {
     fn builtin(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
         let team = |reg: Reg| Value::one(Ty::Team, reg);
         Some(match name {
-            "left" => team(self.code.constant(0.0)),
-            "right" => team(self.code.constant(1.0)),
+            "left" => team(self.code.constant(self.world.mirror.team(Team::Left).index() as f64)),
+            "right" => team(self.code.constant(self.world.mirror.team(Team::Right).index() as f64)),
             "none" => team(self.code.constant(-1.0)),
             "nobody" => Value::one(Ty::Player, self.code.constant(-1.0)),
             "ball" => Value { ty: Ty::Ball, repr: Repr::Nothing },
@@ -211,8 +216,8 @@ impl<'w> Lower<'_, 'w> {
                 Some(reg) if self.stage.is_step() => team(self.code.unary(UnaryOp::OtherTeam, reg)),
                 _ => self.no_view(name, span),
             },
-            "me" if self.stage == Stage::Reward => Value::one(Ty::Player, self.code.me()),
-            "mates" if self.stage == Stage::Reward => match self.team {
+            "me" if self.stage.has_me() => Value::one(Ty::Player, self.code.me()),
+            "mates" if self.stage.has_me() => match self.team {
                 Some(us) => {
                     let me = self.code.me();
                     Value { ty: Ty::Set, repr: Repr::Set(SetValue { team: us, except: Some(me) }) }
@@ -231,7 +236,9 @@ impl<'w> Lower<'_, 'w> {
         let problem =
             Problem::new(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
         self.fail(match (self.stage, name) {
-            (Stage::Ending, "us" | "them") => problem.help("both teams have agents, or none: write `left` or `right`"),
+            (Stage::Ending | Stage::Record, "us" | "them") => {
+                problem.help("both teams have agents, or none: write `left` or `right`")
+            }
             (Stage::Init, "me" | "mates") => problem.help("a `state` begins before anyone plays; set it in a `when`"),
             _ => problem.help("write `left`, `right` or a player's name; `us`, `them` and `me` belong to rewards"),
         })
@@ -280,6 +287,8 @@ impl<'w> Lower<'_, 'w> {
             let world = self.world;
             names.extend(world.params.iter().map(|param| param.name.node.clone()));
             names.extend(world.flat.lets.iter().map(|binding| binding.name.node.clone()));
+            let shuffled = world.flat.tuples.iter().flat_map(|(names, _)| *names);
+            names.extend(shuffled.map(|name| name.node.clone()));
             names.extend(world.flat.consts.iter().map(|binding| binding.name.node.clone()));
             names.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
             names.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));

@@ -2,7 +2,7 @@
 
 use super::super::value::Value;
 use super::super::{Lower, Stage};
-use crate::ast::{Arg, Expr, Span};
+use crate::ast::{Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::Function;
@@ -171,6 +171,49 @@ impl<'w> Lower<'_, 'w> {
             picked_at = at;
         }
         picked
+    }
+
+    /// `shuffle(x, y, z)`: its values in an order that is drawn (Fisher and Yates's way); `None` after a report.
+    pub(crate) fn shuffle(&mut self, expr: &'w Expr, wanted: usize) -> Option<Vec<Value<'w>>> {
+        let ExprKind::Call { name, args } = &expr.kind else {
+            self.report(
+                Problem::new(Code::WrongType, expr.span, "only `shuffle` gives several values", "")
+                    .help("write `let (a, b) = shuffle(x, y)`"),
+            );
+            return None;
+        };
+        if name.node != Function::Shuffle.name() || args.len() != wanted {
+            let message = match name.node.as_str() {
+                "shuffle" => format!("{wanted} names share {} values", args.len()),
+                other => format!("`{other}` gives one value, and {wanted} names wait for one each"),
+            };
+            self.report(
+                Problem::new(Code::WrongArguments, expr.span, message, "").help("write `let (a, b) = shuffle(x, y)`"),
+            );
+            return None;
+        }
+        let mut values: Vec<Value<'w>> = args.iter().map(|arg| self.expr(&arg.value)).collect();
+        if values.iter().any(Value::is_error) {
+            return None;
+        }
+        for i in 0..values.len().saturating_sub(1) {
+            let (low, high) = (self.code.constant(i as f64), self.code.constant((values.len() - 1) as f64));
+            let drawn = self.random(Distribution::Integer(low, high));
+            let mut first = values[i].clone();
+            let at = &args[i].value;
+            for j in i + 1..values.len() {
+                let index = self.code.constant(j as f64);
+                let is_this = self.code.binary(BinaryOp::Eq, drawn, index);
+                let other = values[j].clone();
+                values[j] = self.choose(is_this, (&values[i].clone(), at), (&other, &args[j].value));
+                if values[j].is_error() {
+                    return None;
+                }
+                first = self.choose(is_this, (&other, &args[j].value), (&first, at));
+            }
+            values[i] = first;
+        }
+        if values.iter().any(Value::is_error) { None } else { Some(values) }
     }
 
     /// `alternate(a, b)`: `a` in even episodes, `b` in odd ones.

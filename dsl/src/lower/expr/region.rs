@@ -1,6 +1,7 @@
 //! Regions: the named ones, constructors, and whether a point lies inside.
 
 use super::super::Lower;
+use super::super::mirror::Mirror;
 use super::super::value::{RegionValue, Repr, Value};
 use crate::ast::{Arg, Expr, Span};
 use crate::check::types::Ty;
@@ -25,8 +26,9 @@ impl<'w> Lower<'_, 'w> {
 
     /// A region that belongs to no team.
     pub(super) fn pitch_region(&mut self, region: PitchRegion) -> Value<'w> {
-        if let Some(rect) = region.rect_m() {
-            return value(self.constant_rect(rect));
+        if let Some((x0, y0, x1, y1)) = region.rect_m() {
+            let RegionValue::Rect(a, b) = self.constant_rect((x0, y0, x1, y1)) else { return Value::error() };
+            return value(RegionValue::Rect((a.0, self.picture_y(a.1)), (b.0, self.picture_y(b.1))));
         }
         let (zero, radius) = (self.code.constant(0.0), self.code.constant(CIRCLE_RADIUS_M));
         value(RegionValue::Circle((zero, zero), radius))
@@ -106,7 +108,8 @@ impl<'w> Lower<'_, 'w> {
                 };
                 let (from, to) = (self.reg(&from), self.reg(&to));
                 let width = self.width_of(from, to);
-                let from = self.turned_angle(from);
+                // In a mirror of the flanks a slice is swept the other way round.
+                let from = self.turned_angle(if self.world.mirror == Mirror::Flanks { to } else { from });
                 value(RegionValue::Sector { centre, radius, from, width })
             }
             _ => Value::error(),

@@ -1,5 +1,6 @@
 //! Operators over time: evaluated once per step, outside every loop, whatever guards their use.
 
+use super::super::start::LONGEST_S;
 use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Expr, Span};
@@ -15,6 +16,15 @@ impl<'w> Lower<'_, 'w> {
             (F::Prev, &[e]) => self.before(e, span).unwrap_or_else(Value::error),
             (F::Delta, &[e]) => self.delta(e, span),
             (F::Closing, &[a, b]) => self.closing(a, b, span),
+            _ if self.stage == Stage::Observation => self.fail(
+                Problem::new(
+                    Code::WrongScope,
+                    span,
+                    format!("`{}` remembers, and an observation does not", function.name()),
+                    "",
+                )
+                .help("an observation shows the state as it is; `prev` and `delta` look one step back"),
+            ),
             _ if self.when == When::Prev => self.fail(
                 Problem::new(
                     Code::WrongScope,
@@ -51,7 +61,7 @@ impl<'w> Lower<'_, 'w> {
         use Function as F;
         match (function, given) {
             (F::Held, &[c, d]) => {
-                let (c, d) = (self.condition(c), self.want_reg(d, Ty::DURATION));
+                let (c, d) = (self.condition(c), self.time_span(d));
                 Value::one(Ty::Bool, self.code.held(c, d))
             }
             (F::Ever, &[c]) => {
@@ -73,12 +83,19 @@ impl<'w> Lower<'_, 'w> {
                 Value::one(Ty::Bool, self.code.until(c, d))
             }
             (F::Within, &[c, d]) => {
-                let (c, d) = (self.condition(c), self.want_reg(d, Ty::DURATION));
+                let (c, d) = (self.condition(c), self.time_span(d));
                 let since = self.code.since(c);
                 Value::one(Ty::Bool, self.code.binary(BinaryOp::Le, since, d))
             }
             _ => Value::error(),
         }
+    }
+
+    /// How far back an operator looks.
+    fn time_span(&mut self, expr: &'w Expr) -> Reg {
+        let reg = self.want_reg(expr, Ty::DURATION);
+        self.check_range(reg, (0.0, LONGEST_S), "the time", expr.span, "`0 steps..1000000 steps`");
+        reg
     }
 
     fn delta(&mut self, e: &'w Expr, span: Span) -> Value<'w> {

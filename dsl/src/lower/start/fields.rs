@@ -7,7 +7,7 @@ use crate::lower::Lower;
 use crate::lower::start::LONGEST_S;
 use crate::lower::value::Repr;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::vocabulary::{Rule, StartKind};
+use setpiece_scenario::vocabulary::Rule;
 use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
 
 /// No kicked ball is faster; the hardest shots on record are slower by a fifth.
@@ -16,35 +16,6 @@ const FASTEST_BALL_MPS: f64 = 70.0;
 const FASTEST_SPIN: f64 = 200.0;
 
 impl<'w> Lower<'_, 'w> {
-    pub(super) fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
-        let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
-        let taker = (implied == StartKind::Kickoff).then(|| self.first_team());
-        let Some(stmt) = self.world.flat.start else { return (implied, taker) };
-        let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, taker) };
-        let Some(found) = StartKind::from_name(&kind.node) else {
-            self.report(
-                Problem::new(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
-                    .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
-            );
-            return (implied, taker);
-        };
-        if !matches!(found, StartKind::Open | StartKind::Kickoff) {
-            self.report(
-                Problem::new(Code::NotYet, kind.span, format!("a start by `{}` is not supported yet", kind.node), "")
-                    .help("place ball and players where they stand at it: `start open`"),
-            );
-            return (implied, taker);
-        }
-        if let Some(at) = at {
-            self.report(
-                Problem::new(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "")
-                    .help("the ball's place is the start's: `ball at …`"),
-            );
-        }
-        let team = team.as_ref().map(|team| self.want_reg(team, Ty::Team));
-        (found, team.or(taker.filter(|_| found == StartKind::Kickoff)))
-    }
-
     pub(super) fn start_fields(&mut self) -> (Option<(Reg, Reg)>, Option<Reg>) {
         let Some(stmt) = self.world.flat.start else { return (None, None) };
         let ScenarioStmtKind::Start { fields, .. } = &stmt.kind else { return (None, None) };
@@ -81,17 +52,16 @@ impl<'w> Lower<'_, 'w> {
     }
 
     pub(super) fn ball(&mut self) -> Option<BallStart> {
-        let Some((ball, span)) = self.world.flat.ball else {
-            let name = &self.world.flat.item.name;
-            self.report(
-                Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "")
-                    .help("write, for example, `ball at (0.6, 0)`"),
-            );
+        let name = &self.world.flat.item.name;
+        let at = self.world.flat.ball.map(|(_, span)| span).or(self.world.flat.start.map(|stmt| stmt.span));
+        let (x, y) = self.ball_place(at.unwrap_or(name.span));
+        if self.code.is_unknown(x) && self.world.flat.ball.is_none() {
             return None;
-        };
-        let (x, y) = self.ball_place(span);
+        }
         let mut start = BallStart { x, y, height: None, velocity: None, spin: None, owner: None };
-        self.ball_fields(ball, &mut start);
+        if let Some((ball, _)) = self.world.flat.ball {
+            self.ball_fields(ball, &mut start);
+        }
         Some(start)
     }
 
@@ -132,7 +102,8 @@ impl<'w> Lower<'_, 'w> {
                 self.check_range(reg, (-FASTEST_SPIN, FASTEST_SPIN), "the spin", expr.span, "`-200..200`");
                 reg
             };
-            return Some((about(x), about(y), about(z)));
+            let spin = (about(x), about(y), about(z));
+            return Some(self.mirrored_spin(spin));
         }
         self.report(
             Problem::new(Code::WrongType, expr.span, "expected the spin about three axes", "")

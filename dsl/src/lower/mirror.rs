@@ -1,0 +1,73 @@
+//! `mirror: flanks` and `mirror: ends`: the same scenario with y or both ends exchanged.
+//!
+//! What the author writes keeps its meaning for him: literals, coordinates, angles, landmarks and directions are read in
+//! the mirror, wherever they stand. `flanks` reflects y, so that left backs become right backs; `ends` turns the pitch
+//! by 180° and exchanges the teams.
+
+use super::Lower;
+use crate::ast::Ident;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{Role, Team};
+use setpiece_scenario::{Reg, UnaryOp};
+
+/// How a scenario is mirrored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mirror {
+    /// Not at all.
+    Off,
+    /// y is -y.
+    Flanks,
+    /// Both ends and both teams are exchanged.
+    Ends,
+}
+
+impl Mirror {
+    /// Reads the word behind `mirror:`.
+    pub(crate) fn of(word: Option<&Ident>, problems: &mut Vec<Problem>) -> Mirror {
+        let Some(word) = word else { return Mirror::Off };
+        match word.node.as_str() {
+            "flanks" => Mirror::Flanks,
+            "ends" => Mirror::Ends,
+            other => {
+                problems.push(
+                    Problem::new(Code::OutOfRange, word.span, format!("`mirror` is never `{other}`"), "")
+                        .help("write `mirror: flanks` or `mirror: ends`"),
+                );
+                Mirror::Off
+            }
+        }
+    }
+
+    /// The team that a written one stands for.
+    pub(crate) fn team(self, team: Team) -> Team {
+        if self == Mirror::Ends { team.other() } else { team }
+    }
+
+    /// The role that a written one stands for.
+    pub(crate) fn role(self, role: Role) -> Role {
+        match (self, role) {
+            (Mirror::Flanks, Role::LB) => Role::RB,
+            (Mirror::Flanks, Role::RB) => Role::LB,
+            (Mirror::Flanks, Role::LM) => Role::RM,
+            (Mirror::Flanks, Role::RM) => Role::LM,
+            _ => role,
+        }
+    }
+}
+
+impl Lower<'_, '_> {
+    /// World y of something at the top or bottom of the picture.
+    pub(crate) fn picture_y(&mut self, y: Reg) -> Reg {
+        if self.world.mirror == Mirror::Off { y } else { self.code.unary(UnaryOp::Neg, y) }
+    }
+
+    /// A spin, which turns the other way round in a mirror.
+    pub(crate) fn mirrored_spin(&mut self, (x, y, z): (Reg, Reg, Reg)) -> (Reg, Reg, Reg) {
+        let mut negated = |reg: Reg| self.code.unary(UnaryOp::Neg, reg);
+        match self.world.mirror {
+            Mirror::Off => (x, y, z),
+            Mirror::Flanks => (negated(x), y, negated(z)),
+            Mirror::Ends => (negated(x), negated(y), z),
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! `start corner for left`: the kind of start, who takes it, and where the ball lies then.
+
+use crate::ast::{Ident, ScenarioStmtKind, Span};
+use crate::check::types::Ty;
+use crate::lower::Lower;
+use crate::lower::value::{Frame, Scope};
+use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M};
+use setpiece_scenario::vocabulary::StartKind;
+use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
+
+impl Lower<'_, '_> {
+    /// The kind of start and the team that takes it; told once.
+    pub(in crate::lower) fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
+        if let Some(known) = self.start.kind {
+            return known;
+        }
+        let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
+        // Whoever asks while the team is being computed must not ask for ever.
+        self.start.kind = Some((implied, None));
+        let found = self.read_kind(implied);
+        self.start.kind = Some(found);
+        found
+    }
+
+    fn read_kind(&mut self, implied: StartKind) -> (StartKind, Option<Reg>) {
+        let first = (implied == StartKind::Kickoff).then(|| self.first_team());
+        let Some(stmt) = self.world.flat.start else { return (implied, first) };
+        let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, first) };
+        let Some(found) = StartKind::from_name(&kind.node) else {
+            self.report(
+                Problem::new(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
+                    .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
+            );
+            return (implied, first);
+        };
+        if let Some(at) = at.as_ref().filter(|_| !has_place(found)) {
+            self.report(
+                Problem::new(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "").help(
+                    if found == StartKind::Open {
+                        "the ball's place is the start's: `ball at …`"
+                    } else {
+                        "the laws say where the ball lies: leave `at …` out"
+                    },
+                ),
+            );
+        }
+        if team.is_none() && matches!(found, StartKind::Corner | StartKind::GoalKick | StartKind::Penalty) {
+            self.report(
+                Problem::new(Code::WrongArguments, kind.span, format!("whose {} is it?", spoken(found)), "")
+                    .help(format!("write `start {} for left`", kind.node)),
+            );
+        }
+        self.check_ball_statement(found, kind, at.as_ref().map(|at| at.span));
+        let scope = Scope::new(true, Frame::World);
+        let team = team.as_ref().map(|team| {
+            let outer = self.team.take();
+            let reg = self.within(scope, |lower| lower.drawing("start", |lower| lower.want_reg(team, Ty::Team)));
+            self.team = outer;
+            reg
+        });
+        (found, team.or(first.filter(|_| found == StartKind::Kickoff)))
+    }
+
+    /// A set piece lays the ball down itself.
+    fn check_ball_statement(&self, kind: StartKind, word: &Ident, at: Option<Span>) {
+        let Some((ball, span)) = self.world.flat.ball else { return };
+        let spoken = spoken(kind);
+        let problem = |message: String| {
+            Problem::new(Code::DuplicateOption, span, message, "").label(word.span, "the start is given here")
+        };
+        match kind {
+            StartKind::Open | StartKind::Kickoff => {}
+            StartKind::Corner | StartKind::GoalKick | StartKind::Penalty => self.report(
+                problem(format!("a {spoken} lays the ball down itself"))
+                    .help("leave `ball …` out; an inherited one goes by `remove ball`"),
+            ),
+            StartKind::FreeKick | StartKind::ThrowIn if at.is_some() => self.report(
+                problem(format!("the {spoken}'s place is given twice")).help("leave one of `ball at …` and `at …` out"),
+            ),
+            StartKind::FreeKick | StartKind::ThrowIn => {
+                let moving = |key: &str| matches!(key, "velocity" | "height" | "spin" | "owner");
+                if let Some(field) = ball.fields.iter().find(|field| moving(&field.key.node)) {
+                    let message = format!("the ball of a {spoken} lies still, at the taker's feet");
+                    self.report(Problem::new(Code::WrongScope, field.key.span, message, ""));
+                }
+            }
+        }
+    }
+
+    /// Where the ball lies where no `ball …` says so; `None` after a report.
+    pub(in crate::lower) fn place_of_start(&mut self) -> Option<(Reg, Reg)> {
+        let (kind, team) = self.start_kind();
+        let world = self.world;
+        let stmt = world.flat.start.map(|stmt| &stmt.kind);
+        if let Some(ScenarioStmtKind::Start { at: Some(at), .. }) = stmt
+            && has_place(kind)
+        {
+            let outer = self.team.take();
+            let scope = Scope::new(true, Frame::World);
+            let place = self.within(scope, |lower| lower.drawing("ball", |lower| lower.want_point(at)));
+            self.team = outer;
+            return Some(place);
+        }
+        let x = match kind {
+            StartKind::Kickoff => 0.0,
+            StartKind::Corner => HALF_LENGTH_M,
+            StartKind::Penalty => HALF_LENGTH_M - PENALTY_SPOT_M,
+            StartKind::GoalKick => GOAL_KICK_SPOT_M - HALF_LENGTH_M,
+            StartKind::Open | StartKind::FreeKick | StartKind::ThrowIn => {
+                let name = &world.flat.item.name;
+                let problem = Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "");
+                self.report(match kind {
+                    StartKind::Open => problem.help("write, for example, `ball at (0.6, 0)`"),
+                    kind => problem.help(format!("say where: `start {kind} for left at (0.5, 0.2)`")),
+                });
+                return None;
+            }
+        };
+        let (x, y) =
+            (self.code.constant(x), self.code.constant(if kind == StartKind::Corner { -HALF_WIDTH_M } else { 0.0 }));
+        let y = self.picture_y(y);
+        Some(match team {
+            Some(team) => {
+                let side = self.code.unary(UnaryOp::Side, team);
+                (self.code.binary(BinaryOp::Mul, x, side), y)
+            }
+            None => (x, y),
+        })
+    }
+}
+
+/// Whether `at …` says where it is: a corner's tells which of the two.
+fn has_place(kind: StartKind) -> bool {
+    matches!(kind, StartKind::Corner | StartKind::FreeKick | StartKind::ThrowIn)
+}
+
+fn spoken(kind: StartKind) -> String {
+    kind.name().replace('_', " ")
+}

@@ -1,0 +1,47 @@
+//! The observation that a scenario declares: a program, run for each agent on the state as it stands.
+
+use crate::judge::machine::{Input, Machine};
+use crate::state::Match;
+use setpiece_scenario::Observation;
+use std::sync::Arc;
+
+/// Greatest size of an observed number: what is beyond is held there, and what is no number is 0.
+pub const OBSERVED_MAX: f32 = 1.0e6;
+
+/// Writes a declared observation.
+#[derive(Clone, Debug)]
+pub struct ObservationJudge {
+    observation: Arc<Observation>,
+    regs: Vec<f64>,
+}
+
+impl ObservationJudge {
+    /// Prepares it.
+    pub fn new(observation: &Observation) -> ObservationJudge {
+        ObservationJudge { regs: vec![0.0; observation.program.code.len()], observation: Arc::new(observation.clone()) }
+    }
+
+    /// The numbers' names, in order.
+    pub fn names(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.observation.values.iter().map(|value| value.name.as_str())
+    }
+
+    /// Writes what an agent observes; `out` is as long as there are names, and the agent is there.
+    pub fn write(&mut self, game: &Match, agent: usize, shared: &Input<'_>, out: &mut [f32]) {
+        let Some(slot) = game.agents.get(agent) else { return };
+        let me = slot.player.filter(|player| game.players[player.index()].active);
+        let mut machine = Machine {
+            input: Input { us: slot.team, me, ..*shared },
+            regs: &mut self.regs,
+            cells: &mut [],
+            terms: &mut [],
+            faults: &mut 0,
+            draws: None,
+        };
+        machine.run(&self.observation.program);
+        for (slot, value) in out.iter_mut().zip(&self.observation.values) {
+            let number = self.regs[value.value.index()] as f32;
+            *slot = if number.is_nan() { 0.0 } else { number.clamp(-OBSERVED_MAX, OBSERVED_MAX) };
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! Records: what a scenario measures of an episode, beside what it pays.
+//!
+//! Every record is a program of its own, run after the rewards of each step: once, or once per agent where it reads
+//! `me`. Its registers hold the metric so far; a series keeps them all.
+
+use crate::judge::machine::{Input, Machine};
+use crate::state::Match;
+use setpiece_scenario::Record;
+use std::sync::Arc;
+
+/// The value of a record when an episode ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Recorded {
+    /// A number in SI units; `None` where it could not be computed.
+    Number(Option<f64>),
+    /// A normalised place, world frame.
+    Place([f64; 2]),
+    /// A number per step.
+    Numbers(Vec<f64>),
+    /// A normalised place per step.
+    Places(Vec<[f64; 2]>),
+    /// Agent by agent.
+    PerAgent(Vec<Recorded>),
+}
+
+/// The records of an environment.
+#[derive(Clone, Debug)]
+pub struct RecordJudge {
+    records: Arc<[Record]>,
+    states: Vec<RecordState>,
+    n_agents: usize,
+    regs: Vec<f64>,
+    faults: u32,
+}
+
+/// The memory of one record, instance by instance.
+#[derive(Clone, Debug)]
+struct RecordState {
+    per_agent: bool,
+    n_cells: usize,
+    cells: Vec<f64>,
+    /// The last values, as many per instance as the record has.
+    last: Vec<f64>,
+    /// Of a series every step's values.
+    kept: Vec<Vec<f64>>,
+}
+
+impl RecordJudge {
+    /// Prepares the records for so many agents.
+    pub fn new(records: &[Record], n_agents: usize) -> RecordJudge {
+        let state = |record: &Record| {
+            let per_agent = record.program.uses_me();
+            let (instances, n_cells) = (if per_agent { n_agents } else { 1 }, record.program.cells as usize);
+            RecordState {
+                per_agent,
+                n_cells,
+                cells: vec![0.0; instances * n_cells],
+                last: vec![f64::NAN; instances * record.values.len()],
+                kept: vec![Vec::new(); if record.series { instances } else { 0 }],
+            }
+        };
+        RecordJudge {
+            states: records.iter().map(state).collect(),
+            regs: vec![0.0; records.iter().map(|record| record.program.code.len()).max().unwrap_or_default()],
+            records: records.into(),
+            n_agents,
+            faults: 0,
+        }
+    }
+
+    /// Begins an episode: `input` shows the start state.
+    pub fn reset(&mut self, game: &Match, input: &Input<'_>) {
+        for state in &mut self.states {
+            state.cells.fill(0.0);
+            state.last.fill(f64::NAN);
+            state.kept.iter_mut().for_each(Vec::clear);
+        }
+        self.run(game, &Input { silent: true, ..*input });
+    }
+
+    /// Measures a step.
+    pub fn step(&mut self, game: &Match, input: &Input<'_>) {
+        self.run(game, input);
+    }
+
+    fn run(&mut self, game: &Match, input: &Input<'_>) {
+        for (record, state) in self.records.iter().zip(&mut self.states) {
+            let instances = if state.per_agent { self.n_agents } else { 1 };
+            for instance in 0..instances {
+                let slot = game.agents.get(instance).filter(|_| state.per_agent);
+                let own = match slot {
+                    Some(slot) => Input {
+                        us: slot.team,
+                        me: slot.player.filter(|player| game.players[player.index()].active),
+                        ..*input
+                    },
+                    None => *input,
+                };
+                let mut machine = Machine {
+                    input: own,
+                    regs: &mut self.regs,
+                    cells: &mut state.cells[instance * state.n_cells..(instance + 1) * state.n_cells],
+                    terms: &mut [],
+                    faults: &mut self.faults,
+                    draws: None,
+                };
+                machine.run(&record.program);
+                if input.silent {
+                    continue;
+                }
+                let n = record.values.len();
+                for (slot, reg) in state.last[instance * n..(instance + 1) * n].iter_mut().zip(&record.values) {
+                    *slot = self.regs[reg.index()];
+                    if let Some(kept) = state.kept.get_mut(instance) {
+                        kept.push(*slot);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The names and values so far, in source order.
+    pub fn values(&self) -> impl Iterator<Item = (&str, Recorded)> {
+        self.records.iter().zip(&self.states).map(|(record, state)| {
+            let n = record.values.len();
+            let one = |instance: usize| match state.kept.get(instance) {
+                Some(kept) if n == 2 => Recorded::Places(kept.chunks_exact(2).map(|at| [at[0], at[1]]).collect()),
+                Some(kept) => Recorded::Numbers(kept.clone()),
+                None => match &state.last[instance * n..(instance + 1) * n] {
+                    [x, y] => Recorded::Place([*x, *y]),
+                    [value] => Recorded::Number(value.is_finite().then_some(*value)),
+                    _ => Recorded::Number(None),
+                },
+            };
+            let value = match (state.per_agent, self.n_agents) {
+                (true, n) if n != 1 => Recorded::PerAgent((0..n).map(one).collect()),
+                _ => one(0),
+            };
+            (record.name.as_str(), value)
+        })
+    }
+}
+
+impl Recorded {
+    /// The number it is, or the mean over agents: what can be averaged over episodes.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Recorded::Number(value) => *value,
+            Recorded::PerAgent(values) => {
+                let numbers: Vec<f64> = values.iter().filter_map(Recorded::number).collect();
+                (!numbers.is_empty()).then(|| numbers.iter().sum::<f64>() / numbers.len() as f64)
+            }
+            Recorded::Place(_) | Recorded::Numbers(_) | Recorded::Places(_) => None,
+        }
+    }
+}

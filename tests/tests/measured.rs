@@ -1,0 +1,225 @@
+//! Records, declared observations, mirrors and shuffles, end to end: what they say is what happened.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use setpiece::engine::control::agents::Agent;
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::judge::Recorded;
+use setpiece::run::{RunOptions, run};
+use setpiece::scenario::{Action, EventKind, Qualifier, Team};
+
+fn environment(text: &str) -> Environment {
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap()
+}
+
+fn number(environment: &Environment, name: &str) -> f64 {
+    let (_, value) = environment.records().find(|(known, _)| *known == name).unwrap();
+    value.number().unwrap_or_else(|| panic!("{name}: {value:?}"))
+}
+
+const MEASURED: &str = "scenario measured extends academy_3_vs_1_with_keeper {
+    record completed = count of pass completed by left
+    record attempted = count of pass by left
+    record completion = (count of pass completed by left) / max(count of pass by left, 1)
+    record in_box = count of (ball in right.box)
+    record top_speed = max of me.speed
+    record lowest = min of ball.height
+    record mean_x = mean of ball.x
+    record begun = first of ball.x
+    record ended = last of ball.x
+    record path = series of ball
+    end limit 120 steps
+}";
+
+#[test]
+fn records_say_what_happened() {
+    let mut environment = environment(MEASURED);
+    let mut scratch = Scratch::default();
+    let mut passes = 0.0;
+    for index in 0..5 {
+        environment.reset(Some(1), Some(index)).unwrap();
+        let (mut completed, mut attempted, mut in_box, mut top, mut xs) = (0.0, 0.0, 0.0, 0.0_f64, Vec::new());
+        while environment.is_running() {
+            environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+            for event in environment.events() {
+                let ours = event.kind == EventKind::Pass && event.team == Some(Team::Left);
+                completed += f64::from(u8::from(ours && event.qualifier == Some(Qualifier::Completed)));
+                attempted += f64::from(u8::from(ours && event.qualifier == Some(Qualifier::Attempted)));
+            }
+            // The episode's last step may have been followed by a restart, which records don't see.
+            if environment.is_running() {
+                let game = environment.state();
+                let ball = game.ball.pos;
+                in_box += f64::from(u8::from((38.5..=55.0).contains(&ball.x) && ball.y.abs() <= 20.15));
+                xs.push(f64::from(ball.x) / 54.4);
+                let me = game.agents[0].player.unwrap();
+                top = top.max(f64::from(game.players[me.index()].vel.length()));
+            }
+        }
+        assert_eq!(number(&environment, "completed"), completed);
+        assert_eq!(number(&environment, "attempted"), attempted);
+        assert_eq!(number(&environment, "completion"), completed / attempted.max(1.0));
+        assert!((0.0..=1.0).contains(&(number(&environment, "in_box") - in_box)));
+        assert!(number(&environment, "top_speed") >= top - 1e-6);
+        assert!(number(&environment, "lowest") >= 0.1);
+        assert!((number(&environment, "begun") - xs[0]).abs() < 1e-6);
+        let (_, path) = environment.records().find(|(name, _)| *name == "path").unwrap();
+        let Recorded::Places(path) = path else { panic!("{path:?}") };
+        assert_eq!(path.len(), environment.steps() as usize);
+        assert!(path.iter().zip(&xs).all(|(at, x)| (at[0] - x).abs() < 1e-6));
+        let mean = path.iter().map(|at| at[0]).sum::<f64>() / path.len() as f64;
+        assert!((number(&environment, "mean_x") - mean).abs() < 1e-9);
+        assert_eq!(number(&environment, "ended"), path.last().unwrap()[0]);
+        passes += attempted;
+    }
+    assert!(passes > 0.0, "nothing was measured");
+}
+
+#[test]
+fn a_run_averages_records_over_its_episodes() {
+    let loaded = setpiece::compile_text(MEASURED, "<test>").unwrap();
+    let options = RunOptions {
+        episodes: 0..8,
+        seed: 2,
+        agent: Agent::Bot,
+        threads: 2,
+        environment: EnvironmentOptions::default(),
+    };
+    let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
+    let mean = |name: &str| summary.records.iter().find(|(known, _)| known == name).map(|(_, mean)| *mean);
+    let attempted: f64 = summary
+        .episodes
+        .iter()
+        .flatten()
+        .map(|episode| episode.records.iter().find(|(name, _)| name == "attempted").unwrap().1.number().unwrap())
+        .sum();
+    assert_eq!(mean("attempted"), Some(attempted / 8.0));
+    assert_eq!(mean("path"), None, "a series has no mean");
+}
+
+#[test]
+fn what_depends_on_the_agent_is_recorded_for_each() {
+    let mut environment = environment(
+        "scenario s extends academy {
+            agents { left: [one, two] }
+            rules { assist: off }
+            ball at (0, 0.3)
+            team left { one: CM at (0, 0)  two: CM at (0.2, 0) }
+            record way = sum of closing(me, right.goal)
+            end limit 30 steps
+        }",
+    );
+    let mut scratch = Scratch::default();
+    environment.reset(Some(1), None).unwrap();
+    while environment.is_running() {
+        environment.step(&[Action::Right, Action::Left], &mut scratch).unwrap();
+    }
+    let (_, way) = environment.records().next().unwrap();
+    let Recorded::PerAgent(ways) = way else { panic!("{way:?}") };
+    let ways: Vec<f64> = ways.iter().map(|way| way.number().unwrap()).collect();
+    assert!(ways[0] > 3.0 && ways[1] < -3.0, "{ways:?}");
+}
+
+#[test]
+fn a_declared_observation_shows_the_state_in_the_own_frame() {
+    let mut environment = environment(
+        "scenario s extends academy {
+            agents { left: [one], right: [other] }
+            let far = uniform(0.1, 0.2)
+            ball at (0.5, far)
+            team left { one: CM at (0, 0) }
+            team right { other: CB at (0.7, 0.1) }
+            observe vector {
+                ball.x, ball.y
+                me as \"me\"
+                distance(me, ball) / 10m as \"gap\"
+                far
+                delta(ball.x) as \"dx\"
+            }
+        }",
+    );
+    assert_eq!(environment.observed_names(), ["ball.x", "ball.y", "me.x", "me.y", "gap", "far", "dx"]);
+    environment.reset(Some(1), None).unwrap();
+    let far = environment.state().ball.pos.y / 83.6;
+    let (mut left, mut right) = ([0.0; 7], [0.0; 7]);
+    let near = |found: &[f32; 7], expected: [f32; 7]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4);
+    environment.observe_vector(0, &mut left).unwrap();
+    environment.observe_vector(1, &mut right).unwrap();
+    let gap = |x: f32, y: f32| ((x - 0.5) * 54.4).hypot((y - far) * 83.6) / 10.0;
+    assert!(near(&left, [0.5, far, 0.0, 0.0, gap(0.0, 0.0), far, 0.0]), "{left:?}");
+    assert!(near(&right, [-0.5, -far, -0.7, -0.1, gap(0.7, 0.1), far, 0.0]), "{right:?}");
+    let mut scratch = Scratch::default();
+    let mut moved = 0.0_f32;
+    for _ in 0..60 {
+        let before = environment.state().ball.pos.x;
+        environment.step(&[Action::BuiltinAi, Action::BuiltinAi], &mut scratch).unwrap();
+        environment.observe_vector(0, &mut left).unwrap();
+        let dx = (environment.state().ball.pos.x - before) / 54.4;
+        assert!((left[6] - dx).abs() < 1e-5, "{left:?}, {dx}");
+        moved += dx.abs();
+    }
+    assert!(moved > 0.01, "the ball never moved");
+    assert!(environment.observe_vector(0, &mut [0.0; 3]).is_err());
+    assert!(environment.observe_vector(7, &mut left).is_err());
+}
+
+const PLAIN: &str = "scenario s extends academy {
+    agents { left: [striker] }
+    region goalside = rect((0.9, -0.3), (1, 0))
+    ball right of striker by 2m { velocity: (3m/s, 4m/s, 0m/s) }
+    team left {
+        striker: CF at (0.5, -0.1) facing 30deg
+        LB at left.corner.top
+        CB in half_space.top
+    }
+    team right { CB ahead of striker by 5m  RM at own (0.1, 0.2) }
+    end success inside when ball in goalside
+}";
+
+#[test]
+fn a_mirror_shows_the_same_start_the_other_way_round() {
+    let starts = |mirror: &str| {
+        let mut environment = environment(&PLAIN.replace("agents {", &format!("{mirror} agents {{")));
+        environment.reset(Some(1), Some(0)).unwrap();
+        environment
+    };
+    let (plain, flanks, ends) = (starts(""), starts("mirror: flanks"), starts("mirror: ends"));
+    let near = |a: glam::Vec2, x: f32, y: f32| (a.x - x).abs() < 1e-3 && (a.y - y).abs() < 1e-3;
+    for id in [0, 1, 11, 12] {
+        let here = plain.state().players[id].pos;
+        assert!(near(flanks.state().players[id].pos, here.x, -here.y), "{id}");
+        assert!(near(ends.state().players[(id + 11) % 22].pos, -here.x, -here.y), "{id}");
+    }
+    let ball = plain.state().ball;
+    assert!(near(flanks.state().ball.pos.truncate(), ball.pos.x, -ball.pos.y));
+    assert!(near(ends.state().ball.pos.truncate(), -ball.pos.x, -ball.pos.y));
+    assert!(near(flanks.state().ball.vel.truncate(), 3.0, -4.0) && near(ends.state().ball.vel.truncate(), -3.0, -4.0));
+    let heading = |environment: &Environment, id: usize| environment.state().players[id].heading_rad;
+    assert!((heading(&flanks, 0) + heading(&plain, 0)).abs() < 1e-4);
+    // Whoever stood on the left flank's top stands at its bottom: a drawn place follows its region.
+    assert!(plain.state().players[2].pos.y < -9.1 && flanks.state().players[2].pos.y > 9.1);
+    assert_eq!(ends.agents()[0].team, Team::Right);
+    let role = |environment: &Environment, id: usize| environment.state().players[id].role.name();
+    assert_eq!((role(&plain, 1), role(&flanks, 1), role(&ends, 12)), ("LB", "RB", "LB"));
+    assert_eq!((role(&plain, 12), role(&flanks, 12), role(&ends, 1)), ("RM", "LM", "RM"));
+}
+
+#[test]
+fn every_order_of_a_shuffle_is_as_likely() {
+    let mut environment = environment(
+        "scenario s extends academy {
+            let (a, b, c) = shuffle(-0.2, 0, 0.2)
+            ball at (0.5, 0)
+            team left { CM at (0, a)  CM at (0.1, b)  CM at (0.2, c) }
+        }",
+    );
+    let mut counts = std::collections::BTreeMap::new();
+    for index in 0..1200 {
+        environment.reset(Some(4), Some(index)).unwrap();
+        let players = &environment.state().players;
+        let order: Vec<i32> = (0..3).map(|id| (players[id].pos.y / 10.0).round() as i32).collect();
+        *counts.entry(order).or_insert(0) += 1;
+    }
+    assert_eq!(counts.len(), 6, "{counts:?}");
+    assert!(counts.values().all(|&count| (150..250).contains(&count)), "{counts:?}");
+}

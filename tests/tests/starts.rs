@@ -1,0 +1,72 @@
+//! A scenario may start with a set piece: ball, taker and mode are the law's, everybody else stands where he is put.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::scenario::{Action, EventKind, GameMode, Qualifier, Team};
+
+fn environment(start: &str) -> Environment {
+    let text = format!(
+        "scenario s extends academy {{
+            {start}
+            team left {{ GK at own (-1, 0)  taker: CM at (0.6, 0.1)  CF at (0.8, 0.05)  LM at (0.5, -0.2) }}
+            team right {{ GK at own (-1, 0)  CB at (0.85, 0) facing 90deg  RM at (0.2, 0) }}
+            remove end out
+            remove end possession
+            end limit 100 steps
+        }}"
+    );
+    let loaded = setpiece::compile_text(&text, "<test>").unwrap_or_else(|error| panic!("{start}: {error}"));
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    environment.reset(Some(1), Some(0)).unwrap();
+    environment
+}
+
+#[test]
+fn a_set_piece_starts_as_one_and_is_taken() {
+    let cases = [
+        ("start corner for left", GameMode::Corner, (55.0, -36.0), Team::Left, EventKind::Corner),
+        ("start corner for left at right.corner.bottom", GameMode::Corner, (55.0, 36.0), Team::Left, EventKind::Corner),
+        ("start free_kick for left at (0.5, 0.2)", GameMode::FreeKick, (27.2, 16.72), Team::Left, EventKind::FreeKick),
+        ("start throw_in for left at (0.5, 0.43)", GameMode::ThrowIn, (27.2, 36.0), Team::Left, EventKind::ThrowIn),
+        ("start goal_kick for right", GameMode::GoalKick, (50.6, 0.0), Team::Right, EventKind::GoalKick),
+        ("start penalty for left", GameMode::Penalty, (44.0, 0.0), Team::Left, EventKind::Penalty),
+    ];
+    for (start, mode, (x, y), team, kind) in cases {
+        let mut environment = environment(start);
+        let game = environment.state();
+        assert_eq!(game.mode, mode, "{start}");
+        assert!((game.ball.pos.x - x).abs() < 0.05 && (game.ball.pos.y - y).abs() < 0.05, "{start}: {}", game.ball.pos);
+        let taker = game.owner.unwrap();
+        assert_eq!(taker.team(), team, "{start}");
+        assert!(game.player(taker).pos.distance(game.ball.pos.truncate()) < 1.0, "{start}");
+        let defender = &game.players[12];
+        assert!(taker.index() == 12 || (defender.pos.x - 46.24).abs() < 0.01, "{start}: {}", defender.pos);
+        assert!(taker.index() == 12 || (defender.heading_rad - std::f32::consts::FRAC_PI_2).abs() < 1e-5, "{start}");
+        let mut scratch = Scratch::default();
+        let mut taken = None;
+        while environment.is_running() && taken.is_none() {
+            environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+            taken = environment.events().iter().find(|event| event.qualifier == Some(Qualifier::Taken)).copied();
+        }
+        let taken = taken.unwrap_or_else(|| panic!("{start}: never taken"));
+        assert_eq!((taken.kind, taken.team), (kind, Some(team)), "{start}");
+        assert!(environment.steps() <= 40, "{start}: {} steps", environment.steps());
+        assert_eq!(environment.state().mode, GameMode::Normal, "{start}");
+    }
+}
+
+#[test]
+fn a_kick_off_is_the_teams_that_is_named() {
+    for (start, team) in [("start kickoff for left", Team::Left), ("start kickoff for right", Team::Right)] {
+        let environment = environment(start);
+        assert_eq!(environment.state().possession, Some(team), "{start}");
+        assert!(environment.state().ball.pos.truncate().length() < 0.01, "{start}");
+    }
+}
+
+#[test]
+fn score_and_clock_begin_where_the_start_says() {
+    let environment = environment("start corner for left { score: [2, 1], elapsed: 300 steps }");
+    assert_eq!(environment.score(), [2, 1]);
+    assert_eq!(environment.start().elapsed_steps, 300);
+}

@@ -90,7 +90,7 @@ pub fn block(game: &Match, team: Team, bias: f32) -> Block {
     let depth = 0.45 * (0.72 + 0.16 * bias);
     let width = 0.95 * (0.78 + 0.17 * bias);
     let sideways = 0.33 - 0.15 * bias;
-    let x = ball.x * (1.0 - sideways) + 0.2 * HALF.x * (2.0 * bias - 1.0) * sideways + 2.2;
+    let x = ball.x * (1.0 - sideways) + 0.2 * HALF.x * (2.0 * bias - 1.0) * sideways + 7.0;
     let x = x * (0.95 * (1.0 - depth) + 0.05);
     let y = ball.y * (0.9 * (1.0 - width) + 0.12);
     Block { centre: Vec2::new(x + 3.0 * (bias - 0.5), y), half: Vec2::new(depth * HALF.x, width * HALF.y) }

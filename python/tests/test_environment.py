@@ -218,7 +218,8 @@ def test_params_of_reset_hold_until_others_come() -> None:
 
 
 @pytest.mark.parametrize(
-    "action", [19, -1, 1.5, "shot", None, True, [1, 2], np.array([1, 2]), np.array([[1]]), np.float32(3), 2**70]
+    "action",
+    [19, -1, 1.5, "shot", None, True, [1, 2], np.array([1, 2]), np.array([[1]]), np.float32(3), 2**70, {5: 5}, {5}],
 )
 def test_wrong_actions_leave_the_episode_untouched(action: Any) -> None:
     env = setpiece.make(THREE)
@@ -424,3 +425,69 @@ def test_requirements_that_are_never_met() -> None:
     env = setpiece.make(setpiece.compile(text + ' require ball.x > 0.5 as "too far"\n end limit 10 steps\n}\n'))
     with pytest.raises(setpiece.DrawError, match="too far"):
         env.reset(seed=1)
+
+
+def test_a_reset_that_fails_leaves_no_trace() -> None:
+    env = setpiece.make(CLOSE, seed=3)
+    before = env.reset(seed=1)
+    for params in ({"difficulty": 2}, {"nobody": 1}):
+        with pytest.raises(setpiece.ParameterError):
+            env.reset(seed=9, options={"params": params})
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(0)
+    again = env.reset(seed=1)
+    assert same(before, again)
+    env.reset(seed=1, options={"episode": 2**64 - 1})
+    env.reset()
+
+
+def test_odd_arguments_are_named() -> None:
+    with pytest.raises(setpiece.ParameterError, match="`rewards` as names"):
+        setpiece.make(CLOSE, rewards=[3])  # type: ignore[list-item]
+    env = setpiece.make(CLOSE)
+    with pytest.raises(setpiece.ParameterError, match="`options` as a mapping"):
+        env.reset(options=3)  # type: ignore[arg-type]
+    with pytest.raises(setpiece.ParameterError, match="`seed`"):
+        env.reset(seed=True)
+
+
+MEASURED = """
+scenario measured extends academy {
+    agents { left: [one, two] }
+    ball at (0.5, 0)
+    team left { one: CM at (0, 0)  two: CM at (0.2, 0.1) }
+    observe vector { ball.x, me as "me", distance(me, ball) / 10m as "gap" }
+    record touches = count of touch
+    record top_speed = max of me.speed
+    record begun = first of ball
+    record heights = series of ball.height
+    record path = series of ball
+    end limit 20 steps
+}
+"""
+
+
+def test_records_reach_the_last_info() -> None:
+    env = setpiece.make(setpiece.compile(MEASURED))
+    trajectory = play(env, 1, lambda: [5, 5])
+    assert "records" not in trajectory[1][4]
+    records = trajectory[-1][4]["records"]
+    length = trajectory[-1][4]["setpiece"]["length"]
+    assert list(records) == ["touches", "top_speed", "begun", "heights", "path"]
+    assert isinstance(records["touches"], float)
+    assert len(records["top_speed"]) == 2 and records["top_speed"][0] > 1.0
+    assert records["begun"] == pytest.approx((0.5, 0.0), abs=0.05)
+    assert records["heights"].shape == (length,) and records["path"].shape == (length, 2)
+
+
+def test_a_scenario_declares_its_own_observation() -> None:
+    scenario = setpiece.compile(MEASURED)
+    env = setpiece.make(scenario, observation="vector")
+    observation, _ = env.reset(seed=1)
+    assert env.observation_space.shape == (2, 4)
+    assert env.observation_space.contains(observation)
+    assert observation[:, 0] == pytest.approx([0.5, 0.5], abs=1e-6)
+    assert observation[1, 1:3] == pytest.approx([0.2, 0.1], abs=1e-6)
+    check_env(setpiece.make(setpiece.compile(MEASURED.replace("[one, two]", "1")), observation="vector"))
+    with pytest.raises(setpiece.ParameterError, match="declares no observation"):
+        setpiece.make(CLOSE, observation="vector")

@@ -475,9 +475,11 @@ def test_records_reach_the_last_info() -> None:
     length = trajectory[-1][4]["setpiece"]["length"]
     assert list(records) == ["touches", "top_speed", "begun", "heights", "path"]
     assert isinstance(records["touches"], float)
-    assert len(records["top_speed"]) == 2 and records["top_speed"][0] > 1.0
+    assert len(records["top_speed"]) == 2
+    assert records["top_speed"][0] > 1.0
     assert records["begun"] == pytest.approx((0.5, 0.0), abs=0.05)
-    assert records["heights"].shape == (length,) and records["path"].shape == (length, 2)
+    assert records["heights"].shape == (length,)
+    assert records["path"].shape == (length, 2)
 
 
 def test_a_scenario_declares_its_own_observation() -> None:

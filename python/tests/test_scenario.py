@@ -215,6 +215,6 @@ def test_errors_survive_pickling() -> None:
 def test_a_compiled_scenario_is_never_saved_over_a_source(pitch_file: PitchFile) -> None:
     path = pitch_file("scenario s { ball at centre  team left { CM at (-0.1, 0) }  end limit 5 steps }")
     text = path.read_text()
-    with pytest.raises(setpiece.SetpieceError, match="ends in .pitchc"):
+    with pytest.raises(setpiece.SetpieceError, match=r"ends in \.pitchc"):
         setpiece.load(path).save(path)
     assert path.read_text() == text

@@ -436,7 +436,7 @@ impl<'w> Writer<'_, 'w> {
             Some(&Instr::Binary(op, a, b)) => fold::binary(op, code.constant_of(a)?, code.constant_of(b)?),
             _ => None,
         });
-        if paid.is_some_and(|paid| !(paid.abs() <= PAY_MAX)) {
+        if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {
             let text = self.lower.world.text(value.span);
             self.lower.report(
                 Problem::new(Code::OutOfRange, value.span, format!("`{text}` is more than can be paid"), "")

@@ -8,7 +8,7 @@ use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
 use crate::lower::{World, ending, observation, param, record, reward, roster, start};
 use crate::problem::{Code, Problem, ScriptApi, Severity};
-use crate::resolve::{Library, flatten, load};
+use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
 use std::cell::RefCell;
@@ -19,6 +19,8 @@ use std::collections::BTreeSet;
 pub struct CompileOptions<'a> {
     /// The scenario that is wanted; the file's last that is not abstract if absent.
     pub scenario: Option<String>,
+    /// The prelude, where it has been read already; else the loader is asked for it.
+    pub prelude: Option<&'a Prelude>,
     /// Checks scripts; without it they are embedded unread.
     pub scripts: Option<&'a dyn ScriptApi>,
 }
@@ -77,7 +79,7 @@ pub fn parts(text: &str) -> Option<Vec<String>> {
 #[allow(clippy::needless_pass_by_value, reason = "a caller has no more use for the root, which the outcome holds")]
 pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> Outcome {
     let mut problems = Vec::new();
-    let mut library = load(&root, loader, &mut problems);
+    let mut library = load(&root, loader, options.prelude, &mut problems);
     let mut scripts = Scripts::new(options.scripts);
     load_scripts(&mut library, &mut scripts, loader);
 

@@ -14,3 +14,4 @@ mod resolve;
 pub mod source;
 
 pub use compile::{CompileOptions, Origins, Outcome, compile, parts};
+pub use resolve::Prelude;

@@ -12,7 +12,7 @@ use cpu_time::ThreadTime;
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use setpiece::dsl::source::Source;
-use setpiece::dsl::{CompileOptions, compile};
+use setpiece::dsl::{CompileOptions, Prelude, compile};
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Physics, Scratch};
 use setpiece::engine::observe;
 use setpiece::files::FileLoader;
@@ -107,9 +107,11 @@ fn resets(c: &mut Criterion<CpuTime>) {
     group.finish();
 }
 
-/// Every file of the library, with all that it imports: from its text to what would be run.
+/// Every file of the library, with all that it imports but the prelude: from its text to what would be run.
 fn compilation(c: &mut Criterion<CpuTime>) {
     let mut group = c.benchmark_group("compile");
+    let prelude = Prelude::load(&FileLoader);
+    let options = CompileOptions { prelude: Some(&prelude), ..CompileOptions::default() };
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../stdlib-scenarios");
     let mut folders = vec![PathBuf::from(root)];
     let mut files = Vec::new();
@@ -127,7 +129,7 @@ fn compilation(c: &mut Criterion<CpuTime>) {
         group.bench_function(name, |b| {
             b.iter_batched(
                 || source.clone(),
-                |source| black_box(compile(source, &FileLoader, &CompileOptions::default())),
+                |source| black_box(compile(source, &FileLoader, &options)),
                 BatchSize::SmallInput,
             );
         });

@@ -6,10 +6,10 @@ use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
-use setpiece_dsl::{CompileOptions, compile};
+use setpiece_dsl::{CompileOptions, Prelude, compile};
 use setpiece_scenario::{Bindings, Scenario, Team};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A scenario and where it came from.
 #[derive(Clone, Debug)]
@@ -126,13 +126,13 @@ pub fn check(name_or_path: &str) -> Result<(Vec<Problem>, Sources), Error> {
     for (index, team) in teams.chain(["team left { CM at (-0.1, 0) }".to_owned()]).enumerate() {
         user.push_str(&format!("scenario part_{index} {{ ball at centre  {team}  end limit 1 step }}\n"));
     }
-    let options = CompileOptions { scenario: None, scripts: Some(&EngineScripts) };
+    let options = compile_options();
     let outcome = compile(Source { name: "<check>".to_owned(), text: user.into() }, &FileLoader, &options);
     Ok((outcome.problems, outcome.sources))
 }
 
 fn compile_source(source: Source) -> Result<Loaded, Error> {
-    let options = CompileOptions { scenario: None, scripts: Some(&EngineScripts) };
+    let options = compile_options();
     let outcome = compile(source, &FileLoader, &options);
     let (problems, sources) = (outcome.problems, outcome.sources);
     match outcome.scenario {
@@ -145,6 +145,13 @@ fn compile_source(source: Source) -> Result<Loaded, Error> {
         }),
         None => Err(Error::Compile(Box::new(Failure { problems, sources }))),
     }
+}
+
+/// What a compilation is told: the library's prelude is read once per process.
+fn compile_options() -> CompileOptions<'static> {
+    static PRELUDE: OnceLock<Prelude> = OnceLock::new();
+    let prelude = PRELUDE.get_or_init(|| Prelude::load(&FileLoader));
+    CompileOptions { scenario: None, prelude: Some(prelude), scripts: Some(&EngineScripts) }
 }
 
 /// Whether a source's name is a path: not the library's and not a text from memory.

@@ -5,6 +5,7 @@ use crate::parse::parse;
 use crate::problem::{Code, Problem};
 use crate::source::{Source, SourceLoader, Sources};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The file whose names every other file sees without an import.
 const PRELUDE: &str = "std/prelude.pitch";
@@ -14,7 +15,7 @@ pub(crate) struct Library {
     /// The texts.
     pub(crate) sources: Sources,
     /// The trees, by file.
-    pub(crate) files: Vec<File>,
+    pub(crate) files: Vec<Arc<File>>,
     /// Names the loader was asked for, in order.
     pub(crate) inputs: Vec<String>,
     /// Scenarios that every file may extend without an import: name and path.
@@ -26,6 +27,7 @@ pub(crate) struct Library {
     seen: Vec<BTreeMap<String, Vec<ItemAt>>>,
 }
 
+#[derive(Clone)]
 struct Import {
     file: FileId,
     alias: Option<String>,
@@ -44,26 +46,54 @@ pub(crate) struct NamedItem<'a> {
     pub(crate) name: &'a Ident,
 }
 
+/// The files that every other one sees without an import, read once: parsing them is most of a compilation.
+pub struct Prelude {
+    library: Library,
+    problems: Vec<Problem>,
+}
+
+impl std::fmt::Debug for Prelude {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Prelude").field("files", &self.library.files.len()).finish_non_exhaustive()
+    }
+}
+
+impl Prelude {
+    /// Reads `std/prelude.pitch` and what it imports.
+    pub fn load(loader: &dyn SourceLoader) -> Prelude {
+        let (mut library, mut problems) = (Library::empty(loader), Vec::new());
+        let mut loading = Loading { library: &mut library, loader, problems: &mut problems, stack: Vec::new() };
+        // The root's place: every file of the prelude has the same number in every compilation.
+        loading.add(&Source { name: String::new(), text: "".into() });
+        // A missing prelude is no mistake of the author's.
+        if let Ok(source) = loader.load(PRELUDE, PRELUDE) {
+            library.prelude = Some(loading.file(&source));
+        }
+        Prelude { library, problems }
+    }
+}
+
 /// Loads a root and everything it imports.
-pub(crate) fn load(root: &Source, loader: &dyn SourceLoader, problems: &mut Vec<Problem>) -> Library {
-    let mut library = Library {
-        sources: Sources::default(),
-        files: Vec::new(),
-        inputs: vec![root.name.clone()],
-        scenarios: loader.scenarios(),
-        imports: Vec::new(),
-        prelude: None,
-        extended: Vec::new(),
-        seen: Vec::new(),
+pub(crate) fn load(
+    root: &Source,
+    loader: &dyn SourceLoader,
+    prelude: Option<&Prelude>,
+    problems: &mut Vec<Problem>,
+) -> Library {
+    let mut library = Library::empty(loader);
+    library.inputs.push(root.name.clone());
+    let own;
+    let prelude = match prelude {
+        Some(prelude) => prelude,
+        None => {
+            own = Prelude::load(loader);
+            &own
+        }
     };
     let mut loading = Loading { library: &mut library, loader, problems, stack: Vec::new() };
-    loading.file(root);
-    // A missing prelude is no mistake of the author's.
-    if let Ok(source) = loader.load(PRELUDE, PRELUDE) {
-        let known = loading.known(&source.name);
-        let prelude = known.unwrap_or_else(|| loading.file(&source));
-        loading.library.prelude = Some(prelude);
-    }
+    let id = loading.add(root);
+    loading.adopt(prelude);
+    loading.imports_of(id);
     loading.extended_scenarios();
     library.collect_names(problems);
     library
@@ -102,9 +132,40 @@ impl Loading<'_> {
         self.library.sources.iter().find(|(_, source)| source.name == name).map(|(id, _)| id)
     }
 
+    /// Takes the files of the prelude behind the root.
+    fn adopt(&mut self, prelude: &Prelude) {
+        let read = &prelude.library;
+        for ((_, source), (file, imports)) in read.sources.iter().zip(read.files.iter().zip(&read.imports)).skip(1) {
+            self.library.sources.add(source.clone());
+            self.library.files.push(file.clone());
+            self.library.imports.push(imports.clone());
+        }
+        self.library.prelude = read.prelude;
+        self.problems.extend(prelude.problems.iter().cloned());
+        for input in &read.inputs {
+            if !self.library.inputs.contains(input) {
+                self.library.inputs.push(input.clone());
+            }
+        }
+    }
+
     fn file(&mut self, source: &Source) -> FileId {
+        let id = self.add(source);
+        self.imports_of(id);
+        id
+    }
+
+    fn add(&mut self, source: &Source) -> FileId {
         let id = self.library.sources.add(source.clone());
         let file = parse(source, id, self.problems);
+        self.library.files.push(Arc::new(file));
+        self.library.imports.push(Vec::new());
+        id
+    }
+
+    fn imports_of(&mut self, id: FileId) {
+        let Some(file) = self.library.files.get(id.0 as usize).cloned() else { return };
+        let from = self.library.sources.get(id).map_or(String::new(), |source| source.name.clone());
         let imports: Vec<_> = file
             .items
             .iter()
@@ -113,11 +174,9 @@ impl Loading<'_> {
                 _ => None,
             })
             .collect();
-        self.library.files.push(file);
-        self.library.imports.push(Vec::new());
         self.stack.push(id);
         for (path, alias) in imports {
-            let loaded = match self.loader.load(&path.node, &source.name) {
+            let loaded = match self.loader.load(&path.node, &from) {
                 Ok(loaded) => loaded,
                 Err(error) => {
                     let problem = Problem::new(Code::FileMissing, path.span, error.message, "imported here");
@@ -153,11 +212,23 @@ impl Loading<'_> {
             }
         }
         self.stack.pop();
-        id
     }
 }
 
 impl Library {
+    fn empty(loader: &dyn SourceLoader) -> Library {
+        Library {
+            sources: Sources::default(),
+            files: Vec::new(),
+            inputs: Vec::new(),
+            scenarios: loader.scenarios(),
+            imports: Vec::new(),
+            prelude: None,
+            extended: Vec::new(),
+            seen: Vec::new(),
+        }
+    }
+
     /// An item that a file sees under a name.
     pub(crate) fn find(&self, file: FileId, name: &str) -> Option<NamedItem<'_>> {
         let at = self.seen.get(file.0 as usize)?.get(name)?.first()?;

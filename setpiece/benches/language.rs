@@ -1,0 +1,171 @@
+//! What the language costs when it runs: draws of a start, and judging a step.
+//!
+//! Times are the thread's CPU time. A draw is of 22 players and a ball, each somewhere in a region, under two
+//! requirements. Judging is of one step and one agent unless the name says otherwise, in the state of a match of eleven
+//! a side, with three events in the step.
+#![allow(
+    missing_docs,
+    clippy::panic,
+    reason = "criterion's macros write undocumented functions; a benchmark fails by panicking"
+)]
+
+use cpu_time::ThreadTime;
+use criterion::measurement::{Measurement, ValueFormatter, WallTime};
+use criterion::{Criterion, criterion_group, criterion_main};
+use setpiece::Loaded;
+use setpiece::engine::draw::{Drawer, Roster};
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::event::{Event, Events};
+use setpiece::engine::judge::Judge;
+use setpiece::engine::judge::script::Scripts;
+use setpiece::scenario::{Action, Bindings, EventKind, Qualifier, Team};
+use std::hint::black_box;
+use std::time::Duration;
+
+/// The thread's CPU time in place of the wall clock's.
+struct CpuTime;
+
+impl Measurement for CpuTime {
+    type Intermediate = ThreadTime;
+    type Value = Duration;
+
+    fn start(&self) -> ThreadTime {
+        ThreadTime::now()
+    }
+
+    fn end(&self, begin: ThreadTime) -> Duration {
+        begin.elapsed()
+    }
+
+    fn add(&self, a: &Duration, b: &Duration) -> Duration {
+        *a + *b
+    }
+
+    fn zero(&self) -> Duration {
+        Duration::ZERO
+    }
+
+    fn to_f64(&self, value: &Duration) -> f64 {
+        WallTime.to_f64(value)
+    }
+
+    fn formatter(&self) -> &dyn ValueFormatter {
+        WallTime.formatter()
+    }
+}
+
+fn compiled(text: &str) -> Loaded {
+    setpiece::compile_text(text, "<bench>").unwrap_or_else(|error| panic!("{error}"))
+}
+
+const CROWD: &str = "scenario crowd {
+    agents { left: 1 }
+    ball in middle.third
+    team left { GK at own (-1, 0)  4 CB in left.third  3 CM in left.half  3 CF in right.half }
+    team right { GK at own (-1, 0)  4 CB in right.third  3 CM in right.half  3 CF in left.half }
+    require min_gap(left) > 1m
+    require ball.x > -0.3
+    end limit 400 steps
+}";
+
+fn draws(c: &mut Criterion<CpuTime>) {
+    let loaded = compiled(CROWD);
+    let scenario = &*loaded.scenario;
+    let bindings = Bindings::defaults(&scenario.params);
+    let roster = Roster::new(scenario, &bindings, None).unwrap_or_else(|error| panic!("{error}"));
+    let mut drawer = Drawer::new(scenario);
+    let mut index = 0;
+    c.bench_function("draw/23_entities_2_requires", |b| {
+        b.iter(|| {
+            index += 1;
+            black_box(drawer.draw(scenario, &bindings, &roster, 1, index)).unwrap_or_else(|error| panic!("{error}"))
+        });
+    });
+}
+
+const SHAPING: &str = "reward shaping {
+        give 0.02 * closing(ball, them.goal) / 1m as \"approach\"
+        give 0.1 once when ball in them.box as \"box\"
+        give 0.05 on pass completed by us as \"pass\"
+        give -0.2 on ball_lost by me as \"lost\"
+        give 0.01 when me has ball as \"ball\"
+        give -0.01 when pressed(me, within: 2m) as \"pressed\"
+        give 0.001 * me.speed / 1m * 1s as \"speed\"
+        give 0.01 * smoothstep(0m, 30m, distance(me, them.goal)) as \"far\"
+        give 0.5 on shot by us as \"shot\"
+        give -0.001 * me.fatigue as \"fatigue\"
+    }";
+
+const SCRIPT: &str = "reward script rhai \"\"\"
+        fn reward(ctx, now, prev, events) {
+            let gap = distance(now.ball, now.them.goal);
+            let before = distance(prev.ball, prev.them.goal);
+            let r = (before - gap) * 0.02;
+            if now.me.has_ball { r += 0.01; }
+            if gap < 20.0 && now.ball.speed > 5.0 { r += 0.005 * now.ball.speed; }
+            r - 0.001 * now.me.fatigue
+        }
+    \"\"\"";
+
+/// A judge in the middle of a match, ready to judge one step again and again.
+fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) {
+    let text = format!(
+        "scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ left: {agents} }}  {rewards} }}"
+    );
+    let scenario = compiled(&text).scenario;
+    let mut environment = Environment::new(scenario.clone(), EnvironmentOptions::default())
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    environment.reset(Some(1), None).unwrap_or_else(|error| panic!("{error}"));
+    let mut scratch = Scratch::default();
+    let actions = vec![Action::BuiltinAi; environment.n_agents()];
+    for _ in 0..300 {
+        environment.step(&actions, &mut scratch).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let scripts = Scripts::compile(&scenario).unwrap_or_else(|error| panic!("{error}"));
+    let n_agents = environment.n_agents();
+    let mut judge = Judge::new(&scenario, scenario.rewards.clone().into(), scripts, n_agents);
+    let game = environment.state();
+    judge.reset(game, environment.start(), &environment.bindings().0);
+    let event = |kind, qualifier| Event {
+        tick: game.tick,
+        kind,
+        qualifier,
+        team: Some(Team::Left),
+        by: game.agents.first().and_then(|agent| agent.player),
+        to: None,
+        at: game.ball.pos,
+        length_m: 12.0,
+        speed_mps: 9.0,
+    };
+    let mut events = Events::new();
+    c.bench_function(name, |b| {
+        b.iter(|| {
+            events.clear();
+            events.push(event(EventKind::Touch, None));
+            events.push(event(EventKind::Pass, Some(Qualifier::Completed)));
+            events.push(event(EventKind::Touch, None));
+            let outcome = judge.step(black_box(game), &mut events).unwrap_or_else(|error| panic!("{error}"));
+            judge.settle(game);
+            black_box(outcome)
+        });
+    });
+}
+
+fn judges(c: &mut Criterion<CpuTime>) {
+    judging(c, "judge/nothing", "", "1");
+    judging(c, "judge/checkpoints", "reward checkpoints", "1");
+    judging(c, "judge/shaping_of_ten_terms", SHAPING, "1");
+    judging(c, "judge/shaping_of_ten_terms_11_agents", SHAPING, "all");
+    judging(c, "judge/script", SCRIPT, "1");
+}
+
+criterion_group! {
+    name = all;
+    config = Criterion::default()
+        .with_measurement(CpuTime)
+        .sample_size(30)
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2));
+    targets = draws, judges
+}
+criterion_main!(all);

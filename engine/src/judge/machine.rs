@@ -69,10 +69,46 @@ pub struct DrawKey {
     pub attempt: u32,
 }
 
+/// Registers of one program, its constants written once: programs begin with them.
+#[derive(Clone, Debug, Default)]
+pub struct Registers {
+    values: Vec<f64>,
+    begin: usize,
+}
+
+impl Registers {
+    /// Registers for a verified program.
+    pub fn of(program: &Program) -> Registers {
+        let mut values = vec![0.0; program.code.len()];
+        let mut begin = 0;
+        for (slot, instr) in values.iter_mut().zip(&program.code) {
+            let Instr::Const(value) = instr else { break };
+            *slot = *value;
+            begin += 1;
+        }
+        Registers { values, begin }
+    }
+
+    /// The registers, and where a run begins.
+    pub fn parts(&mut self) -> (&mut [f64], usize) {
+        (&mut self.values, self.begin)
+    }
+
+    /// The value of a register.
+    pub fn value(&self, reg: Reg) -> f64 {
+        self.values[reg.index()]
+    }
+}
+
 impl Machine<'_> {
     /// Runs a verified program once; its values stand in `regs` afterwards.
     pub fn run(&mut self, program: &Program) {
-        self.block(&program.code, 0, program.code.len(), None);
+        self.run_from(program, 0);
+    }
+
+    /// Runs a program whose first instructions have been run before: see [`Registers`].
+    pub fn run_from(&mut self, program: &Program, begin: usize) {
+        self.block(&program.code, begin, program.code.len(), None);
     }
 
     /// The value of a register.

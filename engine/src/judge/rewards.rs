@@ -3,9 +3,11 @@
 //! A reward lives once per agent: its memory and its terms are his. One that reads nothing of `me` gives every agent
 //! of a team the same, so it is run once per team and copied.
 
-use crate::judge::machine::{Input, Machine};
+use crate::judge::machine::{Input, Machine, Registers};
 use crate::judge::script::{Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::state::{Match, PlayerId};
+use arrayvec::ArrayVec;
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Program, Reward, RewardBody};
@@ -26,7 +28,6 @@ pub struct RewardJudge {
     /// Agent by agent, their sums over the episode.
     sums: Vec<f64>,
     paid: Vec<f32>,
-    regs: Vec<f64>,
     faults: u32,
 }
 
@@ -40,6 +41,9 @@ struct RewardState {
     shared: bool,
     /// Cells per instance.
     n_cells: usize,
+    /// Of the first values, and of every step.
+    init: Registers,
+    step: Registers,
     /// Instance by instance.
     cells: Vec<f64>,
     /// A script's memory, instance by instance.
@@ -52,6 +56,19 @@ struct Judged {
     agent: usize,
     team: Team,
     me: Option<PlayerId>,
+    /// Whether he is the first of his team: what is shared is run for him.
+    first: bool,
+}
+
+/// Which program of a reward is run.
+#[derive(Clone, Copy)]
+enum Pass {
+    /// Its first values.
+    Init,
+    /// The start state, for what looks back later: nothing is paid.
+    Silent,
+    /// A step.
+    Step,
 }
 
 impl RewardJudge {
@@ -59,18 +76,16 @@ impl RewardJudge {
     pub fn new(rewards: Arc<[Reward]>, scripts: &Scripts, n_agents: usize) -> RewardJudge {
         let mut names = Vec::new();
         let mut states = Vec::with_capacity(rewards.len());
-        let mut n_regs = 0;
         for reward in rewards.iter() {
             let first_term = names.len();
-            let (shared, n_cells) = match &reward.body {
+            let (shared, n_cells, init, step) = match &reward.body {
                 RewardBody::Program { init, step, terms } => {
                     names.extend(terms.iter().map(|label| format!("{}/{label}", reward.name)));
-                    n_regs = n_regs.max(init.code.len()).max(step.code.len());
-                    (!step.uses_me(), step.cells as usize)
+                    (!step.uses_me(), step.cells as usize, Registers::of(init), Registers::of(step))
                 }
                 RewardBody::Script { script, .. } => {
                     names.push(format!("{}/{SCRIPT_TERM}", reward.name));
-                    (!scripts.uses_me(*script), 0)
+                    (!scripts.uses_me(*script), 0, Registers::default(), Registers::default())
                 }
             };
             let instances = if shared { Team::ALL.len() } else { n_agents };
@@ -80,6 +95,8 @@ impl RewardJudge {
                 n_terms: names.len() - first_term,
                 shared,
                 n_cells,
+                init,
+                step,
                 cells: vec![0.0; instances * n_cells],
                 memories: vec![Memory::default(); if is_script { instances } else { 0 }],
             });
@@ -93,7 +110,6 @@ impl RewardJudge {
             terms: vec![0.0; n_agents * n_terms],
             sums: vec![0.0; n_agents * n_terms],
             paid: vec![0.0; n_agents],
-            regs: vec![0.0; n_regs],
             faults: 0,
         }
     }
@@ -135,11 +151,12 @@ impl RewardJudge {
             state.memories.fill(Memory::default());
         }
         let rewards = self.rewards.clone();
+        let all = self.judged(game);
         for (which, reward) in rewards.iter().enumerate() {
             if let RewardBody::Program { init, step, .. } = &reward.body {
-                for judged in self.instances(which, game) {
-                    self.run(which, init, judged, input, false);
-                    self.run(which, step, judged, input, true);
+                for judged in self.instances(which, &all) {
+                    self.run(which, init, judged, input, Pass::Init);
+                    self.run(which, step, judged, input, Pass::Silent);
                 }
             }
         }
@@ -158,10 +175,11 @@ impl RewardJudge {
     ) -> Result<(), ScriptError> {
         self.clear_step();
         let rewards = self.rewards.clone();
+        let all = self.judged(game);
         for (which, reward) in rewards.iter().enumerate() {
-            for judged in self.instances(which, game) {
+            for judged in self.instances(which, &all) {
                 match (&reward.body, scene) {
-                    (RewardBody::Program { step, .. }, _) => self.run(which, step, judged, input, false),
+                    (RewardBody::Program { step, .. }, _) => self.run(which, step, judged, input, Pass::Step),
                     (RewardBody::Script { script, weight }, Some((scripts, scene))) => {
                         let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
                         let instance = self.instance(which, judged);
@@ -191,40 +209,45 @@ impl RewardJudge {
         self.paid.fill(0.0);
     }
 
-    /// The agents a reward runs for: every one, or the first of each team.
-    fn instances(&self, which: usize, game: &Match) -> impl Iterator<Item = Judged> + use<> {
-        let shared = self.states[which].shared;
-        let n_agents = self.n_agents;
-        let agents = game.agents.clone();
-        let active = game.players.each_ref().map(|player| player.active);
-        let first = Team::ALL.iter().map(|team| agents.iter().position(|agent| agent.team == *team));
-        let first: arrayvec::ArrayVec<Option<usize>, 2> = first.collect();
-        let judged = agents.into_iter().take(n_agents).enumerate();
-        judged.filter(move |(agent, _)| !shared || first.contains(&Some(*agent))).map(move |(agent, slot)| Judged {
+    /// The agents, in their order.
+    fn judged(&self, game: &Match) -> ArrayVec<Judged, PLAYERS_MAX> {
+        let mut seen = [false; 2];
+        let agents = game.agents.iter().take(self.n_agents).enumerate();
+        let judged = agents.map(|(agent, slot)| Judged {
             agent,
             team: slot.team,
-            me: slot.player.filter(|player| active[player.index()]),
-        })
+            me: slot.player.filter(|player| game.players[player.index()].active),
+            first: !std::mem::replace(&mut seen[slot.team.index()], true),
+        });
+        judged.collect()
+    }
+
+    /// The agents a reward runs for: every one, or the first of each team.
+    fn instances<'j>(&self, which: usize, all: &'j [Judged]) -> impl Iterator<Item = Judged> + use<'j> {
+        let shared = self.states[which].shared;
+        all.iter().copied().filter(move |judged| !shared || judged.first)
     }
 
     fn instance(&self, which: usize, judged: Judged) -> usize {
         if self.states[which].shared { judged.team.index() } else { judged.agent }
     }
 
-    fn run(&mut self, which: usize, program: &Program, judged: Judged, input: &Input<'_>, silent: bool) {
+    fn run(&mut self, which: usize, program: &Program, judged: Judged, input: &Input<'_>, pass: Pass) {
         let instance = self.instance(which, judged);
         let n_all = self.names.len();
         let state = &mut self.states[which];
         let at = judged.agent * n_all + state.first_term;
+        let registers = if matches!(pass, Pass::Init) { &mut state.init } else { &mut state.step };
+        let (regs, begin) = registers.parts();
         let mut machine = Machine {
-            input: Input { us: judged.team, me: judged.me, silent, ..*input },
-            regs: &mut self.regs,
+            input: Input { us: judged.team, me: judged.me, silent: matches!(pass, Pass::Silent), ..*input },
+            regs,
             cells: &mut state.cells[instance * state.n_cells..(instance + 1) * state.n_cells],
             terms: &mut self.terms[at..at + state.n_terms],
             faults: &mut self.faults,
             draws: None,
         };
-        machine.run(program);
+        machine.run_from(program, begin);
     }
 
     /// Copies a shared reward's terms from the first agent of each team to the others.

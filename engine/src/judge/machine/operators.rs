@@ -58,7 +58,8 @@ pub(super) fn binary(op: BinaryOp, a: f64, b: f64) -> f64 {
                 a
             }
         }
-        BinaryOp::Hypot => libm::hypot(a, b),
+        // Lengths on a pitch neither overflow nor vanish: the square root alone is exact enough, and quick.
+        BinaryOp::Hypot => libm::sqrt(a * a + b * b),
         BinaryOp::Atan2 => libm::atan2(a, b),
         BinaryOp::Lt => (a < b).into(),
         BinaryOp::Le => (a <= b).into(),

@@ -1,13 +1,19 @@
-//! Embeds every `.pitch` file of the standard library: adding a scenario is adding a file.
+//! Embeds every file of the standard library and every page of the error codes: adding one is adding a file.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../stdlib-scenarios").canonicalize()?;
+    embed("../stdlib-scenarios", &["pitch", "rhai"], "stdlib.rs")?;
+    embed("../docs/errors", &["md"], "pages.rs")
+}
+
+/// Writes a table of paths and texts, sorted by path.
+fn embed(folder: &str, endings: &[&str], table_name: &str) -> io::Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).canonicalize()?;
     println!("cargo:rerun-if-changed={}", root.display());
     let mut files = Vec::new();
-    collect(&root, &mut files)?;
+    collect(&root, endings, &mut files)?;
     files.sort();
     let mut table = String::from("&[\n");
     for file in files {
@@ -17,16 +23,16 @@ fn main() -> io::Result<()> {
     }
     table += "]\n";
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    fs::write(out.join("stdlib.rs"), table)
+    fs::write(out.join(table_name), table)
 }
 
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
+fn collect(folder: &Path, endings: &[&str], files: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
             println!("cargo:rerun-if-changed={}", path.display());
-            collect(&path, files)?;
-        } else if path.extension().is_some_and(|ending| ending == "pitch" || ending == "rhai") {
+            collect(&path, endings, files)?;
+        } else if path.extension().is_some_and(|ending| endings.iter().any(|wanted| ending == *wanted)) {
             files.push(path);
         }
     }

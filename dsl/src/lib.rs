@@ -6,6 +6,7 @@
 pub mod ast;
 mod check;
 pub mod compile;
+pub mod format;
 mod lower;
 pub mod parse;
 pub mod problem;

@@ -123,6 +123,8 @@ codes! {
     BadCompiled = 7 Error "a compiled scenario can't be read";
     BadParameter = 8 Error "a parameter can't be bound";
     UnknownReward = 9 Error "a reward is not in scope";
+    UnknownCode = 10 Error "no report has this code";
+    NoPicture = 11 Error "a picture can't be made";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";
@@ -185,6 +187,19 @@ codes! {
     ScriptFailed = 702 Error "a script's hook failed";
     Endless = 703 Error "nothing ends the episode";
     NoThreads = 704 Error "threads can't be started";
+}
+
+impl Code {
+    /// The code that a text names: `SP0203`, `sp0203` or `203`.
+    pub fn from_text(text: &str) -> Option<Code> {
+        let text = text.trim();
+        let digits = match text.get(..2) {
+            Some(head) if head.eq_ignore_ascii_case("sp") => text.get(2..)?,
+            _ => text,
+        };
+        let number: u16 = digits.parse().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit()))?;
+        Code::ALL.iter().copied().find(|code| code.number() == number)
+    }
 }
 
 impl std::fmt::Display for Code {

@@ -3,6 +3,9 @@
 //! Exit codes: 0 fine, 1 the input has errors, 2 the command line has.
 
 mod check;
+mod doc;
+mod explain;
+mod fmt;
 mod out;
 mod play;
 mod summary;
@@ -63,6 +66,27 @@ enum Command {
         #[arg(short, long, value_name = "OUT")]
         output: PathBuf,
     },
+    /// Lay files out in the one way: comments stay, meaning stays, broken files are left alone
+    #[command(after_help = "Examples:
+  setpiece fmt                      every .pitch file here and below
+  setpiece fmt corner.pitch drills/
+  setpiece fmt --check              exit code 1 and the names where something would change
+  setpiece fmt - < corner.pitch     to standard output")]
+    Fmt(fmt::FmtArgs),
+    /// Say what an error code means, with a text that earns it and the text mended
+    #[command(after_help = "Examples:
+  setpiece explain SP0203
+  setpiece explain          every code")]
+    Explain {
+        /// A code: SP0203, sp0203 or 203; without one the codes are listed
+        #[arg(value_name = "CODE")]
+        code: Option<String>,
+    },
+    /// Describe a scenario in Markdown: parameters, players, rewards, endings, rules, and a picture of a start
+    #[command(after_help = "Examples:
+  setpiece doc academy_corner
+  setpiece doc corner.pitch -o corner.md --picture corner.svg")]
+    Doc(doc::DocArgs),
     /// Play episodes of a scenario and show what came of them
     #[command(after_help = "Examples:
   setpiece run academy_3_vs_1_with_keeper
@@ -100,6 +124,9 @@ fn run(args: Args) -> u8 {
         Command::List => Ok(list(&out)),
         Command::Check { files, message_format } => Ok(check::check(&files, message_format, &out)),
         Command::Build { source, output } => build(&source, &output, &out),
+        Command::Fmt(args) => Ok(fmt::fmt(&args, &out)),
+        Command::Explain { code } => Ok(explain::explain(code.as_deref(), &out)),
+        Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
     };
     match result {

@@ -26,9 +26,18 @@ pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
     if meta.is_dir() {
         return Err(fault(FileFault::Directory));
     }
+    read(std::fs::File::open(path).map_err(io)?, path, max)
+}
+
+/// Reads a text of at most `max` bytes; `path` is how reports call it.
+///
+/// # Errors
+/// [`Error::File`] where it is too large, not UTF-8, or can't be read.
+pub fn read(from: impl Read, path: &Path, max: u64) -> Result<String, Error> {
+    let fault = |why| Error::File { path: path.to_owned(), why };
     let mut bytes = Vec::new();
     // One byte more than allowed: a pipe has no length to look at.
-    std::fs::File::open(path).and_then(|file| file.take(max + 1).read_to_end(&mut bytes)).map_err(io)?;
+    from.take(max + 1).read_to_end(&mut bytes).map_err(|why| fault(FileFault::Io(why.to_string())))?;
     if bytes.len() as u64 > max {
         return Err(fault(FileFault::TooLarge { max }));
     }
@@ -135,7 +144,15 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     let mut temporary = name.to_owned();
     temporary.push(format!(".{}.tmp", std::process::id()));
     let temporary = path.with_file_name(temporary);
-    std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, path)).map_err(|error| {
+    let replace = || {
+        std::fs::write(&temporary, text)?;
+        // Who may read and write it stays as it was.
+        if let Ok(meta) = std::fs::metadata(path) {
+            std::fs::set_permissions(&temporary, meta.permissions())?;
+        }
+        std::fs::rename(&temporary, path)
+    };
+    replace().map_err(|error| {
         let _ = std::fs::remove_file(&temporary);
         fault(error)
     })

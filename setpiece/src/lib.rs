@@ -6,10 +6,13 @@
 
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod doc;
 pub mod drawing;
 pub mod error;
+pub mod explain;
 pub mod files;
 pub mod load;
+pub mod picture;
 pub mod probe;
 pub mod run;
 mod script_api;

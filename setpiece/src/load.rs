@@ -6,7 +6,7 @@ use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
-use setpiece_dsl::{CompileOptions, Prelude, compile};
+use setpiece_dsl::{CompileOptions, Origins, Prelude, compile};
 use setpiece_scenario::{Bindings, Scenario, Team};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -22,6 +22,8 @@ pub struct Loaded {
     pub sources: Sources,
     /// Where the scenario's name stands; none for a compiled file.
     pub origin: Option<Span>,
+    /// Where its parts stand; empty for a compiled file.
+    pub origins: Origins,
     /// The files on disk it was made of: what a watcher watches.
     pub inputs: Vec<PathBuf>,
 }
@@ -86,6 +88,7 @@ pub fn load_file(path: &Path) -> Result<Loaded, Error> {
             warnings: Vec::new(),
             sources: Sources::default(),
             origin: None,
+            origins: Origins::default(),
             inputs: vec![path.to_owned()],
         });
     }
@@ -141,6 +144,7 @@ fn compile_source(source: Source) -> Result<Loaded, Error> {
             warnings: problems.into_iter().filter(|problem| problem.severity() == Severity::Warning).collect(),
             sources,
             origin: outcome.origins.scenario,
+            origins: outcome.origins,
             inputs: outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect(),
         }),
         None => Err(Error::Compile(Box::new(Failure { problems, sources }))),

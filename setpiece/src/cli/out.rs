@@ -33,8 +33,13 @@ impl Out {
 
     /// Prints a line; a reader that has gone away (`| head`) is no error, a full disk is.
     pub(crate) fn line(&self, text: &str) {
+        self.text(&format!("{text}\n"));
+    }
+
+    /// Prints a text as it is.
+    pub(crate) fn text(&self, text: &str) {
         let mut stdout = std::io::stdout();
-        if let Err(why) = writeln!(stdout, "{text}").and_then(|()| stdout.flush())
+        if let Err(why) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush())
             && why.kind() != std::io::ErrorKind::BrokenPipe
         {
             self.failed.set(true);

@@ -1,0 +1,50 @@
+; Colours of the Setpiece language.
+
+(line_comment) @comment
+(block_comment) @comment
+(doc_comment) @comment.documentation
+(string) @string
+(raw_string) @string.special
+(quantity) @number
+(boolean) @boolean
+(role) @constant.builtin
+(qualifier) @constant
+(type) @type
+(callee) @function.call
+(label) @label
+
+(scenario name: (_) @type.definition)
+(reward name: (_) @function)
+(formation name: (_) @function)
+(region name: (_) @constant)
+(ending name: (_) @function)
+(behavior name: (_) @function)
+(function name: (_) @function)
+(constant name: (_) @constant)
+(record name: (_) @property)
+(parameter name: (_) @variable.parameter)
+(player name: (_) @variable)
+(field key: (_) @property)
+(argument name: (_) @property)
+(member (identifier) @property)
+
+[
+  "abstract" "scenario" "reward" "formation" "behavior" "region" "ending" "const" "fn" "let" "param"
+  "state" "record" "curriculum" "suite" "check" "import"
+] @keyword
+
+[
+  "absent" "agents" "ahead" "all" "along" "as" "at" "away" "ball" "behind" "between" "beyond" "by"
+  "do" "each" "else" "end" "extends" "facing" "failure" "for" "from" "give" "if" "interrupt"
+  "jitter" "kickoff" "left" "limit" "mirror" "observe" "of" "off" "offset" "on" "once" "outfield"
+  "own" "per" "place" "remove" "require" "rhai" "right" "rules" "script" "second" "start" "success"
+  "team" "then" "to" "until" "vector" "when" "where" "with"
+] @keyword.control
+
+[
+  "and" "or" "not" "in" "has" "changes"
+] @keyword.operator
+
+["=" "==" "!=" "<" "<=" ">" ">=" "+" "-" "*" "/" "|" "&" "->" ".."] @operator
+["(" ")" "[" "]" "{" "}"] @punctuation.bracket
+["," ":" "."] @punctuation.delimiter

@@ -1,0 +1,152 @@
+//! The documentation of a scenario, as Markdown.
+
+use crate::load::Loaded;
+use setpiece_engine::start::Drawn;
+use setpiece_scenario::pitch::to_normalised;
+use setpiece_scenario::vocabulary::Rule;
+use setpiece_scenario::{Ai, Others, Param, Reward, RewardBody, Scenario, Team};
+use std::fmt::Write as _;
+
+/// Describes a scenario: title, description, parameters, players of one start, rewards, endings, rules. `picture` is the
+/// path of a picture of that start, as the page names it.
+pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String {
+    let scenario = &*loaded.scenario;
+    let mut page = format!("# {}\n\n", scenario.name);
+    if !scenario.doc.trim().is_empty() {
+        let _ = writeln!(page, "{}\n", scenario.doc.trim());
+    }
+    if let Some(picture) = picture {
+        let _ = writeln!(page, "![A start of {}]({})\n", scenario.name, picture.replace(' ', "%20"));
+    }
+    parameters(&mut page, &scenario.params);
+    players(&mut page, scenario, start);
+    rewards(&mut page, scenario);
+    endings(&mut page, loaded, start);
+    rules(&mut page, start);
+    page.truncate(page.trim_end().len());
+    page + "\n"
+}
+
+/// A row of a table.
+fn row(page: &mut String, cells: &[&str]) {
+    let cells: Vec<String> = cells.iter().map(|cell| one_line(cell).replace('|', "\\|")).collect();
+    let _ = writeln!(page, "| {} |", cells.join(" | "));
+}
+
+fn head(page: &mut String, cells: &[&str]) {
+    row(page, cells);
+    row(page, &vec!["---"; cells.len()]);
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn code(text: &str) -> String {
+    format!("`{text}`")
+}
+
+fn parameters(page: &mut String, params: &[Param]) {
+    if params.is_empty() {
+        return;
+    }
+    page.push_str("## Parameters\n\n");
+    head(page, &["name", "type", "default", "allowed", ""]);
+    for param in params {
+        let [name, ty] = [&param.name, param.ty.name()].map(code);
+        row(page, &[&name, &ty, &code(&param.show(param.default)), &param.allowed(), &param.doc]);
+    }
+    page.push('\n');
+}
+
+fn players(page: &mut String, scenario: &Scenario, start: &Drawn) {
+    page.push_str("## Players\n\n");
+    let place = |x: f32, y: f32| {
+        let (x, y) = to_normalised(f64::from(x), f64::from(y));
+        // Three digits, and no -0.
+        let [x, y] = [x, y].map(|value| (value * 1000.0).round() / 1000.0 + 0.0);
+        format!("({x}, {y})")
+    };
+    head(page, &["team", "name", "role", "place in one start", "without an agent"]);
+    for team in Team::ALL {
+        for (id, slot) in scenario.team(*team) {
+            let drawn = start.players.get(id).and_then(Option::as_ref);
+            let at = drawn.map_or("absent".to_owned(), |player| place(player.pos.x, player.pos.y));
+            let ai = match (&slot.ai, start.others) {
+                (Ai::Bot, Others::Bot) => "bot",
+                (Ai::Bot, Others::Hold) | (Ai::Hold, _) => "holds his place",
+                (Ai::Lazy, _) => "lazy",
+                #[allow(unreachable_patterns, reason = "every other way to play is a text of the author's")]
+                _ => "scripted",
+            };
+            row(page, &[team.name(), slot.name.as_deref().unwrap_or_default(), slot.role.name(), &at, ai]);
+        }
+    }
+    let count = |team: Team| start.agents.iter().filter(|agent| agent.team == team).count();
+    let _ = writeln!(
+        page,
+        "\nThe ball lies at {}. Agents play {} of the left team and {} of the right.\n",
+        place(start.ball_pos.x, start.ball_pos.y),
+        count(Team::Left),
+        count(Team::Right)
+    );
+}
+
+fn rewards(page: &mut String, scenario: &Scenario) {
+    page.push_str("## Rewards\n\n");
+    if scenario.rewards.is_empty() {
+        page.push_str("None.\n\n");
+    }
+    for reward in &scenario.rewards {
+        describe(page, reward);
+    }
+    let named: Vec<String> = scenario
+        .library
+        .iter()
+        .filter(|reward| scenario.rewards.iter().all(|paid| paid.name != reward.name))
+        .map(|reward| code(&reward.name))
+        .collect();
+    if !named.is_empty() {
+        let _ = writeln!(page, "In scope too: {}.\n", named.join(", "));
+    }
+}
+
+fn describe(page: &mut String, reward: &Reward) {
+    let _ = writeln!(page, "### {}\n", reward.name);
+    if !reward.doc.trim().is_empty() {
+        let _ = writeln!(page, "{}\n", reward.doc.trim());
+    }
+    let terms: Vec<String> = match &reward.body {
+        RewardBody::Program { terms, .. } => terms.iter().map(|term| code(&format!("{}/{term}", reward.name))).collect(),
+        RewardBody::Script { .. } => vec![code(&format!("{}/script", reward.name))],
+    };
+    let _ = writeln!(page, "Terms: {}\n", terms.join(", "));
+}
+
+fn endings(page: &mut String, loaded: &Loaded, start: &Drawn) {
+    page.push_str("## Endings\n\n");
+    for (index, ending) in loaded.scenario.endings.list.iter().enumerate() {
+        let verdict = ending.verdict.map_or(String::new(), |verdict| format!(" ({verdict})"));
+        // A compiled scenario has lost the author's words.
+        let words = loaded.origins.endings.get(index).map_or("", |span| loaded.sources.text(*span));
+        let words = if words.is_empty() { String::new() } else { format!(": `{}`", one_line(words)) };
+        let _ = writeln!(page, "- **{}**{verdict}{words}", ending.label);
+    }
+    if let Some(steps) = start.limit_steps {
+        let _ = writeln!(page, "- after {steps} steps ({} s)", f64::from(steps) / 10.0);
+    }
+    page.push('\n');
+}
+
+fn rules(page: &mut String, start: &Drawn) {
+    page.push_str("## Rules\n\n");
+    head(page, &["rule", "", ""]);
+    for (rule, value) in Rule::ALL.iter().zip(start.rules) {
+        let shown = match rule {
+            Rule::HalfTime if value > 0.0 => format!("{value} steps"),
+            Rule::Physics => if value > 0.0 { "full" } else { "gated" }.to_owned(),
+            _ => if value > 0.0 { "on" } else { "off" }.to_owned(),
+        };
+        row(page, &[&code(rule.name()), &shown, rule.doc()]);
+    }
+}

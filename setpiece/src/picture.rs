@@ -1,0 +1,130 @@
+//! A picture of a start, as SVG.
+
+use setpiece_engine::start::Drawn;
+use setpiece_scenario::pitch::{
+    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M,
+    PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
+};
+use setpiece_scenario::{Scenario, Team};
+use std::fmt::Write as _;
+
+/// Grass around the lines, metres.
+const MARGIN_M: f64 = 4.5;
+/// Stripes of the lawn.
+const STRIPES: u32 = 10;
+/// Radius of a player's disc, metres; larger than life, so that his role can be read.
+const PLAYER_M: f64 = 1.5;
+/// Fill, ring and text of the left and the right team: told apart with every kind of colour vision.
+const COLOURS: [[&str; 3]; 2] = [["#ffb000", "#7a4f00", "#2b1b00"], ["#2f6df6", "#0b2a77", "#ffffff"]];
+
+/// Draws a start from above in metres, the left team attacking to the right: players as discs of their team's colour
+/// with role, heading and name, and the ball.
+pub fn svg(scenario: &Scenario, start: &Drawn) -> String {
+    let (x, y) = (HALF_LENGTH_M + MARGIN_M, HALF_WIDTH_M + MARGIN_M);
+    let (width, height) = (2.0 * x, 2.0 * y);
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{} {} {width} {height}\" width=\"{}\" height=\"{}\" \
+         font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n<title>{}</title>\n",
+        -x,
+        -y,
+        width * 8.0,
+        height * 8.0,
+        escaped(&scenario.name)
+    );
+    lawn(&mut text);
+    lines(&mut text);
+    for team in Team::ALL {
+        for (id, slot) in scenario.team(*team) {
+            player(&mut text, start, id, slot.role.name(), slot.name.as_deref().unwrap_or_default());
+        }
+    }
+    let _ = write!(
+        text,
+        "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"0.7\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"0.3\"/>\n</svg>\n",
+        start.ball_pos.x, start.ball_pos.y
+    );
+    text
+}
+
+fn lawn(text: &mut String) {
+    let (x, y) = (HALF_LENGTH_M + MARGIN_M, HALF_WIDTH_M + MARGIN_M);
+    let width = 2.0 * HALF_LENGTH_M / f64::from(STRIPES);
+    let _ = writeln!(
+        text,
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"1.5\" fill=\"#2f6f3e\"/>",
+        -x,
+        -y,
+        2.0 * x,
+        2.0 * y
+    );
+    for stripe in (0..STRIPES).step_by(2) {
+        let left = f64::from(stripe) * width - HALF_LENGTH_M;
+        let _ = writeln!(
+            text,
+            "<rect x=\"{left}\" y=\"{}\" width=\"{width}\" height=\"{}\" fill=\"#367a46\"/>",
+            -HALF_WIDTH_M,
+            2.0 * HALF_WIDTH_M
+        );
+    }
+}
+
+/// The lines of the pitch; each end is drawn once and turned for the other.
+fn lines(text: &mut String) {
+    let (x, y) = (HALF_LENGTH_M, HALF_WIDTH_M);
+    let spot = x - PENALTY_SPOT_M;
+    let edge = x - BOX_DEPTH_M;
+    let arc = (CIRCLE_RADIUS_M.powi(2) - (spot - edge).powi(2)).sqrt();
+    let _ = writeln!(
+        text,
+        "<g fill=\"none\" stroke=\"#f4f7f2\" stroke-width=\"0.25\" stroke-linejoin=\"round\">\n\
+         <path d=\"M{} {}H{x}V{y}H{}ZM0 {}V{y}\"/>\n<circle r=\"{CIRCLE_RADIUS_M}\"/>",
+        -x, -y, -x, -y
+    );
+    for turn in [0, 180] {
+        let _ = writeln!(
+            text,
+            "<g transform=\"rotate({turn})\"><path d=\"M{x} {}H{edge}V{BOX_HALF_WIDTH_M}H{x}M{x} {}H{}V\
+             {SIX_YARD_HALF_WIDTH_M}H{x}\"/><path d=\"M{edge} {:.3}A{CIRCLE_RADIUS_M} {CIRCLE_RADIUS_M} 0 0 0 {edge} \
+             {arc:.3}\"/><path d=\"M{x} {}H{}V{GOAL_HALF_WIDTH_M}H{x}\" fill=\"#ffffff55\"/>\
+             <circle cx=\"{spot}\" r=\"0.15\" fill=\"#f4f7f2\"/></g>",
+            -BOX_HALF_WIDTH_M,
+            -SIX_YARD_HALF_WIDTH_M,
+            x - SIX_YARD_DEPTH_M,
+            -arc,
+            -GOAL_HALF_WIDTH_M,
+            x + GOAL_DEPTH_M
+        );
+    }
+    text.push_str("<circle r=\"0.15\" fill=\"#f4f7f2\"/>\n</g>\n");
+}
+
+fn player(text: &mut String, start: &Drawn, id: usize, role: &str, name: &str) {
+    let Some(Some(player)) = start.players.get(id) else { return };
+    let team = id / setpiece_scenario::pitch::TEAM_MAX;
+    let [fill, ring, ink] = COLOURS.get(team).copied().unwrap_or(COLOURS[0]);
+    let (x, y) = (f64::from(player.pos.x), f64::from(player.pos.y));
+    let to_ball = (f64::from(start.ball_pos.y) - y).atan2(f64::from(start.ball_pos.x) - x);
+    let heading = player.heading_rad.map_or(to_ball, f64::from).to_degrees();
+    let _ = writeln!(
+        text,
+        "<g transform=\"translate({x:.2} {y:.2})\"><path d=\"M{0} -0.7L{1} 0L{0} 0.7Z\" \
+         transform=\"rotate({heading:.1})\" fill=\"{ring}\"/><circle r=\"{PLAYER_M}\" fill=\"{fill}\" stroke=\"{ring}\" \
+         stroke-width=\"0.3\"/><text y=\"0.45\" font-size=\"1.3\" font-weight=\"700\" fill=\"{ink}\">{role}</text>",
+        PLAYER_M,
+        PLAYER_M + 0.9
+    );
+    if !name.is_empty() {
+        let _ = writeln!(
+            text,
+            "<text y=\"{}\" font-size=\"1.5\" fill=\"#fff\">{}</text>",
+            PLAYER_M + 1.8,
+            escaped(name)
+        );
+    }
+    text.push_str("</g>\n");
+}
+
+/// A text that holds none of XML's signs.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

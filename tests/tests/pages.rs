@@ -1,0 +1,88 @@
+//! The pages of the error codes: every code has one, and what they show is true.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use setpiece::Error;
+use setpiece::dsl::problem::{Code, Severity};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/errors")
+}
+
+/// A fenced block of a page.
+struct Block {
+    /// What stands behind the fence: `pitch error=SP0203`.
+    info: String,
+    text: String,
+}
+
+fn blocks(page: &str) -> Vec<Block> {
+    let (mut blocks, mut open) = (Vec::new(), None::<Block>);
+    for line in page.lines() {
+        match (&mut open, line.strip_prefix("```")) {
+            (None, Some(info)) => open = Some(Block { info: info.to_owned(), text: String::new() }),
+            (Some(_), Some(_)) => blocks.extend(open.take()),
+            (Some(block), None) => {
+                block.text.push_str(line);
+                block.text.push('\n');
+            }
+            (None, None) => {}
+        }
+    }
+    assert!(open.is_none(), "a block is not closed:\n{page}");
+    blocks
+}
+
+/// The codes that a text earns when it is run or checked, and whether one of them is an error.
+fn codes(text: &str) -> (BTreeSet<String>, bool) {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("scenario.pitch");
+    std::fs::write(&path, text).unwrap();
+    let mut problems = match setpiece::load_file(&path) {
+        Ok(loaded) => loaded.warnings,
+        Err(Error::Compile(failure)) => failure.problems,
+        Err(other) => panic!("{other}\n{text}"),
+    };
+    problems.extend(setpiece::check(path.to_str().unwrap()).unwrap().0);
+    let failed = problems.iter().any(|problem| problem.severity() == Severity::Error);
+    (problems.iter().map(|problem| problem.code.to_string()).collect(), failed)
+}
+
+#[test]
+fn every_code_has_a_page_and_no_page_lacks_a_code() {
+    let files = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let files: BTreeSet<String> = files.collect();
+    let wanted: BTreeSet<String> = Code::ALL.iter().map(|code| format!("{code}.md")).collect();
+    assert_eq!(files, wanted);
+    for code in Code::ALL {
+        let page = setpiece::explain::page(*code).unwrap();
+        assert_eq!(page.lines().next().unwrap(), format!("# {code}: {}", code.title()));
+        let prose = page.split("```").next().unwrap().lines().skip(1).collect::<String>();
+        assert!((60..700).contains(&prose.len()), "{code}: {prose}");
+        assert!(!blocks(page).is_empty(), "{code} shows nothing");
+    }
+}
+
+#[test]
+fn every_broken_text_earns_its_code_and_every_other_one_is_sound() {
+    let mut earned = 0;
+    for code in Code::ALL {
+        for block in blocks(setpiece::explain::page(*code).unwrap()) {
+            let Some(info) = block.info.strip_prefix("pitch") else { continue };
+            let (found, failed) = codes(&block.text);
+            match info.trim().split_once('=') {
+                Some(("error", wanted)) => {
+                    assert_eq!(wanted, code.to_string());
+                    assert!(found.contains(wanted), "{code} shows what earns {found:?}:\n{}", block.text);
+                    assert_eq!(failed, code.severity() == Severity::Error, "{code}: {found:?}");
+                    earned += 1;
+                }
+                // What fails only when it is played.
+                Some(("file", _)) => assert!(found.iter().all(|code| code.starts_with("SP06")), "{code}: {found:?}"),
+                _ => assert!(found.is_empty(), "{code} mends into {found:?}:\n{}", block.text),
+            }
+        }
+    }
+    assert!(earned > 45, "{earned}");
+}

@@ -199,7 +199,10 @@ const LAYOUTS: &[(&str, &str)] = &[
         "reward r {\n    give 1 as \"a\"\n    give 20 + 30   as \"b\"\n}",
         "reward r {\n    give 1         as \"a\"\n    give 20 + 30   as \"b\"\n}\n",
     ),
-    ("reward r {\n    give 1 as \"a\"\n    give 20 as \"b\"\n}", "reward r {\n    give 1 as \"a\"\n    give 20 as \"b\"\n}\n"),
+    (
+        "reward r {\n    give 1 as \"a\"\n    give 20 as \"b\"\n}",
+        "reward r {\n    give 1 as \"a\"\n    give 20 as \"b\"\n}\n",
+    ),
     (
         "reward r {\n    when a { give 1 }\n    else when b { give 2 } else { give 3 }\n}",
         "reward r {\n    when a { give 1 } else when b { give 2 } else { give 3 }\n}\n",

@@ -8,7 +8,7 @@ use serde_json::value::RawValue;
 /// The version this build reads and writes.
 pub const FORMAT_VERSION: u32 = 1;
 /// What the field `format` says.
-const FORMAT_NAME: &str = "setpiece scenario";
+pub(crate) const FORMAT_NAME: &str = "setpiece scenario";
 
 /// Why a compiled scenario can't be read or written.
 #[derive(Clone, Debug, PartialEq, Eq)]

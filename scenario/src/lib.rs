@@ -10,6 +10,8 @@ pub mod params;
 pub mod pitch;
 pub mod program;
 pub mod scenario;
+#[cfg(feature = "schema")]
+pub mod schema;
 pub mod verify;
 pub mod vocabulary;
 

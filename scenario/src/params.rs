@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A parameter: a typed number with a default and a range. Strings and teams are numbered by `choices`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Param {
     /// The name.
     pub name: String,
@@ -28,6 +29,7 @@ pub struct Param {
 
 /// The values of a scenario's parameters, in their order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct Bindings(pub Vec<f64>);
 

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 /// A register, named by the instruction that writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct Reg(pub u32);
 
@@ -32,6 +33,7 @@ impl Reg {
 
 /// A program and the memory it needs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Program {
     /// The instructions, in order.
     pub code: Vec<Instr>,
@@ -51,6 +53,7 @@ impl Program {
 
 /// Whether a load reads the present state or the one a step ago.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// The state after this step.
@@ -62,6 +65,7 @@ pub enum When {
 
 /// One instruction. Instruction `i` writes register `i`; effects write 0 there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Instr {
     /// A finite constant.
@@ -178,6 +182,7 @@ fn is_now(when: &When) -> bool {
 /// While the body runs, the register of the `Each` itself holds the element (a player id, or the event's number);
 /// afterwards it holds the result of the fold. Registers written in the body may be read in the body only.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Each {
     /// What is gone through, in order: left before right, by index; events as they happened.
     pub over: Over,
@@ -189,6 +194,7 @@ pub struct Each {
 
 /// What an [`Each`] goes through.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Over {
     /// The players on the pitch of a team (-1: of both), without one of them.
@@ -205,6 +211,7 @@ pub enum Over {
 
 /// Which events count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EventFilter {
     /// The kind.
     pub kind: EventKind,
@@ -222,6 +229,7 @@ pub struct EventFilter {
 
 /// A team or a player, as a filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Who {
     /// A team.
@@ -232,6 +240,7 @@ pub enum Who {
 
 /// What becomes of the elements of an [`Each`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Fold {
     /// How values become one.
     pub kind: FoldKind,
@@ -245,6 +254,7 @@ pub struct Fold {
 
 /// How the values of the elements become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FoldKind {
     /// The loop is run for its effects; the result is 0.
@@ -271,6 +281,7 @@ pub enum FoldKind {
 
 /// An operator of one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum UnaryOp {
     /// Minus.
@@ -309,6 +320,7 @@ pub enum UnaryOp {
 
 /// An operator of two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum BinaryOp {
     /// Sum.
@@ -351,6 +363,7 @@ pub enum BinaryOp {
 
 /// A distribution of the start program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Distribution {
     /// Between two ends.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A compiled scenario: self-contained, with its parameters still symbolic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Scenario {
     /// The name in the file.
     pub name: String,
@@ -61,6 +62,7 @@ impl Scenario {
 
 /// A Rhai script, embedded.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Script {
     /// The path as written, for messages.
     pub name: String,
@@ -70,6 +72,7 @@ pub struct Script {
 
 /// A player of the roster.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlayerSlot {
     /// The team.
     pub team: Team,
@@ -92,6 +95,7 @@ pub struct PlayerSlot {
 
 /// Who plays a player when no agent does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Ai {
     /// The built-in bot.
@@ -107,6 +111,7 @@ pub enum Ai {
 
 /// A player's start; every register belongs to the start program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlayerStart {
     /// World x, metres.
     pub x: Reg,
@@ -134,6 +139,7 @@ pub struct PlayerStart {
 
 /// Who is played by agents, and what the others do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Agents {
     /// Left and right.
     pub sides: [SideAgents; 2],
@@ -147,6 +153,7 @@ pub struct Agents {
 
 /// The agents of a side.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SideAgents {
     /// So many: a register of the start program that depends on parameters only.
@@ -159,6 +166,7 @@ pub enum SideAgents {
 
 /// What team mates without an agent do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Others {
     /// The bot plays them.
@@ -170,6 +178,7 @@ pub enum Others {
 
 /// Whether the controlled player changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Switching {
     /// By GRF's rules where a count below all is asked for, else fixed.
@@ -181,6 +190,7 @@ pub enum Switching {
 
 /// How an episode starts: a program run at reset, and what its registers mean.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Start {
     /// The program; it may draw.
     pub program: Program,
@@ -218,6 +228,7 @@ pub struct Start {
 
 /// The ball's start; every register belongs to the start program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BallStart {
     /// World x, metres.
     pub x: Reg,
@@ -239,6 +250,7 @@ pub struct BallStart {
 
 /// The layouts of kick-offs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Kickoff {
     /// The team that kicks off first: a team register. The start places already follow it.
     pub first: Reg,
@@ -248,6 +260,7 @@ pub struct Kickoff {
 
 /// Where a player stands at a kick-off, world metres, as registers of the start program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct KickoffPlaces {
     /// When his team kicks off.
     pub kicking: (Reg, Reg),
@@ -257,6 +270,7 @@ pub struct KickoffPlaces {
 
 /// A rule and its value, a register of the start program that depends on parameters only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RuleSetting {
     /// Which rule.
     pub rule: Rule,
@@ -266,6 +280,7 @@ pub struct RuleSetting {
 
 /// A requirement on a drawn start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Require {
     /// What must hold.
     pub condition: Reg,
@@ -278,6 +293,7 @@ pub struct Require {
 
 /// A reward, evaluated at each step for each agent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reward {
     /// The name its terms are reported under: the `as` name, else the reward's own.
     pub name: String,
@@ -290,6 +306,7 @@ pub struct Reward {
 
 /// What a reward does.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum RewardBody {
     /// Statements of the language. The weight is already multiplied in.
@@ -312,6 +329,7 @@ pub enum RewardBody {
 
 /// When an episode ends: one program, and its conditions in order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Endings {
     /// Run at every step, from the side that has agents (`us`), or the left one.
     pub program: Program,
@@ -321,6 +339,7 @@ pub struct Endings {
 
 /// One way to end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ending {
     /// What it says of the episode.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -337,6 +356,7 @@ pub struct Ending {
 
 /// A metric of an episode: a program run at every step after the rewards, and the registers that hold the metric so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Record {
     /// The name `info["records"]` shows.
     pub name: String,
@@ -351,6 +371,7 @@ pub struct Record {
 
 /// An observation that a scenario declares: a program run for each agent, one register per number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Observation {
     /// Run after every step and reset, in the agent's own frame; it remembers nothing.
     pub program: Program,
@@ -360,6 +381,7 @@ pub struct Observation {
 
 /// A number of an [`Observation`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ObservedValue {
     /// The label, else the author's text.
     pub name: String,

@@ -27,6 +27,7 @@ macro_rules! words {
         $(#[$meta])*
         #[allow(clippy::doc_markdown, reason = "the rows' text is for people, not for rustdoc")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         pub enum $name {
             $(#[doc = $doc] #[serde(rename = $word)] $variant,)+
         }

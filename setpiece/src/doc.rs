@@ -7,8 +7,8 @@ use setpiece_scenario::vocabulary::Rule;
 use setpiece_scenario::{Ai, Others, Param, Reward, RewardBody, Scenario, Team};
 use std::fmt::Write as _;
 
-/// Describes a scenario: title, description, parameters, players of one start, rewards, endings, rules. `picture` is the
-/// path of a picture of that start, as the page names it.
+/// Describes a scenario: title, description, parameters, players of one start, rewards, endings, records, rules. `picture`
+/// is the path of a picture of that start, as the page names it.
 pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String {
     let scenario = &*loaded.scenario;
     let mut page = format!("# {}\n\n", scenario.name);
@@ -22,6 +22,7 @@ pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String
     players(&mut page, scenario, start);
     rewards(&mut page, scenario);
     endings(&mut page, loaded, start);
+    measured(&mut page, scenario);
     rules(&mut page, start);
     page.truncate(page.trim_end().len());
     page + "\n"
@@ -76,7 +77,6 @@ fn players(page: &mut String, scenario: &Scenario, start: &Drawn) {
                 (Ai::Bot, Others::Bot) => "bot",
                 (Ai::Bot, Others::Hold) | (Ai::Hold, _) => "holds his place",
                 (Ai::Lazy, _) => "lazy",
-                #[allow(unreachable_patterns, reason = "every other way to play is a text of the author's")]
                 _ => "scripted",
             };
             row(page, &[team.name(), slot.name.as_deref().unwrap_or_default(), slot.role.name(), &at, ai]);
@@ -117,7 +117,9 @@ fn describe(page: &mut String, reward: &Reward) {
         let _ = writeln!(page, "{}\n", reward.doc.trim());
     }
     let terms: Vec<String> = match &reward.body {
-        RewardBody::Program { terms, .. } => terms.iter().map(|term| code(&format!("{}/{term}", reward.name))).collect(),
+        RewardBody::Program { terms, .. } => {
+            terms.iter().map(|term| code(&format!("{}/{term}", reward.name))).collect()
+        }
         RewardBody::Script { .. } => vec![code(&format!("{}/script", reward.name))],
     };
     let _ = writeln!(page, "Terms: {}\n", terms.join(", "));
@@ -136,6 +138,22 @@ fn endings(page: &mut String, loaded: &Loaded, start: &Drawn) {
         let _ = writeln!(page, "- after {steps} steps ({} s)", f64::from(steps) / 10.0);
     }
     page.push('\n');
+}
+
+/// Records, and the scenario's own observation.
+fn measured(page: &mut String, scenario: &Scenario) {
+    if !scenario.records.is_empty() {
+        page.push_str("## Records\n\n");
+        for record in &scenario.records {
+            let series = if record.series { ", a value for every step" } else { "" };
+            let _ = writeln!(page, "- {}{series}", code(&record.name));
+        }
+        page.push('\n');
+    }
+    if let Some(observation) = &scenario.observation {
+        let names: Vec<String> = observation.values.iter().map(|value| code(&one_line(&value.name))).collect();
+        let _ = writeln!(page, "## Observation\n\n{} numbers: {}.\n", names.len(), names.join(", "));
+    }
 }
 
 fn rules(page: &mut String, start: &Drawn) {

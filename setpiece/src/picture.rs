@@ -114,12 +114,8 @@ fn player(text: &mut String, start: &Drawn, id: usize, role: &str, name: &str) {
         PLAYER_M + 0.9
     );
     if !name.is_empty() {
-        let _ = writeln!(
-            text,
-            "<text y=\"{}\" font-size=\"1.5\" fill=\"#fff\">{}</text>",
-            PLAYER_M + 1.8,
-            escaped(name)
-        );
+        let _ =
+            writeln!(text, "<text y=\"{}\" font-size=\"1.5\" fill=\"#fff\">{}</text>", PLAYER_M + 1.8, escaped(name));
     }
     text.push_str("</g>\n");
 }

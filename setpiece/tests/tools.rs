@@ -134,7 +134,8 @@ fn fmt_leaves_what_it_cannot_read_alone_and_goes_on() {
     std::fs::write(dir.path().join("whole.pitch"), UNTIDY).unwrap();
     let (code, out, err) = run(dir.path(), &["fmt", "broken.pitch", "absent.pitch", "whole.pitch"], "");
     assert_eq!(code, Some(1));
-    for word in ["SP0104", "broken.pitch:1:", "SP0001", "`absent.pitch`", "1 file formatted, 0 unchanged, 2 left alone"] {
+    for word in ["SP0104", "broken.pitch:1:", "SP0001", "`absent.pitch`", "1 file formatted, 0 unchanged, 2 left alone"]
+    {
         assert!(err.contains(word), "no `{word}` in {err}");
     }
     assert!(out.contains("whole.pitch"), "{out}");
@@ -166,7 +167,9 @@ fn doc_describes_every_scenario_of_the_library() {
         let (code, page, err) = run(dir.path(), &["doc", &entry.name], "");
         assert_eq!(code, Some(0), "{err}");
         assert!(page.starts_with(&format!("# {}\n\n{}", entry.name, entry.title)), "{page}");
-        for part in ["## Parameters", "| `difficulty` | `number` |", "## Players", "### scoring", "`scoring/goal`", "## Rules"] {
+        for part in
+            ["## Parameters", "| `difficulty` | `number` |", "## Players", "### scoring", "`scoring/goal`", "## Rules"]
+        {
             assert!(page.contains(part), "{}: no `{part}` in {page}", entry.name);
         }
         assert!(page.ends_with("|\n") && !page.contains("\n\n\n"), "{page}");
@@ -186,6 +189,7 @@ scenario duel extends academy {
     team left { anna: CM behind ball by gap }
     team right { CB at (0.7, 0) { ai: lazy } }
     rules { offside: on, half_time: 100 steps }
+    record shots = count of shot by left
     reward shaping { give 0.1 once when ball in them.box as \"entry\" }
     end success close when
         ball in right.six_yard
@@ -205,6 +209,7 @@ scenario duel extends academy {
         "- **scored** (success): `end success scored when goal by left`",
         "- **close** (success): `end success close when ball in right.six_yard`",
         "- after 250 steps (25 s)",
+        "## Records\n\n- `shots`\n",
         "| `offside` | on |",
         "| `half_time` | 100 steps |",
         "In scope too: `checkpoints`",

@@ -12,11 +12,13 @@ fn main() -> ExitCode {
         "ci" => ci::ci(),
         "test" => ci::rust_tests(),
         "python" => ci::python(),
+        "schema" => schema(),
         "tidy" => tidy::tidy(),
         _ => {
             println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
             println!("cargo xtask test    the Rust tests");
             println!("cargo xtask python  build the wheel and run the Python tests");
+            println!("cargo xtask schema  write docs/pitchc.schema.json");
             println!("cargo xtask tidy    the rules of the house: who may use whom, file lengths");
             return if command.is_empty() || command == "help" { ExitCode::SUCCESS } else { ExitCode::from(2) };
         }
@@ -28,4 +30,10 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Writes the JSON schema of a compiled scenario.
+fn schema() -> Result<(), String> {
+    let path = ci::root().join("docs/pitchc.schema.json");
+    std::fs::write(&path, setpiece_scenario::schema::text()).map_err(|why| format!("{}: {why}", path.display()))
 }

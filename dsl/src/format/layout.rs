@@ -122,7 +122,8 @@ impl<'p, 't> Layout<'p, 't> {
     /// Whether a piece is printed: commas that mean nothing are not.
     fn is_shown(&self, index: usize) -> bool {
         let Some(piece) = self.pieces.get(index).filter(|piece| piece.is(Rule::comma)) else { return true };
-        let last = self.pieces.get(index + 1).is_none_or(|next| next.closes() && (piece.separates || next.newlines == 0));
+        let last =
+            self.pieces.get(index + 1).is_none_or(|next| next.closes() && (piece.separates || next.newlines == 0));
         !(last || (piece.separates && self.is_broken(self.block(index))))
     }
 

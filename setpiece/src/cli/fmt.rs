@@ -52,7 +52,8 @@ pub(crate) fn fmt(args: &FmtArgs, out: &Out) -> u8 {
 fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
     let piped = path.as_os_str() == "-";
     let name = if piped { PathBuf::from("<stdin>") } else { path.to_owned() };
-    let text = if piped { read(std::io::stdin(), &name, SOURCE_MAX_BYTES)? } else { read_text(path, SOURCE_MAX_BYTES)? };
+    let text =
+        if piped { read(std::io::stdin(), &name, SOURCE_MAX_BYTES)? } else { read_text(path, SOURCE_MAX_BYTES)? };
     let source = Source { name: name.to_string_lossy().into_owned(), text: text.into() };
     let formatted = format(&source).map_err(|problems| {
         let mut sources = Sources::default();

@@ -33,6 +33,9 @@ module.exports = grammar({
     [$.argument, $._expression],
     [$.give],
     [$.on_block, $.give],
+    [$._key, $.player],
+    [$._name, $.argument],
+    [$._expression, $.parameter],
   ],
   inline: ($) => [$._body],
 

@@ -185,7 +185,7 @@ fn every_token_that_pest_sees_is_highlighted_as_what_it_is() {
             assert!(scopes[comment].iter().all(|scope| scope.starts_with("comment.")), "{at} in\n{text}");
         }
     }
-    assert!(seen > 5000 && rules.len() > 60, "{seen} tokens of {} rules", rules.len());
+    assert!(seen > 4000 && rules.len() > 60, "{seen} tokens of {} rules", rules.len());
 }
 
 /// The comments of a text that has no `//` in a string.
@@ -314,7 +314,7 @@ fn the_queries_of_tree_sitter_name_what_its_grammar_has() {
     let (grammar, queries) =
         (read("grammar/tree-sitter/grammar.js"), read("grammar/tree-sitter/queries/highlights.scm"));
     let mut nodes = 0;
-    for found in regex(r"\(([a-z_]+)").captures_iter(queries.as_bytes()) {
+    for found in regex(r"\(([a-z][a-z_]+)").captures_iter(queries.as_bytes()) {
         let node = String::from_utf8(found[1].to_vec()).unwrap();
         assert!(grammar.contains(&format!("\n    {node}: (")), "no rule {node}");
         nodes += 1;

@@ -82,17 +82,12 @@ pub(crate) fn load(
 ) -> Library {
     let mut library = Library::empty(loader);
     library.inputs.push(root.name.clone());
-    let own;
-    let prelude = match prelude {
-        Some(prelude) => prelude,
-        None => {
-            own = Prelude::load(loader);
-            &own
-        }
-    };
+    let own = prelude.is_none().then(|| Prelude::load(loader));
     let mut loading = Loading { library: &mut library, loader, problems, stack: Vec::new() };
     let id = loading.add(root);
-    loading.adopt(prelude);
+    if let Some(prelude) = prelude.or(own.as_ref()) {
+        loading.adopt(prelude);
+    }
     loading.imports_of(id);
     loading.extended_scenarios();
     library.collect_names(problems);

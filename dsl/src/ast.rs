@@ -3,12 +3,14 @@
 //! The parser never fails: what it can't read becomes `Broken` and a problem. Constructs that the grammar has but that
 //! a stage does not support yet still have their node, so that the stage can say so.
 
+mod behavior;
 mod expr;
 mod reward;
 mod scenario;
 mod team;
 
 pub use crate::source::{FileId, Span};
+pub use behavior::*;
 pub use expr::*;
 pub use reward::*;
 pub use scenario::*;
@@ -70,11 +72,8 @@ pub enum ItemKind {
     Region(FnItem),
     /// `ending NAME [(…)] = …`
     Ending(FnItem),
-    /// `behavior NAME …`: kept as text until the language's next widening.
-    Behavior {
-        /// Its name.
-        name: Ident,
-    },
+    /// `behavior NAME …`
+    Behavior(BehaviorItem),
     /// `curriculum`, `suite`, `check`: reserved.
     Reserved {
         /// The keyword.

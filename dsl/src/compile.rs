@@ -1,12 +1,12 @@
 //! The compiler's entry: a root file in, a scenario and everything that is wrong with it out.
 
 use crate::ast::{
-    EndCondition, EndStmt, FieldValue, ItemKind, RewardUseKind, ScenarioItem, ScenarioStmtKind, ScriptRef,
-    ScriptSource, Span, TeamStmt, TeamStmtKind,
+    BehaviorBody, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, EndCondition, EndStmt, FieldValue, ItemKind,
+    RewardUseKind, ScenarioItem, ScenarioStmtKind, ScriptRef, ScriptSource, Span, TeamStmt, TeamStmtKind,
 };
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
-use crate::lower::{World, ending, observation, param, record, reward, roster, start};
+use crate::lower::{World, behavior, ending, observation, param, record, reward, roster, start};
 use crate::problem::{Code, Problem, ScriptApi, Severity};
 use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
@@ -89,26 +89,29 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     for item in root_items {
         match &item.kind {
             ItemKind::Scenario(scenario) => candidates.push((scenario, &item.doc)),
-            ItemKind::Behavior { name } => problems.push(not_yet("behavior", name.span)),
             ItemKind::Reserved { keyword } => problems.push(not_yet(&keyword.node, keyword.span)),
             _ => {}
         }
     }
+    let mut used = BTreeSet::new();
     let wanted = pick(&candidates, options.scenario.as_deref(), &library, &mut problems);
     for (item, doc) in &candidates {
         if item.is_abstract {
             let mut found = Vec::new();
-            compile_one(&library, &scripts, item, doc, &mut found);
+            compile_one(&library, &scripts, item, doc, &mut found, &mut used);
             // What is missing, a child may bring.
             found.retain(|problem| !follows_from_gaps(problem.code) && problem.code != Code::UnknownName);
             problems.append(&mut found);
             continue;
         }
-        let lowered = compile_one(&library, &scripts, item, doc, &mut problems);
+        let lowered = compile_one(&library, &scripts, item, doc, &mut problems, &mut used);
         if wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item)) {
             chosen = Some(lowered);
         }
     }
+
+    let of_root = library.files.first().into_iter().flat_map(|file| file.items.iter().map(|item| &item.kind));
+    behavior::report_names(of_root, &candidates, &used, &mut problems);
 
     problems.sort_by_key(|problem| {
         let span = problem.labels.first().map(|label| label.span);
@@ -214,6 +217,7 @@ fn compile_one<'a>(
     item: &'a ScenarioItem,
     doc: &'a str,
     problems: &mut Vec<Problem>,
+    used: &mut BTreeSet<Span>,
 ) -> (Scenario, Origins) {
     let mut flat = flatten(library, item, problems);
     let mirror = Mirror::of(flat.mirror, problems);
@@ -235,7 +239,7 @@ fn compile_one<'a>(
     };
     world.params = param::lower_params(&world);
     world.roster = roster::lower_roster(&world);
-    let start::LoweredStart { start, players, agents, side, lets } = start::lower_start(&world);
+    let start::LoweredStart { start, mut players, agents, side, lets, behaviors } = start::lower_start(&world);
     world.lets = lets;
     world.agents = side;
     let mut rewards = Vec::new();
@@ -250,6 +254,7 @@ fn compile_one<'a>(
     let records = record::lower_records(&world);
     let observation = observation::lower_observation(&world);
     let library_rewards = reward::lower_library(&world);
+    let behaviors = behavior::lower_behaviors(&world, &behaviors, &mut players);
     report_unused(&world);
 
     let origins = Origins {
@@ -273,8 +278,10 @@ fn compile_one<'a>(
         endings,
         records,
         observation,
+        behaviors,
     };
     problems.extend(world.problems.take());
+    used.extend(world.used.take());
     (scenario, origins)
 }
 
@@ -309,6 +316,12 @@ fn load_scripts(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dyn S
             if let ItemKind::Formation(formation) = &item.kind {
                 team_scripts(&formation.body, &mut named);
             }
+            if let ItemKind::Behavior(behavior) = &item.kind {
+                match &behavior.body {
+                    BehaviorBody::Block(body) => behavior_scripts(body, &mut named),
+                    BehaviorBody::Script(script) => named.push(script.clone()),
+                }
+            }
             let ItemKind::Scenario(scenario) = &item.kind else { continue };
             for stmt in &scenario.body {
                 match &stmt.kind {
@@ -337,6 +350,24 @@ fn load_scripts(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dyn S
             }
             sources.add(source)
         });
+    }
+}
+
+fn behavior_scripts(body: &[BehaviorStmt], named: &mut Vec<ScriptRef>) {
+    use BehaviorStmtKind as Kind;
+    for stmt in body {
+        match &stmt.kind {
+            Kind::Do(DoStmt { what: DoWhat::Script(script), .. }) => named.push(script.clone()),
+            Kind::Interrupt { body, .. } | Kind::Repeat { body, .. } => behavior_scripts(body, named),
+            Kind::Choose(chances) => chances.iter().for_each(|chance| behavior_scripts(&chance.body, named)),
+            Kind::If { arms, otherwise } => {
+                for (_, body) in arms {
+                    behavior_scripts(body, named);
+                }
+                behavior_scripts(otherwise, named);
+            }
+            _ => {}
+        }
     }
 }
 

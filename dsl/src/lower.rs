@@ -4,6 +4,7 @@
 //! scenario comes out, so what such a value's registers hold does not matter.
 
 pub(crate) mod agents;
+pub(crate) mod behavior;
 pub(crate) mod builder;
 pub(crate) mod ending;
 pub(crate) mod expr;
@@ -105,17 +106,19 @@ pub(crate) enum Stage {
     Record,
     /// The scenario's observation, after every step and reset.
     Observation,
+    /// What a scripted player does, at every step.
+    Behavior,
 }
 
 impl Stage {
     /// Whether the match is under way.
     pub(crate) fn is_step(self) -> bool {
-        matches!(self, Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation)
+        matches!(self, Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior)
     }
 
-    /// Whether it runs for an agent, so that there is a `me`.
+    /// Whether it runs for an agent or a player, so that there is a `me`.
     pub(crate) fn has_me(self) -> bool {
-        matches!(self, Stage::Reward | Stage::Record | Stage::Observation)
+        matches!(self, Stage::Reward | Stage::Record | Stage::Observation | Stage::Behavior)
     }
 }
 
@@ -137,6 +140,8 @@ pub(crate) struct Lower<'c, 'w> {
     pub(crate) event: Option<EventKind>,
     /// Places and `let`s, in the start program.
     pub(crate) start: StartState<'w>,
+    /// The draws of the statement of a behaviour that is being written; `None` where nothing may be drawn.
+    pub(crate) draws: Option<Vec<behavior::Draw>>,
     depth: u32,
     inlining: Vec<Span>,
     inlined: u32,
@@ -159,6 +164,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             when: When::Now,
             event: None,
             start: StartState::default(),
+            draws: None,
             depth: 0,
             inlining: Vec::new(),
             inlined: 0,

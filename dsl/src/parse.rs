@@ -5,6 +5,7 @@
 //! 2. One run of the grammar reads the whole file; lists of statements take junk where no statement can be read.
 //! 3. The pairs become the tree (one file here per construct); `recover` re-reads junk to say what was expected.
 
+mod behavior;
 mod event;
 mod expr;
 mod field;

@@ -2,10 +2,12 @@
 //!
 //! Decides every player's intent and planned kick at the start of a step; leaves to `football` what comes of them.
 //! Inside: [`sticky`] keeps held actions, [`switching`] gives slots their players, [`driver`] turns an agent's actions
-//! into intents (with [`assist`], GRF's magnet), [`bot`] plays everyone else, [`agents`] are ready-made agents.
+//! into intents (with [`assist`], GRF's magnet), [`behavior`] chooses such actions for scripted players, [`bot`] plays
+//! everyone else, [`agents`] are ready-made agents.
 
 pub mod agents;
 pub mod assist;
+pub mod behavior;
 pub mod bot;
 pub mod driver;
 pub mod sticky;
@@ -14,6 +16,7 @@ pub mod switching;
 use crate::event::Events;
 use crate::football::{forecast, reach};
 use crate::state::{Match, PlayerId};
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Rule};
 
 pub use bot::bot_action;
@@ -28,6 +31,9 @@ pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
     switching::update(game);
     game.play.led = [false; 2];
     game.play.driven = 0;
+    for acting in &mut game.play.acting {
+        acting.played = None;
+    }
     let slots = game.agents.len();
     for slot in 0..slots {
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
@@ -44,11 +50,34 @@ pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
         let agent = game.agents[slot];
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
         if let Some(id) = agent.player.filter(|id| action != Action::BuiltinAi && game.player(*id).active) {
+            game.play.acting[id.index()].played = Some(action);
             let action = hurry(game, id, action);
             driver::drive(game, events, id, agent.sticky, action);
         }
     }
+    drive_scripted(game, events);
     bot::think(game, events);
+}
+
+/// Drives everyone for whom a behaviour has chosen an action and whom no agent drives.
+fn drive_scripted(game: &mut Match, events: &mut Events) {
+    for i in 0..PLAYERS_MAX {
+        let bit = 1 << i;
+        let free = game.players[i].active && game.play.driven & bit == 0;
+        let acting = &mut game.play.acting[i];
+        let Some(action) = acting.chosen.take().filter(|_| free) else {
+            acting.sticky = 0;
+            continue;
+        };
+        acting.sticky = sticky::next(acting.sticky, action);
+        acting.played = Some(action);
+        if action != Action::BuiltinAi {
+            let (id, held) = (PlayerId(i as u8), acting.sticky);
+            game.play.driven |= bit;
+            let action = hurry(game, id, action);
+            driver::drive(game, events, id, held, action);
+        }
+    }
 }
 
 /// A set piece that an agent doesn't take is taken for it.

@@ -10,6 +10,7 @@ pub use crate::draw::{AgentsChoice, SideChoice};
 pub use crate::physics::Scratch;
 pub use error::{EnvironmentError, StepError};
 
+use crate::control::behavior::Actors;
 use crate::draw::{DrawError, Drawer, Roster};
 use crate::event::{Event, Events};
 use crate::football;
@@ -66,6 +67,7 @@ pub struct Environment {
     drawn: Drawn,
     game: Match,
     judge: Judge,
+    actors: Actors,
     events: Events,
     /// How many of the events belong to the step just played.
     judged: usize,
@@ -89,6 +91,7 @@ impl Environment {
         let scripts = Scripts::compile(&scenario)?;
         let rewards = chosen_rewards(&scenario, options.rewards.as_deref())?;
         let roster = Roster::new(&scenario, &bindings, options.agents.as_ref())?;
+        let actors = Actors::new(&scenario, &roster, scripts.clone());
         let judge = Judge::new(&scenario, rewards, scripts, roster.agents.len());
         let mut drawer = Drawer::new(&scenario);
         let mut drawn = drawer.draw_unchecked(&scenario, &bindings, &roster);
@@ -103,6 +106,7 @@ impl Environment {
             drawer,
             drawn,
             judge,
+            actors,
             events: Events::new(),
             judged: 0,
             statistics: Statistics::default(),
@@ -138,6 +142,7 @@ impl Environment {
         apply_physics(&mut self.drawn, self.options.physics);
         self.game = football::begin(&self.drawn);
         self.judge.reset(&self.game, &self.drawn, &self.bindings.0);
+        self.actors.reset(&self.game, &self.drawn, &self.bindings.0);
         self.statistics = Statistics::begin(&self.game);
         self.running = true;
         Ok(())
@@ -154,6 +159,11 @@ impl Environment {
         }
         if actions.len() != self.game.agents.len() {
             return Err(StepError::Actions { found: actions.len(), expected: self.game.agents.len() });
+        }
+        let before = self.events.as_slice().get(..self.judged).unwrap_or_default();
+        if let Err(error) = self.actors.choose(&mut self.game, before, actions) {
+            self.running = false;
+            return Err(StepError::Script(Box::new(error)));
         }
         self.events.forget(self.judged);
         football::play_step(&mut self.game, actions, &mut self.events, scratch);
@@ -229,6 +239,12 @@ impl Environment {
         &self.game.agents
     }
 
+    /// What a player pressed in the last step: his agent's action, else that of his behaviour, in the own frame of his
+    /// team; `None` where the bot or nobody plays him. [`Action::BuiltinAi`] where his behaviour hands over to the bot.
+    pub fn action_of(&self, player: PlayerId) -> Option<Action> {
+        self.game.play.acting.get(player.index()).and_then(|acting| acting.played)
+    }
+
     /// What each agent was paid in the last step.
     pub fn rewards(&self) -> &[f32] {
         self.judge.rewards().paid()
@@ -252,7 +268,7 @@ impl Environment {
     /// Payments of the episode that were stopped because their value was impossible (a division by zero, a property
     /// of nobody).
     pub fn faults(&self) -> u32 {
-        self.judge.rewards().faults()
+        self.judge.rewards().faults() + self.actors.faults()
     }
 
     /// What the scenario's records say so far, in source order.

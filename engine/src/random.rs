@@ -19,6 +19,8 @@ pub enum Purpose {
     Script = 4,
     /// Agents that act at random.
     Agent = 5,
+    /// `ctx.random()` of scripts that play a player.
+    Behavior = 6,
 }
 
 /// A stream of random numbers.

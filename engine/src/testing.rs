@@ -176,6 +176,7 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
         endings: Endings::default(),
         records: Vec::new(),
         observation: None,
+        behaviors: Vec::new(),
     }
 }
 

@@ -135,7 +135,9 @@ module.exports = grammar({
     ),
     // Kept as text: its words are still words of the language.
     opaque: ($) => seq("{", repeat(choice($._word, $.opaque, $.string, $.quantity, $.role, /[^{}"A-Za-z0-9_\s]/)), "}"),
-    _word: ($) => choice($.identifier, "do", "until", "interrupt", "when", "for", "in", "with", "on", "off", "to", "by"),
+    _word: ($) => choice(
+      $.identifier, "choose", "finish", "repeat", "sprinting", "times", "if", "else", "let", "state", "script", "do", "until", "interrupt", "when", "for", "in", "with", "on", "off", "to", "by",
+    ),
     _annotation: ($) => seq(":", $._type),
     _extends: ($) => seq("extends", $.reference),
     reference: ($) => prec.right(seq(

@@ -5,6 +5,7 @@
 //! until a match binds them. [`vocabulary`] is the one home of every list that the language, the engine, the docs and
 //! Python share. [`file`](mod@file) is the versioned `.pitchc` format.
 
+pub mod behavior;
 pub mod file;
 pub mod params;
 pub mod pitch;
@@ -15,6 +16,7 @@ pub mod schema;
 pub mod verify;
 pub mod vocabulary;
 
+pub use behavior::{Act, Behavior, Do, Node, ScriptArg, Then, Watch};
 pub use file::{FORMAT_VERSION, FormatError};
 pub use params::{Bindings, Param, ParamError};
 pub use program::{

@@ -1,5 +1,6 @@
 //! The compiled scenario.
 
+use crate::behavior::Behavior;
 use crate::params::Param;
 use crate::program::{Program, Reg};
 use crate::vocabulary::{Role, Rule, StartKind, Stat, Team, Verdict};
@@ -40,6 +41,9 @@ pub struct Scenario {
     /// The scenario's own observation, if it declares one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub observation: Option<Observation>,
+    /// What scripted players do, by the ids that players use.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub behaviors: Vec<Behavior>,
 }
 
 impl Scenario {
@@ -105,8 +109,8 @@ pub enum Ai {
     Hold,
     /// Brakes to a stand and looks at the ball (GRF's `lazy`).
     Lazy,
-    /// A script's `act` hook.
-    Script(u32),
+    /// A behaviour or script of the scenario, by its place in [`Scenario::behaviors`].
+    Behavior(u32),
 }
 
 /// A player's start; every register belongs to the start program.

@@ -2,6 +2,8 @@
 //!
 //! The compiler writes only scenarios that pass. A file may say anything.
 
+mod behavior;
+
 use crate::pitch::TEAM_MAX;
 use crate::program::{Fold, Instr, Program, Reg};
 use crate::scenario::{Ai, RewardBody, Scenario, SideAgents};
@@ -71,6 +73,10 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
             return Err("the observation remembers something".to_owned());
         }
     }
+    for behavior in &scenario.behaviors {
+        check(&behavior.name, &behavior.program, Place::Step { terms: 0 })?;
+        behavior::verify_nodes(behavior, n_scripts).map_err(|fault| format!("{}: {fault}", behavior.name))?;
+    }
     verify_start(scenario)
 }
 
@@ -102,8 +108,8 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
         regs.extend([s.heading, s.fatigue, s.yellow_cards, s.difficulty, s.present].into_iter().flatten());
         regs.extend(s.velocity.iter().flat_map(|v| [v.0, v.1]));
         regs.extend(slot.stats.iter().map(|(_, reg)| *reg));
-        if let Ai::Script(script) = slot.ai {
-            below("script", script, scenario.scripts.len())?;
+        if let Ai::Behavior(behavior) = slot.ai {
+            below("behavior", behavior, scenario.behaviors.len())?;
         }
     }
     for (team, side) in Team::ALL.iter().zip(&scenario.agents.sides) {

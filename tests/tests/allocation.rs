@@ -6,12 +6,16 @@
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::observe;
-use setpiece::scenario::Action;
+use setpiece::scenario::{Action, Scenario};
+use std::sync::Arc;
 
 /// Steps of some episodes after the first one, and how many of them allocated.
 fn steps(name: &str, episodes: u64) -> (u32, u32) {
-    let loaded = setpiece::load(name).unwrap();
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    steps_of(setpiece::load(name).unwrap().scenario, episodes)
+}
+
+fn steps_of(scenario: Arc<Scenario>, episodes: u64) -> (u32, u32) {
+    let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
     let mut scratch = Scratch::default();
     let mut floats = vec![0.0; observe::layout::SIMPLE115];
     let (mut played, mut allocated) = (0, 0);
@@ -39,4 +43,32 @@ fn a_step_without_rigid_contact_allocates_nothing() {
     // Nobody is near enough to the ball's way for a rigid contact.
     let (played, allocated) = steps("academy_empty_goal", 5);
     assert!(played > 200 && allocated * 50 < played, "{allocated} of {played}");
+}
+
+#[test]
+fn behaviors_allocate_nothing() {
+    let text = "
+        behavior busy(spot: point) {
+            state n = 0
+            repeat {
+                let there = spot + (uniform(-5m, 5m), uniform(-5m, 5m))
+                n = n + 1
+                choose { 2: do move_to(there) for 2s 1: do mark(nearest(them, to: me)) for 1s }
+            }
+            interrupt when count(p in mates where distance(p, me) < 2m) > 0 { do run(90deg) for 0.3s }
+        }
+        scenario s {
+            agents { left: [anna] }
+            ball at (-0.9, -0.4)
+            team left { anna: CM at (0, 0) { ai: busy((0, 0)) } CM at (0, 0.1) { ai: busy((0.1, 0.1)) } }
+            team right { CB at (0.5, 0) { ai: busy((0.4, 0)) } }
+            end limit 200 steps
+        }";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("busy.pitch");
+    std::fs::write(&path, text).unwrap();
+    let loaded = setpiece::load(path.to_str().unwrap()).unwrap();
+    assert_eq!(loaded.scenario.behaviors.len(), 3);
+    let (played, allocated) = steps_of(loaded.scenario, 3);
+    assert!(played > 500 && allocated * 50 < played, "{allocated} of {played}");
 }

@@ -207,7 +207,7 @@ impl<'w> Lower<'_, 'w> {
 }
 
 /// `a.b` of `own.a.b`.
-fn path_of(expr: &Expr) -> Option<String> {
+pub(crate) fn path_of(expr: &Expr) -> Option<String> {
     match &expr.kind {
         ExprKind::Name(name) => Some(name.clone()),
         ExprKind::Member(of, member) => Some(format!("{}.{}", path_of(of)?, member.node)),

@@ -5,6 +5,7 @@ mod kind;
 mod remap;
 
 use super::agents::{lower_agents, side_with_agents};
+use super::behavior::BehaviorUse;
 use super::builder::Layout;
 use super::place::Found;
 use super::roster::Rostered;
@@ -41,6 +42,10 @@ pub(crate) struct StartState<'w> {
     pub(crate) ball: Found<(Reg, Reg)>,
     /// What must hold of values that are known at the draw only.
     pub(crate) implied: Vec<Require>,
+    /// The behaviour of the player whose options are read.
+    pub(crate) ai: Option<BehaviorUse<'w>>,
+    /// The behaviours that players use, by the players' ids.
+    pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
     lets: BTreeMap<&'w str, Option<Value<'w>>>,
     first: Option<Reg>,
     kind: Option<(StartKind, Option<Reg>)>,
@@ -52,6 +57,11 @@ impl StartState<'_> {
     /// The name of what is being drawn.
     pub(crate) fn drawing(&self) -> &str {
         &self.drawing
+    }
+
+    /// Says what is drawn from now on.
+    pub(crate) fn draw_for(&mut self, name: &str) {
+        name.clone_into(&mut self.drawing);
     }
 
     /// The next draw's ordinal in it.
@@ -95,6 +105,8 @@ pub(crate) struct LoweredStart<'w> {
     pub(crate) side: Option<Team>,
     /// The `let`s for step programs.
     pub(crate) lets: Vec<LetSlot<'w>>,
+    /// The behaviours that players use, by the players' ids.
+    pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
 }
 
 /// Lowers the start.
@@ -136,6 +148,7 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     let kickoff = lower.kickoff(&places);
     requires.append(&mut lower.start.implied);
 
+    let behaviors = std::mem::take(&mut lower.start.behaviors);
     let lets = lower.let_slots();
     let mut wanted: Vec<Reg> = Vec::new();
     let mut collect = |reg: Reg| {
@@ -173,7 +186,7 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     start.program = program;
     let players = players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
     let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
-    LoweredStart { start, players, agents, side, lets: lets.0 }
+    LoweredStart { start, players, agents, side, lets: lets.0, behaviors }
 }
 
 fn roster_span(world: &World<'_>, index: usize) -> Span {
@@ -236,7 +249,7 @@ impl<'w> Lower<'_, 'w> {
                     "a constant is known before",
                 ));
             }
-            Stage::Init | Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation => {
+            Stage::Init | Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior => {
                 return self.step_let(name);
             }
         }

@@ -1,9 +1,11 @@
 //! Options of teams and players.
 
 use super::Lower;
+use super::behavior::BehaviorUse;
+use super::expr::path_of;
 use super::roster::Rostered;
 use super::value::Repr;
-use crate::ast::{Expr, ExprKind, Field, FieldValue};
+use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{self, PLAYER, TEAM};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -74,6 +76,7 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
     let stream = player.stream();
     lower.for_team(player.team.index() as f64, |lower| {
         lower.within(scope, |lower| {
+            lower.start.ai = None;
             for field in &player.fields {
                 lower.drawing(&format!("{stream} {}", field.key.node), |lower| option(lower, field, &mut options));
             }
@@ -84,6 +87,9 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
             }
         });
     });
+    if let Some(used) = lower.start.ai.take() {
+        lower.start.behaviors.push((player.id, used));
+    }
     options
 }
 
@@ -97,14 +103,7 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
                 stats(lower, stat, options);
             }
         }
-        ("ai", FieldValue::Script(script)) => {
-            lower.world.report(Problem::new(
-                Code::NotYet,
-                script.span,
-                "`ai: script` is not supported yet",
-                "no script can play a player so far",
-            ));
-        }
+        ("ai", FieldValue::Script(script)) => lower.start.ai = Some(BehaviorUse::Script(script)),
         (key, FieldValue::Expr(expr)) => expression(lower, key, expr, options),
         ("stats", FieldValue::Script(script)) => not_a_group(lower, script.span),
         _ => {
@@ -163,43 +162,44 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
 }
 
 fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions) {
-    let known = ["bot", "hold", "lazy"];
-    let name = match &expr.kind {
-        ExprKind::Name(name) => name.as_str(),
-        ExprKind::Call { name, .. } => name.node.as_str(),
-        _ => {
-            lower.report(
-                Problem::new(Code::WrongType, expr.span, "expected who plays him", "")
-                    .help("write `ai: bot`, `ai: hold`, `ai: lazy` or `ai: script \"file.rhai\"`"),
-            );
+    let (path, args): (_, &'w [Arg]) = match &expr.kind {
+        ExprKind::Call { name, args } => (Some(name.node.clone()), args),
+        _ => (path_of(expr), &[]),
+    };
+    let Some(name) = path else {
+        lower.report(
+            Problem::new(Code::WrongType, expr.span, "expected who plays him", "")
+                .help("write `ai: bot`, `ai: hold`, `ai: lazy`, a behavior or `ai: script \"file.rhai\"`"),
+        );
+        return;
+    };
+    let built_in = [("bot", Ai::Bot), ("hold", Ai::Hold), ("lazy", Ai::Lazy)];
+    if let (Some((_, ai)), true) = (built_in.iter().find(|(known, _)| *known == name), args.is_empty()) {
+        options.ai = *ai;
+        lower.start.ai = None;
+        return;
+    }
+    let library = lower.world.library;
+    let found = library.find(expr.span.file, &name);
+    if let Some((found, ItemKind::Behavior(item))) = found.map(|found| (found, &found.item.kind)) {
+        if let Some(problem) = library.ambiguous(expr.span.file, &name, expr.span) {
+            lower.report(problem);
             return;
         }
-    };
-    match name {
-        "bot" => options.ai = Ai::Bot,
-        "hold" => options.ai = Ai::Hold,
-        "lazy" => options.ai = Ai::Lazy,
-        _ => {
-            let found = lower.world.library.find(expr.span.file, name);
-            let is_behavior = found.is_some_and(|f| matches!(f.item.kind, crate::ast::ItemKind::Behavior { .. }));
-            lower.report(if is_behavior {
-                Problem::new(Code::NotYet, expr.span, "a `behavior` is not supported yet", "")
-                    .help("write `ai: bot`, `ai: hold`, `ai: lazy` or `ai: script \"file.rhai\"`")
-            } else {
-                let problem = Problem::new(
-                    Code::UnknownName,
-                    expr.span,
-                    format!("no player's `ai` is called `{name}`"),
-                    "not known",
-                );
-                if crate::problem::nearest(name, known).is_some() {
-                    problem.did_you_mean(name, known)
-                } else {
-                    problem.help("it can be `bot`, `hold`, `lazy` or `script \"file.rhai\"`")
-                }
-            });
-        }
+        lower.world.mark_used(found.name.span);
+        lower.start.ai = Some(BehaviorUse::Named { item, args, scope: lower.scope.clone(), span: expr.span });
+        return;
     }
+    let behaviors =
+        library.visible(expr.span.file).filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)));
+    let known: Vec<&str> = behaviors.map(|(name, _)| name).chain(built_in.iter().map(|(name, _)| *name)).collect();
+    let problem =
+        Problem::new(Code::UnknownName, expr.span, format!("no player's `ai` is called `{name}`"), "not known");
+    lower.report(if crate::problem::nearest(&name, known.iter().copied()).is_some() {
+        problem.did_you_mean(&name, known)
+    } else {
+        problem.help("it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"file.rhai\"`")
+    });
 }
 
 fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {

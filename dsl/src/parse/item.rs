@@ -3,7 +3,8 @@
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
 use crate::ast::{
-    Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind, ParamDecl, Ref, RewardItem, ScenarioItem,
+    BehaviorBody, BehaviorItem, Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind, ParamDecl, Ref,
+    RewardItem, ScenarioItem,
 };
 use crate::source::Span;
 use pest::iterators::Pairs;
@@ -57,7 +58,17 @@ impl Reader<'_> {
                 let body = nodes.want(Rule::team_body)?;
                 ItemKind::Formation(FormationItem { name, params, extends, body: self.team_body(body) })
             }
-            Rule::behavior => ItemKind::Behavior { name: nodes.seek(Rule::ident).map(|name| self.ident(&name))? },
+            Rule::behavior => {
+                let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;
+                let params = nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
+                let body = nodes.next()?;
+                let body = if body.as_rule() == Rule::script {
+                    BehaviorBody::Script(self.script(body)?)
+                } else {
+                    BehaviorBody::Block(self.behavior_body(body))
+                };
+                ItemKind::Behavior(BehaviorItem { name, params, body })
+            }
             _ => ItemKind::Reserved { keyword: nodes.next().map(|keyword| self.ident(&keyword))? },
         })
     }

@@ -104,7 +104,7 @@ impl Reader<'_> {
         let behind = self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty());
         let lone = match context {
             Context::Fields => false,
-            Context::Reward if positives == [Rule::equals] => {
+            Context::Reward | Context::Behavior if positives == [Rule::equals] => {
                 let further = if continued.is_some() { context.further() } else { &[] };
                 nearest(first, context.keywords().iter().chain(further).copied()).is_some()
             }
@@ -140,6 +140,7 @@ impl Reader<'_> {
             Rule::scenario_body => drop(self.scenario_body(node)),
             Rule::team_body => drop(self.team_body(node)),
             Rule::reward_body => drop(self.reward_body(node)),
+            Rule::behavior_body => drop(self.behavior_body(node)),
             _ => drop(self.fields(node)),
         }
         self.base = base;

@@ -359,7 +359,7 @@ fn item_name(item: &Item) -> Option<&Ident> {
         ItemKind::Formation(formation) => Some(&formation.name),
         ItemKind::Const(binding) => Some(&binding.name),
         ItemKind::Fn(f) | ItemKind::Region(f) | ItemKind::Ending(f) => Some(&f.name),
-        ItemKind::Behavior { name } => Some(name),
+        ItemKind::Behavior(behavior) => Some(&behavior.name),
         ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => None,
     }
 }

@@ -95,7 +95,7 @@ pub fn think(game: &mut Match, events: &mut Events) {
         match ai_of(game, id) {
             Ai::Lazy => game.players[i].body.intent = Intent::Stand,
             Ai::Hold => hold(game, id),
-            Ai::Bot | Ai::Script(_) => decide(game, events, &views[id.team().index()], id),
+            Ai::Bot | Ai::Behavior(_) => decide(game, events, &views[id.team().index()], id),
         }
     }
 }

@@ -5,7 +5,8 @@ use crate::football::forecast::Forecast;
 use crate::state::PlayerId;
 use glam::Vec2;
 use setpiece_scenario::Others;
-use setpiece_scenario::vocabulary::{GameMode, Team};
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{Action, GameMode, Team};
 
 /// The game's own memory of a match.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,10 +47,23 @@ pub struct Play {
     pub led: [bool; 2],
     /// Players whom an agent drives in this step, a bit each.
     pub driven: u32,
+    /// What everyone presses who is played by presses, by id.
+    pub acting: [Acting; PLAYERS_MAX],
     /// Agents' slots by turn: the next to be given a player.
     pub next_slot: [u8; 2],
     /// The keeper's plan against the ball on its way.
     pub save: [Option<Save>; 2],
+}
+
+/// The actions of a player who is played by actions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Acting {
+    /// What his behaviour has chosen for the step to come.
+    pub chosen: Option<Action>,
+    /// What he played in the last step: his agent's action, else his behaviour's.
+    pub played: Option<Action>,
+    /// What his behaviour holds, as [`AgentSlot::sticky`](crate::state::AgentSlot::sticky).
+    pub sticky: u16,
 }
 
 /// A set piece that waits to be taken.
@@ -128,6 +142,7 @@ impl Play {
             second_half: false,
             led: [false; 2],
             driven: 0,
+            acting: [Acting { chosen: None, played: None, sticky: 0 }; PLAYERS_MAX],
             next_slot: [0; 2],
             save: [None; 2],
         }

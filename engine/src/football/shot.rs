@@ -13,11 +13,13 @@ const MEANT_FOR_GOAL_RAD: f32 = 1.1;
 
 /// The point of the goal mouth that a shot aims at.
 fn aim(pos: Vec2, side: f32, plan: &KickPlan) -> Vec2 {
+    plan.point.unwrap_or_else(|| aim_of(pos, side, plan.dir))
+}
+
+/// The point that a shot with a held world direction aims at.
+pub fn aim_of(pos: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
     let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
-    if let Some(point) = plan.point {
-        return point;
-    }
-    let Some(dir) = plan.dir else { return goal };
+    let Some(dir) = dir else { return goal };
     let way = (goal - pos).normalize_or_zero();
     let angle = math::atan2(way.perp_dot(dir), way.dot(dir));
     if angle.abs() > MEANT_FOR_GOAL_RAD {

@@ -111,6 +111,28 @@ impl Machine<'_> {
         self.block(&program.code, begin, program.code.len(), None);
     }
 
+    /// Computes the values anew after cells were written from outside, but for those of temporal instructions: they
+    /// happen once a step.
+    pub fn run_again(&mut self, program: &Program) {
+        let code = &program.code;
+        let mut at = 0;
+        while at < code.len() {
+            match &code[at] {
+                Instr::Each(each) => {
+                    self.each(code, at, each, None);
+                    at += each.body as usize;
+                }
+                Instr::Held { .. }
+                | Instr::Ever { .. }
+                | Instr::Since { .. }
+                | Instr::Until { .. }
+                | Instr::Once { .. } => {}
+                instr => self.regs[at] = self.instr(instr, None),
+            }
+            at += 1;
+        }
+    }
+
     /// The value of a register.
     pub fn value(&self, reg: Reg) -> f64 {
         self.regs[reg.index()]
@@ -300,7 +322,8 @@ impl Machine<'_> {
             })
     }
 
-    fn draw(&self, key: u64, from: &Distribution) -> f64 {
+    /// Draws from the stream of a key; the distribution's registers have their present values.
+    pub fn draw(&self, key: u64, from: &Distribution) -> f64 {
         let Some(draws) = self.draws else { return f64::NAN };
         let random = &mut Stream::of_draw(draws.seed, draws.index, draws.attempt, key);
         let regs = &*self.regs;

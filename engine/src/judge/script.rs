@@ -7,19 +7,20 @@
 //!
 //! - `fn reward(ctx, now, prev, events)` gives a number, each step, for each agent.
 //! - `fn done(ctx, now, prev, events)` says whether the episode ends: true, or its label.
+//! - `fn act(ctx, me, now)` names the action of the player it plays, each step.
 
 mod api;
 mod check;
 mod host;
 mod place;
 
-pub use api::{Member, Perspective, Scene, Subject, functions, members};
+pub use api::{Argument, Member, Perspective, Scene, Subject, functions, members};
 pub use check::{ScriptFault, ScriptFaultKind, check_script};
 
 use api::{Sight, events_of};
 use place::hook_position;
 use rhai::{AST, CallFnOptions, Dynamic, EvalAltResult, Scope};
-use setpiece_scenario::vocabulary::Type;
+use setpiece_scenario::vocabulary::{Action, Type};
 use setpiece_scenario::{Param, Scenario};
 use std::sync::Arc;
 
@@ -191,6 +192,46 @@ impl Scripts {
         }
     }
 
+    /// Calls a script's `act` hook for the player of the perspective.
+    ///
+    /// # Errors
+    /// [`ScriptError`] where the hook fails or names no action.
+    pub fn act(
+        &self,
+        script: u32,
+        scene: &Arc<Scene>,
+        perspective: Perspective,
+        arguments: &[Argument<'_>],
+        memory: &mut Memory,
+    ) -> Result<Action, ScriptError> {
+        const HOOK: &str = "act";
+        let Some(compiled) = self.list.get(script as usize) else { return Ok(Action::Idle) };
+        let own = (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
+        let seen = own.as_ref().unwrap_or(scene);
+        let now = Sight::now(seen, perspective);
+        compiled.begin(&now, memory)?;
+        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
+        let called = host::engine().call_fn_with_options::<Dynamic>(
+            options,
+            &mut Scope::new(),
+            &compiled.ast,
+            HOOK,
+            (now.ctx(), now.me(), now.clone()),
+        );
+        if let Some(own) = &own {
+            scene.take_random(own);
+        }
+        let word = called
+            .map_err(|error| compiled.fault(HOOK, error, seen))?
+            .into_string()
+            .map_err(|found| self.wrong_type(script, HOOK, "the name of an action", found, seen))?;
+        Action::from_name(&word).ok_or_else(|| {
+            let names = Action::ALL.iter().map(|action| action.name());
+            let hint = check::suggest(&word, names).map(|hint| format!("; {hint}")).unwrap_or_default();
+            compiled.error(HOOK, None, format!("no action is called `{word}`{hint}"), seen)
+        })
+    }
+
     fn call(
         &self,
         script: u32,
@@ -201,15 +242,7 @@ impl Scripts {
     ) -> Result<Dynamic, ScriptError> {
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Dynamic::UNIT) };
         let now = Sight::now(scene, perspective);
-        if !memory.begun {
-            memory.begun = true;
-            if compiled.resets {
-                let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
-                let _ = host::engine()
-                    .call_fn_with_options::<Dynamic>(options, &mut Scope::new(), &compiled.ast, RESET, (now.ctx(),))
-                    .map_err(|error| compiled.fault(RESET, error, scene))?;
-            }
-        }
+        compiled.begin(&now, memory)?;
         let arguments = (now.ctx(), now.clone(), Sight::prev(scene, perspective), events_of(&now));
         let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
         host::engine()
@@ -236,6 +269,18 @@ impl Scripts {
 }
 
 impl Compiled {
+    /// Calls the `reset` hook before the first hook of an episode.
+    fn begin(&self, now: &Sight, memory: &mut Memory) -> Result<(), ScriptError> {
+        if std::mem::replace(&mut memory.begun, true) || !self.resets {
+            return Ok(());
+        }
+        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
+        host::engine()
+            .call_fn_with_options::<Dynamic>(options, &mut Scope::new(), &self.ast, RESET, (now.ctx(),))
+            .map(drop)
+            .map_err(|error| self.fault(RESET, error, now.scene()))
+    }
+
     fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &Scene) -> ScriptError {
         let (position, message) = host::explain(error);
         self.error(hook, position, message, scene)

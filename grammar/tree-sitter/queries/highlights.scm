@@ -35,10 +35,10 @@
 
 [
   "absent" "agents" "ahead" "all" "along" "as" "at" "away" "ball" "behind" "between" "beyond" "by"
-  "do" "each" "else" "end" "extends" "facing" "failure" "for" "from" "give" "if" "interrupt"
+  "choose" "do" "each" "else" "end" "extends" "facing" "failure" "finish" "for" "from" "give" "if" "interrupt"
   "jitter" "kickoff" "left" "limit" "mirror" "observe" "of" "off" "offset" "on" "once" "outfield"
-  "own" "per" "place" "remove" "require" "rhai" "right" "rules" "script" "second" "start" "success"
-  "team" "then" "to" "until" "vector" "when" "where" "with"
+  "own" "per" "place" "remove" "repeat" "require" "rhai" "right" "rules" "script" "second" "sprinting" "start" "success"
+  "team" "then" "times" "to" "until" "vector" "when" "where" "with"
 ] @keyword.control
 
 [

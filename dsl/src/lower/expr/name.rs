@@ -162,6 +162,9 @@ impl<'w> Lower<'_, 'w> {
             _ if is_builtin(name) => return None,
             ItemKind::Scenario(_) => self.fail(needs_call("scenario")),
             ItemKind::Reward(_) => self.fail(needs_call("reward")),
+            ItemKind::Behavior(_) => {
+                self.fail(needs_call("behavior").help(format!("give it to a player: `ai: {name}`")))
+            }
             _ => self.fail(needs_call("definition")),
         })
     }

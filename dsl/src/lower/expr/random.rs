@@ -1,5 +1,6 @@
 //! Draws: in the start program only.
 
+use super::super::behavior::Draw;
 use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Arg, Expr, ExprKind, Span};
@@ -14,6 +15,9 @@ impl<'w> Lower<'_, 'w> {
         if self.stage == Stage::Start {
             return true;
         }
+        if self.stage == Stage::Behavior {
+            return self.may_draw_now(function, span);
+        }
         let problem = Problem::new(
             if self.stage == Stage::Constant { Code::NotConstant } else { Code::WrongScope },
             span,
@@ -21,6 +25,19 @@ impl<'w> Lower<'_, 'w> {
             "",
         );
         self.report(problem.help("draw it with a `let` of the scenario and use the name"));
+        false
+    }
+
+    /// Reports a draw of a behaviour that belongs to no statement: it would happen in every step.
+    fn may_draw_now(&self, function: Function, span: Span) -> bool {
+        if self.draws.is_some() && !self.code.in_loop() {
+            return true;
+        }
+        let message = format!("`{}` draws when a statement is reached, not here", function.name());
+        self.report(
+            Problem::new(Code::WrongScope, span, message, "looked at again and again")
+                .help("draw it before with a `let` and use the name"),
+        );
         false
     }
 
@@ -107,7 +124,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Reports weights that are negative, or all nothing.
-    fn check_weights(&mut self, weights: &[(Reg, Span)], span: Span) {
+    pub(crate) fn check_weights(&mut self, weights: &[(Reg, Span)], span: Span) {
         for &(weight, at) in weights {
             self.check_range(weight, (0.0, f64::MAX), "the weight", at, "`0` or more");
         }
@@ -235,9 +252,14 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Draws from the stream of what is being drawn: its name and the draw's ordinal in it.
-    pub(super) fn random(&mut self, from: Distribution) -> Reg {
+    pub(crate) fn random(&mut self, from: Distribution) -> Reg {
         let ordinal = self.start.next_draw();
         let key = stream_key(self.start.drawing(), ordinal);
+        if let Some(draws) = &mut self.draws {
+            let (cell, count) = (self.code.new_cell(), self.code.new_cell());
+            draws.push(Draw { cell, count, key, from });
+            return self.code.cell(cell);
+        }
         self.code.random(key, from)
     }
 }

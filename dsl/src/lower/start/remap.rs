@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 impl<'w> Value<'w> {
     /// The same value in other registers.
-    pub(super) fn map(&self, f: &mut dyn FnMut(Reg) -> Reg) -> Value<'w> {
+    pub(crate) fn map(&self, f: &mut dyn FnMut(Reg) -> Reg) -> Value<'w> {
         let repr = match &self.repr {
             Repr::One(a) => Repr::One(f(*a)),
             Repr::Two(a, b) => Repr::Two(f(*a), f(*b)),

@@ -13,14 +13,16 @@ pub(in crate::parse) enum Context {
     Team,
     /// A reward or a block in it.
     Reward,
+    /// A behaviour or a block in it.
+    Behavior,
     /// Options.
     Fields,
 }
 
 impl Context {
     /// Every list.
-    pub(super) const ALL: [Context; 5] =
-        [Context::File, Context::Scenario, Context::Team, Context::Reward, Context::Fields];
+    pub(super) const ALL: [Context; 6] =
+        [Context::File, Context::Scenario, Context::Team, Context::Reward, Context::Behavior, Context::Fields];
 
     /// The rule of a statement.
     pub(super) const fn statement(self) -> Rule {
@@ -29,6 +31,7 @@ impl Context {
             Context::Scenario => Rule::scen_stmt,
             Context::Team => Rule::team_stmt,
             Context::Reward => Rule::reward_stmt,
+            Context::Behavior => Rule::beh_stmt,
             Context::Fields => Rule::field,
         }
     }
@@ -40,6 +43,7 @@ impl Context {
             Context::Scenario => Rule::scenario_probe,
             Context::Team => Rule::team_probe,
             Context::Reward => Rule::reward_probe,
+            Context::Behavior => Rule::behavior_probe,
             Context::Fields => Rule::fields_probe,
         }
     }
@@ -51,6 +55,7 @@ impl Context {
             Context::Scenario => "a scenario",
             Context::Team => "a team",
             Context::Reward => "a reward",
+            Context::Behavior => "a behavior",
             Context::Fields => "options",
         }
     }
@@ -79,6 +84,7 @@ impl Context {
             ],
             Context::Team => &["place", "each"],
             Context::Reward => &["state", "let", "give", "on", "when"],
+            Context::Behavior => &["do", "interrupt", "repeat", "choose", "if", "state", "let", "finish"],
             Context::Fields => &[],
         }
     }
@@ -89,6 +95,7 @@ impl Context {
             Context::Scenario => &["jitter", "when", "with", "as"],
             Context::Team => super::expect::AFTER_ROLE,
             Context::Reward => &["per", "once", "on", "when", "as", "else"],
+            Context::Behavior => &["sprinting", "until", "for", "else", "times"],
             Context::File | Context::Fields => &[],
         }
     }
@@ -98,6 +105,7 @@ impl Context {
         Some(match (self, keyword) {
             (Context::File, "scenario" | "abstract") => Rule::scenario_body,
             (Context::File | Context::Scenario, "reward") | (Context::Reward, "on" | "when") => Rule::reward_body,
+            (Context::File, "behavior") | (Context::Behavior, "interrupt" | "repeat" | "if") => Rule::behavior_body,
             (Context::File, "formation") | (Context::Scenario, "team") => Rule::team_body,
             (Context::Scenario, "rules" | "agents" | "ball" | "start" | "kickoff") => Rule::fields,
             _ => return None,

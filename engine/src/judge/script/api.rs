@@ -12,12 +12,12 @@ pub use table::{Member, Subject, members};
 
 use crate::event::Event;
 use crate::judge::script::Params;
-use crate::judge::view::{PlayerView, View};
+use crate::judge::view::{PlayerView, View, player_index, team_of_number};
 use crate::random::Stream;
 use crate::state::PlayerId;
 use rhai::{Array, Dynamic, Engine};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
-use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::vocabulary::{Team, Type};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What the hooks of one step share.
@@ -47,6 +47,24 @@ impl Scene {
         Scene::new(self.now, self.prev, events, self.params.clone(), self.random(), key)
     }
 
+    /// The same scene with a behaviour's arguments among `ctx.params`.
+    #[must_use]
+    pub fn with_arguments(self: &Arc<Scene>, perspective: Perspective, arguments: &[Argument<'_>]) -> Scene {
+        let sight = Sight::now(self, perspective);
+        let mut params = (*self.params).clone();
+        params.extend(arguments.iter().map(|argument| (argument.name.into(), sight.argument(argument))));
+        let key = (self.seed, self.index);
+        Scene {
+            params: Arc::new(params),
+            ..Scene::new(self.now, self.prev, &self.events, Params::default(), self.random(), key)
+        }
+    }
+
+    /// Goes on with the random numbers of another scene.
+    pub fn take_random(&self, from: &Scene) {
+        *self.random.lock().unwrap_or_else(PoisonError::into_inner) = from.random();
+    }
+
     /// The stream of random numbers as the hooks left it.
     pub fn random(&self) -> Stream {
         self.random.lock().unwrap_or_else(PoisonError::into_inner).clone()
@@ -56,6 +74,17 @@ impl Scene {
     pub fn step(&self) -> u32 {
         self.now.step
     }
+}
+
+/// An argument of a behaviour that is a script.
+#[derive(Clone, Copy, Debug)]
+pub struct Argument<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its type.
+    pub ty: Type,
+    /// Its value as programs write it; a point takes two.
+    pub values: [f64; 2],
 }
 
 /// Whom a hook is called for.
@@ -118,6 +147,28 @@ impl Sight {
 
     pub(super) fn ctx(&self) -> Ctx {
         Ctx(self.clone())
+    }
+
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The player that the hook is called for.
+    pub(super) fn me(&self) -> Dynamic {
+        self.somebody(self.perspective.me)
+    }
+
+    /// An argument as scripts see it: numbers in SI units.
+    fn argument(&self, argument: &Argument<'_>) -> Dynamic {
+        let [value, other] = argument.values;
+        match argument.ty {
+            Type::Bool => (value != 0.0).into(),
+            Type::Int => Dynamic::from_int(value as i64),
+            Type::Player => self.somebody(player_index(value).map(|index| PlayerId(index as u8))),
+            Type::Team => self.team_word(team_of_number(value)),
+            Type::Point => Dynamic::from(Point { metres: [value, other], side: self.side() }),
+            _ => value.into(),
+        }
     }
 
     fn view(&self) -> &View {

@@ -150,6 +150,8 @@ pub(super) fn parse_message(error: &ParseError) -> String {
 pub(super) fn type_words(name: &str) -> String {
     match name {
         "()" => "nothing".to_owned(),
+        "i64" => "a whole number".to_owned(),
+        "f64" => "a number".to_owned(),
         "string" | "map" | "array" | "bool" | "char" => format!("a {name}"),
         other => format!("`{}`", tidy(other)),
     }

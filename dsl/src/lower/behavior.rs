@@ -1,0 +1,330 @@
+//! Behaviours: a state machine of nodes over one step program.
+//!
+//! Calls of other behaviours are written out, so that a player's behaviour is one list of nodes. Arguments and
+//! conditions are registers of the program, which runs at every step; what is frozen (`let`), remembered (`state`) or
+//! drawn lies in cells that nodes write when they are reached.
+
+mod act;
+mod statement;
+
+use super::builder::Layout;
+use super::value::{Binding, Frame, Scope, Value};
+use super::{Lower, Stage, World, param};
+use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, ItemKind, ParamDecl, ScenarioItem, ScriptRef, Span};
+use crate::check::types::Ty;
+use crate::problem::{Code, Problem};
+use crate::source::FileId;
+use setpiece_scenario::vocabulary::Primitive;
+use setpiece_scenario::{Act, Ai, Behavior, Distribution, Do, Node, PlayerSlot, Reg, Watch};
+use std::collections::BTreeSet;
+
+/// Most nodes that calls of behaviours may add up to.
+const NODES_MAX: usize = 10_000;
+/// Most calls that may be written out, and how deep they may lie in each other.
+const CALLS_MAX: (usize, usize) = (2_000, 64);
+/// Most interrupts, and calls with `until` or `for`, of one player's behaviour.
+const WATCHES_MAX: usize = 500;
+
+/// What a player's `ai` names.
+#[derive(Clone)]
+pub(crate) enum BehaviorUse<'w> {
+    /// A behaviour.
+    Named {
+        /// Which.
+        item: &'w BehaviorItem,
+        /// The arguments.
+        args: &'w [Arg],
+        /// In which scope they are read.
+        scope: Scope<'w>,
+        /// The whole expression.
+        span: Span,
+    },
+    /// A script.
+    Script(&'w ScriptRef),
+}
+
+/// A draw that happens when a statement is reached.
+pub(crate) struct Draw {
+    /// Where the value goes.
+    pub(crate) cell: u32,
+    /// How often it has been drawn.
+    pub(crate) count: u32,
+    /// The name of its stream.
+    pub(crate) key: u64,
+    /// From what.
+    pub(crate) from: Distribution,
+}
+
+/// Lowers every behaviour that a player uses, and tells the players.
+pub(crate) fn lower_behaviors<'w>(
+    world: &World<'w>,
+    uses: &[(u8, BehaviorUse<'w>)],
+    players: &mut [PlayerSlot],
+) -> Vec<Behavior> {
+    let mut behaviors: Vec<Behavior> = Vec::new();
+    for (player, used) in uses {
+        let mut writer = Writer::new(world);
+        let name = match used {
+            BehaviorUse::Named { item, args, scope, span } => {
+                writer.lower.scope = scope.clone();
+                writer.lower.start.draw_for(&format!("behavior {}", item.name.node));
+                writer.run(item, args, *span);
+                item.name.node.clone()
+            }
+            BehaviorUse::Script(script) => {
+                writer.script(script, Vec::new());
+                "script".to_owned()
+            }
+        };
+        let behavior = writer.finish(name);
+        let known = behaviors.iter().position(|known| *known == behavior);
+        let index = known.unwrap_or_else(|| {
+            behaviors.push(behavior);
+            behaviors.len() - 1
+        });
+        let slot = world.roster.iter().position(|rostered| rostered.id == *player);
+        if let Some(slot) = slot.and_then(|at| players.get_mut(at)) {
+            slot.ai = Ai::Behavior(index as u32);
+        }
+    }
+    check_unused(world);
+    behaviors
+}
+
+/// Checks the behaviours of the root that no player of this scenario uses: their mistakes are told all the same.
+fn check_unused(world: &World<'_>) {
+    let root = FileId(0);
+    let items = world.library.files.first().map_or(&[][..], |file| &file.items);
+    for item in items {
+        let ItemKind::Behavior(behavior) = &item.kind else { continue };
+        if behavior.name.span.file != root || world.used.borrow().contains(&behavior.name.span) {
+            continue;
+        }
+        let mut writer = Writer::new(world);
+        let mut scope = Scope::new(false, Frame::Own);
+        for decl in &behavior.params {
+            let value = writer.some_value(decl);
+            scope.bind(&decl.name.node, Binding::Value(value));
+        }
+        writer.body(behavior, scope);
+    }
+}
+
+/// Warns of behaviours of the root that nothing uses, and reports those that hide a primitive.
+pub(crate) fn report_names<'a>(
+    items: impl Iterator<Item = &'a ItemKind>,
+    scenarios: &[(&ScenarioItem, &str)],
+    used: &BTreeSet<Span>,
+    problems: &mut Vec<Problem>,
+) {
+    let concrete = scenarios.iter().any(|(item, _)| !item.is_abstract);
+    for item in items {
+        let ItemKind::Behavior(BehaviorItem { name, .. }) = item else { continue };
+        if Primitive::from_name(&name.node).is_some() {
+            problems.push(
+                Problem::new(
+                    Code::ReservedName,
+                    name.span,
+                    format!("`{}` is something that every behavior can do", name.node),
+                    "can't be declared again",
+                )
+                .help(format!("choose another name, for example `my_{}`", name.node)),
+            );
+        } else if concrete && !used.contains(&name.span) && !name.node.starts_with('_') {
+            problems.push(
+                Problem::new(
+                    Code::UnusedName,
+                    name.span,
+                    format!("behavior `{}` is never used", name.node),
+                    "not read",
+                )
+                .help(format!("give it to a player, `ai: {}`, leave it out, or begin its name with `_`", name.node)),
+            );
+        }
+    }
+}
+
+/// A `state` of the behaviour that is being written.
+struct State<'w> {
+    name: &'w str,
+    cells: Vec<u32>,
+    ty: Ty,
+}
+
+/// Writes one player's behaviour.
+struct Writer<'c, 'w> {
+    lower: Lower<'c, 'w>,
+    nodes: Vec<Node>,
+    watches: Vec<Watch>,
+    states: Vec<State<'w>>,
+    /// The behaviours under way: name, first node, and the nodes that leave it.
+    calls: Vec<Call>,
+    /// Behaviours written out so far.
+    written: usize,
+    too_large: bool,
+}
+
+struct Call {
+    name: Span,
+    from: usize,
+    finishes: Vec<usize>,
+}
+
+impl<'c, 'w> Writer<'c, 'w> {
+    fn new(world: &'c World<'w>) -> Writer<'c, 'w> {
+        let mut lower = Lower::new(world, Stage::Behavior, Scope::new(false, Frame::Own));
+        let us = lower.code.us();
+        lower.team = Some(us);
+        let (nodes, watches, states, calls) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Writer { lower, nodes, watches, states, calls, written: 0, too_large: false }
+    }
+
+    /// Writes a behaviour out; its arguments are read in the present scope.
+    fn run(&mut self, item: &'w BehaviorItem, args: &'w [Arg], span: Span) {
+        if self.calls.iter().any(|call| call.name == item.name.span) {
+            self.lower.report(
+                Problem::new(Code::Recursion, span, format!("`{}` uses itself", item.name.node), "closes the circle")
+                    .label(item.name.span, "declared here")
+                    .help("what is done again and again stands in a `repeat`"),
+            );
+            return;
+        }
+        self.written += 1;
+        let deep = self.written > CALLS_MAX.0 || self.calls.len() >= CALLS_MAX.1;
+        if deep || self.nodes.len() > NODES_MAX || self.watches.len() > WATCHES_MAX {
+            if !self.too_large {
+                let message = format!("`{}` makes the behavior too large", item.name.node);
+                self.lower.report(Problem::new(Code::Impossible, span, message, "").help("call fewer behaviors"));
+            }
+            self.too_large = true;
+            return;
+        }
+        let mut scope = Scope::new(false, Frame::Own);
+        let in_world = self.lower.scope.frame == Frame::World;
+        self.drawing(|writer| {
+            writer.lower.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
+        });
+        if in_world {
+            self.turn_angles(&item.params, &mut scope);
+        }
+        self.body(item, scope);
+    }
+
+    /// Angles that were read in the world's frame are read in the own one within the behaviour.
+    fn turn_angles(&mut self, params: &'w [ParamDecl], scope: &mut Scope<'w>) {
+        for decl in params {
+            if let Some(Binding::Expr { now: Some(value), .. }) = scope.find(&decl.name.node).cloned()
+                && value.ty == Ty::ANGLE
+            {
+                let read = self.lower.reg(&value);
+                let world = self.lower.in_frame(Frame::World, |lower| lower.turned_angle(read));
+                let own = self.lower.in_frame(Frame::Own, |lower| lower.turned_angle(world));
+                scope.bind(&decl.name.node, Binding::Value(Value::one(Ty::ANGLE, own)));
+            }
+        }
+    }
+
+    fn body(&mut self, item: &'w BehaviorItem, scope: Scope<'w>) {
+        let (outer, states) = (self.lower.scope.clone(), std::mem::take(&mut self.states));
+        self.calls.push(Call { name: item.name.span, from: self.nodes.len(), finishes: Vec::new() });
+        match &item.body {
+            BehaviorBody::Block(statements) => {
+                self.lower.scope = scope;
+                self.find_states(statements);
+                self.block(statements, true);
+            }
+            BehaviorBody::Script(script) => {
+                self.lower.scope = scope;
+                let args = self.script_args(&item.params);
+                self.script(script, args);
+            }
+        }
+        let end = self.nodes.len() as u32;
+        if let Some(call) = self.calls.pop() {
+            for at in call.finishes {
+                self.patch(at, end);
+            }
+        }
+        self.lower.scope = outer;
+        self.states = states;
+    }
+
+    /// Runs `f`; the draws in what it reads happen before what comes next.
+    fn drawing<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = self.lower.draws.replace(Vec::new());
+        let result = f(self);
+        let draws = std::mem::replace(&mut self.lower.draws, outer);
+        for Draw { cell, count, key, from } in draws.into_iter().flatten() {
+            self.nodes.push(Node::Draw { cell, count, key, from });
+        }
+        result
+    }
+
+    fn script(&mut self, script: &'w ScriptRef, args: Vec<setpiece_scenario::ScriptArg>) {
+        if let Some(script) = super::script::embed(self.lower.world, script, "act") {
+            let act = Act::Script { script, args };
+            self.nodes.push(Node::Do(Do { act, sprint: false, until: None, seconds: None }));
+        }
+    }
+
+    /// Tells a node where it jumps.
+    fn patch(&mut self, at: usize, target: u32) {
+        let node = self.nodes.get_mut(at);
+        if let Some(Node::Branch { otherwise: to, .. } | Node::Jump(to) | Node::Finish { to, .. }) = node {
+            *to = target;
+        }
+    }
+
+    /// A value of a parameter's type of which nothing is known.
+    fn some_value(&mut self, decl: &'w ParamDecl) -> Value<'w> {
+        let declared = decl.ty.as_ref().map(|ty| param::declared_type(self.lower.world, ty));
+        let ty = match (&decl.default, declared) {
+            (Some(default), _) => {
+                let home = Scope::new(false, Frame::World);
+                return self.drawing(|writer| {
+                    writer.lower.within(home, |lower| match declared {
+                        Some(ty) => lower.want(default, ty),
+                        None => lower.expr(default),
+                    })
+                });
+            }
+            (None, Some(ty)) => ty,
+            (None, None) => return Value::error(),
+        };
+        let unknown = self.lower.code.unknown();
+        match ty {
+            Ty::Point | Ty::Vector | Ty::Velocity => Value::two(ty, (unknown, unknown)),
+            Ty::Bool | Ty::Int | Ty::Player | Ty::Team => Value::one(ty, unknown),
+            ty if ty.dim().is_some() => Value::one(ty, unknown),
+            _ => Value::error(),
+        }
+    }
+
+    /// Reports an assignment to what is no state.
+    fn not_a_state(&self, name: &Ident) {
+        let problem = Problem::new(
+            Code::UnknownName,
+            name.span,
+            format!("no `state` is called `{}`", name.node),
+            "can't be assigned",
+        );
+        let states: Vec<&str> = self.states.iter().map(|state| state.name).collect();
+        let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
+        self.lower.report(if near {
+            problem.did_you_mean(&name.node, states)
+        } else {
+            problem.help(format!("declare it at the top: `state {} = 0`", name.node))
+        });
+    }
+
+    fn finish(self, name: String) -> Behavior {
+        let mut behavior =
+            Behavior { name, program: setpiece_scenario::Program::default(), nodes: self.nodes, watches: self.watches };
+        let mut roots: Vec<Reg> = Vec::new();
+        behavior.regs_mut(&mut |reg| roots.push(*reg));
+        let (program, layout): (_, Layout) = self.lower.code.finish(&roots);
+        behavior.regs_mut(&mut |reg| *reg = layout.reg(*reg));
+        behavior.program = program;
+        behavior
+    }
+}

@@ -1,0 +1,236 @@
+//! `do …`: primitives, calls of behaviours, scripts.
+
+use super::Writer;
+use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, ParamDecl, Span};
+use crate::check::types::Ty;
+use crate::lower::value::{Binding, Repr, Value};
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::{Field, Primitive, Type};
+use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, ScriptArg, Then, UnaryOp, Watch, When};
+
+/// Steps of a second.
+const STEPS_PER_S: f64 = 10.0;
+
+impl<'w> Writer<'_, 'w> {
+    pub(super) fn do_stmt(&mut self, stmt: &'w DoStmt) {
+        let (name, args, span) = match &stmt.what {
+            DoWhat::Named { name, args, span } => (name, args.as_slice(), *span),
+            DoWhat::Script(script) => {
+                self.refuse_sprint(stmt, "a script");
+                let index = crate::lower::script::embed(self.lower.world, script, "act");
+                let (until, seconds) = self.clauses(stmt);
+                if let Some(script) = index {
+                    let act = Act::Script { script, args: Vec::new() };
+                    self.nodes.push(Node::Do(Do { act, sprint: false, until, seconds }));
+                }
+                return;
+            }
+        };
+        if let Some(primitive) = Primitive::from_name(&name.node) {
+            self.primitive(primitive, stmt, args, span);
+            return;
+        }
+        let library = self.lower.world.library;
+        if let Some(found) = library.find(name.span.file, &name.node)
+            && let ItemKind::Behavior(item) = &found.item.kind
+        {
+            if let Some(problem) = library.ambiguous(name.span.file, &name.node, name.span) {
+                self.lower.report(problem);
+                return;
+            }
+            self.lower.world.mark_used(found.name.span);
+            self.call(item, stmt, args, span);
+            return;
+        }
+        self.unknown(name);
+    }
+
+    fn unknown(&self, name: &Ident) {
+        let visible = self.lower.world.library.visible(name.span.file);
+        let mut known: Vec<&str> = visible
+            .filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)))
+            .map(|(name, _)| name)
+            .collect();
+        known.extend(Primitive::ALL.iter().map(|primitive| primitive.name()));
+        let message = format!("nothing that a player does is called `{}`", name.node);
+        let problem = Problem::new(Code::UnknownName, name.span, message, "not known");
+        self.lower.report(if crate::problem::nearest(&name.node, known.iter().copied()).is_some() {
+            problem.did_you_mean(&name.node, known)
+        } else {
+            let all: Vec<&str> = Primitive::ALL.iter().map(|primitive| primitive.name()).collect();
+            problem.help(format!("he can `{}`, or what a `behavior` says", all.join("`, `")))
+        });
+    }
+
+    fn primitive(&mut self, primitive: Primitive, stmt: &'w DoStmt, args: &'w [Arg], span: Span) {
+        if !primitive.runs() {
+            self.refuse_sprint(stmt, &format!("`{primitive}`"));
+        }
+        let done = self.drawing(|writer| {
+            let act = writer.act(primitive, args, span);
+            let (until, seconds) = writer.clauses(stmt);
+            if primitive == Primitive::Wait && stmt.duration.is_none() {
+                writer.lower.report(
+                    Problem::new(Code::WrongArguments, span, "`wait` doesn't say for how long", "")
+                        .help("write `do wait for 1s`; `do hold` stands until something else happens"),
+                );
+            }
+            act.map(|act| Do { act, sprint: stmt.sprinting.is_some(), until, seconds })
+        });
+        self.nodes.extend(done.map(Node::Do));
+    }
+
+    fn refuse_sprint(&self, stmt: &DoStmt, what: &str) {
+        let Some(at) = stmt.sprinting else { return };
+        let runs: Vec<&str> = Primitive::ALL.iter().filter(|known| known.runs()).map(|known| known.name()).collect();
+        let message = format!("{what} is not done `sprinting`");
+        self.lower.report(
+            Problem::new(Code::WrongArguments, at, message, "not here")
+                .help(format!("what can be: `{}`", runs.join("`, `"))),
+        );
+    }
+
+    /// `until C`, `for D`
+    fn clauses(&mut self, stmt: &'w DoStmt) -> (Option<Reg>, Option<Reg>) {
+        let until = stmt.until.as_ref().map(|condition| self.lower.condition(condition));
+        let seconds = stmt.duration.as_ref().map(|duration| {
+            let reg = self.lower.want_reg(duration, Ty::DURATION);
+            let longest = crate::lower::start::LONGEST_S;
+            self.lower.check_range(reg, (0.0, longest), "the duration", duration.span, "`0s..100000s`");
+            reg
+        });
+        (until, seconds)
+    }
+
+    fn act(&mut self, primitive: Primitive, args: &'w [Arg], span: Span) -> Option<Act> {
+        use Primitive as P;
+        let names: &[&str] = match primitive {
+            P::MoveTo | P::DribbleTo => &["to"],
+            P::Run => &["angle"],
+            P::PassTo | P::HighPassTo | P::LongPassTo | P::Mark => &["player"],
+            P::Shoot => &["at"],
+            P::Tackle | P::Slide | P::Press | P::Hold | P::Wait | P::Bot => &[],
+        };
+        let given = self.lower.arguments(primitive.name(), args, span, names, 0)?;
+        let first = given.first().copied().flatten();
+        if first.is_none() && !names.is_empty() && primitive != P::Shoot {
+            let signature = primitive.doc().split(": ").next().unwrap_or_default();
+            let message = format!("`{primitive}` doesn't say {}", if *names == ["player"] { "who" } else { "where" });
+            self.lower
+                .report(Problem::new(Code::WrongArguments, span, message, "").help(format!("write `do {signature}`")));
+            return None;
+        }
+        Some(match (primitive, first) {
+            (P::MoveTo, Some(to)) => self.place(to, Act::MoveTo),
+            (P::DribbleTo, Some(to)) => self.place(to, Act::DribbleTo),
+            (P::Run, Some(angle)) => {
+                let own = self.lower.want_reg(angle, Ty::ANGLE);
+                Act::Run(self.lower.turned_angle(own))
+            }
+            (P::PassTo, Some(mate)) => Act::PassTo(self.lower.want_reg(mate, Ty::Player)),
+            (P::HighPassTo, Some(mate)) => Act::HighPassTo(self.lower.want_reg(mate, Ty::Player)),
+            (P::LongPassTo, Some(mate)) => Act::LongPassTo(self.lower.want_reg(mate, Ty::Player)),
+            (P::Mark, Some(who)) => Act::Mark(self.lower.want_reg(who, Ty::Player)),
+            (P::Shoot, at) => Act::Shoot(at.map(|at| self.lower.want_point(at))),
+            (P::Tackle, _) => Act::Tackle,
+            (P::Slide, _) => Act::Slide,
+            (P::Press, _) => Act::Press,
+            (P::Bot, _) => Act::Bot,
+            _ => Act::Hold,
+        })
+    }
+
+    fn place(&mut self, to: &'w Expr, act: fn(Reg, Reg) -> Act) -> Act {
+        let (x, y) = self.lower.want_point(to);
+        act(x, y)
+    }
+
+    /// Writes another behaviour out, left as soon as its `until` holds or its `for` is over.
+    fn call(&mut self, item: &'w BehaviorItem, stmt: &'w DoStmt, args: &'w [Arg], span: Span) {
+        self.refuse_sprint(stmt, "a behavior");
+        let (until, seconds) = self.drawing(|writer| writer.clauses(stmt));
+        let began = seconds.map(|_| {
+            let (cell, now) = (self.lower.code.new_cell(), self.elapsed());
+            self.nodes.push(Node::Let(vec![(cell, now)]));
+            cell
+        });
+        let over = match (began, seconds) {
+            (Some(began), Some(seconds)) => Some(self.is_over(began, seconds)),
+            _ => None,
+        };
+        let leaves = match (until, over) {
+            (Some(until), Some(over)) => Some(self.lower.code.binary(BinaryOp::Or, until, over)),
+            (until, over) => until.or(over),
+        };
+        let Some(leaves) = leaves else {
+            self.run(item, args, span);
+            return;
+        };
+        let stays = self.lower.code.unary(UnaryOp::Not, leaves);
+        let branch = self.branch(stays);
+        let (watch, from) = (self.watches.len(), self.nodes.len() as u32);
+        self.watches.push(Watch { from, to: from, when: leaves, then: Then::Leave });
+        self.run(item, args, span);
+        let end = self.nodes.len() as u32;
+        if let Some(watch) = self.watches.get_mut(watch) {
+            watch.to = end;
+        }
+        self.patch(branch, end);
+    }
+
+    fn elapsed(&mut self) -> Reg {
+        self.lower.code.load(Field::Elapsed, None, When::Now)
+    }
+
+    /// Whether so many steps have passed since the time in a cell.
+    fn is_over(&mut self, began: u32, seconds: Reg) -> Reg {
+        let now = self.elapsed();
+        let code = &mut self.lower.code;
+        let (began, per_s) = (code.cell(began), code.constant(STEPS_PER_S));
+        let passed = code.binary(BinaryOp::Sub, now, began);
+        let steps = |code: &mut crate::lower::builder::Builder, seconds: Reg| {
+            let steps = code.binary(BinaryOp::Mul, seconds, per_s);
+            code.unary(UnaryOp::Round, steps)
+        };
+        let (passed, wanted) = (steps(code, passed), steps(code, seconds));
+        code.binary(BinaryOp::Ge, passed, wanted)
+    }
+
+    /// The parameters of a behaviour that is a script, as its hook sees them.
+    pub(super) fn script_args(&mut self, params: &'w [ParamDecl]) -> Vec<ScriptArg> {
+        let mut args = Vec::new();
+        for decl in params {
+            let known = self.lower.scope.find(&decl.name.node).cloned();
+            let Some(Binding::Expr { now: Some(value), .. } | Binding::Value(value)) = known else { continue };
+            if value.is_error() {
+                continue;
+            }
+            match script_type(&value) {
+                Some(ty) => args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() }),
+                None => self.lower.report(
+                    Problem::new(
+                        Code::WrongType,
+                        decl.name.span,
+                        format!("a script's parameter can't be {}", value.ty.noun()),
+                        "",
+                    )
+                    .help("it can be a number of any unit, a truth value, a player, a team or a point"),
+                ),
+            }
+        }
+        args
+    }
+}
+
+/// The type under which a script gets a value.
+fn script_type(value: &Value<'_>) -> Option<Type> {
+    match (&value.repr, value.ty) {
+        (Repr::One(_), Ty::Bool) => Some(Type::Bool),
+        (Repr::One(_), Ty::Int) => Some(Type::Int),
+        (Repr::One(_), Ty::Player) => Some(Type::Player),
+        (Repr::One(_), Ty::Team) => Some(Type::Team),
+        (Repr::One(_), ty) if ty.dim().is_some() => Some(Type::Number),
+        (Repr::Two(..), Ty::Point) => Some(Type::Point),
+        _ => None,
+    }
+}

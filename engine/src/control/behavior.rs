@@ -1,0 +1,167 @@
+//! Scripted players: behaviours and scripts choose their actions as agents do.
+//!
+//! Decides each scripted player's action on the state before a step, players in roster order; leaves to
+//! [`driver`](super::driver) what an action means. A player whom an agent drives is left to the agent: his behaviour
+//! waits where it is. Inside: [`actor`] goes through a behaviour's nodes, [`perform`] turns a primitive into actions,
+//! [`steer`] chooses among the eight directions.
+
+pub mod actor;
+pub mod perform;
+pub mod steer;
+
+use crate::draw::Roster;
+use crate::event::Event;
+use crate::judge::machine::{Input, Machine};
+use crate::judge::script::{Params, Scene, ScriptError, Scripts};
+use crate::judge::view::View;
+use crate::random::{Purpose, Stream};
+use crate::start::Drawn;
+use crate::state::{Match, PlayerId};
+use actor::{Actor, Mind};
+use setpiece_scenario::vocabulary::{Action, Team};
+use setpiece_scenario::{Act, Ai, Behavior, Do, Node, Scenario};
+use std::sync::Arc;
+
+/// The scripted players of an environment.
+#[derive(Clone, Debug)]
+pub struct Actors {
+    plans: Arc<[Behavior]>,
+    list: Vec<Actor>,
+    scripts: Scripts,
+    /// Whether one of them asks a script.
+    scripted: bool,
+    random: Stream,
+    params: Vec<f64>,
+    /// The same as scripts see them.
+    shown: Params,
+    lets: Vec<f64>,
+    seed: u64,
+    index: u64,
+    regs: Vec<f64>,
+    prev: View,
+    faults: u32,
+}
+
+impl Actors {
+    /// Prepares the scripted players of a roster.
+    pub fn new(scenario: &Scenario, roster: &Roster, scripts: Scripts) -> Actors {
+        let mut list = Vec::new();
+        let mut n_regs = 0;
+        let mut scripted = false;
+        for team in Team::ALL {
+            for (id, slot) in scenario.team(*team) {
+                let Ai::Behavior(which) = slot.ai else { continue };
+                let Some(plan) = scenario.behaviors.get(which as usize) else { continue };
+                if !roster.present.get(id).copied().unwrap_or_default() {
+                    continue;
+                }
+                n_regs = n_regs.max(plan.program.code.len());
+                scripted |= plan.nodes.iter().any(|node| matches!(node, Node::Do(Do { act: Act::Script { .. }, .. })));
+                list.push(Actor::new(PlayerId(id as u8), which as usize, plan));
+            }
+        }
+        Actors {
+            plans: scenario.behaviors.clone().into(),
+            list,
+            scripts,
+            scripted,
+            random: Stream::new(0, 0, Purpose::Behavior),
+            params: Vec::new(),
+            shown: Params::default(),
+            lets: Vec::new(),
+            seed: 0,
+            index: 0,
+            regs: vec![0.0; n_regs],
+            prev: View::EMPTY,
+            faults: 0,
+        }
+    }
+
+    /// Values of this episode that were stopped because they were impossible.
+    pub fn faults(&self) -> u32 {
+        self.faults
+    }
+
+    /// Begins an episode: the match stands at its start.
+    pub fn reset(&mut self, game: &Match, drawn: &Drawn, params: &[f64]) {
+        if self.list.is_empty() {
+            return;
+        }
+        self.params.clear();
+        self.params.extend_from_slice(params);
+        if self.scripted {
+            self.shown = self.scripts.params(params);
+        }
+        self.lets.clear();
+        self.lets.extend_from_slice(&drawn.lets);
+        (self.seed, self.index) = (drawn.seed, drawn.index);
+        self.random = Stream::new(drawn.seed, drawn.index, Purpose::Behavior);
+        self.prev = View::of(game);
+        self.faults = 0;
+        for actor in &mut self.list {
+            actor.reset(&self.plans[actor.plan]);
+        }
+    }
+
+    /// Chooses every scripted player's action: writes [`Acting::chosen`](crate::football::play::Acting) of the match.
+    ///
+    /// - `events`: those of the step before.
+    /// - `actions`: the agents' actions of this step, by slot.
+    ///
+    /// # Errors
+    /// An `act` hook that failed; the episode can't go on.
+    pub fn choose(&mut self, game: &mut Match, events: &[Event], actions: &[Action]) -> Result<(), ScriptError> {
+        if self.list.is_empty() {
+            return Ok(());
+        }
+        let now = View::of(game);
+        let scene = self.scripted.then(|| {
+            let key = (self.seed, self.index);
+            Arc::new(Scene::new(now, self.prev, events, self.shown.clone(), self.random.clone(), key))
+        });
+        let plans = self.plans.clone();
+        for actor in &mut self.list {
+            let id = actor.player;
+            game.play.acting[id.index()].chosen = None;
+            if !game.player(id).active {
+                continue;
+            }
+            let plan = &plans[actor.plan];
+            let machine = Machine {
+                input: Input {
+                    now: &now,
+                    prev: &self.prev,
+                    events,
+                    params: &self.params,
+                    lets: &self.lets,
+                    index: self.index,
+                    us: id.team(),
+                    me: Some(id),
+                    silent: false,
+                },
+                regs: &mut self.regs,
+                cells: &mut actor.cells,
+                terms: &mut [],
+                faults: &mut self.faults,
+                draws: None,
+            };
+            let mut mind = Mind::new(machine, &plan.program, self.seed, self.index, id);
+            mind.see();
+            let driven = game
+                .agents
+                .iter()
+                .zip(actions)
+                .any(|(slot, action)| slot.player == Some(id) && *action != Action::BuiltinAi);
+            if !driven {
+                let scene = scene.as_ref().map(|scene| (&self.scripts, scene));
+                let chosen = actor.thread.step(plan, &mut mind, game, scene)?;
+                game.play.acting[id.index()].chosen = Some(chosen);
+            }
+        }
+        if let Some(scene) = scene {
+            self.random = scene.random();
+        }
+        self.prev = now;
+        Ok(())
+    }
+}

@@ -1,0 +1,344 @@
+//! One player's way through his behaviour's nodes.
+
+use super::perform::{Step, Wish, perform};
+use crate::judge::machine::{DrawKey, Machine, truth};
+use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::judge::view::player_index;
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::STEPS_PER_S;
+use setpiece_scenario::vocabulary::Action;
+use setpiece_scenario::{Act, Behavior, Do, Node, Program, Reg, Then, Watch};
+use std::sync::Arc;
+
+/// Most nodes gone through in one step: more than any that ends can need, so that a damaged file costs little.
+const NODES_PER_STEP: u32 = 100_000;
+
+/// A scripted player and what he remembers.
+#[derive(Clone, Debug)]
+pub struct Actor {
+    /// Who.
+    pub player: PlayerId,
+    /// His behaviour, by its place in the scenario's.
+    pub plan: usize,
+    /// The memory of the behaviour's program.
+    pub cells: Vec<f64>,
+    /// Where he is in it.
+    pub thread: Thread,
+}
+
+/// Where a player is in his behaviour.
+#[derive(Clone, Debug)]
+pub struct Thread {
+    player: PlayerId,
+    at: Frame,
+    /// What was interrupted, innermost last.
+    interrupted: Vec<Frame>,
+    /// Steps so far.
+    steps: u32,
+    /// The last step in which each watch turned him away: once a step at most.
+    turned: Vec<u32>,
+    /// Of each script, by its node.
+    memories: Vec<(u32, Memory)>,
+}
+
+/// A node and how far it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Frame {
+    /// The node.
+    pub node: u32,
+    /// Steps spent on it.
+    pub steps: u32,
+    /// Whether its kick or slide has been called for.
+    pub pressed: bool,
+}
+
+impl Frame {
+    fn at(node: u32) -> Frame {
+        Frame { node, ..Frame::default() }
+    }
+}
+
+impl Actor {
+    /// A player before his first episode.
+    pub fn new(player: PlayerId, plan: usize, behavior: &Behavior) -> Actor {
+        let scripts = behavior.nodes.iter().enumerate().filter_map(|(at, node)| match node {
+            Node::Do(Do { act: Act::Script { .. }, .. }) => Some((at as u32, Memory::default())),
+            _ => None,
+        });
+        let thread = Thread {
+            player,
+            at: Frame::default(),
+            interrupted: Vec::with_capacity(behavior.watches.len()),
+            steps: 0,
+            turned: vec![0; behavior.watches.len()],
+            memories: scripts.collect(),
+        };
+        Actor { player, plan, cells: vec![0.0; behavior.program.cells as usize], thread }
+    }
+
+    /// Begins an episode.
+    pub fn reset(&mut self, behavior: &Behavior) {
+        self.cells.fill(0.0);
+        for node in &behavior.nodes {
+            if let Node::Let(pairs) = node {
+                // What is read before it is frozen is nothing.
+                for (cell, _) in pairs {
+                    self.cells[*cell as usize] = f64::NAN;
+                }
+            }
+        }
+        self.thread.at = Frame::default();
+        self.thread.interrupted.clear();
+        self.thread.steps = 0;
+        self.thread.turned.fill(0);
+        self.thread.memories.iter_mut().for_each(|(_, memory)| *memory = Memory::default());
+    }
+}
+
+/// The values that a behaviour sees in a step.
+pub struct Mind<'a> {
+    machine: Machine<'a>,
+    program: &'a Program,
+    /// A cell was written since the registers were computed.
+    stale: bool,
+    seed: u64,
+    index: u64,
+    player: PlayerId,
+}
+
+impl<'a> Mind<'a> {
+    /// The mind of a player; see [`Self::see`].
+    pub fn new(machine: Machine<'a>, program: &'a Program, seed: u64, index: u64, player: PlayerId) -> Mind<'a> {
+        Mind { machine, program, stale: false, seed, index, player }
+    }
+
+    /// Computes every value of the step.
+    pub fn see(&mut self) {
+        self.machine.run(self.program);
+    }
+
+    fn value(&mut self, reg: Reg) -> f64 {
+        if std::mem::take(&mut self.stale) {
+            self.machine.run_again(self.program);
+        }
+        self.machine.value(reg)
+    }
+
+    fn truth(&mut self, reg: Reg) -> bool {
+        truth(self.value(reg))
+    }
+
+    fn point(&mut self, x: Reg, y: Reg) -> Vec2 {
+        Vec2::new(self.value(x) as f32, self.value(y) as f32)
+    }
+
+    fn player(&mut self, reg: Reg) -> Option<PlayerId> {
+        player_index(self.value(reg)).map(|index| PlayerId(index as u8))
+    }
+
+    /// Writes cells, all at once; `stopped`: impossible values are not written.
+    fn write(&mut self, pairs: &[(u32, Reg)], stopped: bool) {
+        if let Some((_, first)) = pairs.first() {
+            self.value(*first);
+        }
+        for (cell, reg) in pairs {
+            let value = self.machine.value(*reg);
+            if stopped && value.is_nan() {
+                *self.machine.faults += 1;
+            } else {
+                self.machine.cells[*cell as usize] = value;
+            }
+        }
+        self.stale = true;
+    }
+
+    fn draw(&mut self, node: &Node) {
+        let Node::Draw { cell, count, key, from } = node else { return };
+        if std::mem::take(&mut self.stale) {
+            self.machine.run_again(self.program);
+        }
+        let drawn = self.machine.cells[*count as usize];
+        self.machine.cells[*count as usize] = drawn + 1.0;
+        // Players of one behaviour draw apart.
+        let own = key.wrapping_add((u64::from(self.player.0) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        self.machine.draws = Some(DrawKey { seed: self.seed, index: self.index, attempt: drawn as u32 });
+        self.machine.cells[*cell as usize] = self.machine.draw(own, from);
+        self.stale = true;
+    }
+}
+
+impl Thread {
+    /// Chooses the action of a step.
+    ///
+    /// # Errors
+    /// An `act` hook that failed.
+    pub fn step(
+        &mut self,
+        plan: &Behavior,
+        mind: &mut Mind<'_>,
+        game: &Match,
+        scene: Option<(&Scripts, &Arc<Scene>)>,
+    ) -> Result<Action, ScriptError> {
+        let first = self.steps == 0;
+        self.steps += 1;
+        if self.at.node as usize >= plan.nodes.len() {
+            return Ok(Action::BuiltinAi);
+        }
+        if first {
+            self.begin(plan, mind);
+        }
+        // What turns him away is looked at before whatever he would do.
+        self.look_out(plan, mind);
+        for _ in 0..NODES_PER_STEP {
+            let Some(node) = plan.nodes.get(self.at.node as usize) else { return Ok(Action::BuiltinAi) };
+            match node {
+                Node::Do(_) if self.look_out(plan, mind) => {}
+                Node::Do(doing) => match self.act(doing, mind, game, scene)? {
+                    Some(action) => return Ok(action),
+                    None => self.next(),
+                },
+                Node::Let(pairs) => {
+                    mind.write(pairs, false);
+                    self.next();
+                }
+                Node::Assign(pairs) => {
+                    mind.write(pairs, true);
+                    self.next();
+                }
+                Node::Draw { .. } => {
+                    mind.draw(node);
+                    self.next();
+                }
+                Node::Branch { when, otherwise } => {
+                    if mind.truth(*when) {
+                        self.next();
+                    } else {
+                        self.at = Frame::at(*otherwise);
+                    }
+                }
+                Node::Jump(to) => self.at = Frame::at(*to),
+                Node::Mark(cell) => {
+                    mind.machine.cells[*cell as usize] = f64::from(self.steps);
+                    self.next();
+                }
+                Node::Loop { to, mark } => {
+                    let began = mind.machine.cells[*mark as usize];
+                    self.at = Frame::at(*to);
+                    if began == f64::from(self.steps) {
+                        return Ok(Action::Idle);
+                    }
+                }
+                Node::Return => self.at = self.interrupted.pop().unwrap_or(Frame::at(u32::MAX)),
+                Node::Finish { from, to } => self.leave(*from, *to),
+            }
+        }
+        Ok(Action::Idle)
+    }
+
+    fn next(&mut self) {
+        self.at = Frame::at(self.at.node + 1);
+    }
+
+    /// Sets the states before anything looks at them.
+    fn begin(&mut self, plan: &Behavior, mind: &mut Mind<'_>) {
+        while let Some(node) = plan.nodes.get(self.at.node as usize) {
+            match node {
+                Node::Let(pairs) => mind.write(pairs, false),
+                Node::Draw { .. } => mind.draw(node),
+                _ => return,
+            }
+            self.next();
+        }
+    }
+
+    /// Lets the first watch that holds turn him away, each once a step; whether one did.
+    fn look_out(&mut self, plan: &Behavior, mind: &mut Mind<'_>) -> bool {
+        let (here, now) = (self.at.node, self.steps);
+        let mut open = plan.watches.iter().zip(&mut self.turned);
+        let holds = |(watch, turned): &(&Watch, &mut u32)| {
+            (watch.from..watch.to).contains(&here) && **turned != now && mind.truth(watch.when)
+        };
+        let Some((watch, turned)) = open.find(holds) else { return false };
+        *turned = now;
+        match watch.then {
+            Then::Interrupt(body) if self.interrupted.len() < plan.watches.len() => {
+                self.interrupted.push(self.at);
+                self.at = Frame::at(body);
+            }
+            Then::Interrupt(_) => {}
+            Then::Leave => self.leave(watch.from, watch.to),
+        }
+        true
+    }
+
+    /// Goes on behind a part of the behaviour, with whatever was interrupted in it.
+    fn leave(&mut self, from: u32, to: u32) {
+        while self.interrupted.last().is_some_and(|frame| (from..to).contains(&frame.node)) {
+            self.interrupted.pop();
+        }
+        self.at = Frame::at(to);
+    }
+
+    /// An action of a `do`; `None` once it has ended.
+    fn act(
+        &mut self,
+        doing: &Do,
+        mind: &mut Mind<'_>,
+        game: &Match,
+        scene: Option<(&Scripts, &Arc<Scene>)>,
+    ) -> Result<Option<Action>, ScriptError> {
+        if doing.until.is_some_and(|until| mind.truth(until)) {
+            return Ok(None);
+        }
+        if let Some(seconds) = doing.seconds {
+            // The cast saturates; what is impossible is no time at all.
+            let steps = libm::round(mind.value(seconds) * STEPS_PER_S) as u32;
+            if self.at.steps >= steps {
+                return Ok(None);
+            }
+        }
+        let wish = match &doing.act {
+            Act::MoveTo(x, y) => Wish::MoveTo(mind.point(*x, *y)),
+            Act::Run(angle) => Wish::Run(mind.value(*angle) as f32),
+            Act::DribbleTo(x, y) => Wish::DribbleTo(mind.point(*x, *y)),
+            Act::PassTo(mate) => Wish::Pass(Action::ShortPass, mind.player(*mate)),
+            Act::HighPassTo(mate) => Wish::Pass(Action::HighPass, mind.player(*mate)),
+            Act::LongPassTo(mate) => Wish::Pass(Action::LongPass, mind.player(*mate)),
+            Act::Shoot(at) => Wish::Shoot(at.map(|(x, y)| mind.point(x, y))),
+            Act::Tackle => Wish::Tackle,
+            Act::Slide => Wish::Slide,
+            Act::Mark(who) => Wish::Mark(mind.player(*who)),
+            Act::Press => Wish::Press,
+            Act::Hold => Wish::Hold,
+            Act::Bot => Wish::Bot,
+            Act::Script { script, args } => {
+                let Some((scripts, scene)) = scene else { return Ok(None) };
+                let arguments: Vec<Argument<'_>> = args
+                    .iter()
+                    .map(|arg| {
+                        let value = |mind: &mut Mind<'_>, i: usize| arg.regs.get(i).map_or(0.0, |reg| mind.value(*reg));
+                        Argument { name: &arg.name, ty: arg.ty, values: [value(mind, 0), value(mind, 1)] }
+                    })
+                    .collect();
+                let node = self.at.node;
+                let Some((_, memory)) = self.memories.iter_mut().find(|(at, _)| *at == node) else { return Ok(None) };
+                let perspective = Perspective { us: self.player.team(), me: Some(self.player), agent: 0 };
+                let action = scripts.act(*script, scene, perspective, &arguments, memory)?;
+                self.at.steps += 1;
+                return Ok(Some(action));
+            }
+        };
+        match perform(game, self.player, wish, doing.sprint, &mut self.at) {
+            Step::Act(action) => {
+                self.at.steps += 1;
+                Ok(Some(action))
+            }
+            Step::Ended => Ok(None),
+            Step::Impossible => {
+                *mind.machine.faults += 1;
+                Ok(None)
+            }
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! What a primitive presses in a step, and when it ends.
+
+use super::actor::Frame;
+use super::steer::{Gait, rest, towards};
+use crate::control::driver::may_arm;
+use crate::control::{agents, sticky};
+use crate::football::movement::RUN_MPS;
+use crate::football::{shot, touch};
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
+use setpiece_scenario::vocabulary::Action;
+
+/// A way ends this near, metres.
+const THERE_M: f32 = 1.0;
+/// How far from his man a marker stands, metres.
+const MARK_M: f32 = 1.0;
+/// A marker looks so far ahead, seconds.
+const MARK_AHEAD_S: f32 = 0.25;
+/// Who chases the ball looks so far ahead, seconds.
+const CHASE_AHEAD_S: f32 = 0.3;
+/// Further away than this he sprints unasked to his man or the ball, metres.
+const HURRY_M: f32 = 1.5;
+/// A ball that he will reach first counts as his when it is this near, metres.
+const NEAR_M: f32 = 3.0;
+/// A marker this near to where he should be is there, metres.
+const AT_HIM_M: f32 = 0.7;
+/// A man slower than this stands, m/s.
+const STROLL_MPS: f32 = 1.5;
+/// A tackle is given up after so many steps.
+const TACKLE_STEPS: u32 = 10;
+
+/// What a player wants to do; world metres and radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wish {
+    /// Be there.
+    MoveTo(Vec2),
+    /// Run that way.
+    Run(f32),
+    /// Take the ball there.
+    DribbleTo(Vec2),
+    /// Kick the ball to a mate.
+    Pass(Action, Option<PlayerId>),
+    /// Shoot, at a point if one is meant.
+    Shoot(Option<Vec2>),
+    /// Challenge for the ball.
+    Tackle,
+    /// Slide once.
+    Slide,
+    /// Stay between him and the own goal.
+    Mark(Option<PlayerId>),
+    /// Go for the ball.
+    Press,
+    /// Stand.
+    Hold,
+    /// Be played by the bot.
+    Bot,
+}
+
+/// What comes of a wish in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// He presses this.
+    Act(Action),
+    /// It is done, or can't be done.
+    Ended,
+    /// It makes no sense: a place that can't be computed.
+    Impossible,
+}
+
+/// The next press of a wish.
+pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut Frame) -> Step {
+    let body = Legs { game, id, held: game.play.acting[id.index()].sticky, sprint };
+    match wish {
+        Wish::MoveTo(to) => body.to(to, Gait::Run),
+        Wish::Run(angle) if angle.is_nan() => Step::Impossible,
+        Wish::Run(angle) => Step::Act(body.along(Vec2::new(libm::cosf(angle), libm::sinf(angle)) * 100.0, Gait::Run)),
+        Wish::DribbleTo(_) if !his(game, id) => Step::Ended,
+        Wish::DribbleTo(to) => body.to(to, Gait::Dribble),
+        Wish::Pass(kick, mate) => body.pass(kick, mate, frame),
+        Wish::Shoot(at) => body.shoot(at, frame),
+        Wish::Tackle => body.tackle(frame),
+        Wish::Slide => body.slide(frame),
+        Wish::Mark(who) => body.mark(who),
+        Wish::Press => Step::Act(body.press()),
+        Wish::Hold => Step::Act(rest(body.held)),
+        Wish::Bot => Step::Act(Action::BuiltinAi),
+    }
+}
+
+/// Whether the ball is his: he has it, dribbles it, is to take it, or is about to reach it first.
+fn his(game: &Match, id: PlayerId) -> bool {
+    let near = game.player(id).pos.distance(game.ball.pos.truncate()) < NEAR_M;
+    let taker = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
+    touch::controller(game) == Some(id) || ((near || taker || game.owner == Some(id)) && may_arm(game, id))
+}
+
+/// A player and what he holds.
+struct Legs<'a> {
+    game: &'a Match,
+    id: PlayerId,
+    held: u16,
+    sprint: bool,
+}
+
+impl Legs<'_> {
+    fn pos(&self) -> Vec2 {
+        self.game.player(self.id).pos
+    }
+
+    /// The press along a world way.
+    fn along(&self, way: Vec2, gait: Gait) -> Action {
+        let gait = if self.sprint { Gait::Sprint } else { gait };
+        towards(self.held, way * self.id.team().side() as f32, gait)
+    }
+
+    fn to(&self, to: Vec2, gait: Gait) -> Step {
+        let way = to - self.pos();
+        if way.is_nan() {
+            Step::Impossible
+        } else if way.length() < THERE_M {
+            Step::Ended
+        } else {
+            Step::Act(self.along(way, gait))
+        }
+    }
+
+    /// Once a kick is called for, it is waited for.
+    fn swinging(&self, frame: &Frame) -> Option<Step> {
+        let waits = self.game.player(self.id).body.kick.is_some();
+        match (frame.pressed, waits) {
+            (true, true) => Some(Step::Act(Action::Idle)),
+            (true, false) => Some(Step::Ended),
+            (false, _) => (!his(self.game, self.id)).then_some(Step::Ended),
+        }
+    }
+
+    fn pass(&self, kick: Action, mate: Option<PlayerId>, frame: &mut Frame) -> Step {
+        let mate = mate.filter(|mate| *mate != self.id && mate.team() == self.id.team());
+        let Some(mate) = mate.filter(|mate| self.game.player(*mate).active) else { return Step::Ended };
+        if let Some(step) = self.swinging(frame) {
+            return step;
+        }
+        let way = (self.game.player(mate).pos - self.pos()) * self.id.team().side() as f32;
+        let direction = agents::direction_action(way);
+        Step::Act(self.aimed(direction, kick, frame))
+    }
+
+    /// Holds the direction first, then kicks.
+    fn aimed(&self, direction: Action, kick: Action, frame: &mut Frame) -> Action {
+        if self.held & (1 << (direction.index() - Action::Left.index())) == 0 {
+            return direction;
+        }
+        frame.pressed = true;
+        kick
+    }
+
+    fn shoot(&self, at: Option<Vec2>, frame: &mut Frame) -> Step {
+        if let Some(step) = self.swinging(frame) {
+            return step;
+        }
+        let side = self.id.team().side() as f32;
+        let from = self.game.ball.pos.truncate();
+        let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
+        let meant = at.unwrap_or(goal);
+        if meant.is_nan() {
+            return Step::Impossible;
+        }
+        let off = |dir: Option<Vec2>| shot::aim_of(from, side, dir.map(|dir| dir * side)).distance(meant);
+        let held = sticky::direction(self.held);
+        // Without a point whatever goes between the posts will do.
+        if at.is_none() && off(held) < GOAL_HALF_WIDTH_M as f32 {
+            frame.pressed = true;
+            return Step::Act(Action::Shot);
+        }
+        let mut best: Option<(f32, Action)> = None;
+        for index in Action::Left.index()..=Action::BottomLeft.index() {
+            let Some(action) = Action::from_index(index) else { continue };
+            let dir = action.direction().map(|(x, y)| Vec2::new(x as f32, y as f32));
+            let far = off(dir);
+            if best.is_none_or(|(least, _)| far < least) {
+                best = Some((far, action));
+            }
+        }
+        match best {
+            // Nothing held means the middle of the goal.
+            Some((least, _)) if off(None) <= least => {
+                if held.is_some() {
+                    return Step::Act(Action::ReleaseDirection);
+                }
+                frame.pressed = true;
+                Step::Act(Action::Shot)
+            }
+            Some((_, direction)) => Step::Act(self.aimed(direction, Action::Shot, frame)),
+            None => Step::Ended,
+        }
+    }
+
+    /// Whoever has the ball or dribbles it.
+    fn owner(&self) -> Option<PlayerId> {
+        self.game.owner.or_else(|| touch::controller(self.game))
+    }
+
+    fn to_ball(&self) -> Action {
+        let ball = &self.game.ball;
+        let way = ball.pos.truncate() + ball.vel.truncate() * CHASE_AHEAD_S - self.pos();
+        self.along(way, if way.length() > HURRY_M { Gait::Sprint } else { Gait::Run })
+    }
+
+    fn tackle(&self, frame: &Frame) -> Step {
+        let ours = self.owner().is_some_and(|owner| owner.team() == self.id.team());
+        if ours || frame.steps >= TACKLE_STEPS { Step::Ended } else { Step::Act(self.to_ball()) }
+    }
+
+    fn slide(&self, frame: &mut Frame) -> Step {
+        let up = self.game.player(self.id).is_up();
+        match (frame.pressed, up) {
+            (true, true) => Step::Ended,
+            (_, false) => Step::Act(Action::Idle),
+            (false, true) if his(self.game, self.id) => Step::Ended,
+            (false, true) => {
+                frame.pressed = true;
+                Step::Act(Action::Sliding)
+            }
+        }
+    }
+
+    fn press(&self) -> Action {
+        match self.owner() {
+            Some(owner) if owner.team() == self.id.team() => rest(self.held),
+            _ => self.to_ball(),
+        }
+    }
+
+    fn mark(&self, who: Option<PlayerId>) -> Step {
+        let Some(who) = who.filter(|who| *who != self.id && self.game.player(*who).active) else { return Step::Ended };
+        let man = self.game.player(who);
+        let goal = Vec2::new(-(HALF_LENGTH_M as f32) * self.id.team().side() as f32, 0.0);
+        let ahead = man.pos + man.vel * MARK_AHEAD_S;
+        let spot = ahead + (goal - ahead).clamp_length_max(MARK_M);
+        let way = spot - self.pos();
+        let (distance, speed) = (way.length(), man.vel.length());
+        let gait = if distance > HURRY_M || speed > RUN_MPS { Gait::Sprint } else { Gait::Run };
+        Step::Act(if distance > AT_HIM_M {
+            self.along(way, gait)
+        } else if speed > STROLL_MPS {
+            // In his place: he goes where his man goes.
+            self.along(man.vel.normalize_or_zero() * 10.0, gait)
+        } else {
+            rest(self.held)
+        })
+    }
+}

@@ -108,7 +108,7 @@ fn a_marker_stays_goal_side_of_his_man() {
             let goal = apart_m(marker.pos.x, marker.pos.y, 55.0, 0.0);
             let his = apart_m(man.pos.x, man.pos.y, 55.0, 0.0);
             let gap = apart_m(man.pos.x, man.pos.y, marker.pos.x, marker.pos.y);
-            assert!(gap < 3.0, "step {step}: {gap} m away");
+            assert!(gap < 3.5, "step {step}: {gap} m away");
             seen += 1;
             goal_side += u32::from(goal < his + 0.5);
         }

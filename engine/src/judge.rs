@@ -7,11 +7,13 @@
 //!
 //! - [`view`]: the part of a match that programs and scripts may read.
 //! - [`machine`]: runs register programs.
+//! - [`known`]: what both know of an episode beside it.
 //! - [`rewards`], [`endings`]: what the scenario pays, and how it ends.
 //! - [`records`], [`observation`]: what it measures, and what it shows its agents.
 //! - [`script`]: the same by Rhai hooks.
 
 pub mod endings;
+pub mod known;
 pub mod machine;
 pub mod observation;
 pub mod records;
@@ -27,12 +29,13 @@ pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
 pub use view::View;
 
 use crate::event::Events;
-use crate::random::{Purpose, Stream};
+use crate::random::Purpose;
 use crate::start::Drawn;
 use crate::state::Match;
+use known::Known;
 use machine::Input;
 use observation::ObservationJudge;
-use script::{Params, Scene, Scripts};
+use script::Scripts;
 use setpiece_scenario::{Endings, Reward, Scenario};
 use std::sync::Arc;
 
@@ -43,16 +46,7 @@ pub struct Judge {
     rewards: RewardJudge,
     records: RecordJudge,
     observation: Option<ObservationJudge>,
-    scripts: Scripts,
-    /// Whether a reward or an ending asks a script.
-    scripted: bool,
-    random: Stream,
-    params: Vec<f64>,
-    /// The same as scripts see them.
-    shown: Params,
-    lets: Vec<f64>,
-    seed: u64,
-    index: u64,
+    known: Known,
     prev: View,
     /// What `prev` was in the step just judged: what an observation compares with.
     before: View,
@@ -63,19 +57,13 @@ impl Judge {
     pub fn new(scenario: &Scenario, rewards: Arc<[Reward]>, scripts: Scripts, n_agents: usize) -> Judge {
         let endings: Arc<Endings> = Arc::new(scenario.endings.clone());
         let script_reward = |reward: &Reward| matches!(reward.body, setpiece_scenario::RewardBody::Script { .. });
+        let scripted = rewards.iter().any(script_reward) || endings.list.iter().any(|ending| ending.script.is_some());
         Judge {
-            scripted: rewards.iter().any(script_reward) || endings.list.iter().any(|ending| ending.script.is_some()),
             endings: EndingJudge::new(endings),
             rewards: RewardJudge::new(rewards, &scripts, n_agents),
             records: RecordJudge::new(&scenario.records, n_agents),
             observation: scenario.observation.as_ref().map(ObservationJudge::new),
-            scripts,
-            random: Stream::new(0, 0, Purpose::Script),
-            params: Vec::new(),
-            shown: Params::default(),
-            lets: Vec::new(),
-            seed: 0,
-            index: 0,
+            known: Known::new(scripts, scripted, Purpose::Script),
             prev: View::EMPTY,
             before: View::EMPTY,
         }
@@ -97,17 +85,7 @@ impl Judge {
         if out.len() != observation.names().len() || agent >= game.agents.len() {
             return false;
         }
-        let input = Input {
-            now: &self.prev,
-            prev: &self.before,
-            events: &[],
-            params: &self.params,
-            lets: &self.lets,
-            index: self.index,
-            us: endings::judged_side(game),
-            me: None,
-            silent: false,
-        };
+        let input = self.known.input(&self.prev, &self.before, endings::judged_side(game));
         observation.write(game, agent, &input, out);
         true
     }
@@ -124,29 +102,11 @@ impl Judge {
 
     /// Begins an episode: the match stands at its start.
     pub fn reset(&mut self, game: &Match, drawn: &Drawn, params: &[f64]) {
-        self.params.clear();
-        self.params.extend_from_slice(params);
-        if self.scripted {
-            self.shown = self.scripts.params(params);
-        }
-        self.lets.clear();
-        self.lets.extend_from_slice(&drawn.lets);
-        (self.seed, self.index) = (drawn.seed, drawn.index);
-        self.random = Stream::new(drawn.seed, drawn.index, Purpose::Script);
+        self.known.begin(drawn, params);
         self.prev = View::of(game);
         self.before = self.prev;
         let start = self.prev;
-        let input = Input {
-            now: &start,
-            prev: &start,
-            events: &[],
-            params: &self.params,
-            lets: &self.lets,
-            index: self.index,
-            us: endings::judged_side(game),
-            me: None,
-            silent: false,
-        };
+        let input = self.known.input(&start, &start, endings::judged_side(game));
         self.endings.reset(&input);
         self.rewards.reset(game, &input);
         self.records.reset(game, &input);
@@ -158,31 +118,18 @@ impl Judge {
     /// A hook that failed; the episode can't go on.
     pub fn step(&mut self, game: &Match, events: &mut Events) -> Result<Option<Outcome>, ScriptError> {
         let now = View::of(game);
-        let us = endings::judged_side(game);
-        let mut scene = self.scripted.then(|| self.scene(&now, events));
-        let shared = Input {
-            now: &now,
-            prev: &self.prev,
-            events: &[],
-            params: &self.params,
-            lets: &self.lets,
-            index: self.index,
-            us,
-            me: None,
-            silent: false,
-        };
-        let shown = scene.as_ref().map(|scene| (&self.scripts, scene));
+        let mut scene = self.known.scene(&now, &self.prev, events.as_slice());
+        let shared = self.known.input(&now, &self.prev, endings::judged_side(game));
+        let shown = scene.as_ref().map(|scene| (self.known.scripts(), scene));
         let outcome = self.endings.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
         if let Some(outcome) = &outcome {
             endings::announce(outcome, game, events);
             scene = scene.map(|scene| Arc::new(scene.with_events(events.as_slice())));
         }
-        let shown = scene.as_ref().map(|scene| (&self.scripts, scene));
+        let shown = scene.as_ref().map(|scene| (self.known.scripts(), scene));
         self.rewards.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
         self.records.step(game, &Input { events: events.as_slice(), ..shared });
-        if let Some(scene) = scene {
-            self.random = scene.random();
-        }
+        self.known.settle(scene);
         Ok(outcome)
     }
 
@@ -192,17 +139,6 @@ impl Judge {
             self.before = self.prev;
         }
         self.prev = View::of(game);
-    }
-
-    fn scene(&self, now: &View, events: &Events) -> Arc<Scene> {
-        Arc::new(Scene::new(
-            *now,
-            self.prev,
-            events.as_slice(),
-            self.shown.clone(),
-            self.random.clone(),
-            (self.seed, self.index),
-        ))
     }
 }
 

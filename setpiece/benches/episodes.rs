@@ -8,8 +8,10 @@
     reason = "criterion's macros write undocumented functions; a benchmark fails by panicking"
 )]
 
-use cpu_time::ThreadTime;
-use criterion::measurement::{Measurement, ValueFormatter, WallTime};
+#[path = "measure/cpu.rs"]
+mod cpu;
+
+use cpu::CpuTime;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use setpiece::dsl::source::Source;
 use setpiece::dsl::{CompileOptions, Prelude, compile};
@@ -20,38 +22,6 @@ use setpiece::scenario::Action;
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::time::Duration;
-
-/// The thread's CPU time in place of the wall clock's.
-struct CpuTime;
-
-impl Measurement for CpuTime {
-    type Intermediate = ThreadTime;
-    type Value = Duration;
-
-    fn start(&self) -> ThreadTime {
-        ThreadTime::now()
-    }
-
-    fn end(&self, begin: ThreadTime) -> Duration {
-        begin.elapsed()
-    }
-
-    fn add(&self, a: &Duration, b: &Duration) -> Duration {
-        *a + *b
-    }
-
-    fn zero(&self) -> Duration {
-        Duration::ZERO
-    }
-
-    fn to_f64(&self, value: &Duration) -> f64 {
-        WallTime.to_f64(value)
-    }
-
-    fn formatter(&self) -> &dyn ValueFormatter {
-        WallTime.formatter()
-    }
-}
 
 /// Steps of one sample.
 const STEPS: u64 = 1000;

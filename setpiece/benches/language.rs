@@ -9,8 +9,10 @@
     reason = "criterion's macros write undocumented functions; a benchmark fails by panicking"
 )]
 
-use cpu_time::ThreadTime;
-use criterion::measurement::{Measurement, ValueFormatter, WallTime};
+#[path = "measure/cpu.rs"]
+mod cpu;
+
+use cpu::CpuTime;
 use criterion::{Criterion, criterion_group, criterion_main};
 use setpiece::Loaded;
 use setpiece::engine::draw::{Drawer, Roster};
@@ -21,38 +23,6 @@ use setpiece::engine::judge::script::Scripts;
 use setpiece::scenario::{Action, Bindings, EventKind, Qualifier, Team};
 use std::hint::black_box;
 use std::time::Duration;
-
-/// The thread's CPU time in place of the wall clock's.
-struct CpuTime;
-
-impl Measurement for CpuTime {
-    type Intermediate = ThreadTime;
-    type Value = Duration;
-
-    fn start(&self) -> ThreadTime {
-        ThreadTime::now()
-    }
-
-    fn end(&self, begin: ThreadTime) -> Duration {
-        begin.elapsed()
-    }
-
-    fn add(&self, a: &Duration, b: &Duration) -> Duration {
-        *a + *b
-    }
-
-    fn zero(&self) -> Duration {
-        Duration::ZERO
-    }
-
-    fn to_f64(&self, value: &Duration) -> f64 {
-        WallTime.to_f64(value)
-    }
-
-    fn formatter(&self) -> &dyn ValueFormatter {
-        WallTime.formatter()
-    }
-}
 
 fn compiled(text: &str) -> Loaded {
     setpiece::compile_text(text, "<bench>").unwrap_or_else(|error| panic!("{error}"))

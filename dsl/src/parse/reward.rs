@@ -33,6 +33,11 @@ impl Reader<'_> {
             };
             let between = self.original().get(give.span.end as usize..block.span.start as usize).unwrap_or_default();
             if matches!(give.kind, RewardStmtKind::Give(_)) && !between.contains(['\n', ';']) {
+                let help = if self.when_begins_a_line(block) {
+                    "the `when` is read as the event's: end the `give` with a label, `as \"goal\"`".to_owned()
+                } else {
+                    format!("put `{head} {{` on its own line, with the `give` inside it")
+                };
                 self.push(
                     Problem::new(
                         Code::BlockAfterGive,
@@ -41,10 +46,18 @@ impl Reader<'_> {
                         "this opens a block",
                     )
                     .label(give.span, "so this is given at every step")
-                    .help(format!("put `{head} {{` on its own line, with the `give` inside it")),
+                    .help(help),
                 );
             }
         }
+    }
+
+    /// `on goal by us` and a `when … {` on the next line: two statements for the author, one for the grammar.
+    fn when_begins_a_line(&self, block: &RewardStmt) -> bool {
+        let RewardStmtKind::On { events, when: Some(when), .. } = &block.kind else { return false };
+        let from = events.last().map_or(block.span.start, |event| event.span.end);
+        let between = self.original().get(from as usize..when.span.start as usize);
+        between.is_some_and(|between| between.contains('\n'))
     }
 
     fn reward_stmt(&mut self, node: Node<'_>, span: Span, _doc: String) -> RewardStmt {

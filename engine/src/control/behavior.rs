@@ -11,10 +11,11 @@ pub mod steer;
 
 use crate::draw::Roster;
 use crate::event::Event;
+use crate::judge::known::Known;
 use crate::judge::machine::{Input, Machine};
-use crate::judge::script::{Params, Scene, ScriptError, Scripts};
+use crate::judge::script::{ScriptError, Scripts};
 use crate::judge::view::View;
-use crate::random::{Purpose, Stream};
+use crate::random::Purpose;
 use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
 use actor::{Actor, Mind};
@@ -27,16 +28,7 @@ use std::sync::Arc;
 pub struct Actors {
     plans: Arc<[Behavior]>,
     list: Vec<Actor>,
-    scripts: Scripts,
-    /// Whether one of them asks a script.
-    scripted: bool,
-    random: Stream,
-    params: Vec<f64>,
-    /// The same as scripts see them.
-    shown: Params,
-    lets: Vec<f64>,
-    seed: u64,
-    index: u64,
+    known: Known,
     regs: Vec<f64>,
     prev: View,
     faults: u32,
@@ -63,14 +55,7 @@ impl Actors {
         Actors {
             plans: scenario.behaviors.clone().into(),
             list,
-            scripts,
-            scripted,
-            random: Stream::new(0, 0, Purpose::Behavior),
-            params: Vec::new(),
-            shown: Params::default(),
-            lets: Vec::new(),
-            seed: 0,
-            index: 0,
+            known: Known::new(scripts, scripted, Purpose::Behavior),
             regs: vec![0.0; n_regs],
             prev: View::EMPTY,
             faults: 0,
@@ -87,15 +72,7 @@ impl Actors {
         if self.list.is_empty() {
             return;
         }
-        self.params.clear();
-        self.params.extend_from_slice(params);
-        if self.scripted {
-            self.shown = self.scripts.params(params);
-        }
-        self.lets.clear();
-        self.lets.extend_from_slice(&drawn.lets);
-        (self.seed, self.index) = (drawn.seed, drawn.index);
-        self.random = Stream::new(drawn.seed, drawn.index, Purpose::Behavior);
+        self.known.begin(drawn, params);
         self.prev = View::of(game);
         self.faults = 0;
         for actor in &mut self.list {
@@ -115,10 +92,8 @@ impl Actors {
             return Ok(());
         }
         let now = View::of(game);
-        let scene = self.scripted.then(|| {
-            let key = (self.seed, self.index);
-            Arc::new(Scene::new(now, self.prev, events, self.shown.clone(), self.random.clone(), key))
-        });
+        let scene = self.known.scene(&now, &self.prev, events);
+        let (seed, index) = self.known.key();
         let plans = self.plans.clone();
         for actor in &mut self.list {
             let id = actor.player;
@@ -128,24 +103,14 @@ impl Actors {
             }
             let plan = &plans[actor.plan];
             let machine = Machine {
-                input: Input {
-                    now: &now,
-                    prev: &self.prev,
-                    events,
-                    params: &self.params,
-                    lets: &self.lets,
-                    index: self.index,
-                    us: id.team(),
-                    me: Some(id),
-                    silent: false,
-                },
+                input: Input { events, me: Some(id), ..self.known.input(&now, &self.prev, id.team()) },
                 regs: &mut self.regs,
                 cells: &mut actor.cells,
                 terms: &mut [],
                 faults: &mut self.faults,
                 draws: None,
             };
-            let mut mind = Mind::new(machine, &plan.program, self.seed, self.index, id);
+            let mut mind = Mind::new(machine, &plan.program, seed, index, id);
             mind.see();
             let driven = game
                 .agents
@@ -153,14 +118,12 @@ impl Actors {
                 .zip(actions)
                 .any(|(slot, action)| slot.player == Some(id) && *action != Action::BuiltinAi);
             if !driven {
-                let scene = scene.as_ref().map(|scene| (&self.scripts, scene));
+                let scene = scene.as_ref().map(|scene| (self.known.scripts(), scene));
                 let chosen = actor.thread.step(plan, &mut mind, game, scene)?;
                 game.play.acting[id.index()].chosen = Some(chosen);
             }
         }
-        if let Some(scene) = scene {
-            self.random = scene.random();
-        }
+        self.known.settle(scene);
         self.prev = now;
         Ok(())
     }

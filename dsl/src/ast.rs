@@ -35,6 +35,8 @@ pub struct File {
     pub id: FileId,
     /// The items, in order.
     pub items: Vec<Item>,
+    /// Names that are declared where the text could not be read.
+    pub lost: std::collections::BTreeSet<String>,
 }
 
 /// A top-level item.
@@ -107,6 +109,13 @@ pub struct Ref {
     pub args: Vec<Arg>,
     /// All of it.
     pub span: Span,
+}
+
+impl Ref {
+    /// The name without the one of its import: `shape` of `a.shape`.
+    pub fn bare(&self) -> &str {
+        self.name.node.rsplit('.').next().unwrap_or_default()
+    }
 }
 
 /// A parameter's declaration.

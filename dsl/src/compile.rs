@@ -117,6 +117,12 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         let span = problem.labels.first().map(|label| label.span);
         (span.map(|span| (span.file, span.start, span.end)), problem.code, problem.message.clone())
     });
+    // A name whose declaration could not be read is told of there.
+    let lost: BTreeSet<&str> = library.files.iter().flat_map(|file| &file.lost).map(String::as_str).collect();
+    problems.retain(|problem| {
+        !matches!(problem.code, Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)
+            || !place(problem).is_some_and(|span| lost.contains(library.sources.text(span)))
+    });
     problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
     if problems.iter().any(|problem| matches!(problem.code.number(), 1..=4 | 6 | 101..=107 | 203 | 207..=210)) {
         problems.retain(|problem| !follows_from_gaps(problem.code));

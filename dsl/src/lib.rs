@@ -7,6 +7,7 @@ pub mod ast;
 mod check;
 pub mod compile;
 pub mod format;
+mod habit;
 mod lower;
 pub mod parse;
 pub mod problem;

@@ -54,11 +54,11 @@ pub fn parse(source: &Source, id: FileId, problems: &mut Vec<Problem>) -> ast::F
             Vec::new()
         }
     };
-    let mut found = reader.into_problems();
+    let (mut found, lost) = reader.finish();
     found.extend(scan.problems);
     found.sort_by_key(|problem| (problem.labels.first().map_or(0, |label| label.span.start), problem.code));
     problems.extend(found);
-    ast::File { id, items }
+    ast::File { id, items, lost }
 }
 
 /// A span of a file from offsets.

@@ -1,5 +1,6 @@
 //! Problems: facts that a stage finds, each with a stable code, spans and help.
 
+use crate::habit;
 use crate::source::{Source, Span};
 
 /// How bad a problem is.
@@ -53,11 +54,13 @@ impl Problem {
         self
     }
 
-    /// Says "did you mean" where one of the candidates is near enough.
+    /// Says "did you mean" where one of the candidates is near enough, or how another language's word is written here.
     #[must_use]
     pub fn did_you_mean<'a>(self, found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Problem {
-        match nearest(found, candidates) {
-            Some(name) => self.help(format!("did you mean `{name}`?")),
+        let meant = habit::of_name(found)
+            .or_else(|| nearest(found, candidates).map(|name| format!("did you mean `{name}`?")));
+        match meant {
+            Some(help) => self.help(help),
             None => self,
         }
     }

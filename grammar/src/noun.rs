@@ -97,9 +97,11 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::doc => "a doc comment",
         Rule::wc => "a letter, digit or `_`",
         Rule::wstart => "a letter",
-        Rule::word | Rule::ident | Rule::free_name | Rule::reference => "a name",
+        Rule::word | Rule::ident | Rule::free_name | Rule::path | Rule::reference | Rule::named_end | Rule::act_name => {
+            "a name"
+        }
         Rule::type_name => "a type, for example `number`",
-        Rule::reserved => "a reserved word",
+        Rule::reserved | Rule::scen_word | Rule::team_key => "a reserved word",
         Rule::role => "a role, for example `CB`",
         Rule::brace_open
         | Rule::balanced
@@ -126,7 +128,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::set_op => "`|` or `&`",
         Rule::cmp_op | Rule::cmp_tail => "a comparison",
         Rule::number | Rule::quantity => "a number",
-        Rule::count => "a count",
+        Rule::count | Rule::counted | Rule::beside_role => "a count",
         Rule::unit => "a unit",
         Rule::long_unit => "`steps`",
         Rule::boolean => "`true` or `false`",
@@ -203,7 +205,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::mirror => "`mirror`",
         Rule::observe => "`observe`",
         Rule::remove => "`remove`",
-        Rule::removed => "`reward`, `end`, `require`, `record` or `ball`",
+        Rule::removed => "`reward`, `end`, `require`, `record`",
         Rule::end_limit => "`limit`",
         Rule::end_when => "a name or a condition, for example `when goal by left`",
         Rule::verdict => "`success` or `failure`",
@@ -218,9 +220,9 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::moved => "`place`",
         Rule::each => "`each`",
         Rule::absent => "`absent`",
-        Rule::facing => "`facing`",
+        Rule::facing | Rule::turned => "`facing`",
         Rule::jitter => "`jitter`",
-        Rule::place => "a place, for example `at (0.5, 0)`",
+        Rule::place | Rule::player_rest => "a place, for example `at (0.5, 0)`",
         Rule::place_at => "`at`",
         Rule::place_in => "`in`",
         Rule::relative => "`ahead of`, `behind`, `left of` or `right of`",
@@ -232,7 +234,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::assign => "an assignment",
         Rule::give => "`give`",
         Rule::per_second => "`per second`",
-        Rule::give_on | Rule::on_block => "`on`",
+        Rule::give_on | Rule::give_rest | Rule::on_block => "`on`",
         Rule::else_when => "`else when`",
         Rule::otherwise => "`else`",
         Rule::beh_stmt => "a statement, for example `do move_to(ball)`",

@@ -55,7 +55,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
         );
     }
     let label = match (ending.label, verdict) {
-        (Some(label), _) => label.name.node.clone(),
+        (Some(label), _) => label.bare().to_owned(),
         (None, Some(verdict)) => verdict.name().to_owned(),
         (None, None) => "end".to_owned(),
     };

@@ -50,7 +50,8 @@ pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, 
         RewardUseKind::Named(reference) => {
             // A parent's `reward NAME` means what the scenario's own file sees first: names bind late.
             let own = world.library.find(FileId(0), &reference.name.node);
-            let own = own.filter(|found| matches!(found.item.kind, crate::ast::ItemKind::Reward(_)));
+            let late = !reference.name.node.contains('.');
+            let own = own.filter(|found| late && matches!(found.item.kind, crate::ast::ItemKind::Reward(_)));
             let found = own.or_else(|| world.library.find(reference.name.span.file, &reference.name.node));
             let item = found.and_then(|found| match &found.item.kind {
                 crate::ast::ItemKind::Reward(reward) => Some((found, reward)),

@@ -113,7 +113,7 @@ impl Reader<'_> {
         } else {
             let span = self.span(&what);
             let mut inner = Nodes::of(what);
-            let name = inner.want(Rule::ident).map(|name| self.ident(&name))?;
+            let name = inner.want(Rule::act_name).map(|name| self.ident(&name))?;
             let args = inner.want(Rule::args).map(|args| self.args(args)).unwrap_or_default();
             DoWhat::Named { name, args, span }
         };

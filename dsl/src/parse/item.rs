@@ -156,7 +156,7 @@ impl Reader<'_> {
     pub(super) fn reference(&mut self, node: Node<'_>) -> Option<Ref> {
         let span = self.span(&node);
         let mut nodes = Nodes::of(node);
-        let name = nodes.want(Rule::free_name).map(|name| self.ident(&name))?;
+        let name = nodes.want(Rule::path).map(|name| self.ident(&name))?;
         let args = nodes.want(Rule::args).map(|args| self.args(args)).unwrap_or_default();
         Some(Ref { name, args, span })
     }

@@ -9,6 +9,7 @@ use pest::error::InputLocation;
 use pest::iterators::{Pair, Pairs};
 use setpiece_grammar::Rule;
 use setpiece_scenario::vocabulary::EventKind;
+use std::collections::BTreeSet;
 use std::iter::Peekable;
 use std::ops::Range;
 
@@ -77,6 +78,8 @@ pub(super) struct Reader<'t> {
     blocks: u32,
     /// Bytes that may still be read again to say what was expected.
     effort: usize,
+    /// Names that are declared where the text could not be read.
+    pub(super) lost: BTreeSet<String>,
 }
 
 /// Bytes of a file that may be read again, beyond twice its length.
@@ -97,11 +100,13 @@ impl<'t> Reader<'t> {
             operators: 0,
             blocks: 0,
             effort: LEAST_EFFORT + 2 * original.len(),
+            lost: BTreeSet::new(),
         }
     }
 
-    pub(super) fn into_problems(self) -> Vec<Problem> {
-        self.problems
+    /// The problems, and the names that are declared where the text could not be read.
+    pub(super) fn finish(self) -> (Vec<Problem>, BTreeSet<String>) {
+        (self.problems, self.lost)
     }
 
     /// Reports a problem, unless one that explains it was told before.
@@ -262,6 +267,10 @@ pub(super) fn reserved(name: &str, span: Span, whose: &str) -> Problem {
     .help(format!("choose another name, for example `my_{}`", name.to_lowercase()))
 }
 
+/// Signs of two characters, the language's and others'.
+const SIGNS: &[&str] =
+    &["==", "!=", "<=", ">=", "..", "->", "//", "&&", "||", "**", "++", "--", "+=", "-=", "*=", "/=", ":="];
+
 /// The word, number or sign at the start of a text.
 pub(super) fn token(text: &str) -> &str {
     let word = |char: char| char.is_alphanumeric() || char == '_';
@@ -272,7 +281,7 @@ pub(super) fn token(text: &str) -> &str {
                 return "///";
             }
             let two =
-                ["==", "!=", "<=", ">=", "..", "->", "//", "&&", "||", "**"].iter().any(|sign| text.starts_with(sign));
+                SIGNS.iter().any(|sign| text.starts_with(sign));
             if two { 2 } else { first.len_utf8() }
         }
         None => 0,

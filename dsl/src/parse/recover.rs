@@ -1,13 +1,16 @@
 //! Lists of statements, and what is said about the parts of them that can't be read.
 
+mod event;
 mod expect;
+mod tokens;
+mod unit;
 mod words;
 
 use super::reader::{Node, Nodes, Reader, token};
 use crate::problem::{Code, Problem, nearest};
 use crate::source::Span;
 use pest::Parser;
-use pest::error::ErrorVariant;
+use pest::error::{ErrorVariant, InputLocation};
 use setpiece_grammar::{PitchParser, Rule};
 use std::ops::Range;
 
@@ -17,6 +20,48 @@ pub(super) use words::Context;
 struct Told {
     /// The indentation of its line.
     indent: usize,
+}
+
+/// A statement that can't be read, and where it stops making sense.
+struct Wrong<'t> {
+    context: Context,
+    junk: Range<usize>,
+    /// The statement in front that the junk may go on with.
+    before: Option<Range<usize>>,
+    /// Where the grammar can't go on, and what it wants there.
+    at: usize,
+    positives: Vec<Rule>,
+    /// The tokens of the statement, with those before the junk that belong to it.
+    tokens: Vec<(usize, &'t str)>,
+    /// The junk's first token.
+    first: usize,
+    /// Whether `at` was met inside of its token.
+    inside: bool,
+}
+
+impl Wrong<'_> {
+    /// The token that holds `at`, or the number of tokens if none does.
+    fn token_at(&self) -> usize {
+        match self.tokens.partition_point(|(from, _)| *from <= self.at).checked_sub(1) {
+            Some(index) if self.at < self.junk.end => index,
+            _ => self.tokens.len(),
+        }
+    }
+}
+
+/// What is said about junk.
+struct Finding {
+    problem: Problem,
+    /// Whether a new statement begins with the junk, so that the one before is as good as it looks.
+    fresh: bool,
+    /// Whether it surely goes on with the statement before it.
+    goes_on: bool,
+}
+
+impl Finding {
+    fn new(problem: Problem) -> Finding {
+        Finding { problem, fresh: false, goes_on: false }
+    }
 }
 
 impl Reader<'_> {
@@ -38,23 +83,23 @@ impl Reader<'_> {
                 super::item::add_doc(&mut doc, &child);
             } else if rule == Rule::junk {
                 let range = self.range(&child);
-                if self.is_full() || self.is_told(&range) {
-                    statements.push(broken(self.span(&child), std::mem::take(&mut doc)));
-                    before = None;
-                    continue;
-                }
+                self.lose(range.clone());
                 let indent = self.indent(range.start);
+                let quiet = self.is_full() || self.is_told(&range);
                 // A further line of a statement that was told about is no news.
-                if told.as_ref().is_none_or(|told| indent <= told.indent) {
-                    let condemned = self.recover(context, range.clone(), before.clone());
-                    if let Some(last) = statements.last_mut().filter(|_| condemned)
-                        && let Some(before) = &before
-                    {
-                        *last = broken(self.between(before.start, before.end), String::new());
-                    }
+                let condemned = if quiet {
+                    before.as_ref().is_some_and(|before| self.belongs(before, &range))
+                } else if told.as_ref().is_none_or(|told| indent <= told.indent) {
                     told = Some(Told {
                         indent: before.as_ref().map_or(indent, |before| indent.min(self.indent(before.start))),
                     });
+                    self.recover(context, &range, before.as_ref())
+                } else {
+                    false
+                };
+                if let (true, Some(before), Some(last)) = (condemned, &before, statements.last_mut()) {
+                    self.lose(before.clone());
+                    *last = broken(self.between(before.start, before.end), String::new());
                 }
                 statements.push(broken(self.span(&child), std::mem::take(&mut doc)));
                 before = None;
@@ -70,54 +115,44 @@ impl Reader<'_> {
 
     /// The indentation of the line of an offset.
     fn indent(&self, at: usize) -> usize {
-        let before = self.text.get(..at).unwrap_or_default();
+        let before = text(self.text, 0..at);
         let line = before.rfind('\n').map_or(before, |newline| before.get(newline + 1..).unwrap_or_default());
         line.len() - line.trim_start_matches([' ', '\t']).len()
+    }
+
+    /// Whether junk goes on with the statement before it: on its line, or with a word or sign that begins no statement.
+    fn belongs(&self, before: &Range<usize>, junk: &Range<usize>) -> bool {
+        let first = token(text(self.text, junk.clone()));
+        let unit = first.starts_with("step") && text(self.text, before.clone()).ends_with(|char: char| char.is_ascii_digit());
+        !text(self.text, before.end..junk.start).contains('\n')
+            || unit
+            || first.starts_with(|char: char| "=.,:*/+-<>!?&|%^([{".contains(char))
+            || PitchParser::parse(Rule::continuing, first).is_ok()
     }
 
     /// Re-reads junk to say what was expected, and reads the blocks in it for further problems.
     ///
     /// - `before`: the statement in front of it, which may be the one that goes wrong here; `true` if it means nothing.
-    fn recover(&mut self, context: Context, junk: Range<usize>, before: Option<Range<usize>>) -> bool {
-        let continued = before.filter(|before| !self.text.get(..before.end).unwrap_or_default().ends_with('}'));
-        let start = continued.as_ref().map_or(junk.start, |before| before.start);
-        let slice = self.text.get(start..junk.end).unwrap_or_default();
-        if !self.spend(slice.len()) {
-            let problem = self.expectation(context, &junk, None, junk.start, &[]);
-            self.push(problem);
-            return false;
+    fn recover(&mut self, context: Context, junk: &Range<usize>, before: Option<&Range<usize>>) -> bool {
+        let whole = before.filter(|before| !text(self.text, 0..before.end).ends_with('}'));
+        let start = whole.map_or(junk.start, |before| before.start);
+        let slice = text(self.text, start..junk.end);
+        let (mut at, mut positives) = (junk.start, Vec::new());
+        if self.spend(slice.len())
+            && let Err(error) = PitchParser::parse(context.probe(), slice)
+            && let ErrorVariant::ParsingError { positives: wanted, .. } = error.variant
+        {
+            let (InputLocation::Pos(met) | InputLocation::Span((met, _))) = error.location;
+            (at, positives) = (self.next_token((start + met).max(junk.start)), wanted);
         }
-        let (at, positives) = match PitchParser::parse(context.probe(), slice) {
-            Ok(_) => (junk.start, Vec::new()),
-            Err(error) => {
-                let (pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _))) = error.location;
-                match error.variant {
-                    ErrorVariant::ParsingError { positives, .. } => (start + at, positives),
-                    ErrorVariant::CustomError { .. } => (junk.start, Vec::new()),
-                }
-            }
-        };
-        let mut at = at.max(junk.start);
-        let mut positives = positives;
-        // A lone word could always have been an option's key or a state: the word is the news, not the missing sign.
-        let first = token(text_from(self.text, junk.start));
-        let behind = self.text.get(junk.start + first.len()..at).is_some_and(|gap| gap.trim().is_empty());
-        let lone = match context {
-            Context::Fields => false,
-            Context::Reward | Context::Behavior if positives == [Rule::equals] => {
-                let further = if continued.is_some() { context.further() } else { &[] };
-                nearest(first, context.keywords().iter().chain(further).copied()).is_some()
-            }
-            _ => positives == [Rule::colon],
-        };
-        if lone && behind {
-            at = junk.start;
-            positives.clear();
-        }
-        let problem = self.expectation(context, &junk, continued.as_ref(), at, &positives);
-        let condemned = problem.code == Code::UnknownRole && continued.is_some();
+        let belonging = before.filter(|before| self.belongs(before, junk));
+        let tokens = self.tokens(belonging.map_or(junk.start, |before| before.start)..junk.end);
+        let first = tokens.partition_point(|(from, _)| *from < junk.start);
+        let wrong = Wrong { context, junk: junk.clone(), before: whole.cloned(), at, positives, tokens, first, inside: false };
+        let Finding { problem, fresh, goes_on } = self.explain(wrong);
+        let condemned = belonging.is_some() && !fresh && (whole.is_some() || goes_on);
         self.push(problem);
-        self.read_block(context, &junk, at);
+        self.read_block(context, junk, at);
         condemned
     }
 
@@ -159,6 +194,6 @@ impl Reader<'_> {
     }
 }
 
-fn text_from(text: &str, at: usize) -> &str {
-    text.get(at..).unwrap_or_default()
+fn text(text: &str, range: Range<usize>) -> &str {
+    text.get(range).unwrap_or_default()
 }

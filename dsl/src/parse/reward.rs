@@ -32,7 +32,10 @@ impl Reader<'_> {
                 _ => continue,
             };
             let between = self.original().get(give.span.end as usize..block.span.start as usize).unwrap_or_default();
-            if matches!(give.kind, RewardStmtKind::Give(_)) && !between.contains(['\n', ';']) {
+            // A label ends its `give`.
+            let RewardStmtKind::Give(GiveStmt { on, when, label, .. }) = &give.kind else { continue };
+            let ended = label.as_ref().is_some_and(|label| label.span.end == give.span.end);
+            if !(ended && (!on.is_empty() || when.is_some())) && !between.contains(['\n', ';']) {
                 let help = if self.when_begins_a_line(block) {
                     "the `when` is read as the event's: end the `give` with a label, `as \"goal\"`".to_owned()
                 } else {
@@ -150,12 +153,21 @@ impl Reader<'_> {
         };
         let per_second = nodes.eat(Rule::per_second);
         let once = nodes.want(Rule::kw_once).map(|once| self.span(&once));
-        let label = self.label(&mut nodes);
-        let on = nodes.want(Rule::give_on).and_then(|on| Nodes::of(on).seek(Rule::events));
-        let on = on.map(|on| self.events(on)).unwrap_or_default();
-        let when = nodes.want(Rule::give_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
-        let when = when.map(|when| self.expr(when));
-        Some(GiveStmt { value, per_second, once, on, when, label: label.or_else(|| self.label(&mut nodes)) })
+        let mut give = GiveStmt { value, per_second, once, on: Vec::new(), when: None, label: self.label(&mut nodes) };
+        while let Some(rule) = nodes.peek() {
+            match rule {
+                Rule::label => give.label = self.label(&mut nodes),
+                Rule::give_on => {
+                    let events = nodes.next().and_then(|on| Nodes::of(on).seek(Rule::events));
+                    give.on = events.map(|events| self.events(events)).unwrap_or_default();
+                }
+                _ => {
+                    let condition = nodes.next().and_then(|when| Nodes::of(when).seek(Rule::condition));
+                    give.when = condition.map(|condition| self.expr(condition));
+                }
+            }
+        }
+        Some(give)
     }
 }
 

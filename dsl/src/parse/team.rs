@@ -69,8 +69,10 @@ impl Reader<'_> {
     /// What follows a player's role.
     fn player_rest(&mut self, nodes: &mut Nodes<'_>, role: Spanned<Role>) -> PlayerStmt {
         let place = nodes.want(Rule::place).and_then(|place| self.place(place));
-        let facing = nodes.want(Rule::facing).and_then(|facing| self.facing(facing));
+        // Either may stand first.
         let jitter = self.jitter(nodes);
+        let facing = nodes.want(Rule::facing).and_then(|facing| self.facing(facing));
+        let jitter = jitter.or_else(|| self.jitter(nodes));
         let when = nodes.want(Rule::player_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
         let when = when.map(|when| self.expr(when));
         PlayerStmt { name: None, count: None, role, place, facing, jitter, when, fields: self.take_fields(nodes) }

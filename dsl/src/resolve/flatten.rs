@@ -443,8 +443,8 @@ impl<'a> Adding<'a, '_> {
             self.flat.ends.push(ending);
             return;
         };
-        let name = &label.name.node;
-        let first = self.own.iter().find(|(kind, known, _)| *kind == "end" && known == name).map(|own| own.2);
+        let name = label.bare();
+        let first = self.own.iter().find(|(kind, known, _)| *kind == "end" && *known == name).map(|own| own.2);
         if let Some(first) = first {
             self.problems.push(
                 Problem::new(
@@ -458,8 +458,8 @@ impl<'a> Adding<'a, '_> {
             );
             return;
         }
-        self.own.push(("end", name.clone(), span));
-        let known = self.flat.ends.iter_mut().find(|known| known.label.is_some_and(|known| known.name.node == *name));
+        self.own.push(("end", name.to_owned(), span));
+        let known = self.flat.ends.iter_mut().find(|known| known.label.is_some_and(|known| known.bare() == name));
         match known {
             Some(slot) => *slot = ending,
             None => self.flat.ends.push(ending),
@@ -481,7 +481,7 @@ impl<'a> Adding<'a, '_> {
             let candidates: Vec<&str> = match what.node.as_str() {
                 "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
                 "record" => self.flat.records.iter().map(|known| known.name.node.as_str()).collect(),
-                "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.name.node.as_str())).collect(),
+                "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.bare())).collect(),
                 _ => Vec::new(),
             };
             let problem = Problem::new(Code::NothingToRemove, span, message, "nothing to remove");
@@ -500,7 +500,7 @@ impl<'a> Adding<'a, '_> {
             ("end", Some(name)) => removed(&mut flat.ends, |end| {
                 end.label.map_or_else(
                     || end.verdict.is_some_and(|verdict| verdict.node == name),
-                    |label| label.name.node == name,
+                    |label| label.bare() == name,
                 )
             }),
             ("require", Some(name)) => removed(
@@ -516,7 +516,7 @@ impl<'a> Adding<'a, '_> {
 pub(crate) fn reward_name(reward: &RewardUse) -> String {
     match (&reward.label, &reward.what) {
         (Some(label), _) => label.node.clone(),
-        (None, RewardUseKind::Named(named)) => named.name.node.clone(),
+        (None, RewardUseKind::Named(named)) => named.bare().to_owned(),
         (None, RewardUseKind::Inline { name, .. }) => name.node.clone(),
         (None, RewardUseKind::Script(script)) => match &script.source {
             crate::ast::ScriptSource::File(path) => {

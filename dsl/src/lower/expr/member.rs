@@ -30,7 +30,7 @@ impl<'w> Lower<'_, 'w> {
             // `defence.f_4_4_2`: an item of a file that was imported under a name.
             ExprKind::Name(name) if self.scope.find(name).is_none() => {
                 let dotted = format!("{name}.{}", member.node);
-                if let Some(value) = self.imported(&dotted, span) {
+                if let Some(value) = self.file_name(&dotted, span) {
                     return value;
                 }
             }
@@ -53,17 +53,6 @@ impl<'w> Lower<'_, 'w> {
                 _ => self.no_member(of.span, value.ty, member.span, name, &["x", "y"]),
             },
             _ => self.no_member(of.span, value.ty, member.span, name, &[]),
-        }
-    }
-
-    fn imported(&mut self, dotted: &str, span: Span) -> Option<Value<'w>> {
-        let found = self.world.library.find(span.file, dotted)?;
-        match &found.item.kind {
-            crate::ast::ItemKind::Formation(formation) => {
-                Some(Value { ty: Ty::Formation, repr: Repr::Formation(formation) })
-            }
-            crate::ast::ItemKind::Const(binding) => Some(self.expr(&binding.value)),
-            _ => None,
         }
     }
 

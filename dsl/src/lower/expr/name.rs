@@ -136,7 +136,7 @@ impl<'w> Lower<'_, 'w> {
         Some(Value::one(Ty::Player, self.code.constant(f64::from(player.id))))
     }
 
-    fn file_name(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
+    pub(super) fn file_name(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
         let library = self.world.library;
         let found = library.find(span.file, name)?;
         if let Some(problem) = library.ambiguous(span.file, name, span) {

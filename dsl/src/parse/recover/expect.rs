@@ -1,11 +1,12 @@
 //! What was expected, in the author's words.
 
-use super::Context;
+use super::{Context, Finding, Wrong, text};
+use crate::habit::{self, Begins};
 use crate::parse::reader::{Reader, reserved, token};
 use crate::problem::{Code, Problem, nearest};
 use crate::source::Span;
 use setpiece_grammar::{Rule, keyword, noun};
-use setpiece_scenario::vocabulary::{Role, Unit};
+use setpiece_scenario::vocabulary::Role;
 use std::ops::Range;
 
 /// Words that follow a role.
@@ -15,147 +16,114 @@ pub(super) const AFTER_ROLE: &[&str] = &[
 ];
 
 impl Reader<'_> {
-    /// The problem of a text that stops making sense at `at`.
-    pub(super) fn expectation(
-        &self,
-        context: Context,
-        junk: &Range<usize>,
-        before: Option<&Range<usize>>,
-        at: usize,
-        positives: &[Rule],
-    ) -> Problem {
-        let at = self.next_token(at);
-        let word = token(self.text.get(at..).unwrap_or_default());
-        let outside = at >= junk.end;
-        let special = self
-            .unit(at)
-            .or_else(|| if outside { None } else { self.role_or_keyword(context, junk, before, at, word, positives) })
-            .or_else(|| self.reserved_name(at, word, positives));
-        if let Some(problem) = special {
-            return problem;
+    /// The problem of a text that stops making sense.
+    pub(super) fn explain(&self, mut wrong: Wrong<'_>) -> Finding {
+        if let Some(found) = self.habit(&mut wrong) {
+            return found;
         }
-        let starts = at == junk.start;
-        let wanted = if starts && !(before.is_some() && positives.is_empty()) {
-            noun(context.statement()).to_owned()
+        let first = wrong.junk.start;
+        if wrong.is_lone_word() || self.unit(first).is_some_and(|_| wrong.before.is_some()) {
+            wrong.at = first;
+            wrong.positives.clear();
+        }
+        let outside = wrong.at >= wrong.junk.end;
+        let word = self.word(wrong.at);
+        self.unit(wrong.at)
+            .or_else(|| self.unknown_event(&wrong, word))
+            .map(Finding::new)
+            .or_else(|| if outside { None } else { self.role_or_keyword(&wrong, word) })
+            .or_else(|| self.reserved_name(&wrong, word).map(Finding::new))
+            .unwrap_or_else(|| Finding::new(self.expected(&wrong)))
+    }
+
+    /// A habit of another language, at the place where nothing fits or at the junk's beginning.
+    fn habit(&self, wrong: &mut Wrong<'_>) -> Option<Finding> {
+        let words: Vec<&str> = wrong.tokens.iter().map(|(_, word)| *word).collect();
+        let met = wrong.token_at();
+        let (at, found) = [met, wrong.first]
+            .into_iter()
+            .find_map(|at| Some((at, habit::of_text(wrong.context.place(), &words, at, wrong.first)?)))?;
+        if let Some((from, word)) = wrong.tokens.get(at) {
+            if at != met {
+                wrong.positives.clear();
+            } else if *from < wrong.at && !word.is_ascii() {
+                // In the middle of a name.
+                wrong.positives = vec![Rule::ident];
+            }
+            wrong.inside = *from < wrong.at && at == met;
+            wrong.at = *from;
+        }
+        let starts = wrong.at == wrong.junk.start;
+        let misplaced = self.misplaced(wrong.context, self.word(wrong.at), wrong.at).filter(|_| starts);
+        let problem = misplaced.unwrap_or_else(|| self.expected(wrong)).help(found.help);
+        let (fresh, goes_on) = (found.begins == Begins::Anew, found.begins == Begins::Before);
+        Some(Finding { problem, fresh, goes_on })
+    }
+
+    /// That something else was expected.
+    fn expected(&self, wrong: &Wrong<'_>) -> Problem {
+        let at = wrong.at;
+        let word = self.word(at);
+        let starts = at == wrong.junk.start && !wrong.inside;
+        let wanted = if starts && !(wrong.before.is_some() && wrong.positives.is_empty()) && !is_name(&wrong.positives) {
+            noun(wrong.context.statement()).to_owned()
         } else {
-            list(context, positives)
+            list(wrong.context, &wrong.positives)
         };
+        if let Some((from, last)) = wrong.tokens.last()
+            && at >= wrong.junk.end
+            && (word.is_empty() || text(self.text, *from..at).contains('\n'))
+        {
+            let message = format!("expected {wanted} behind `{last}`");
+            return Problem::new(Code::Syntax, self.between(*from, from + last.len()), message, "something is missing");
+        }
         let found = if word.is_empty() { "the end of the file".to_owned() } else { format!("`{word}`") };
         let label = if starts { "no statement begins like this" } else { "this can't stand here" };
-        let problem = Problem::new(Code::Syntax, self.at(at), format!("expected {wanted}, found {found}"), label);
-        let (done, rest) = self.text.split_at_checked(at).unwrap_or_default();
-        hint(problem, word, done, rest)
+        Problem::new(Code::Syntax, self.at(at), format!("expected {wanted}, found {found}"), label)
     }
 
-    /// The offset of the next token behind blanks and comments.
-    fn next_token(&self, mut at: usize) -> usize {
-        loop {
-            let rest = self.text.get(at..).unwrap_or_default();
-            let blank = rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n', ';', '\u{FEFF}', '\u{A0}']).len();
-            at += blank;
-            match self.comment_at(at) {
-                Some(end) => at = end,
-                None => return at,
-            }
-        }
-    }
-
-    /// `5mm`, and `5 m`: a number whose unit is not one or does not touch it.
-    fn unit(&self, at: usize) -> Option<Problem> {
-        let text = self.text;
-        let before = text.get(..at)?;
-        let word = token(text.get(at..)?);
-        if !word.starts_with(|char: char| char.is_alphabetic()) {
-            return None;
-        }
-        let line = before.get(before.rfind('\n').map_or(0, |newline| newline + 1)..)?;
-        let digits = line.trim_end_matches([' ', '\t']);
-        let number_len =
-            digits.len() - digits.trim_end_matches(|char: char| char.is_ascii_digit() || char == '.').len();
-        let number = digits.get(digits.len() - number_len..)?;
-        let part_of_name =
-            digits.get(..digits.len() - number_len)?.ends_with(|char: char| char.is_alphanumeric() || char == '_');
-        if !number.ends_with(|char: char| char.is_ascii_digit()) || part_of_name {
-            return None;
-        }
-        let touches = digits.len() == line.len();
-        if touches {
-            let start = at - number.len();
-            let word = if word == "km" && text.get(at..)?.starts_with("km/") { "km/" } else { word };
-            let span = self.between(start, at + word.len());
-            let units = Unit::ALL.iter().map(|unit| unit.name());
-            let known: Vec<_> = units.clone().map(|unit| format!("`{unit}`")).collect();
-            let problem = Problem::new(Code::Syntax, span, format!("unknown unit `{word}`"), "no unit has this name");
-            return Some(match nearest(word, units).filter(|_| meant(word).is_none()) {
-                Some(unit) => problem.help(format!("did you mean `{number}{}{unit}`?", blank_before(unit))),
-                None if meant(word).is_some() => {
-                    problem.help(format!("did you mean `{number}{}`?", meant(word).unwrap_or_default()))
-                }
-                None => problem.help(format!("the units are {}", known.join(", "))),
-            });
-        }
-        let Some(unit) = Unit::from_name(word) else {
-            let counted =
-                nearest(word.trim_end_matches(|char: char| char.is_ascii_digit()), ["step", "steps", "episodes"]);
-            let counted = counted.filter(|_| word.len() >= 4)?;
-            let message = format!("unknown unit `{word}`");
-            let help = format!("did you mean `{number} {}`?", if counted == "step" { "steps" } else { counted });
-            return Some(Problem::new(Code::Syntax, self.at(at), message, "no unit has this name").help(help));
-        };
-        let gap = line.len() - digits.len();
-        let span = self.between(at - gap - number.len(), at + word.len());
-        Some(
-            Problem::new(
-                Code::Syntax,
-                span,
-                format!("the unit `{}` must touch its number", unit.name()),
-                "a blank between them",
-            )
-            .help(format!("write `{number}{}`", unit.name())),
-        )
+    /// The word or sign at an offset.
+    fn word(&self, at: usize) -> &str {
+        token(text(self.text, at..self.text.len()))
     }
 
     /// Misspelt and misplaced keywords, and unknown roles.
-    fn role_or_keyword(
-        &self,
-        context: Context,
-        junk: &Range<usize>,
-        before: Option<&Range<usize>>,
-        at: usize,
-        word: &str,
-        positives: &[Rule],
-    ) -> Option<Problem> {
+    fn role_or_keyword(&self, wrong: &Wrong<'_>, word: &str) -> Option<Finding> {
+        let Wrong { context, junk, at, positives, .. } = wrong;
+        let (context, at, before) = (*context, *at, wrong.before.as_ref());
         if !word.starts_with(|char: char| char.is_alphabetic() || char == '_') {
-            return self.unknown_role_of_field(context, before, word);
+            return self.unknown_role_of_field(context, before, word).map(Finding::new);
         }
-        let behind = token(self.text.get(self.next_token(at + word.len())..).unwrap_or_default());
+        let fresh = |problem| Finding { fresh: true, ..Finding::new(problem) };
+        let behind = self.word(self.next_token(at + word.len()));
         let starts = at == junk.start;
-        let ahead = self.text.get(junk.start..at).unwrap_or_default().trim_end();
+        let ahead = text(self.text, junk.start..at).trim_end();
         let counted = !ahead.is_empty() && ahead.bytes().all(|byte| byte.is_ascii_digit());
         let continuing = positives.iter().filter_map(|rule| keyword(*rule));
         if context == Context::Team && (starts || counted) {
             if let Some(problem) = self.unknown_role_of_field(context, before, word) {
-                return Some(problem);
+                return Some(Finding::new(problem));
             }
             let like_role = word.len() <= 4 && word.bytes().all(|byte| byte.is_ascii_uppercase());
             let followed = AFTER_ROLE.contains(&behind) && Role::from_name(word).is_none();
             let keyword = nearest(word, context.keywords().iter().copied().chain(AFTER_ROLE.iter().copied()));
             if like_role || counted || (followed && keyword.is_none()) {
-                return Some(Self::unknown_role(word, self.at(at)));
+                return Some(fresh(Self::unknown_role(word, self.at(at))));
             }
         }
         if starts {
             if let Some(problem) = self.misplaced(context, word, at) {
-                return Some(problem);
+                return Some(fresh(problem));
             }
             let further = if before.is_some() { context.further() } else { &[] };
             let all = context.keywords().iter().chain(further).copied();
             let all = all.chain(continuing.filter(|_| before.is_some()));
             let meant = nearest(word, all).filter(|meant| *meant != word)?;
-            return Some(self.misspelt(noun(context.statement()), word, at, meant));
+            let problem = self.misspelt(noun(context.statement()), word, at, meant);
+            return Some(Finding { fresh: context.keywords().contains(&meant), ..Finding::new(problem) });
         }
         let meant = nearest(word, continuing).filter(|meant| *meant != word)?;
-        Some(self.misspelt(&list(context, positives), word, at, meant))
+        Some(Finding::new(self.misspelt(&list(context, positives), word, at, meant)))
     }
 
     fn misspelt(&self, wanted: &str, word: &str, at: usize, meant: &str) -> Problem {
@@ -166,8 +134,9 @@ impl Reader<'_> {
     fn unknown_role(word: &str, span: Span) -> Problem {
         let roles = Role::ALL.iter().map(|role| role.name());
         let problem = Problem::new(Code::UnknownRole, span, format!("unknown role `{word}`"), "no role has this name");
-        match nearest(word, roles.clone()) {
-            Some(role) => problem.help(format!("did you mean `{role}`?")),
+        let problem = problem.did_you_mean(word, roles.clone());
+        match &problem.help {
+            Some(_) => problem,
             None => problem.help(format!("the roles are {}", roles.collect::<Vec<_>>().join(", "))),
         }
     }
@@ -180,7 +149,7 @@ impl Reader<'_> {
         let text = self.text.get(before?.clone())?;
         let (_, value) = text.split_once(':')?;
         let value = value.trim();
-        if token(value) != value || !value.starts_with(|char: char| char.is_alphabetic()) {
+        if token(value) != value || Role::from_name(value).is_some() || !value.starts_with(|char: char| char.is_alphabetic()) {
             return None;
         }
         let end = before?.end;
@@ -188,39 +157,46 @@ impl Reader<'_> {
     }
 
     /// A reserved word or role where a name is wanted.
-    fn reserved_name(&self, at: usize, word: &str, positives: &[Rule]) -> Option<Problem> {
-        let name = positives.iter().any(|rule| matches!(rule, Rule::ident | Rule::free_name));
+    fn reserved_name(&self, wrong: &Wrong<'_>, word: &str) -> Option<Problem> {
+        // Where a label may stand, so may `when`.
+        let name = is_name(&wrong.positives) && !wrong.positives.contains(&Rule::kw_when);
         let role = Role::from_name(word).is_some();
         (name && (role || is_reserved(word)))
-            .then(|| reserved(word, self.at(at), if role { "roles" } else { "the language" }))
+            .then(|| reserved(word, self.at(wrong.at), if role { "roles" } else { "the language" }))
     }
 }
 
-/// The unit behind another language's name for it.
-fn meant(word: &str) -> Option<&'static str> {
-    Some(match word {
-        "degree" | "degrees" => "deg",
-        "radian" | "radians" => "rad",
-        "sec" | "secs" | "second" | "seconds" => "s",
-        "msec" | "millis" => "ms",
-        "meter" | "meters" | "metre" | "metres" => "m",
-        "kmh" | "kph" => "km/h",
-        "mps" => "m/s",
-        "percent" => "%",
-        _ => return None,
-    })
+impl Wrong<'_> {
+    /// A lone word could always have been an option's key or a state: the word is the news, not the missing sign.
+    fn is_lone_word(&self) -> bool {
+        let Some((from, first)) = self.tokens.get(self.first) else { return false };
+        let next = self.tokens.get(self.first + 1).map_or(self.junk.end, |(next, _)| *next);
+        if *from != self.junk.start || self.at < next.min(self.junk.end) {
+            return false;
+        }
+        let elsewhere = |word: &str| Context::ALL.iter().any(|other| other.keywords().contains(&word));
+        match self.context {
+            Context::Fields => false,
+            Context::Reward | Context::Behavior if self.positives == [Rule::equals] => {
+                let further = if self.before.is_some() { self.context.further() } else { &[] };
+                let near = nearest(first, self.context.keywords().iter().chain(further).copied());
+                (near.is_some() || elsewhere(first)) && self.at <= next
+            }
+            _ => self.positives == [Rule::colon] && self.at <= next && !self.context.keywords().contains(first),
+        }
+    }
+}
+
+/// Whether a name may stand here.
+fn is_name(positives: &[Rule]) -> bool {
+    positives.iter().any(|rule| matches!(rule, Rule::ident | Rule::free_name | Rule::path))
 }
 
 /// Whether a word is reserved everywhere.
-fn is_reserved(word: &str) -> bool {
+pub(super) fn is_reserved(word: &str) -> bool {
     use pest::Parser;
     setpiece_grammar::PitchParser::parse(Rule::reserved, word)
         .is_ok_and(|mut pairs| pairs.as_str().len() == word.len() && pairs.next().is_some())
-}
-
-/// `steps` and `episodes` stand apart from their number.
-fn blank_before(unit: &str) -> &'static str {
-    if unit.len() > 4 { " " } else { "" }
 }
 
 /// Rules that only go on with what is complete already.
@@ -272,23 +248,4 @@ fn list(context: Context, positives: &[Rule]) -> String {
         Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
         None => String::new(),
     }
-}
-
-/// Help for habits of other languages.
-fn hint(problem: Problem, word: &str, done: &str, rest: &str) -> Problem {
-    let help = match word {
-        // One of them joins regions.
-        "&" if done.ends_with('&') => "write `and`",
-        "|" if done.ends_with('|') => "write `or`",
-        "&&" => "write `and`",
-        "||" => "write `or`",
-        "!" => "write `not`",
-        "=" if rest.starts_with("= ") || rest.starts_with('=') => "to compare two values write `==`",
-        "." if rest[1..].starts_with(|char: char| char.is_ascii_digit()) => "write the 0 before the point: `0.5`",
-        "%" => "`%` is a unit; for the remainder write `mod(a, b)`",
-        "///" => "a `///` comment stands above a statement; write `//` elsewhere",
-        "'" => "words stand between double quotes: `\"…\"`",
-        _ => return problem,
-    };
-    problem.help(help)
 }

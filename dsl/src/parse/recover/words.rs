@@ -1,5 +1,6 @@
 //! The lists of statements and the words with which their statements begin.
 
+use crate::habit::Place;
 use setpiece_grammar::Rule;
 
 /// A list of statements.
@@ -45,6 +46,18 @@ impl Context {
             Context::Reward => Rule::reward_probe,
             Context::Behavior => Rule::behavior_probe,
             Context::Fields => Rule::fields_probe,
+        }
+    }
+
+    /// Where habits are met in it.
+    pub(super) const fn place(self) -> Place {
+        match self {
+            Context::File => Place::File,
+            Context::Scenario => Place::Scenario,
+            Context::Team => Place::Team,
+            Context::Reward => Place::Reward,
+            Context::Behavior => Place::Behavior,
+            Context::Fields => Place::Fields,
         }
     }
 

@@ -1,0 +1,177 @@
+//! Habits of other languages and near misses of form: what is seen, and what to write instead.
+
+mod table;
+
+use pest::Parser;
+use setpiece_grammar::{PitchParser, Rule};
+use setpiece_scenario::vocabulary::Role;
+use table::HABITS;
+
+/// Where a habit is met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// A name that nothing has.
+    Name,
+    /// Text that can't be read, in any list of statements.
+    Anywhere,
+    /// The same, outside of everything.
+    File,
+    /// In a scenario.
+    Scenario,
+    /// In a team or formation.
+    Team,
+    /// In a reward.
+    Reward,
+    /// In a behaviour.
+    Behavior,
+    /// Among options.
+    Fields,
+}
+
+/// A row of the table.
+struct Habit {
+    place: Place,
+    /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text begins.
+    ///
+    /// `_` is a name, `""` a string, `9` a number, `9a` a number with letters, `é` a word of other letters, `ROLE` a
+    /// role, `a¦b` one of two, `a*` what begins with `a`, `*` any token, `…` any number of them, `$` the end.
+    seen: &'static str,
+    /// What to write; `{1}` is the first that was not spelt out in `seen`.
+    write: &'static str,
+}
+
+/// A habit that was met.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Found {
+    /// What to write.
+    pub(crate) help: String,
+    /// Whether it goes on with what stands before the place.
+    pub(crate) begins: Begins,
+}
+
+/// Where what a habit writes begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Begins {
+    /// At the place: a new statement.
+    Anew,
+    /// Before it.
+    Before,
+    /// It can't be told.
+    Either,
+}
+
+/// What to write for a name that nothing has.
+pub(crate) fn of_name(name: &str) -> Option<String> {
+    find(&[Place::Name], &[name], 0, true).map(|found| found.help)
+}
+
+/// What to write where the tokens of a statement stop making sense at one of them; the unreadable begins at `first`.
+pub(crate) fn of_text(place: Place, tokens: &[&str], at: usize, first: usize) -> Option<Found> {
+    find(&[place, Place::Anywhere], tokens, at, at == first)
+}
+
+fn find(places: &[Place], tokens: &[&str], at: usize, begins: bool) -> Option<Found> {
+    let (before, behind) = tokens.split_at_checked(at)?;
+    HABITS.iter().filter(|habit| places.contains(&habit.place)).find_map(|habit| {
+        let (left, right) = habit.seen.split_once('|').unwrap_or(("", habit.seen));
+        let (mut found, mut ahead) = (Vec::new(), Vec::new());
+        let pattern: Vec<&str> = right.split_whitespace().chain(["…"]).collect();
+        if !matches(&pattern, behind, &mut found) {
+            return None;
+        }
+        let left = left.trim();
+        if left == "^" {
+            return begins.then(|| habit.found(Begins::Anew, &found));
+        }
+        let pattern: Vec<&str> = ["…"].into_iter().chain(left.split_whitespace()).collect();
+        if !matches(&pattern, before, &mut ahead) {
+            return None;
+        }
+        ahead.append(&mut found);
+        Some(habit.found(if left.is_empty() { Begins::Either } else { Begins::Before }, &ahead))
+    })
+}
+
+impl Habit {
+    fn found(&self, begins: Begins, open: &[&str]) -> Found {
+        let fill = |help: String, (index, text): (usize, &&str)| {
+            help.replace(&format!("{{{}}}", index + 1), text.trim_matches('"'))
+        };
+        Found { help: open.iter().enumerate().fold(self.write.to_owned(), fill), begins }
+    }
+}
+
+/// Whether a pattern is all of some tokens; notes what it left open.
+fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -> bool {
+    let Some((wanted, pattern)) = pattern.split_first() else { return tokens.is_empty() };
+    if *wanted == "…" {
+        let known = found.len();
+        return pattern.is_empty()
+            || (0..=tokens.len()).any(|skipped| {
+                found.truncate(known);
+                tokens.get(skipped..).is_some_and(|rest| matches(pattern, rest, found))
+            });
+    }
+    let Some((token, tokens)) = tokens.split_first() else { return *wanted == "$" && matches(pattern, tokens, found) };
+    let digits = token.starts_with(|char: char| char.is_ascii_digit());
+    let letters = token.contains(|char: char| char.is_alphabetic() || char == '_');
+    let meant = match *wanted {
+        "$" => false,
+        "*" => true,
+        "_" => PitchParser::parse(Rule::ident, token).is_ok_and(|pairs| pairs.as_str() == *token),
+        "9" => digits && !letters,
+        "9a" => digits && letters,
+        "é" => letters && !token.is_ascii() && !token.starts_with('"'),
+        "\"\"" => token.starts_with('"'),
+        "ROLE" => Role::from_name(token).is_some(),
+        literal if literal.starts_with(char::is_alphabetic) && literal.ends_with('*') => {
+            let rest = token.strip_prefix(literal.trim_end_matches('*'));
+            found.extend(rest);
+            return rest.is_some() && matches(pattern, tokens, found);
+        }
+        literals if literals.contains('¦') => literals.split('¦').any(|literal| literal == *token),
+        literal => return literal == *token && matches(pattern, tokens, found),
+    };
+    if meant {
+        found.push(token);
+    }
+    meant && matches(pattern, tokens, found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(place: Place, tokens: &str, at: usize) -> Option<String> {
+        of_text(place, &tokens.split_whitespace().collect::<Vec<_>>(), at, 0).map(|found| found.help)
+    }
+
+    #[test]
+    fn what_is_left_open_is_filled_in() {
+        assert_eq!(text(Place::Fields, "offside = off", 1).as_deref(), Some("write `offside: off`"));
+        assert_eq!(text(Place::Reward, "x += 1", 1).as_deref(), Some("write `x = x + …`"));
+        assert_eq!(of_name("e_PlayerRole_CM").as_deref(), Some("write `CM`"));
+    }
+
+    #[test]
+    fn a_row_belongs_to_its_place() {
+        assert_ne!(text(Place::Reward, "elif x", 0), text(Place::Behavior, "elif x", 0));
+        assert_eq!(of_name("elif"), None);
+        assert_eq!(text(Place::Team, "striker", 1), None);
+    }
+
+    #[test]
+    fn every_row_can_be_met() {
+        for habit in HABITS {
+            assert!(!habit.write.is_empty() && !habit.seen.trim().is_empty());
+            assert_eq!(habit.place == Place::Name, !habit.seen.contains('|'), "{}", habit.seen);
+            let open = habit.seen.split_whitespace().filter(|token| {
+                ["_", "*", "9", "9a", "é", "\"\"", "ROLE"].contains(token) || token.contains('¦') || token.ends_with("_*")
+            });
+            let open = open.count();
+            for index in 1..9 {
+                assert!(index <= open || !habit.write.contains(&format!("{{{index}}}")), "{}", habit.seen);
+            }
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Events and words over time that are misspelt.
+
+use super::Wrong;
+use crate::parse::reader::Reader;
+use crate::problem::{Code, Problem, nearest};
+use setpiece_grammar::Rule;
+use setpiece_scenario::vocabulary::{EventKind, Owner, PROPERTIES, Qualifier, Type};
+
+/// Words before `of` that look at a whole episode.
+const OVER_TIME: &[&str] = &["count", "max", "min", "mean", "sum", "first", "last", "series"];
+
+impl Reader<'_> {
+    /// `on gaol by us`, `when gaol by us`, `coutn of goal`.
+    pub(super) fn unknown_event(&self, wrong: &Wrong<'_>, word: &str) -> Option<Problem> {
+        let at = wrong.token_at();
+        let event = |rule: &Rule| matches!(rule, Rule::event | Rule::events | Rule::event_name);
+        if wrong.positives.iter().any(event) && is_name(word) {
+            return Some(no_event(word, self.at(wrong.at)));
+        }
+        let (from, name) = wrong.tokens.get(at.checked_sub(1)?).filter(|(_, name)| is_name(name))?;
+        let span = self.between(*from, from + name.len());
+        if matches!(word, "by" | "to" | "from") || Qualifier::from_name(word).is_some() {
+            nearest(name, names()).filter(|meant| meant != name)?;
+            return Some(no_event(name, span));
+        }
+        let meant = nearest(name, OVER_TIME.iter().copied()).filter(|meant| meant != name && word == "of")?;
+        let message = format!("expected `count`, `max` or the like, found `{name}`");
+        Some(Problem::new(Code::Syntax, span, message, "no such word here").help(format!("did you mean `{meant}`?")))
+    }
+}
+
+fn is_name(word: &str) -> bool {
+    word.starts_with(|char: char| char.is_alphabetic() || char == '_') && !super::expect::is_reserved(word)
+}
+
+fn names() -> impl Iterator<Item = &'static str> {
+    EventKind::ALL.iter().map(|kind| kind.name())
+}
+
+fn no_event(name: &str, span: crate::source::Span) -> Problem {
+    let state = |name: &str| PROPERTIES.iter().any(|p| p.owner == Owner::Match && p.ty == Type::Bool && p.name == name);
+    if state(name) {
+        return Problem::new(Code::UnknownEvent, span, format!("`{name}` is a state, no event"), "lasts")
+            .help(format!("write `when {name}`"));
+    }
+    Problem::new(Code::UnknownEvent, span, format!("no event is called `{name}`"), "not known")
+        .did_you_mean(name, names())
+}

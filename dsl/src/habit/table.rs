@@ -121,7 +121,7 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "^ | for¦while", "there is no loop; a behavior has `repeat`"),
     row(Anywhere, "^ | def build_scenario", "write `scenario name { … }`"),
     row(File, "^ | def¦function¦func¦lambda", "write `fn name(x: number) = …`"),
-    row(Anywhere, "^ | def¦function¦func¦fn¦lambda", "write `fn name(x: number) = …` outside of the scenario"),
+    row(Anywhere, "^ | def¦function¦func¦lambda", "write `fn name(x: number) = …` outside of the scenario"),
     row(Anywhere, "^ | class¦struct¦interface", "write `scenario name extends academy { … }`"),
     row(Reward, "^ | return", "write `give …`"),
     row(Behavior, "^ | return¦break¦continue", "write `finish`"),

@@ -3,6 +3,7 @@
 //! Everything behind this step may rely on balanced brackets, closed strings and a bounded depth.
 
 mod chain;
+mod mend;
 
 use super::{MAX_BRACKETS, MAX_PROBLEMS, span};
 use crate::problem::{Code, Problem};
@@ -60,6 +61,7 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
         chain: Chain::default(),
         chunk: 0,
         lost: Vec::new(),
+        cut: false,
         scan: Scan { text: Cow::Borrowed(text), comments: Vec::new(), told: Vec::new(), problems: Vec::new() },
     };
     scanner.run(text);
@@ -87,6 +89,17 @@ struct Open {
     indent: usize,
     /// What nests around it.
     chain: Chain,
+}
+
+impl Open {
+    /// The bracket that closes it.
+    fn closer(&self) -> u8 {
+        match self.byte {
+            b'(' => b')',
+            b'[' => b']',
+            _ => b'}',
+        }
+    }
 }
 
 /// A part of the text that no bracket may be written into.
@@ -119,6 +132,8 @@ struct Scanner<'t> {
     chunk: usize,
     /// From where on nothing more is told about the item under way, as its brackets are lost.
     lost: Vec<usize>,
+    /// Whether a comment or script that is not closed swallows the rest.
+    cut: bool,
     scan: Scan<'t>,
 }
 
@@ -209,6 +224,7 @@ impl Scanner<'_> {
             self.scan.told.push(at..usize::MAX);
             self.tail.push_str("*/");
             self.lost.push(self.chunk);
+            self.cut = true;
             text.len()
         };
         self.skips.push(Skip { range: at..end, line: false });
@@ -222,6 +238,7 @@ impl Scanner<'_> {
             return end + 3;
         }
         self.lost.push(self.chunk);
+        self.cut = true;
         self.problem(at, 3, Code::UnclosedString, "this script is not closed", "opened here", "close it with `\"\"\"`");
         self.scan.told.push(at..usize::MAX);
         self.tail.push_str("\"\"\"");
@@ -249,6 +266,13 @@ impl Scanner<'_> {
             "opened here",
             "close it with `\"` on its line",
         );
+        if let Some(closers) = self.closers_at_end(at..end) {
+            // What closes the block on this line was not meant to be words.
+            self.mends.insert(closers - 1, b'"');
+            self.skips.push(Skip { range: at..closers, line: false });
+            self.scan.told.push(at..closers);
+            return closers;
+        }
         self.skips.push(Skip { range: at..end, line: true });
         self.scan.told.push(self.line_from..end + 1);
         if self.bytes.get(at..end).is_some_and(|text| text.iter().any(|byte| b"(){}[]".contains(byte))) {
@@ -263,6 +287,18 @@ impl Scanner<'_> {
             self.tail.push('"');
         }
         end + 1
+    }
+
+    /// Where the closing brackets at the end of a string that is not closed begin, if they close what is open.
+    fn closers_at_end(&self, string: Range<usize>) -> Option<usize> {
+        let text = self.bytes.get(string.clone())?;
+        let words = text.iter().rposition(|byte| !b")]} \t\r,;".contains(byte))? + 1;
+        let mut open = self.open.iter().rev();
+        let closers = text.get(words..)?.iter().filter(|byte| b")]}".contains(byte));
+        let fit = closers.map(|closer| open.next().is_some_and(|open| open.closer() == *closer));
+        let (count, fit) = fit.fold((0, true), |(count, all), fit| (count + 1, all && fit));
+        let last_is_ascii = text.get(words - 1).is_some_and(u8::is_ascii);
+        (words > 1 && count > 0 && fit && last_is_ascii).then_some(string.start + words)
     }
 
     fn opening(&mut self, at: usize, byte: u8) -> usize {
@@ -300,19 +336,15 @@ impl Scanner<'_> {
             }
             return at + 1;
         }
-        let opening = match byte {
-            b')' => b'(',
-            b']' => b'[',
-            _ => b'{',
-        };
         // A `}` that stands further left than the line of the `{` on top closes one further out.
         let dedented = self.by_indent && byte == b'}' && self.line_start;
-        let fits = |open: &Open| open.byte == opening && !(dedented && open.indent > self.indent);
+        let fits = |open: &Open| open.closer() == byte && !(dedented && open.indent > self.indent);
         let matching =
-            self.open.iter().rposition(fits).or_else(|| self.open.iter().rposition(|open| open.byte == opening));
+            self.open.iter().rposition(fits).or_else(|| self.open.iter().rposition(|open| open.closer() == byte));
         // A round bracket does not close anything beyond a block.
         let block = self.open.iter().rposition(|open| open.byte == b'{');
         match matching {
+            _ if self.is_wrong_closer(at, byte, matching) => self.wrong_closer(at, byte),
             Some(index) if byte == b'}' || block.is_none_or(|block| index > block) => {
                 while self.open.len() > index + 1 {
                     self.unclosed(at, Some(at));
@@ -334,110 +366,6 @@ impl Scanner<'_> {
             }
         }
         at + 1
-    }
-
-    /// A new item begins at the left edge: whatever is open was forgotten.
-    fn close_all(&mut self, at: usize) {
-        while !self.open.is_empty() {
-            self.unclosed(at, None);
-        }
-    }
-
-    /// Reports and mends the innermost open bracket, which should have been closed before `at`.
-    fn unclosed(&mut self, at: usize, closer: Option<usize>) {
-        let Some(open) = self.open.pop() else { return };
-        let (opener, wanted) = match open.byte {
-            b'(' => ('(', b')'),
-            b'[' => ('[', b']'),
-            _ => ('{', b'}'),
-        };
-        let end = if open.byte == b'{' { self.blank_before(at, open.at) } else { self.line_end(open.at, at) };
-        self.scan.told.push(open.at..at + 1);
-        if open.byte == b'{' {
-            self.lost.push(open.at);
-        }
-        self.unchain(at, if open.byte == b'{' { Chain::default() } else { open.chain });
-        match end {
-            Some(end) => self.mends.insert(end, wanted),
-            // No blank to write the bracket into: take the opening one away.
-            None => self.mends.insert(open.at, b' '),
-        };
-        if self.scan.problems.len() >= MAX_PROBLEMS {
-            return;
-        }
-        let mut problem = Problem::new(
-            Code::UnclosedBracket,
-            span(self.file, open.at, open.at + 1),
-            format!("this `{opener}` is not closed"),
-            "opened here",
-        )
-        .help(format!("close it with `{}`", wanted as char));
-        if let Some(closer) = closer {
-            let text = self.bytes.get(closer).map_or(' ', |byte| *byte as char);
-            problem =
-                problem.label(span(self.file, closer, closer + 1), format!("this `{text}` belongs to another bracket"));
-        }
-        self.scan.problems.push(problem);
-    }
-
-    /// The last unused newline or blank before `at`.
-    fn blank_before(&self, at: usize, after: usize) -> Option<usize> {
-        let range = self.bytes.get(after..at)?;
-        (0..range.len()).rev().take(4096).map(|i| after + i).find(|i| self.is_free(*i))
-    }
-
-    /// The end of the line of `from`.
-    fn line_end(&self, from: usize, before: usize) -> Option<usize> {
-        let end = from + self.bytes.get(from..before)?.iter().position(|byte| *byte == b'\n')?;
-        let end = match self.skip_at(end) {
-            Some(skip) if skip.line && skip.range.start > from => skip.range.start.saturating_sub(1),
-            _ => end,
-        };
-        self.is_free(end).then_some(end)
-    }
-
-    /// Whether a bracket may be written over this byte: an unused blank outside of strings and comments.
-    fn is_free(&self, at: usize) -> bool {
-        self.bytes.get(at).is_some_and(u8::is_ascii_whitespace)
-            && !self.mends.contains_key(&at)
-            && self.skip_at(at).is_none()
-    }
-
-    /// The string or comment that holds this byte or needs it as its end.
-    fn skip_at(&self, at: usize) -> Option<&Skip> {
-        let index = self.skips.partition_point(|skip| skip.range.end < at);
-        let holds = |skip: &&Skip| skip.range.contains(&at) || (skip.line && skip.range.end == at);
-        self.skips.get(index..)?.iter().take(2).find(holds)
-    }
-
-    fn finish(&mut self) {
-        if let Some((from, _)) = self.deep.take() {
-            self.scan.told.push(from..usize::MAX);
-        } else if let Some(open) = self.open.last() {
-            // Only the innermost is told: closing it may close the others' gap too.
-            let opener = open.byte as char;
-            let wanted = match open.byte {
-                b'(' => ')',
-                b'[' => ']',
-                _ => '}',
-            };
-            let (at, message) = (open.at, format!("this `{opener}` is not closed"));
-            self.problem(at, 1, Code::UnclosedBracket, &message, "opened here", &format!("close it with `{wanted}`"));
-            self.scan.told.push(at..usize::MAX);
-        }
-        self.unchain(self.bytes.len(), Chain::default());
-        self.end_chunk(usize::MAX);
-        if !self.open.is_empty() {
-            // A comment without a newline at the end would swallow the brackets.
-            self.tail.push('\n');
-        }
-        while let Some(open) = self.open.pop() {
-            self.tail.push(match open.byte {
-                b'(' => ')',
-                b'[' => ']',
-                _ => '}',
-            });
-        }
     }
 
     fn problem(&mut self, at: usize, len: usize, code: Code, message: &str, label: &str, help: &str) {

@@ -22,7 +22,7 @@ pub(in crate::parse) enum Context {
 
 impl Context {
     /// Every list.
-    pub(super) const ALL: [Context; 6] =
+    pub(in crate::parse) const ALL: [Context; 6] =
         [Context::File, Context::Scenario, Context::Team, Context::Reward, Context::Behavior, Context::Fields];
 
     /// The rule of a statement.
@@ -74,7 +74,7 @@ impl Context {
     }
 
     /// The words with which a statement may begin.
-    pub(super) const fn keywords(self) -> &'static [&'static str] {
+    pub(in crate::parse) const fn keywords(self) -> &'static [&'static str] {
         match self {
             Context::File => &[
                 "import",

@@ -1,0 +1,151 @@
+//! Brackets that are not closed, or closed by another's: told, and mended in the copy that is parsed.
+
+use super::{Chain, Scanner, Skip};
+use crate::parse::recover::Context;
+use crate::parse::{MAX_PROBLEMS, span};
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::Role;
+
+impl Scanner<'_> {
+    /// Whether a closing bracket was written for the innermost open one, which it does not fit.
+    pub(super) fn is_wrong_closer(&self, at: usize, byte: u8, matching: Option<usize>) -> bool {
+        let Some(last) = self.open.last().filter(|open| open.closer() != byte) else { return false };
+        let here = |open: &&super::Open| open.byte == b'{' && open.at >= self.line_from;
+        match (byte, last.byte) {
+            // The braces that this line opened are all that it may close.
+            (b'}', b'(' | b'[') => {
+                let line = self.bytes.get(at..).unwrap_or_default().split(|byte| *byte == b'\n').next();
+                let closed = line.unwrap_or_default().iter().filter(|byte| **byte == b'}').count();
+                last.at >= self.line_from && closed > self.open.iter().filter(here).count() && !self.line_start
+            }
+            (b'}', _) => false,
+            (_, b'{') => self.line_start && last.indent == self.indent,
+            _ => {
+                let block = self.open.iter().rposition(|open| open.byte == b'{');
+                matching.is_none_or(|index| block.is_some_and(|block| index < block))
+            }
+        }
+    }
+
+    /// Reports and mends a bracket that closes another.
+    pub(super) fn wrong_closer(&mut self, at: usize, byte: u8) {
+        let Some(open) = self.open.pop() else { return };
+        let (opener, wanted) = (open.byte as char, open.closer());
+        self.mends.insert(at, wanted);
+        self.unchain(at, if open.byte == b'{' { Chain::default() } else { open.chain });
+        if self.scan.problems.len() < MAX_PROBLEMS {
+            let message = format!("`{}` can't close this `{opener}`", byte as char);
+            self.scan.problems.push(
+                Problem::new(Code::UnclosedBracket, span(self.file, at, at + 1), message, "another bracket")
+                    .label(span(self.file, open.at, open.at + 1), "opened here")
+                    .help(format!("close it with `{}`", wanted as char)),
+            );
+        }
+    }
+
+    /// A new item begins at the left edge: whatever is open was forgotten.
+    pub(super) fn close_all(&mut self, at: usize) {
+        while !self.open.is_empty() {
+            self.unclosed(at, None);
+        }
+    }
+
+    /// Reports and mends the innermost open bracket, which should have been closed before `at`.
+    pub(super) fn unclosed(&mut self, at: usize, closer: Option<usize>) {
+        let Some(open) = self.open.pop() else { return };
+        let (opener, wanted) = (open.byte as char, open.closer());
+        let line = if open.byte == b'{' { None } else { self.line_end(open.at, at) };
+        let end = line.or_else(|| self.blank_before(at, open.at));
+        // Behind the line that was mended everything is read as it stands.
+        self.scan.told.push(open.at..line.unwrap_or(at) + 1);
+        if open.byte == b'{' {
+            self.lost.push(open.at);
+        }
+        self.unchain(at, if open.byte == b'{' { Chain::default() } else { open.chain });
+        match end {
+            Some(end) => self.mends.insert(end, wanted),
+            // No blank to write the bracket into: take the opening one away.
+            None => self.mends.insert(open.at, b' '),
+        };
+        if self.scan.problems.len() >= MAX_PROBLEMS {
+            return;
+        }
+        let mut problem = Problem::new(
+            Code::UnclosedBracket,
+            span(self.file, open.at, open.at + 1),
+            format!("this `{opener}` is not closed"),
+            "opened here",
+        )
+        .help(format!("close it with `{}`", wanted as char));
+        if let Some(closer) = closer {
+            let text = self.bytes.get(closer).map_or(' ', |byte| *byte as char);
+            problem =
+                problem.label(span(self.file, closer, closer + 1), format!("this `{text}` belongs to another bracket"));
+        }
+        self.scan.problems.push(problem);
+    }
+
+    /// The last unused newline or blank before `at`.
+    fn blank_before(&self, at: usize, after: usize) -> Option<usize> {
+        let range = self.bytes.get(after..at)?;
+        (0..range.len()).rev().take(4096).map(|i| after + i).find(|i| self.is_free(*i))
+    }
+
+    /// The end of the first line from `from` on behind which a statement begins; else of the line of `from`.
+    fn line_end(&self, from: usize, before: usize) -> Option<usize> {
+        let range = self.bytes.get(from..before)?;
+        let mut ends = range.iter().enumerate().filter(|(_, byte)| **byte == b'\n').map(|(end, _)| from + end);
+        let first = ends.clone().next()?;
+        let end = ends.find(|end| self.bytes.get(end + 1..before).is_none_or(begins_statement)).unwrap_or(first);
+        let end = match self.skip_at(end) {
+            Some(skip) if skip.line && skip.range.start > from => skip.range.start.saturating_sub(1),
+            _ => end,
+        };
+        self.is_free(end).then_some(end)
+    }
+
+    /// Whether a bracket may be written over this byte: an unused blank outside of strings and comments.
+    fn is_free(&self, at: usize) -> bool {
+        self.bytes.get(at).is_some_and(u8::is_ascii_whitespace)
+            && !self.mends.contains_key(&at)
+            && self.skip_at(at).is_none()
+    }
+
+    /// The string or comment that holds this byte or needs it as its end.
+    fn skip_at(&self, at: usize) -> Option<&Skip> {
+        let index = self.skips.partition_point(|skip| skip.range.end < at);
+        let holds = |skip: &&Skip| skip.range.contains(&at) || (skip.line && skip.range.end == at);
+        self.skips.get(index..)?.iter().take(2).find(holds)
+    }
+
+    pub(super) fn finish(&mut self) {
+        if let Some((from, _)) = self.deep.take() {
+            self.scan.told.push(from..usize::MAX);
+        } else if let Some(open) = self.open.last().filter(|_| !self.cut) {
+            // Only the innermost is told: closing it may close the others' gap too.
+            let opener = open.byte as char;
+            let wanted = open.closer() as char;
+            let (at, message) = (open.at, format!("this `{opener}` is not closed"));
+            self.problem(at, 1, Code::UnclosedBracket, &message, "opened here", &format!("close it with `{wanted}`"));
+            self.scan.told.push(at..usize::MAX);
+        }
+        self.unchain(self.bytes.len(), Chain::default());
+        self.end_chunk(usize::MAX);
+        if !self.open.is_empty() {
+            // A comment without a newline at the end would swallow the brackets.
+            self.tail.push('\n');
+        }
+        while let Some(open) = self.open.pop() {
+            self.tail.push(open.closer() as char);
+        }
+    }
+}
+
+/// Whether a line begins a statement, or ends its list.
+fn begins_statement(line: &[u8]) -> bool {
+    let line = line.trim_ascii_start();
+    let word = line.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_').next().unwrap_or_default();
+    let Ok(word) = str::from_utf8(word) else { return false };
+    let keyword = Context::ALL.iter().any(|context| context.keywords().contains(&word));
+    line.is_empty() || line.starts_with(b"}") || keyword || Role::from_name(word).is_some()
+}

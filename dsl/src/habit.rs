@@ -62,18 +62,24 @@ pub(crate) enum Begins {
 
 /// What to write for a name that nothing has.
 pub(crate) fn of_name(name: &str) -> Option<String> {
-    find(&[Place::Name], &[name], 0, true).map(|found| found.help)
+    let mut habits = HABITS.iter().filter(|habit| habit.place == Place::Name);
+    habits.find_map(|habit| habit.at(&[], &[name], true)).map(|found| found.help)
 }
 
 /// What to write where the tokens of a statement stop making sense at one of them; the unreadable begins at `first`.
-pub(crate) fn of_text(place: Place, tokens: &[&str], at: usize, first: usize) -> Option<Found> {
-    find(&[place, Place::Anywhere], tokens, at, at == first)
+/// Gives the token, too, that the habit is seen at.
+pub(crate) fn of_text(place: Place, tokens: &[&str], at: usize, first: usize) -> Option<(usize, Found)> {
+    let habits = HABITS.iter().filter(|habit| habit.place == place || habit.place == Place::Anywhere);
+    habits.flat_map(|habit| [(habit, at), (habit, first)]).find_map(|(habit, at)| {
+        let (before, behind) = tokens.split_at_checked(at)?;
+        Some((at, habit.at(before, behind, at == first)?))
+    })
 }
 
-fn find(places: &[Place], tokens: &[&str], at: usize, begins: bool) -> Option<Found> {
-    let (before, behind) = tokens.split_at_checked(at)?;
-    HABITS.iter().filter(|habit| places.contains(&habit.place)).find_map(|habit| {
-        let (left, right) = habit.seen.split_once('|').unwrap_or(("", habit.seen));
+impl Habit {
+    /// Whether it is met between two parts of a statement.
+    fn at(&self, before: &[&str], behind: &[&str], begins: bool) -> Option<Found> {
+        let (left, right) = self.seen.split_once('|').unwrap_or(("", self.seen));
         let (mut found, mut ahead) = (Vec::new(), Vec::new());
         let pattern: Vec<&str> = right.split_whitespace().chain(["…"]).collect();
         if !matches(&pattern, behind, &mut found) {
@@ -81,18 +87,16 @@ fn find(places: &[Place], tokens: &[&str], at: usize, begins: bool) -> Option<Fo
         }
         let left = left.trim();
         if left == "^" {
-            return begins.then(|| habit.found(Begins::Anew, &found));
+            return begins.then(|| self.found(Begins::Anew, &found));
         }
         let pattern: Vec<&str> = ["…"].into_iter().chain(left.split_whitespace()).collect();
         if !matches(&pattern, before, &mut ahead) {
             return None;
         }
         ahead.append(&mut found);
-        Some(habit.found(if left.is_empty() { Begins::Either } else { Begins::Before }, &ahead))
-    })
-}
+        Some(self.found(if left.is_empty() { Begins::Either } else { Begins::Before }, &ahead))
+    }
 
-impl Habit {
     fn found(&self, begins: Begins, open: &[&str]) -> Found {
         let fill = |help: String, (index, text): (usize, &&str)| {
             help.replace(&format!("{{{}}}", index + 1), text.trim_matches('"'))
@@ -143,7 +147,7 @@ mod tests {
     use super::*;
 
     fn text(place: Place, tokens: &str, at: usize) -> Option<String> {
-        of_text(place, &tokens.split_whitespace().collect::<Vec<_>>(), at, 0).map(|found| found.help)
+        of_text(place, &tokens.split_whitespace().collect::<Vec<_>>(), at, 0).map(|(_, found)| found.help)
     }
 
     #[test]

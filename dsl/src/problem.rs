@@ -84,6 +84,16 @@ pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -
     best.1
 }
 
+/// How a word is written, from its line of documentation: what stands before the first `: ` outside of brackets.
+pub(crate) fn signature(doc: &str) -> &str {
+    let mut depth = 0_i32;
+    let end = doc.char_indices().find(|(at, sign)| {
+        depth += i32::from(*sign == '(') - i32::from(*sign == ')');
+        depth == 0 && doc.get(*at..).is_some_and(|rest| rest.starts_with(": "))
+    });
+    end.and_then(|(at, _)| doc.get(..at)).unwrap_or(doc)
+}
+
 /// Declares the registry of codes: number, severity, title.
 macro_rules! codes {
     ($($(#[$meta:meta])* $name:ident = $number:literal $severity:ident $title:literal;)+) => {

@@ -101,7 +101,7 @@ pub const fn noun(rule: Rule) -> &'static str {
             "a name"
         }
         Rule::type_name => "a type, for example `number`",
-        Rule::reserved | Rule::scen_word | Rule::team_key => "a reserved word",
+        Rule::reserved | Rule::scen_word | Rule::next_word | Rule::team_key => "a reserved word",
         Rule::role => "a role, for example `CB`",
         Rule::brace_open
         | Rule::balanced
@@ -138,6 +138,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::expr
         | Rule::set
         | Rule::sum
+        | Rule::over_what
         | Rule::factor
         | Rule::or_layer
         | Rule::and_layer
@@ -197,7 +198,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::rules => "`rules`",
         Rule::agents => "`agents`",
         Rule::ball => "`ball`",
-        Rule::team | Rule::team_head => "`team`",
+        Rule::team | Rule::head => "`team`",
         Rule::kickoff => "`kickoff`",
         Rule::start => "`start`",
         Rule::require => "`require`",

@@ -141,7 +141,8 @@ module.exports = grammar({
     _annotation: ($) => seq(":", $._type),
     _extends: ($) => seq("extends", $.reference),
     reference: ($) => prec.right(seq(
-      field("name", $._named), optional(seq(token.immediate("("), optional(list($.argument)), ")")),
+      field("name", $._named), repeat(seq(token.immediate("."), $._named)),
+      optional(seq(token.immediate("("), optional(list($.argument)), ")")),
     )),
     parameters: ($) => seq("(", optional(list($.parameter)), ")"),
     parameter: ($) => seq(
@@ -183,6 +184,7 @@ module.exports = grammar({
     observe: ($) => seq("observe", "vector", block(seq($._expression, optional($.label)))),
     end: ($) => seq("end", choice(
       seq("limit", $._expression),
+      choice("success", "failure"),
       seq(optional(choice("success", "failure")), choice($._trigger, seq($.reference, optional($._trigger)))),
     )),
     _trigger: ($) => choice(seq("when", $._expression), $.script),
@@ -202,14 +204,15 @@ module.exports = grammar({
     ),
     _team_statement: ($) => choice($.moved, $.each, $.absent, $.player, $.field),
     moved: ($) => seq(
-      "place", choice($.role, $.identifier), $._place, optional($.facing), optional($.jitter), optional($.fields),
+      "place", choice($.role, $.identifier), $._place, optional($._turned), optional($.fields),
     ),
     each: ($) => seq("each", choice("outfield", "all", $.role), $.fields),
     absent: ($) => seq($.role, "absent"),
     player: ($) => prec.right(seq(
       optional(seq(field("name", $.identifier), ":")), optional($.quantity), $.role, optional($._place),
-      optional($.facing), optional($.jitter), optional(seq("when", $._expression)), optional($.fields),
+      optional($._turned), optional(seq("when", $._expression)), optional($.fields),
     )),
+    _turned: ($) => choice(seq($.facing, optional($.jitter)), seq($.jitter, optional($.facing))),
     facing: ($) => seq("facing", optional(seq("away", "from")), $._expression),
     jitter: ($) => seq("jitter", $._expression),
     _place: ($) => choice(
@@ -234,7 +237,11 @@ module.exports = grammar({
     assign: ($) => seq(field("name", $.identifier), "=", $._value),
     give: ($) => prec.right(seq(
       "give", choice($.script, $._expression), optional(seq("per", "second")), optional("once"), optional($.label),
-      optional(seq("on", $._events)), optional(seq("when", $._expression)), optional($.label),
+      optional(choice(
+        seq("on", $._events, optional(seq("when", $._expression))),
+        seq("when", $._expression, optional(seq("on", $._events))),
+      )),
+      optional($.label),
     )),
     on_block: ($) => seq("on", $._events, optional(seq("when", $._expression)), $._body),
     when_block: ($) => prec.right(seq(

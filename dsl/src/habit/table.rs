@@ -47,6 +47,9 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "| #", "a comment begins with `//`"),
     row(Anywhere, "| ///", "a `///` comment stands above a statement; write `//` elsewhere"),
     // Signs.
+    row(Anywhere, "between … and … | 9", "a share stands behind `at`: `between … and … at {1}%`"),
+    row(Anywhere, "ball at … , | 9", "a point stands in brackets: `at (0.6, 0)`"),
+    row(Anywhere, "ROLE at … , | 9", "a point stands in brackets: `{1} at (0.5, 0)`"),
     row(Anywhere, "| &&", "write `and`"),
     row(Anywhere, "| ||", "write `or`"),
     row(Anywhere, "| AND", "write `and`"),
@@ -109,9 +112,9 @@ pub(super) const HABITS: &[Habit] = &[
     row(Reward, "^ | elif¦elsif¦elseif", "write `else when … { … }`"),
     row(Behavior, "^ | elif¦elsif¦elseif", "write `else if … { … }`"),
     row(Anywhere, "^ | elif¦elsif¦elseif", "write `else if … then …`"),
+    row(Reward, "on … } | else", "an `on` has no `else`: write `when … { … } else { … }` in it"),
     row(Reward, "give … | else", "write `give if … then … else …`"),
-    row(Reward, "} | else", "an `on` has no `else`: write `when … { … } else { … }` in it"),
-    row(Anywhere, "when … end | success¦failure", "`end` is an event only after `on`: `on end {1}`"),
+    row(Anywhere, "| end success¦failure", "`end` is an event only after `on`: `give … on end {1}`"),
     // Loops, functions, classes.
     row(Behavior, "^ | while", "write `repeat until … { … }`"),
     row(Behavior, "^ | for", "write `repeat 3 times { … }`"),
@@ -137,7 +140,9 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "^ | builder . config ( ) . end_episode_on_out_of_play", "write `end out when out_of_play`"),
     row(Anywhere, "^ | builder . config ( ) . end_episode_on_possession_change", "write `end lost when possession changes`"),
     row(Anywhere, "^ | builder . config ( ) . left_team_difficulty¦right_team_difficulty", "write `team right { difficulty: 0.6 }`"),
-    row(Anywhere, "^ | builder . config ( ) . *", "write `rules { {1}: on }`"),
+    row(Anywhere, "^ | builder . config ( ) . offsides", "write `rules { offside: off }`"),
+    row(Anywhere, "^ | builder . config ( ) . deterministic", "write `rules { stochastic: off }`"),
+    row(Anywhere, "^ | builder . config", "rules stand in `rules { … }`, endings are `end … when …`"),
     row(Anywhere, "^ | builder", "a scenario is a list of statements: `ball at (0.6, 0)`, `team left { … }`"),
     row(Anywhere, "^ | self .", "a `state` has its name alone: `x = 1`"),
     // Players and places.
@@ -145,18 +150,19 @@ pub(super) const HABITS: &[Habit] = &[
     row(Scenario, "^ | ROLE", "a player stands in a team: `team left { {1} at … }`"),
     row(Scenario, "^ | _ : ROLE", "a player stands in a team: `team left { {1}: {2} at … }`"),
     row(Scenario, "ball … | facing", "only a player faces; `{ velocity: (5m/s, 0m/s) }` moves the ball"),
+    row(Team, "ROLE | : ROLE", "a role is no name: `my_{1}: {2} at …`"),
     row(Team, "ROLE | :", "a role is no name: `my_{1}: {1} at …`"),
     row(
         Team,
         "} | at¦in¦ahead¦behind¦left¦right¦between¦beyond¦offset¦facing¦jitter¦when",
         "options stand last: `CM at (0.5, 0) { … }`",
     ),
+    row(Team, "ahead¦left¦right | _", "write `{1} of {2}`"),
     row(Team, "ahead¦left¦right of * … | $", "say how far: `{1} of {2} by 2m`"),
     row(Team, "behind * … | $", "say how far: `behind {1} by 2m`"),
     row(Team, "beyond * … | $", "say how far and from where: `beyond {1} by 2m from ball`"),
     row(Scenario, "ahead¦left¦right of * … | $", "say how far: `{1} of {2} by 2m`"),
     row(Scenario, "behind * … | $", "say how far: `behind {1} by 2m`"),
-    row(Team, "between * and * … | 9", "a share stands behind `at`: `between {1} and {2} at {3}%`"),
     row(Scenario, "limit 9 | step¦steps", "the unit stands on the line of its number: `{1} steps`"),
     // Events.
     row(

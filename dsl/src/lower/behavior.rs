@@ -312,6 +312,8 @@ impl<'c, 'w> Writer<'c, 'w> {
         let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
         self.lower.report(if near {
             problem.did_you_mean(&name.node, states)
+        } else if self.lower.scope.find(&name.node).is_some() {
+            problem.help("only a `state` is assigned")
         } else {
             problem.help(format!("declare it at the top: `state {} = 0`", name.node))
         });

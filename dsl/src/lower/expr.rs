@@ -145,7 +145,11 @@ impl<'w> Lower<'_, 'w> {
                     noun(at),
                 )
                 .label(spans.0, noun(0))
-                .help("write both coordinates normalised, `(0.5, 0.1)`, or both in metres, `(27m, 8m)`"),
+                .help(if at == 2 {
+                    "a place on the pitch has two coordinates; a third is a height, `1m`"
+                } else {
+                    "write both coordinates normalised, `(0.5, 0.1)`, or both in metres, `(27m, 8m)`"
+                }),
             );
         }
         let regs: Vec<Reg> = values.iter().flat_map(Value::regs).collect();

@@ -322,6 +322,11 @@ impl<'w> Lower<'_, 'w> {
         let heading = if value.ty == Ty::ANGLE {
             let angle = self.reg(&value);
             self.turned_angle(angle)
+        } else if value.ty.is_plain() {
+            let mut problem = self.mismatch(value.ty, Ty::ANGLE, facing.target.span);
+            problem.help = Some(format!("write an angle, `{}deg`, or a point", self.world.text(facing.target.span)));
+            self.fail(problem);
+            return self.code.constant(0.0);
         } else {
             let target = self.convert(value, Ty::Point, &facing.target);
             let target = self.pair(&target);

@@ -13,7 +13,7 @@ impl Reader<'_> {
     pub(super) fn expr(&mut self, node: Node<'_>) -> Expr {
         let span = self.span(&node);
         match node.as_rule() {
-            Rule::expr | Rule::set | Rule::sum | Rule::factor => self.flat(node, span),
+            Rule::expr | Rule::set | Rule::sum | Rule::over_what | Rule::factor => self.flat(node, span),
             Rule::switch => Expr { span, kind: ExprKind::Bool(node.as_str().starts_with("on")) },
             _ => match node.into_inner().next() {
                 Some(inner) => self.expr(inner),
@@ -255,7 +255,7 @@ impl Reader<'_> {
                 nodes.eat(Rule::kw_of);
                 let of = nodes.next().map_or_else(
                     || broken(span),
-                    |of| if of.as_rule() == Rule::sum { self.expr(of) } else { self.primary(of) },
+                    |of| if of.as_rule() == Rule::over_what { self.expr(of) } else { self.primary(of) },
                 );
                 ExprKind::OverTime { kind, of: Box::new(of) }
             }

@@ -4,7 +4,7 @@ use super::Writer;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
 use crate::lower::value::{Binding, Repr, Value};
-use crate::problem::{Code, Problem};
+use crate::problem::{Code, Problem, signature};
 use setpiece_scenario::vocabulary::{Field, Primitive, Type};
 use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, ScriptArg, Then, UnaryOp, Watch, When};
 
@@ -114,7 +114,7 @@ impl<'w> Writer<'_, 'w> {
         let given = self.lower.arguments(primitive.name(), args, span, names, 0)?;
         let first = given.first().copied().flatten();
         if first.is_none() && !names.is_empty() && primitive != P::Shoot {
-            let signature = primitive.doc().split(": ").next().unwrap_or_default();
+            let signature = signature(primitive.doc());
             let message = format!("`{primitive}` doesn't say {}", if *names == ["player"] { "who" } else { "where" });
             self.lower
                 .report(Problem::new(Code::WrongArguments, span, message, "").help(format!("write `do {signature}`")));

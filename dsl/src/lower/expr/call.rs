@@ -237,7 +237,7 @@ impl<'w> Lower<'_, 'w> {
             let problem =
                 Problem::new(Code::WrongArguments, span, format!("`{callee}` needs a value for `{name}`"), "");
             self.report(match signature {
-                Some(doc) => problem.help(format!("`{}`", doc.split(": ").next().unwrap_or(doc))),
+                Some(doc) => problem.help(format!("`{}`", crate::problem::signature(doc))),
                 None => problem,
             });
             return None;

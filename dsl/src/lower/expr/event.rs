@@ -6,7 +6,7 @@ use super::super::{Lower, Stage};
 use crate::ast::{EventExpr, Expr};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::vocabulary::{EventField, EventKind, Qualifier};
+use setpiece_scenario::vocabulary::{EventField, EventKind, Landmark, Qualifier};
 use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
 
 /// A loop over the matching events that is being written.
@@ -78,7 +78,10 @@ impl<'w> Lower<'_, 'w> {
                     "nothing has happened yet",
                     "this is computed before the match",
                 )
-                .help("events belong to rewards and endings"),
+                .help(match Landmark::from_name(name) {
+                    Some(_) if event.span == event.name.span => format!("a place belongs to a team: `left.{name}`"),
+                    _ => "events belong to rewards and endings".to_owned(),
+                }),
             );
             return None;
         }

@@ -7,6 +7,7 @@ use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Field, Owner, PROPERTIES, PitchRegion, Property, Team, Type};
+use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{Reg, UnaryOp, When};
 
 /// Names of the language that are no properties.
@@ -48,7 +49,10 @@ impl<'w> Lower<'_, 'w> {
         if let Some(value) = self.builtin(name, span) {
             return value;
         }
-        let candidates = self.names_in_sight(span);
+        let mut candidates = self.names_in_sight(span);
+        if matches!(self.stage, Stage::Reward | Stage::Ending) {
+            candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
+        }
         self.fail(
             Problem::new(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known")
                 .did_you_mean(name, candidates.iter().map(String::as_str)),

@@ -4,7 +4,7 @@ use super::super::value::{Binding, Repr, SetValue, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::{Code, Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Over, Reg, UnaryOp};
 
@@ -110,13 +110,13 @@ impl<'w> Lower<'_, 'w> {
         let [arg] = args else {
             return self.fail(
                 Problem::new(Code::WrongArguments, span, format!("`{name}` goes through one set of players"), "")
-                    .help(format!("`{}`", function.doc().split(": ").next().unwrap_or(name))),
+                    .help(format!("`{}`", signature(function.doc()))),
             );
         };
         let Some(parts) = take_apart(function, arg) else {
             return self.fail(
                 Problem::new(Code::WrongArguments, arg.span, format!("`{name}` doesn't say which players"), "")
-                    .help(format!("`{}`", function.doc().split(": ").next().unwrap_or(name))),
+                    .help(format!("`{}`", signature(function.doc()))),
             );
         };
         if self.stage == Stage::Start {

@@ -43,6 +43,9 @@ fn no_event(name: &str, span: crate::source::Span) -> Problem {
         return Problem::new(Code::UnknownEvent, span, format!("`{name}` is a state, no event"), "lasts")
             .help(format!("write `when {name}`"));
     }
-    Problem::new(Code::UnknownEvent, span, format!("no event is called `{name}`"), "not known")
-        .did_you_mean(name, names())
+    let problem = Problem::new(Code::UnknownEvent, span, format!("no event is called `{name}`"), "not known");
+    match problem.clone().did_you_mean(name, names()) {
+        near if near.help.is_some() => near,
+        _ => problem.help(format!("the events are `{}`", names().collect::<Vec<_>>().join("`, `"))),
+    }
 }

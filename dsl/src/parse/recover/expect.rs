@@ -40,9 +40,7 @@ impl Reader<'_> {
     fn habit(&self, wrong: &mut Wrong<'_>) -> Option<Finding> {
         let words: Vec<&str> = wrong.tokens.iter().map(|(_, word)| *word).collect();
         let met = wrong.token_at();
-        let (at, found) = [met, wrong.first]
-            .into_iter()
-            .find_map(|at| Some((at, habit::of_text(wrong.context.place(), &words, at, wrong.first)?)))?;
+        let (at, found) = habit::of_text(wrong.context.place(), &words, met, wrong.first)?;
         if let Some((from, word)) = wrong.tokens.get(at) {
             if at != met {
                 wrong.positives.clear();
@@ -54,7 +52,8 @@ impl Reader<'_> {
             wrong.at = *from;
         }
         let starts = wrong.at == wrong.junk.start;
-        let misplaced = self.misplaced(wrong.context, self.word(wrong.at), wrong.at).filter(|_| starts);
+        let anew = starts && found.begins == Begins::Anew;
+        let misplaced = self.misplaced(wrong.context, self.word(wrong.at), wrong.at).filter(|_| anew);
         let problem = misplaced.unwrap_or_else(|| self.expected(wrong)).help(found.help);
         let (fresh, goes_on) = (found.begins == Begins::Anew, found.begins == Begins::Before);
         Some(Finding { problem, fresh, goes_on })
@@ -63,23 +62,29 @@ impl Reader<'_> {
     /// That something else was expected.
     fn expected(&self, wrong: &Wrong<'_>) -> Problem {
         let at = wrong.at;
-        let word = self.word(at);
+        let whole = wrong.tokens.get(wrong.token_at()).filter(|(from, _)| *from == at);
+        let word = whole.map_or_else(|| self.word(at), |(_, word)| *word);
         let starts = at == wrong.junk.start && !wrong.inside;
         let wanted = if starts && !(wrong.before.is_some() && wrong.positives.is_empty()) && !is_name(&wrong.positives) {
             noun(wrong.context.statement()).to_owned()
         } else {
-            list(wrong.context, &wrong.positives)
+            // What could stand behind any statement is no news.
+            let any = |rule: &&Rule| starts && (**rule == Rule::comma || **rule == wrong.context.statement());
+            let wanted: Vec<Rule> = wrong.positives.iter().filter(|rule| !any(rule)).copied().collect();
+            list(wrong.context, &wanted)
         };
         if let Some((from, last)) = wrong.tokens.last()
             && at >= wrong.junk.end
             && (word.is_empty() || text(self.text, *from..at).contains('\n'))
         {
+            let wanted = wanted.split(", for example").next().unwrap_or(&wanted);
             let message = format!("expected {wanted} behind `{last}`");
             return Problem::new(Code::Syntax, self.between(*from, from + last.len()), message, "something is missing");
         }
         let found = if word.is_empty() { "the end of the file".to_owned() } else { format!("`{word}`") };
         let label = if starts { "no statement begins like this" } else { "this can't stand here" };
-        Problem::new(Code::Syntax, self.at(at), format!("expected {wanted}, found {found}"), label)
+        let span = self.between(at, at + word.len());
+        Problem::new(Code::Syntax, span, format!("expected {wanted}, found {found}"), label)
     }
 
     /// The word or sign at an offset.
@@ -241,7 +246,7 @@ fn list(context: Context, positives: &[Rule]) -> String {
         _ => {}
     }
     // Things before words before brackets; examples only when there is room.
-    nouns.sort_by_key(|noun| noun.starts_with('`'));
+    nouns.sort_by_key(|noun| (noun.starts_with('`'), !noun.contains("`, `")));
     nouns.truncate(4);
     let plain: Vec<&str> = nouns.iter().map(|noun| noun.split(", for example").next().unwrap_or(noun)).collect();
     match plain.split_last() {

@@ -1,5 +1,6 @@
 //! The tokens of a part that can't be read, and the names that it would declare.
 
+use super::expect::is_reserved;
 use super::text;
 use crate::parse::reader::{Reader, token};
 use std::ops::Range;
@@ -44,7 +45,7 @@ impl<'t> Reader<'t> {
             let next = tokens.get(index + 1).map_or("", |(_, next)| *next);
             let last = index.checked_sub(1).and_then(|last| tokens.get(last)).map_or("", |(_, last)| *last);
             in_list = if in_list { *word != ")" } else { last == "let" && *word == "(" };
-            let declared = in_list || matches!(next, ":" | "=") || index == 1 || DECLARING.contains(&last);
+            let declared = in_list || matches!(next, ":" | "=") || (index == 1 && !is_reserved(last)) || DECLARING.contains(&last);
             if declared && word.starts_with(|char: char| char.is_alphanumeric() || char == '_') {
                 self.lost.insert((*word).to_owned());
             }

@@ -10,7 +10,7 @@ impl Reader<'_> {
         let text = self.text;
         let before = text.get(..at)?;
         let word = token(text.get(at..)?);
-        if !word.starts_with(|char: char| char.is_alphabetic()) {
+        if !word.starts_with(|char: char| char.is_alphabetic() || char == '_') {
             return None;
         }
         let line = before.get(before.rfind('\n').map_or(0, |newline| newline + 1)..)?;
@@ -24,6 +24,14 @@ impl Reader<'_> {
             return None;
         }
         let touches = digits.len() == line.len();
+        if touches && word.starts_with('_') {
+            let span = self.between(at - number.len(), at + word.len());
+            let all = format!("{number}{}", word.replace('_', ""));
+            return Some(
+                Problem::new(Code::Syntax, span, format!("`{number}{word}` is no number"), "digits alone")
+                    .help(format!("write `{all}`")),
+            );
+        }
         if touches {
             let start = at - number.len();
             let word = if word == "km" && text.get(at..)?.starts_with("km/") { "km/" } else { word };

@@ -147,5 +147,6 @@ fn begins_statement(line: &[u8]) -> bool {
     let word = line.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_').next().unwrap_or_default();
     let Ok(word) = str::from_utf8(word) else { return false };
     let keyword = Context::ALL.iter().any(|context| context.keywords().contains(&word));
-    line.is_empty() || line.starts_with(b"}") || keyword || Role::from_name(word).is_some()
+    let placed = line.get(word.len()..).is_some_and(|rest| rest.starts_with(b" at ") || rest.starts_with(b" in "));
+    line.is_empty() || line.starts_with(b"}") || keyword || placed || Role::from_name(word).is_some()
 }

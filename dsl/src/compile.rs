@@ -344,12 +344,13 @@ fn load_scripts(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dyn S
         let from = path.span.file;
         let from_name = library.sources.get(from).map_or(String::new(), |source| source.name.clone());
         let (sources, inputs) = (&mut library.sources, &mut library.inputs);
-        scripts.load(from, &from_name, &path.node, loader, &mut |source: Source| {
+        let awaited = scripts.load(from, &from_name, &path.node, loader, &mut |source: Source| {
             if !inputs.contains(&source.name) {
                 inputs.push(source.name.clone());
             }
             sources.add(source)
         });
+        library.inputs.extend(awaited);
     }
 }
 

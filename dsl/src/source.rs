@@ -55,6 +55,8 @@ pub struct LoadError {
     pub message: String,
     /// Names that may have been meant.
     pub similar: Vec<String>,
+    /// The name it would have, were it there: what a watcher waits for.
+    pub awaited: Option<String>,
 }
 
 /// Every file of a compilation, in the order they were loaded.

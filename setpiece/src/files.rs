@@ -74,6 +74,7 @@ impl SourceLoader for FileLoader {
             return stdlib::file(inner).ok_or_else(|| LoadError {
                 message: format!("the standard library has no `{inner}`"),
                 similar: stdlib::paths().map(|name| format!("std/{name}")).collect(),
+                awaited: None,
             });
         }
         let full = beside(from, path);
@@ -81,7 +82,8 @@ impl SourceLoader for FileLoader {
             Ok(text) => Ok(Source { name: full.to_string_lossy().into_owned(), text: text.into() }),
             Err(error) => {
                 let similar = similar_file(&full).into_iter().collect();
-                Err(LoadError { message: error.to_string(), similar })
+                let awaited = Some(full.to_string_lossy().into_owned());
+                Err(LoadError { message: error.to_string(), similar, awaited })
             }
         }
     }

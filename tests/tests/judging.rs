@@ -25,7 +25,7 @@ impl SourceLoader for Library {
         let inner = path.strip_prefix("std/").unwrap_or(path);
         match std::fs::read_to_string(library().join(inner)) {
             Ok(text) => Ok(Source { name: path.to_owned(), text: text.into() }),
-            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new() }),
+            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new(), awaited: None }),
         }
     }
 }

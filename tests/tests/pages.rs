@@ -44,7 +44,7 @@ fn codes(text: &str) -> (BTreeSet<String>, bool) {
         Err(Error::Compile(failure)) => failure.problems,
         Err(other) => panic!("{other}\n{text}"),
     };
-    problems.extend(setpiece::check(path.to_str().unwrap()).unwrap().0);
+    problems.extend(setpiece::check(path.to_str().unwrap()).unwrap().problems);
     let failed = problems.iter().any(|problem| problem.severity() == Severity::Error);
     (problems.iter().map(|problem| problem.code.to_string()).collect(), failed)
 }

@@ -37,7 +37,7 @@ impl SourceLoader for CaseLoader {
         }
         let names: Vec<String> = self.files.iter().map(|(name, _)| name.clone()).collect();
         let near = setpiece_dsl::problem::nearest(path, names.iter().map(String::as_str)).map(str::to_owned);
-        Err(LoadError { message: format!("no file `{path}`"), similar: near.into_iter().collect() })
+        Err(LoadError { message: format!("no file `{path}`"), similar: near.into_iter().collect(), awaited: None })
     }
 
     fn scenarios(&self) -> Vec<(String, String)> {

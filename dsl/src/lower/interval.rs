@@ -25,13 +25,12 @@ fn bounded(code: &Builder, reg: Reg, params: &[Option<Interval>], depth: u32) ->
             let (a, b) = (of(*a)?, of(*b)?);
             (a.0.min(b.0), a.1.max(b.1))
         }
-        Instr::Random {
-            from:
-                Distribution::Uniform(low, high)
-                | Distribution::Integer(low, high)
-                | Distribution::TruncatedNormal(_, _, low, high),
-            ..
-        } => (of(*low)?.0, of(*high)?.1),
+        Instr::Random { from, .. } => match &**from {
+            Distribution::Uniform(low, high)
+            | Distribution::Integer(low, high)
+            | Distribution::TruncatedNormal(_, _, low, high) => (of(*low)?.0, of(*high)?.1),
+            Distribution::Normal(..) | Distribution::Weighted(_) => return None,
+        },
         _ => return None,
     };
     (found.0.is_finite() && found.1.is_finite()).then_some(found)

@@ -31,7 +31,7 @@ impl<'a> Scripts<'a> {
         Scripts { loaded: Vec::new(), api, checked: RefCell::default() }
     }
 
-    /// Loads a script that a file names, once.
+    /// Loads a script that a file names, once; says which file it would be where there is none.
     pub(crate) fn load(
         &mut self,
         from: FileId,
@@ -39,12 +39,14 @@ impl<'a> Scripts<'a> {
         path: &str,
         loader: &dyn SourceLoader,
         add: &mut dyn FnMut(Source) -> FileId,
-    ) {
+    ) -> Option<String> {
         if self.loaded.iter().any(|script| script.from == from && script.path == path) {
-            return;
+            return None;
         }
         let found = loader.load(path, from_name).map(add);
+        let awaited = found.as_ref().err().and_then(|error| error.awaited.clone());
         self.loaded.push(LoadedScript { from, path: path.to_owned(), found });
+        awaited
     }
 }
 

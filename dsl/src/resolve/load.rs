@@ -174,6 +174,7 @@ impl Loading<'_> {
             let loaded = match self.loader.load(&path.node, &from) {
                 Ok(loaded) => loaded,
                 Err(error) => {
+                    self.library.inputs.extend(error.awaited);
                     let problem = Problem::new(Code::FileMissing, path.span, error.message, "imported here");
                     self.problems.push(match error.similar.first() {
                         Some(similar) => problem.help(format!("did you mean `{similar}`?")),

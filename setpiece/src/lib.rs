@@ -17,7 +17,7 @@ pub mod load;
 pub mod picture;
 pub mod probe;
 pub mod run;
-mod script_api;
+pub mod script_api;
 mod stdlib;
 #[cfg(feature = "watch")]
 pub mod watch;

@@ -5,7 +5,8 @@ use setpiece_dsl::source::Source;
 use setpiece_engine::judge::{ScriptFaultKind, check_script};
 
 /// The engine's answer to [`ScriptApi`].
-pub(crate) struct EngineScripts;
+#[derive(Clone, Copy, Debug)]
+pub struct EngineScripts;
 
 impl ScriptApi for EngineScripts {
     fn check(&self, script: &Source, hook: &str) -> Vec<ScriptProblem> {

@@ -35,6 +35,7 @@ impl<'w> Lower<'_, 'w> {
                         F::Prev
                         | F::Delta
                         | F::Closing
+                        | F::Potential
                         | F::Held
                         | F::Ever
                         | F::Always
@@ -300,6 +301,7 @@ fn signature(function: Function) -> (&'static [&'static str], usize) {
         F::Pressed => (&["p", "within"], 2),
         F::OffsideLine => (&["team"], 1),
         F::Prev | F::Delta => (&["e"], 1),
+        F::Potential => (&["e", "gamma"], 2),
         F::Held => (&["c", "for"], 2),
         F::Ever | F::Always => (&["c"], 1),
         F::Since => (&["E"], 1),

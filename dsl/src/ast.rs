@@ -83,6 +83,20 @@ pub enum ItemKind {
     Broken,
 }
 
+impl ItemKind {
+    /// The parameters in its brackets.
+    pub fn params(&self) -> &[ParamDecl] {
+        match self {
+            ItemKind::Scenario(item) => &item.params,
+            ItemKind::Reward(item) => &item.params,
+            ItemKind::Formation(item) => &item.params,
+            ItemKind::Fn(item) | ItemKind::Region(item) | ItemKind::Ending(item) => &item.params,
+            ItemKind::Behavior(item) => &item.params,
+            ItemKind::Import { .. } | ItemKind::Const(_) | ItemKind::Reserved { .. } | ItemKind::Broken => &[],
+        }
+    }
+}
+
 /// A scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScenarioItem {

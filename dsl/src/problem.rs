@@ -39,6 +39,18 @@ impl Problem {
         Problem { code, message: message.into(), labels: vec![Label { span, text: label.into() }], help: None }
     }
 
+    /// Something that may stand once was given again.
+    pub fn given_twice(what: &str, again: Span, first: Span) -> Problem {
+        Problem::new(Code::DuplicateOption, again, format!("{what} is given twice"), "given again here")
+            .label(first, "first given here")
+    }
+
+    /// A name that means one thing was declared again; `what` is the name in backticks, with its kind before it.
+    pub fn declared_twice(what: &str, again: Span, first: Span) -> Problem {
+        Problem::new(Code::DuplicateName, again, format!("{what} is declared twice"), "declared again here")
+            .label(first, "first declared here")
+    }
+
     /// Adds a further label.
     #[must_use]
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Problem {

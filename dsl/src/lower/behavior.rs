@@ -10,13 +10,12 @@ mod statement;
 use super::builder::Layout;
 use super::value::{Binding, Frame, Scope, Value};
 use super::{Lower, Stage, World, param};
-use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, ItemKind, ParamDecl, ScenarioItem, ScriptRef, Span};
+use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use crate::source::FileId;
 use setpiece_scenario::vocabulary::Primitive;
 use setpiece_scenario::{Act, Ai, Behavior, Distribution, Do, Node, PlayerSlot, Reg, Watch};
-use std::collections::BTreeSet;
 
 /// Most nodes that calls of behaviours may add up to.
 const NODES_MAX: usize = 10_000;
@@ -110,16 +109,10 @@ fn check_unused(world: &World<'_>) {
     }
 }
 
-/// Warns of behaviours of the root that nothing uses, and reports those that hide a primitive.
-pub(crate) fn report_names<'a>(
-    items: impl Iterator<Item = &'a ItemKind>,
-    scenarios: &[(&ScenarioItem, &str)],
-    used: &BTreeSet<Span>,
-    problems: &mut Vec<Problem>,
-) {
-    let concrete = scenarios.iter().any(|(item, _)| !item.is_abstract);
+/// Reports behaviours that hide a primitive.
+pub(crate) fn report_names(items: &[Item], problems: &mut Vec<Problem>) {
     for item in items {
-        let ItemKind::Behavior(BehaviorItem { name, .. }) = item else { continue };
+        let ItemKind::Behavior(BehaviorItem { name, .. }) = &item.kind else { continue };
         if Primitive::from_name(&name.node).is_some() {
             problems.push(
                 Problem::new(
@@ -129,16 +122,6 @@ pub(crate) fn report_names<'a>(
                     "can't be declared again",
                 )
                 .help(format!("choose another name, for example `my_{}`", name.node)),
-            );
-        } else if concrete && !used.contains(&name.span) && !name.node.starts_with('_') {
-            problems.push(
-                Problem::new(
-                    Code::UnusedName,
-                    name.span,
-                    format!("behavior `{}` is never used", name.node),
-                    "not read",
-                )
-                .help(format!("give it to a player, `ai: {}`, leave it out, or begin its name with `_`", name.node)),
             );
         }
     }
@@ -219,6 +202,7 @@ impl<'c, 'w> Writer<'c, 'w> {
                 let read = self.lower.reg(&value);
                 let world = self.lower.in_frame(Frame::World, |lower| lower.turned_angle(read));
                 let own = self.lower.in_frame(Frame::Own, |lower| lower.turned_angle(world));
+                self.lower.world.mark_used(decl.name.span);
                 scope.bind(&decl.name.node, Binding::Value(Value::one(Ty::ANGLE, own)));
             }
         }

@@ -202,6 +202,7 @@ impl<'w> Writer<'_, 'w> {
         for decl in params {
             let known = self.lower.scope.find(&decl.name.node).cloned();
             let Some(Binding::Expr { now: Some(value), .. } | Binding::Value(value)) = known else { continue };
+            self.lower.world.mark_used(decl.name.span);
             if value.is_error() {
                 continue;
             }

@@ -84,6 +84,21 @@ pub enum ItemKind {
 }
 
 impl ItemKind {
+    /// What it is in a sentence: "a reward".
+    pub fn noun(&self) -> &'static str {
+        match self {
+            ItemKind::Scenario(_) => "a scenario",
+            ItemKind::Reward(_) => "a reward",
+            ItemKind::Formation(_) => "a formation",
+            ItemKind::Const(_) => "a constant",
+            ItemKind::Fn(_) => "a function",
+            ItemKind::Region(_) => "a region",
+            ItemKind::Ending(_) => "an ending",
+            ItemKind::Behavior(_) => "a behavior",
+            ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => "something else",
+        }
+    }
+
     /// The parameters in its brackets.
     pub fn params(&self) -> &[ParamDecl] {
         match self {

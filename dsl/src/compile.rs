@@ -237,6 +237,7 @@ fn compile_one<'a>(
         lets: Vec::new(),
         mirror,
         roster: Vec::new(),
+        whole_roster: false,
         agents: None,
         scripts: RefCell::default(),
         scripts_loaded: scripts,
@@ -244,7 +245,9 @@ fn compile_one<'a>(
         used: RefCell::new(BTreeSet::new()),
     };
     world.params = param::lower_params(&world);
+    let told = world.problems.borrow().len();
     world.roster = roster::lower_roster(&world);
+    world.whole_roster = world.problems.borrow().len() == told;
     let start::LoweredStart { start, mut players, agents, side, lets, behaviors } = start::lower_start(&world);
     world.lets = lets;
     world.agents = side;
@@ -286,9 +289,21 @@ fn compile_one<'a>(
         observation,
         behaviors,
     };
-    problems.extend(world.problems.take());
+    problems.extend(world.problems.take().into_iter().map(|problem| told_by_child(&world, problem)));
     unused.use_all(world.used.take());
     (scenario, origins)
+}
+
+/// Points from a problem in what is inherited to what the scenario itself declares and is named there.
+fn told_by_child(world: &World<'_>, problem: Problem) -> Problem {
+    let Some(span) = place(&problem).filter(|span| world.flat.is_inherited(*span)) else { return problem };
+    let text = world.library.sources.text(span);
+    let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let own = words.into_iter().filter_map(|word| world.declaration(word)).find(|at| world.flat.is_own(*at));
+    match own {
+        Some(at) => problem.label(at, "declared here"),
+        None => problem,
+    }
 }
 
 /// The parameters that a match may still bind.

@@ -53,6 +53,8 @@ pub(crate) struct World<'w> {
     pub(crate) mirror: Mirror,
     /// Its players.
     pub(crate) roster: Vec<Rostered<'w>>,
+    /// Whether the list of players was read without a mistake.
+    pub(crate) whole_roster: bool,
     /// The one team that has agents.
     pub(crate) agents: Option<Team>,
     /// Scripts that are embedded so far.
@@ -361,8 +363,9 @@ impl<'c, 'w> Lower<'c, 'w> {
         interval::interval(&self.code, reg, &self.world.ranges())
     }
 
-    /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw.
-    pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) {
+    /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`
+    /// after a report.
+    pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) -> bool {
         match self.interval(reg) {
             Some((low, high)) if low >= range.0 && high <= range.1 => {}
             Some(_) => {
@@ -371,6 +374,7 @@ impl<'c, 'w> Lower<'c, 'w> {
                     Problem::new(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
                         .help(format!("write a value in {shown}")),
                 );
+                return false;
             }
             None => {
                 let (low, high) = (self.code.constant(range.0), self.code.constant(range.1));
@@ -380,6 +384,7 @@ impl<'c, 'w> Lower<'c, 'w> {
                 self.imply(inside, format!("{what} is {shown}"));
             }
         }
+        true
     }
 
     /// Reports a velocity above the greatest speed, m/s; what can't be told now becomes a requirement of the draw.

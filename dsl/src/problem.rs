@@ -222,8 +222,9 @@ impl std::fmt::Display for Code {
 
 /// Checks scripts against the engine's hook API, which the compiler does not know.
 pub trait ScriptApi {
-    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done` or `act`).
-    fn check(&self, script: &Source, hook: &str) -> Vec<ScriptProblem>;
+    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done` or `act`) and finds
+    /// these names in `ctx.params`.
+    fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem>;
 }
 
 /// A fault of a script.

@@ -68,7 +68,7 @@ impl Unused {
                         if let ScenarioStmtKind::Reward(reward) = &stmt.kind
                             && let RewardUseKind::Inline { body, .. } = &reward.what
                         {
-                            self.statements(body, problems);
+                            self.statements(body, true, problems);
                         }
                     }
                     continue;
@@ -87,23 +87,23 @@ impl Unused {
             self.check("parameter", &param.name, "use it", problems);
         }
         if let ItemKind::Reward(RewardItem { body, .. }) = item {
-            self.statements(body, problems);
+            self.statements(body, true, problems);
         }
     }
 
-    fn statements(&self, body: &[RewardStmt], problems: &mut Vec<Problem>) {
+    fn statements(&self, body: &[RewardStmt], is_top: bool, problems: &mut Vec<Problem>) {
         for statement in body {
             match &statement.kind {
-                RewardStmtKind::State(binding) => {
+                RewardStmtKind::State(binding) if is_top => {
                     self.check("state", &binding.name, "use it", problems);
                 }
                 RewardStmtKind::Let(binding) => {
                     self.check("`let`", &binding.name, "use it", problems);
                 }
-                RewardStmtKind::On { body, .. } => self.statements(body, problems),
+                RewardStmtKind::On { body, .. } => self.statements(body, false, problems),
                 RewardStmtKind::When { then, otherwise, .. } => {
-                    self.statements(then, problems);
-                    self.statements(otherwise.as_deref().unwrap_or_default(), problems);
+                    self.statements(then, false, problems);
+                    self.statements(otherwise.as_deref().unwrap_or_default(), false, problems);
                 }
                 _ => {}
             }
@@ -123,12 +123,19 @@ impl Unused {
     }
 }
 
-/// Beside errors, what is named a second time is taken as used: the part that uses it may be the one that is wrong.
+/// Beside errors, what is named a second time is taken as used, as is what an error says was meant: the part that uses
+/// it may be the one that is wrong.
 pub(super) fn retain(problems: &mut Vec<Problem>, sources: &Sources) {
     let word = |c: char| c.is_alphanumeric() || c == '_';
+    let times = |text: &str, name: &str| text.split(|c| !word(c)).filter(|found| *found == name).count();
+    let meant: Vec<String> = problems
+        .iter()
+        .filter(|problem| problem.code != Code::UnusedName)
+        .filter_map(|problem| problem.help.clone())
+        .collect();
     problems.retain(|problem| {
         let Some(label) = problem.labels.first().filter(|_| problem.code == Code::UnusedName) else { return true };
         let (name, file) = (sources.text(label.span), sources.get(label.span.file));
-        file.is_none_or(|file| file.text.split(|c| !word(c)).filter(|found| *found == name).count() < 2)
+        file.is_none_or(|file| times(&file.text, name) < 2) && meant.iter().all(|help| times(help, name) == 0)
     });
 }

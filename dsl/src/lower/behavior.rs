@@ -183,29 +183,11 @@ impl<'c, 'w> Writer<'c, 'w> {
             return;
         }
         let mut scope = Scope::new(false, Frame::Own);
-        let in_world = self.lower.scope.frame == Frame::World;
         self.drawing(|writer| {
             writer.lower.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
         });
-        if in_world {
-            self.turn_angles(&item.params, &mut scope);
-        }
+        self.lower.turn_angles(&item.params, &mut scope);
         self.body(item, scope);
-    }
-
-    /// Angles that were read in the world's frame are read in the own one within the behaviour.
-    fn turn_angles(&mut self, params: &'w [ParamDecl], scope: &mut Scope<'w>) {
-        for decl in params {
-            if let Some(Binding::Expr { now: Some(value), .. }) = scope.find(&decl.name.node).cloned()
-                && value.ty == Ty::ANGLE
-            {
-                let read = self.lower.reg(&value);
-                let world = self.lower.in_frame(Frame::World, |lower| lower.turned_angle(read));
-                let own = self.lower.in_frame(Frame::Own, |lower| lower.turned_angle(world));
-                self.lower.world.mark_used(decl.name.span);
-                scope.bind(&decl.name.node, Binding::Value(Value::one(Ty::ANGLE, own)));
-            }
-        }
     }
 
     fn body(&mut self, item: &'w BehaviorItem, scope: Scope<'w>) {
@@ -245,7 +227,8 @@ impl<'c, 'w> Writer<'c, 'w> {
     }
 
     fn script(&mut self, script: &'w ScriptRef, args: Vec<setpiece_scenario::ScriptArg>) {
-        if let Some(script) = super::script::embed(self.lower.world, script, "act") {
+        let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
+        if let Some(script) = super::script::embed(self.lower.world, script, "act", &own) {
             let act = Act::Script { script, args };
             self.nodes.push(Node::Do(Do { act, sprint: false, until: None, seconds: None }));
         }

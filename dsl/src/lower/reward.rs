@@ -35,6 +35,9 @@ impl<'w> Written<'w> {
         for problem in found {
             world.report(problem);
         }
+        for (parent, _) in chain.iter().filter(|(link, _)| !std::ptr::eq(*link, item)) {
+            world.mark_used(parent.name.span);
+        }
         let arguments = |link: &'w RewardItem, reference: Option<&'w Ref>| match reference {
             _ if std::ptr::eq(link, item) => args,
             Some(reference) => reference.args.as_slice(),
@@ -68,7 +71,7 @@ impl<'w> Written<'w> {
 pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, span: Span) -> Option<Reward> {
     match &used.what {
         RewardUseKind::Script(script) => {
-            let index = super::script::embed(world, script, "reward")?;
+            let index = super::script::embed(world, script, "reward", &[])?;
             let weight = match &used.weight {
                 Some(weight) => constant_weight(world, weight)?,
                 None => 1.0,

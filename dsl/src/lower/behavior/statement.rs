@@ -186,7 +186,7 @@ impl<'w> Writer<'_, 'w> {
     /// A counter of passes set to 0, and how many there are to be.
     fn count(&mut self, times: &'w Expr) -> (u32, Reg) {
         let wanted = self.drawing(|writer| writer.lower.want_reg(times, Ty::Int));
-        self.lower.check_range(wanted, (0.0, 1.0e9), "the number of passes", times.span, "`0` or more");
+        self.lower.check_range(wanted, (0.0, 1.0e9), "the number of passes", times.span, "`0..1000000000`");
         let (passed, limit) = (self.lower.code.new_cell(), self.lower.code.new_cell());
         let zero = self.lower.code.constant(0.0);
         self.nodes.push(Node::Let(vec![(passed, zero), (limit, wanted)]));

@@ -133,8 +133,8 @@ impl<'w> Lower<'_, 'w> {
             return Some(self.fail(problem));
         }
         self.world.mark_used(found.name.span);
-        let needs_call =
-            |what: &str| Problem::new(Code::WrongType, span, format!("`{name}` is a {what}, not a value"), "");
+        let noun = found.item.kind.noun();
+        let no_value = || Problem::new(Code::WrongType, span, format!("`{name}` is {noun}, not a value"), "");
         Some(match &found.item.kind {
             ItemKind::Const(binding) => self.constant_item(binding, span),
             ItemKind::Region(region) if region.params.is_empty() => {
@@ -146,16 +146,12 @@ impl<'w> Lower<'_, 'w> {
             }
             ItemKind::Formation(formation) => formation_value(formation),
             ItemKind::Fn(_) | ItemKind::Region(_) => {
-                self.fail(needs_call("function").help(format!("call it: `{name}(…)`")))
+                self.fail(no_value().help(format!("call it: `{name}(…)`")))
             }
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
-            ItemKind::Scenario(_) => self.fail(needs_call("scenario")),
-            ItemKind::Reward(_) => self.fail(needs_call("reward")),
-            ItemKind::Behavior(_) => {
-                self.fail(needs_call("behavior").help(format!("give it to a player: `ai: {name}`")))
-            }
-            _ => self.fail(needs_call("definition")),
+            ItemKind::Behavior(_) => self.fail(no_value().help(format!("give it to a player: `ai: {name}`"))),
+            _ => self.fail(no_value()),
         })
     }
 

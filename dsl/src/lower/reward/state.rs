@@ -37,7 +37,7 @@ fn declare<'w>(world: &World<'_>, name: &'w Ident, known: &mut Vec<&'w Ident>) {
 }
 
 fn check_lets<'w>(world: &World<'_>, statements: &[&'w RewardStmt], known: &mut Vec<&'w Ident>) {
-    let mut inner = |body: &'w [RewardStmt], known: &mut Vec<&'w Ident>| {
+    let inner = |body: &'w [RewardStmt], known: &mut Vec<&'w Ident>| {
         let outer = known.len();
         check_lets(world, &body.iter().collect::<Vec<_>>(), known);
         known.truncate(outer);

@@ -160,7 +160,7 @@ pub(crate) struct Lower<'c, 'w> {
     /// Places and `let`s, in the start program.
     pub(crate) start: StartState<'w>,
     /// The rewards whose states a record reads, each with their scope.
-    pub(crate) rewards: Vec<(String, Scope<'w>)>,
+    pub(crate) rewards: Vec<(String, Option<Scope<'w>>)>,
     /// Whether a record must be kept for each agent, whatever it reads.
     pub(crate) per_agent: bool,
     /// The draws of the statement of a behaviour that is being written; `None` where nothing may be drawn.

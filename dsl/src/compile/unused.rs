@@ -1,6 +1,8 @@
 //! Warns of what the root declares and nothing uses.
 
-use crate::ast::{Ident, Item, ItemKind, RewardItem, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind, Span};
+use crate::ast::{
+    Ident, Item, ItemKind, RewardItem, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind, Span,
+};
 use crate::lower::World;
 use crate::problem::{Code, Problem};
 use crate::source::{FileId, Sources};

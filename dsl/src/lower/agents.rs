@@ -118,8 +118,7 @@ fn listed<'w>(
     let text = lower.world.text(name.span);
     let index = players.iter().position(|player| player.name.is_some_and(|name| name.node == text));
     let Some(index) = index else {
-        let names: Vec<&str> =
-            players.iter().filter_map(|player| player.name.map(|name| name.node.as_str())).collect();
+        let names: Vec<&str> = players.iter().filter_map(|player| player.name.map(|name| name.node.as_str())).collect();
         let message = format!("no player of the {team} team is called `{text}`");
         let problem = Problem::new(Code::BadAgents, name.span, message, "not known");
         lower.report(if crate::problem::nearest(&text, names.iter().copied()).is_some() {
@@ -162,7 +161,8 @@ fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Sp
     lower.report(match at {
         None => problem(name).help("without `agents { … }` one player of the left team is controlled"),
         Some(at) if world.flat.is_inherited(at) => {
-            let cure = format!("place them, `team {team} {{ CM at (0, 0) }}`, or ask for fewer: `agents {{ {team}: … }}`");
+            let cure =
+                format!("place them, `team {team} {{ CM at (0, 0) }}`, or ask for fewer: `agents {{ {team}: … }}`");
             problem(name).label(at, "asked for here").help(cure)
         }
         Some(at) if controllable == 0 => {

@@ -136,8 +136,9 @@ fn constant_weight<'w>(world: &World<'w>, weight: &'w Expr) -> Option<f64> {
     let found = lower.code.constant_of(reg);
     if found.is_none() && !lower.code.is_unknown(reg) {
         world.report(
-            Problem::new(Code::NotConstant, weight.span, "the weight of a script must be a number", "")
-                .help("multiply inside the script, which reads parameters as `ctx.params.NAME`, or write a plain number"),
+            Problem::new(Code::NotConstant, weight.span, "the weight of a script must be a number", "").help(
+                "multiply inside the script, which reads parameters as `ctx.params.NAME`, or write a plain number",
+            ),
         );
     }
     found
@@ -189,9 +190,8 @@ fn lower_written<'w>(
     // The first cells are the states', as in the program that sets them.
     let cells: Vec<Vec<u32>> =
         firsts.iter().map(|first| first.regs().iter().map(|_| lower.code.new_cell()).collect()).collect();
-    let weight = weight.map(|weight| {
-        lower.within(Scope::new(true, Frame::World), |lower| lower.want_reg(weight, Ty::Number))
-    });
+    let weight =
+        weight.map(|weight| lower.within(Scope::new(true, Frame::World), |lower| lower.want_reg(weight, Ty::Number)));
     lower.scope = written.bind(&mut lower);
     for ((state, first), cells) in states.iter().zip(&firsts).zip(cells) {
         let before = cells.iter().map(|&cell| lower.code.cell_before(cell)).collect();

@@ -3,6 +3,8 @@
 //! Root first. A child's `ball`, `limit`, player list, and whatever bears the same name replace the parent's; fields
 //! merge key by key; unnamed endings, requirements and new rewards are added; `remove` acts on the parents' result.
 
+mod remove;
+
 use super::load::{Library, distinct_params};
 use super::parts::chain;
 use crate::ast::{
@@ -489,51 +491,6 @@ impl<'a> Adding<'a, '_> {
             None => self.flat.ends.push(ending),
         }
     }
-
-    /// `remove` acts on the parents' result, wherever it stands in the child.
-    fn removals(&mut self, body: &'a [ScenarioStmt]) {
-        for stmt in body {
-            let ScenarioStmtKind::Remove { what, name } = &stmt.kind else { continue };
-            let removed = self.remove(&what.node, name.as_ref().map(|name| name.node.as_str()));
-            if removed {
-                continue;
-            }
-            let (span, message) = match name {
-                Some(name) => (name.span, format!("no {} `{}` is inherited", what.node, name.node)),
-                None => (stmt.span, format!("no {} is inherited", what.node)),
-            };
-            let candidates: Vec<&str> = match what.node.as_str() {
-                "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
-                "record" => self.flat.records.iter().map(|known| known.name.node.as_str()).collect(),
-                "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.name.node.as_str())).collect(),
-                _ => Vec::new(),
-            };
-            let problem = Problem::new(Code::NothingToRemove, span, message, "nothing to remove");
-            let found = name.as_ref().map_or("", |name| name.node.as_str());
-            self.problems.push(problem.did_you_mean(found, candidates));
-        }
-    }
-
-    fn remove(&mut self, what: &str, name: Option<&str>) -> bool {
-        let flat = &mut *self.flat;
-        match (what, name) {
-            ("ball", _) => flat.ball.take().is_some(),
-            ("reward", Some(name)) => removed(&mut flat.rewards, |(known, _, _)| known == name),
-            ("record", Some(name)) => removed(&mut flat.records, |known| known.name.node == name),
-            ("end", Some("limit")) => flat.limit.take().is_some(),
-            ("end", Some(name)) => removed(&mut flat.ends, |end| {
-                end.label.map_or_else(
-                    || end.verdict.is_some_and(|verdict| verdict.node == name),
-                    |label| label.name.node == name,
-                )
-            }),
-            ("require", Some(name)) => removed(
-                &mut flat.requires,
-                |stmt| matches!(&stmt.kind, ScenarioStmtKind::Require { label: Some(label), .. } if label.node == name),
-            ),
-            _ => false,
-        }
-    }
 }
 
 /// The name a reward of a scenario is known and reported by.
@@ -558,12 +515,6 @@ pub(crate) fn arg_name(arg: &Arg) -> Option<&str> {
         crate::ast::ExprKind::Name(name) => Some(name),
         _ => None,
     }
-}
-
-fn removed<T>(list: &mut Vec<T>, test: impl Fn(&T) -> bool) -> bool {
-    let before = list.len();
-    list.retain(|entry| !test(entry));
-    list.len() < before
 }
 
 fn replace<'a, T>(list: &mut Vec<&'a T>, new: &'a T, name: impl Fn(&T) -> &str) {

@@ -92,9 +92,8 @@ impl<'w> Lower<'_, 'w> {
             (left, right) if left.is_place() && right.is_place() => {
                 let problem = Problem::new(Code::WrongType, span, "two points can't be added", "");
                 return self.fail(match (&b.kind, right) {
-                    (ExprKind::Name(name), Ty::Point) => problem.help(format!(
-                        "an offset is a vector: declare it as one, `let {name}: vector = (2m, 0m)`"
-                    )),
+                    (ExprKind::Name(name), Ty::Point) => problem
+                        .help(format!("an offset is a vector: declare it as one, `let {name}: vector = (2m, 0m)`")),
                     _ => problem.help("add an offset in brackets: `ball + (2m, 0m)`; or write `between a and b`"),
                 });
             }

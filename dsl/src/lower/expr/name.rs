@@ -145,11 +145,12 @@ impl<'w> Lower<'_, 'w> {
                 value.unwrap_or_else(Value::error)
             }
             ItemKind::Formation(formation) => formation_value(formation),
-            ItemKind::Fn(_) | ItemKind::Region(_) => {
-                self.fail(no_value().help(format!("call it: `{name}(…)`")))
-            }
+            ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value().help(format!("call it: `{name}(…)`"))),
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
+            ItemKind::Reward(_) if matches!(self.stage, Stage::Record | Stage::Ending) => {
+                self.fail(no_value().help(format!("a `record` reads its states: `record r = max of {name}.STATE`")))
+            }
             ItemKind::Behavior(_) => self.fail(no_value().help(format!("give it to a player: `ai: {name}`"))),
             _ => self.fail(no_value()),
         })
@@ -168,6 +169,9 @@ impl<'w> Lower<'_, 'w> {
         });
         (self.stage, self.team) = outer;
         let value = value.unwrap_or_else(Value::error);
+        if value.regs().iter().any(|&reg| self.code.is_unknown(reg)) {
+            return Value::error();
+        }
         if value.regs().iter().any(|&reg| self.code.constant_of(reg).is_none()) {
             return self.fail(
                 Problem::new(
@@ -300,6 +304,9 @@ impl<'w> Lower<'_, 'w> {
             known.extend(world.flat.consts.iter().map(|binding| binding.name.node.clone()));
             known.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
             known.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
+        }
+        if self.stage == Stage::Record {
+            known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
         let values = |kind: &ItemKind| {
             matches!(kind, ItemKind::Const(_) | ItemKind::Region(_) | ItemKind::Formation(_) | ItemKind::Fn(_))

@@ -29,8 +29,13 @@ impl Lower<'_, '_> {
         if is_empty {
             let text = self.world.text(span);
             self.report(
-                Problem::new(Code::Impossible, span, format!("nothing can be drawn in `{text}`"), "its parts don't meet")
-                    .help("`&` is what both regions hold, `|` what either does"),
+                Problem::new(
+                    Code::Impossible,
+                    span,
+                    format!("nothing can be drawn in `{text}`"),
+                    "its parts don't meet",
+                )
+                .help("`&` is what both regions hold, `|` what either does"),
             );
             return None;
         }
@@ -57,7 +62,7 @@ impl Lower<'_, '_> {
             all?.into_iter().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
         };
         let disc = |centre: (Reg, Reg), radius: Reg| {
-            let (x, y, r) = (self.interval(centre.0)?, self.interval(centre.1)?, self.interval(radius)?.1);
+            let (x, y, r) = (self.interval(centre.0)?, self.interval(centre.1)?, self.interval(radius)?.1.max(0.0));
             Some([(x.0 - r, x.1 + r), (y.0 - r, y.1 + r)])
         };
         let both = |a: &RegionValue, b: &RegionValue, of: fn(Interval, Interval) -> Interval| {

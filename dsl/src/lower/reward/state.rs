@@ -2,9 +2,9 @@
 
 use super::Written;
 use super::writer::Writer;
-use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, Span};
+use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, RewardUseKind, Span};
 use crate::check::types::Ty;
-use crate::lower::value::{Binding, Frame, Scope, Value};
+use crate::lower::value::{Binding, Scope, Value};
 use crate::lower::{Lower, Stage, World, param};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{Reg, When};
@@ -104,6 +104,14 @@ impl<'w> Lower<'_, 'w> {
                 scope
             }
         };
+        let Some(scope) = scope else {
+            // Where there is no such reward, that has been told.
+            if matches!(used.what, RewardUseKind::Script(_)) {
+                let message = format!("reward `{name}` is a script, whose memory is its own");
+                self.report(Problem::new(Code::UnknownMember, member.span, message, "can't be read"));
+            }
+            return Some(Value::error());
+        };
         if let Some(state @ Binding::State { .. }) = scope.find(&member.node).cloned() {
             return Some(self.local(&member.node, state, of.to(member.span)));
         }
@@ -120,8 +128,8 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Writes a reward's statements without its payments, outside every loop; gives the scope with its states.
-    fn remember(&mut self, used: &'w RewardUse, span: Span) -> Scope<'w> {
-        let Some((written, _)) = super::written(self.world, used, span) else { return Scope::new(false, Frame::Own) };
+    fn remember(&mut self, used: &'w RewardUse, span: Span) -> Option<Scope<'w>> {
+        let (written, _) = super::written(self.world, used, span)?;
         let loops = self.code.leave_loops();
         let us = match self.world.agents {
             Some(team) => self.code.constant(team.index() as f64),
@@ -169,6 +177,6 @@ impl<'w> Lower<'_, 'w> {
         (self.event, self.when, self.team) = outer;
         self.scope = outer_scope;
         self.code.return_to(loops);
-        with_states
+        Some(with_states)
     }
 }

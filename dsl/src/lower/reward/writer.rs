@@ -50,6 +50,10 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             None => lower.expr(&binding.value),
         };
         let at = binding.name.span;
+        // A `let` that takes a state's name has been told.
+        if matches!(lower.scope.find(&binding.name.node), Some(Binding::State { .. })) {
+            return;
+        }
         lower.scope.bind(&binding.name.node, Binding::Expr { expr: &binding.value, scope, ty, now: Some(value), at });
     }
 

@@ -160,9 +160,7 @@ impl Lower<'_, '_> {
             }
             _ => return,
         };
-        let text = self.world.text(span);
-        let label = format!("`{text}` is ({x:.1}m, {y:.1}m)");
-        self.report(Problem::new(Code::OutOfRange, span, message, label).help(help));
+        self.report(Problem::new(Code::OutOfRange, span, message, "lies elsewhere").help(help));
     }
 }
 
@@ -175,5 +173,9 @@ fn has_place(kind: StartKind) -> bool {
 }
 
 fn spoken(kind: StartKind) -> String {
-    kind.name().replace('_', " ")
+    match kind {
+        StartKind::ThrowIn => "throw-in".to_owned(),
+        StartKind::Kickoff => "kick-off".to_owned(),
+        kind => kind.name().replace('_', " "),
+    }
 }

@@ -96,14 +96,11 @@ impl<'w> Lower<'_, 'w> {
         }
         let (_, used, stmt) = self.world.flat.rewards.iter().find(|(known, ..)| known == name)?;
         let known = self.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
-        let scope = match known {
-            Some(scope) => scope,
-            None => {
-                let scope = self.remember(used, stmt.span);
-                self.rewards.push((name.to_owned(), scope.clone()));
-                scope
-            }
-        };
+        let scope = known.unwrap_or_else(|| {
+            let scope = self.remember(used, stmt.span);
+            self.rewards.push((name.to_owned(), scope.clone()));
+            scope
+        });
         let Some(scope) = scope else {
             // Where there is no such reward, that has been told.
             if matches!(used.what, RewardUseKind::Script(_)) {
@@ -131,14 +128,10 @@ impl<'w> Lower<'_, 'w> {
     fn remember(&mut self, used: &'w RewardUse, span: Span) -> Option<Scope<'w>> {
         let (written, _) = super::written(self.world, used, span)?;
         let loops = self.code.leave_loops();
-        let us = match self.world.agents {
-            Some(team) => self.code.constant(team.index() as f64),
-            None => {
-                // Whose reward it is must be known: one for each agent.
-                self.per_agent = true;
-                self.code.us()
-            }
-        };
+        // Where both teams have agents, or none, it is kept for each of them.
+        self.per_agent |= self.world.agents.is_none();
+        let us = self.world.agents.map(|team| self.code.constant(team.index() as f64));
+        let us = us.unwrap_or_else(|| self.code.us());
         let outer = (self.event.take(), std::mem::replace(&mut self.when, When::Now), self.team.replace(us));
         let outer_scope = self.scope.clone();
         let statements = written.statements();

@@ -66,9 +66,8 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
                 );
             }
             RewardStmtKind::Let(binding) if !is_top => self.bind_let(binding),
-            RewardStmtKind::State(_) | RewardStmtKind::Let(_) | RewardStmtKind::Broken => {}
             RewardStmtKind::Give(give) if self.pays => self.give(give),
-            RewardStmtKind::Give(_) => {}
+            RewardStmtKind::State(_) | RewardStmtKind::Let(_) | RewardStmtKind::Give(_) | RewardStmtKind::Broken => {}
             RewardStmtKind::On { events, when, body } => {
                 for event in events {
                     self.on_event(event, when.as_ref(), |writer| writer.block(body));

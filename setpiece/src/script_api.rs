@@ -9,8 +9,8 @@ use setpiece_engine::judge::{ScriptFaultKind, check_script};
 pub struct EngineScripts;
 
 impl ScriptApi for EngineScripts {
-    fn check(&self, script: &Source, hook: &str) -> Vec<ScriptProblem> {
-        check_script(&script.text, hook)
+    fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem> {
+        check_script(&script.text, hook, params)
             .into_iter()
             .map(|fault| ScriptProblem {
                 code: match fault.kind {

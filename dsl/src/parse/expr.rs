@@ -332,8 +332,8 @@ impl Reader<'_> {
         if let Some(word) = nodes.want(Rule::word) {
             nodes.eat(Rule::colon);
             let kind = match word.as_str() {
-                "true" => ExprKind::Bool(true),
-                "false" => ExprKind::Bool(false),
+                "true" | "on" => ExprKind::Bool(true),
+                "false" | "off" => ExprKind::Bool(false),
                 name => Role::from_name(name).map_or_else(|| ExprKind::Name(name.to_owned()), ExprKind::Role),
             };
             let key = Expr { span: self.span(&word), kind };

@@ -151,13 +151,12 @@ impl<'w> Lower<'_, 'w> {
         if let Some((low, _)) = self.interval(operand)
             && low < least
         {
-            let text = self.world.text(x.span);
-            return self.fail(Problem::new(
-                Code::Impossible,
-                span,
-                format!("{what} can't be computed, and `{text}` can be {low}"),
-                "",
-            ));
+            let mut message = format!("{what} can't be computed");
+            if self.code.constant_of(operand).is_none() {
+                let text = self.world.text(x.span);
+                message.push_str(&format!(", and `{text}` can be {low}"));
+            }
+            return self.fail(Problem::new(Code::Impossible, span, message, ""));
         }
         value
     }

@@ -23,7 +23,7 @@ pub(super) fn register(engine: &mut Engine) {
             Subject::Event => add(engine, name, event(name)),
             Subject::Point => add(engine, name, point(name)),
             Subject::Vector => add(engine, name, vector(name)),
-            Subject::Players | Subject::Events | Subject::Params | Subject::Plain => {}
+            Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => {}
         }
     }
 }
@@ -47,7 +47,7 @@ pub(super) fn is_registered(of: Subject, name: &str) -> bool {
         Subject::Event => event(name).is_some(),
         Subject::Point => point(name).is_some(),
         Subject::Vector => vector(name).is_some(),
-        Subject::Players | Subject::Events | Subject::Params | Subject::Plain => true,
+        Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => true,
     }
 }
 

@@ -85,6 +85,35 @@ pub enum ItemKind {
     Broken,
 }
 
+impl ItemKind {
+    /// What it is in a sentence: "a reward".
+    pub fn noun(&self) -> &'static str {
+        match self {
+            ItemKind::Scenario(_) => "a scenario",
+            ItemKind::Reward(_) => "a reward",
+            ItemKind::Formation(_) => "a formation",
+            ItemKind::Const(_) => "a constant",
+            ItemKind::Fn(_) => "a function",
+            ItemKind::Region(_) => "a region",
+            ItemKind::Ending(_) => "an ending",
+            ItemKind::Behavior(_) => "a behavior",
+            ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => "something else",
+        }
+    }
+
+    /// The parameters in its brackets.
+    pub fn params(&self) -> &[ParamDecl] {
+        match self {
+            ItemKind::Scenario(item) => &item.params,
+            ItemKind::Reward(item) => &item.params,
+            ItemKind::Formation(item) => &item.params,
+            ItemKind::Fn(item) | ItemKind::Region(item) | ItemKind::Ending(item) => &item.params,
+            ItemKind::Behavior(item) => &item.params,
+            ItemKind::Import { .. } | ItemKind::Const(_) | ItemKind::Reserved { .. } | ItemKind::Broken => &[],
+        }
+    }
+}
+
 /// A scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScenarioItem {

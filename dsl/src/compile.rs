@@ -1,5 +1,7 @@
 //! The compiler's entry: a root file in, a scenario and everything that is wrong with it out.
 
+mod unused;
+
 use crate::ast::{
     BehaviorBody, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, EndCondition, EndStmt, FieldValue, ItemKind,
     RewardUseKind, ScenarioItem, ScenarioStmtKind, ScriptRef, ScriptSource, Span, TeamStmt, TeamStmtKind,
@@ -13,6 +15,7 @@ use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use unused::Unused;
 
 /// What a caller may choose.
 #[derive(Clone, Default)]
@@ -93,25 +96,27 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
             _ => {}
         }
     }
-    let mut used = BTreeSet::new();
+    let mut unused = Unused::default();
     let wanted = pick(&candidates, options.scenario.as_deref(), &library, &mut problems);
     for (item, doc) in &candidates {
         if item.is_abstract {
             let mut found = Vec::new();
-            compile_one(&library, &scripts, item, doc, &mut found, &mut used);
+            compile_one(&library, &scripts, item, doc, &mut found, &mut unused);
             // What is missing, a child may bring.
             found.retain(|problem| !follows_from_gaps(problem.code) && problem.code != Code::UnknownName);
             problems.append(&mut found);
             continue;
         }
-        let lowered = compile_one(&library, &scripts, item, doc, &mut problems, &mut used);
+        let lowered = compile_one(&library, &scripts, item, doc, &mut problems, &mut unused);
         if wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item)) {
             chosen = Some(lowered);
         }
     }
 
-    let of_root = library.files.first().into_iter().flat_map(|file| file.items.iter().map(|item| &item.kind));
-    behavior::report_names(of_root, &candidates, &used, &mut problems);
+    if let Some(root) = library.files.first() {
+        behavior::report_names(&root.items, &mut problems);
+        unused.report(&root.items, &mut problems);
+    }
 
     problems.sort_by_key(|problem| {
         let span = problem.labels.first().map(|label| label.span);
@@ -127,12 +132,13 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     if problems.iter().any(|problem| matches!(problem.code.number(), 1..=4 | 6 | 101..=107 | 203 | 207..=210)) {
         problems.retain(|problem| !follows_from_gaps(problem.code));
     }
+    if has_errors(&problems) {
+        unused::retain(&mut problems, &library.sources);
+    }
     let unread: Vec<Span> =
         problems.iter().filter(|problem| problem.code.number() / 100 == 1).filter_map(place).collect();
     problems.retain(|problem| {
-        let around = |inner: &Span, outer: Span| {
-            outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end && outer != *inner
-        };
+        let around = |inner: &Span, outer: Span| outer.holds(*inner) && outer != *inner;
         // What holds a part that could not be read is not what the author wrote.
         problem.code.number() / 100 == 1
             || !place(problem).is_some_and(|span| unread.iter().any(|part| around(part, span)))
@@ -223,7 +229,7 @@ fn compile_one<'a>(
     item: &'a ScenarioItem,
     doc: &'a str,
     problems: &mut Vec<Problem>,
-    used: &mut BTreeSet<Span>,
+    unused: &mut Unused,
 ) -> (Scenario, Origins) {
     let mut flat = flatten(library, item, problems);
     let mirror = Mirror::of(flat.mirror, problems);
@@ -237,6 +243,7 @@ fn compile_one<'a>(
         lets: Vec::new(),
         mirror,
         roster: Vec::new(),
+        whole_roster: false,
         agents: None,
         scripts: RefCell::default(),
         scripts_loaded: scripts,
@@ -244,7 +251,9 @@ fn compile_one<'a>(
         used: RefCell::new(BTreeSet::new()),
     };
     world.params = param::lower_params(&world);
+    let told = world.problems.borrow().len();
     world.roster = roster::lower_roster(&world);
+    world.whole_roster = world.problems.borrow().len() == told;
     let start::LoweredStart { start, mut players, agents, side, lets, behaviors } = start::lower_start(&world);
     world.lets = lets;
     world.agents = side;
@@ -261,7 +270,7 @@ fn compile_one<'a>(
     let observation = observation::lower_observation(&world);
     let library_rewards = reward::lower_library(&world);
     let behaviors = behavior::lower_behaviors(&world, &behaviors, &mut players);
-    report_unused(&world);
+    unused.declare(&world);
 
     let origins = Origins {
         scenario: Some(item.name.span),
@@ -286,32 +295,26 @@ fn compile_one<'a>(
         observation,
         behaviors,
     };
-    problems.extend(world.problems.take());
-    used.extend(world.used.take());
+    problems.extend(world.problems.take().into_iter().map(|problem| told_by_child(&world, problem)));
+    unused.use_all(world.used.take());
     (scenario, origins)
+}
+
+/// Points from a problem in what is inherited to what the scenario itself declares and is named there.
+fn told_by_child(world: &World<'_>, problem: Problem) -> Problem {
+    let Some(span) = place(&problem).filter(|span| world.flat.is_inherited(*span)) else { return problem };
+    let text = world.library.sources.text(span);
+    let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let own = words.into_iter().filter_map(|word| world.declaration(word)).find(|at| world.flat.is_own(*at));
+    match own {
+        Some(at) => problem.label(at, "declared here"),
+        None => problem,
+    }
 }
 
 /// The parameters that a match may still bind.
 fn free<'a, 'w>(world: &'a World<'w>) -> impl Iterator<Item = &'a param::ParamInfo<'w>> {
     world.params.iter().filter(|param| param.bound.is_none())
-}
-
-/// Warns of `param`s and `let`s of the root that nothing reads.
-fn report_unused(world: &World<'_>) {
-    let root = FileId(0);
-    let params = world.params.iter().map(|param| ("parameter", param.name));
-    let lets = world.flat.lets.iter().map(|binding| ("`let`", &binding.name));
-    let shuffled = world.flat.tuples.iter().flat_map(|(names, _)| names.iter().map(|name| ("`let`", name)));
-    let declared: Vec<_> = params.chain(lets).chain(shuffled).collect();
-    for (what, name) in declared {
-        let used = world.used.borrow().contains(&name.span);
-        if name.span.file == root && !used && !name.node.starts_with('_') {
-            world.report(
-                Problem::new(Code::UnusedName, name.span, format!("{what} `{}` is never used", name.node), "not read")
-                    .help("use it, leave it out, or begin its name with `_`"),
-            );
-        }
-    }
 }
 
 /// Loads every script that a file names, so that reports can show its text.
@@ -350,12 +353,13 @@ fn load_scripts(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dyn S
         let from = path.span.file;
         let from_name = library.sources.get(from).map_or(String::new(), |source| source.name.clone());
         let (sources, inputs) = (&mut library.sources, &mut library.inputs);
-        scripts.load(from, &from_name, &path.node, loader, &mut |source: Source| {
+        let awaited = scripts.load(from, &from_name, &path.node, loader, &mut |source: Source| {
             if !inputs.contains(&source.name) {
                 inputs.push(source.name.clone());
             }
             sources.add(source)
         });
+        library.inputs.extend(awaited);
     }
 }
 

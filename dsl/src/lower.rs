@@ -53,6 +53,8 @@ pub(crate) struct World<'w> {
     pub(crate) mirror: Mirror,
     /// Its players.
     pub(crate) roster: Vec<Rostered<'w>>,
+    /// Whether the list of players was read without a mistake.
+    pub(crate) whole_roster: bool,
     /// The one team that has agents.
     pub(crate) agents: Option<Team>,
     /// Scripts that are embedded so far.
@@ -74,6 +76,23 @@ impl World<'_> {
     /// Notes that a declaration is referred to.
     pub(crate) fn mark_used(&self, declaration: Span) {
         self.used.borrow_mut().insert(declaration);
+    }
+
+    /// Where the scenario declares a value of this name, players aside.
+    pub(crate) fn declaration(&self, name: &str) -> Option<Span> {
+        let flat = self.flat;
+        let params = flat.params.iter().map(|param| &param.decl.name);
+        let bindings = flat.lets.iter().chain(&flat.consts).map(|binding| &binding.name);
+        let regions = flat.regions.iter().map(|region| &region.name);
+        let shuffled = flat.tuples.iter().flat_map(|(names, _)| *names);
+        let mut all = params.chain(bindings).chain(regions).chain(shuffled);
+        all.find(|known| known.node == name).map(|known| known.span)
+    }
+
+    /// Whether the scenario has a value or player of this name.
+    pub(crate) fn declares(&self, name: &str) -> bool {
+        self.declaration(name).is_some()
+            || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
     }
 
     /// The ranges of the parameters, in order.
@@ -140,6 +159,10 @@ pub(crate) struct Lower<'c, 'w> {
     pub(crate) event: Option<EventKind>,
     /// Places and `let`s, in the start program.
     pub(crate) start: StartState<'w>,
+    /// The rewards whose states a record reads, each with their scope.
+    pub(crate) rewards: Vec<(String, Option<Scope<'w>>)>,
+    /// Whether a record must be kept for each agent, whatever it reads.
+    pub(crate) per_agent: bool,
     /// The draws of the statement of a behaviour that is being written; `None` where nothing may be drawn.
     pub(crate) draws: Option<Vec<behavior::Draw>>,
     depth: u32,
@@ -164,6 +187,8 @@ impl<'c, 'w> Lower<'c, 'w> {
             when: When::Now,
             event: None,
             start: StartState::default(),
+            rewards: Vec::new(),
+            per_agent: false,
             draws: None,
             depth: 0,
             inlining: Vec::new(),
@@ -264,6 +289,12 @@ impl<'c, 'w> Lower<'c, 'w> {
             return value;
         }
         match (wanted, &value.repr) {
+            (Ty::Point, _) if self.is_nobody(expr) => {
+                return self.fail(
+                    Problem::new(Code::Impossible, expr.span, "`nobody` has no place", "nobody is there")
+                        .help("name a player, or write `nearest(us, to: ball)`"),
+                );
+            }
             (Ty::Point, _) if value.ty.is_place() => {
                 let place = self.place_of(&value, expr.span);
                 return Value::two(Ty::Point, place);
@@ -332,8 +363,9 @@ impl<'c, 'w> Lower<'c, 'w> {
         interval::interval(&self.code, reg, &self.world.ranges())
     }
 
-    /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw.
-    pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) {
+    /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`
+    /// after a report.
+    pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) -> bool {
         match self.interval(reg) {
             Some((low, high)) if low >= range.0 && high <= range.1 => {}
             Some(_) => {
@@ -342,6 +374,7 @@ impl<'c, 'w> Lower<'c, 'w> {
                     Problem::new(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
                         .help(format!("write a value in {shown}")),
                 );
+                return false;
             }
             None => {
                 let (low, high) = (self.code.constant(range.0), self.code.constant(range.1));
@@ -351,6 +384,7 @@ impl<'c, 'w> Lower<'c, 'w> {
                 self.imply(inside, format!("{what} is {shown}"));
             }
         }
+        true
     }
 
     /// Reports a velocity above the greatest speed, m/s; what can't be told now becomes a requirement of the draw.

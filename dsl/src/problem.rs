@@ -40,6 +40,18 @@ impl Problem {
         Problem { code, message: message.into(), labels: vec![Label { span, text: label.into() }], help: None }
     }
 
+    /// Something that may stand once was given again.
+    pub fn given_twice(what: &str, again: Span, first: Span) -> Problem {
+        Problem::new(Code::DuplicateOption, again, format!("{what} is given twice"), "given again here")
+            .label(first, "first given here")
+    }
+
+    /// A name that means one thing was declared again; `what` is the name in backticks, with its kind before it.
+    pub fn declared_twice(what: &str, again: Span, first: Span) -> Problem {
+        Problem::new(Code::DuplicateName, again, format!("{what} is declared twice"), "declared again here")
+            .label(first, "first declared here")
+    }
+
     /// Adds a further label.
     #[must_use]
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Problem {
@@ -223,8 +235,9 @@ impl std::fmt::Display for Code {
 
 /// Checks scripts against the engine's hook API, which the compiler does not know.
 pub trait ScriptApi {
-    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done` or `act`).
-    fn check(&self, script: &Source, hook: &str) -> Vec<ScriptProblem>;
+    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done` or `act`) and finds
+    /// these names in `ctx.params`.
+    fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem>;
 }
 
 /// A fault of a script.

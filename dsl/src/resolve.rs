@@ -7,7 +7,7 @@ mod flatten;
 mod load;
 mod parts;
 
-pub(crate) use flatten::{Flat, FlatEnding, FlatParam, FlatTeam, arg_name, doubled, flatten};
+pub(crate) use flatten::{Flat, FlatEnding, FlatParam, FlatTeam, arg_name, flatten};
 pub use load::Prelude;
 pub(crate) use load::{Library, load};
 pub(crate) use parts::{formation_chain, reward_chain};

@@ -18,6 +18,11 @@ pub struct Span {
 }
 
 impl Span {
+    /// Whether another span lies in it.
+    pub fn holds(self, inner: Span) -> bool {
+        self.file == inner.file && self.start <= inner.start && inner.end <= self.end
+    }
+
     /// The least span that holds both; they must be of one file.
     #[must_use]
     pub fn to(self, other: Span) -> Span {
@@ -55,6 +60,8 @@ pub struct LoadError {
     pub message: String,
     /// Names that may have been meant.
     pub similar: Vec<String>,
+    /// The name it would have, were it there: what a watcher waits for.
+    pub awaited: Option<String>,
 }
 
 /// Every file of a compilation, in the order they were loaded.

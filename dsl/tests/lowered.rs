@@ -12,8 +12,11 @@ impl SourceLoader for Std {
     fn load(&self, path: &str, _from: &str) -> Result<Source, LoadError> {
         let inner = path.strip_prefix("std/").unwrap_or(path);
         let full = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../stdlib-scenarios").join(inner);
-        let text = std::fs::read_to_string(full)
-            .map_err(|_| LoadError { message: format!("no file `{path}`"), similar: vec![] })?;
+        let text = std::fs::read_to_string(full).map_err(|_| LoadError {
+            message: format!("no file `{path}`"),
+            similar: vec![],
+            awaited: None,
+        })?;
         Ok(Source { name: path.to_owned(), text: text.into() })
     }
 }

@@ -15,8 +15,11 @@ fn folder() -> std::path::PathBuf {
 impl SourceLoader for Std {
     fn load(&self, path: &str, _from: &str) -> Result<Source, LoadError> {
         let full = folder().join(path.strip_prefix("std/").unwrap_or(path));
-        let text = std::fs::read_to_string(full)
-            .map_err(|_| LoadError { message: format!("no file `{path}`"), similar: vec![] })?;
+        let text = std::fs::read_to_string(full).map_err(|_| LoadError {
+            message: format!("no file `{path}`"),
+            similar: vec![],
+            awaited: None,
+        })?;
         Ok(Source { name: path.to_owned(), text: text.into() })
     }
 }

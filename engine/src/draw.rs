@@ -9,8 +9,8 @@ mod roster;
 
 pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
 
-use crate::judge::machine::{DrawKey, Input, Machine, truth};
-use crate::judge::view::{View, player_index, team_of_number};
+use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers, truth};
+use crate::judge::view::{player_index, team_of_number};
 use crate::random::Stream;
 use crate::start::{Drawn, DrawnAgent, DrawnPlayer};
 use crate::state::PlayerId;
@@ -23,6 +23,24 @@ use setpiece_scenario::{Bindings, Reg, Scenario};
 pub const ATTEMPTS_MAX: u32 = 10_000;
 /// The attempt whose streams toss the coins of `require … with P`: tossed once per start, so no attempt is its own.
 const COIN_ATTEMPT: u32 = u32::MAX;
+
+/// How often single attempts at a start meet what is required.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Acceptance {
+    /// Attempts made.
+    pub attempts: u32,
+    /// Attempts that met everything.
+    pub met: u32,
+    /// The requirement that failed most often, where one did: the author's words, or the pitch's.
+    pub hardest: Option<String>,
+}
+
+impl Acceptance {
+    /// The share of attempts that met everything, 0..1.
+    pub fn rate(&self) -> f64 {
+        f64::from(self.met) / f64::from(self.attempts.max(1))
+    }
+}
 
 /// No start was found that meets what is required.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -53,7 +71,7 @@ impl DrawError {
 /// Draws starts of one scenario; keeps its registers, so that a draw allocates little.
 #[derive(Clone, Debug, Default)]
 pub struct Drawer {
-    regs: Vec<f64>,
+    regs: Registers,
     failures: Vec<u32>,
     /// Whether a register depends on a draw.
     random: Vec<bool>,
@@ -70,7 +88,7 @@ impl Drawer {
             random.push(tainted);
         }
         Drawer {
-            regs: vec![0.0; program.code.len()],
+            regs: Registers::of(program),
             failures: vec![0; scenario.start.requires.len() + place::Fault::ALL.len()],
             random,
         }
@@ -92,9 +110,10 @@ impl Drawer {
         index: u64,
     ) -> Result<Drawn, DrawError> {
         self.failures.fill(0);
+        self.begin(bindings, DrawKey { seed, index, attempt: 0 });
         let attempts = if self.random.contains(&true) { ATTEMPTS_MAX } else { 1 };
         for attempt in 0..attempts {
-            self.run(scenario, bindings, DrawKey { seed, index, attempt });
+            self.run(bindings, DrawKey { seed, index, attempt });
             match self.failed(scenario, roster, seed, index) {
                 None => return Ok(self.start(scenario, roster, seed, index)),
                 Some(which) => {
@@ -106,6 +125,37 @@ impl Drawer {
             }
         }
         Err(self.error(scenario, seed, index, attempts))
+    }
+
+    /// Estimates how often an attempt at a start succeeds: one attempt each of many episodes.
+    ///
+    /// - `attempts`: how many at most.
+    /// - `enough`: so many successes end the estimate.
+    pub fn acceptance(
+        &mut self,
+        scenario: &Scenario,
+        bindings: &Bindings,
+        roster: &Roster,
+        attempts: u32,
+        enough: u32,
+    ) -> Acceptance {
+        self.failures.fill(0);
+        let mut found = Acceptance { attempts: 0, met: 0, hardest: None };
+        while found.attempts < attempts && found.met < enough {
+            let index = u64::from(found.attempts);
+            let draws = DrawKey { seed: 0, index, attempt: 0 };
+            self.begin(bindings, draws);
+            self.run(bindings, draws);
+            match self.failed(scenario, roster, 0, index) {
+                None => found.met += 1,
+                Some(which) => self.failures[which] += 1,
+            }
+            found.attempts += 1;
+        }
+        if found.met < found.attempts {
+            found.hardest = Some(self.error(scenario, 0, 0, found.attempts).requirement);
+        }
+        found
     }
 
     /// Whether a requirement may hold in another attempt.
@@ -131,33 +181,45 @@ impl Drawer {
 
     /// A start that was not checked against any requirement: for what is needed before the first episode.
     pub fn draw_unchecked(&mut self, scenario: &Scenario, bindings: &Bindings, roster: &Roster) -> Drawn {
-        self.run(scenario, bindings, DrawKey { seed: 0, index: 0, attempt: 0 });
+        let draws = DrawKey { seed: 0, index: 0, attempt: 0 };
+        self.begin(bindings, draws);
+        self.run(bindings, draws);
         self.start(scenario, roster, 0, 0)
     }
 
-    /// Runs the start program once; its values stand in the registers afterwards.
-    fn run(&mut self, scenario: &Scenario, bindings: &Bindings, draws: DrawKey) {
-        let program = &scenario.start.program;
-        self.regs.resize(program.code.len(), 0.0);
+    /// Computes what no draw changes.
+    fn begin(&mut self, bindings: &Bindings, draws: DrawKey) {
+        self.machine(bindings, draws, |machine| machine.begin());
+    }
+
+    /// Runs the start program for an attempt.
+    fn run(&mut self, bindings: &Bindings, draws: DrawKey) {
+        self.machine(bindings, draws, |machine| machine.run());
+    }
+
+    /// Puts the start program to work; its values stand in the registers afterwards.
+    fn machine(&mut self, bindings: &Bindings, draws: DrawKey, work: impl FnOnce(&mut Machine<'_>)) {
+        let (plan, regs) = self.regs.parts();
         let mut machine = Machine {
             input: Input {
-                now: &View::EMPTY,
-                prev: &View::EMPTY,
+                now: None,
+                prev: None,
                 events: &[],
                 params: &bindings.0,
                 lets: &[],
                 index: draws.index,
                 us: Team::Left,
-                me: None,
                 silent: false,
             },
-            regs: &mut self.regs,
+            crew: Crew::one(None),
+            plan,
+            regs,
             cells: &mut [],
             terms: &mut [],
             faults: &mut 0,
             draws: Some(draws),
         };
-        machine.run(program);
+        work(&mut machine);
     }
 
     /// The requirement that the present attempt fails, if any: the author's come before the pitch's.
@@ -174,7 +236,7 @@ impl Drawer {
     }
 
     fn value(&self, reg: Reg) -> f64 {
-        self.regs.get(reg.index()).copied().unwrap_or(f64::NAN)
+        self.regs.value(reg)
     }
 
     fn optional(&self, reg: Option<Reg>) -> f64 {

@@ -26,7 +26,7 @@ pub use machine::Machine;
 pub use records::{RecordJudge, Recorded};
 pub use rewards::RewardJudge;
 pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
-pub use view::View;
+pub use view::{Memory, Sight, View};
 
 use crate::event::Events;
 use crate::random::Purpose;
@@ -36,7 +36,7 @@ use known::Known;
 use machine::Input;
 use observation::ObservationJudge;
 use script::Scripts;
-use setpiece_scenario::{Endings, Reward, Scenario};
+use setpiece_scenario::{Endings, Reward, RewardBody, Scenario};
 use std::sync::Arc;
 
 /// The judge of one environment.
@@ -48,6 +48,8 @@ pub struct Judge {
     observation: Option<ObservationJudge>,
     known: Known,
     prev: View,
+    /// How much of the state is kept in `prev`.
+    memory: Memory,
     /// What `prev` was in the step just judged: what an observation compares with.
     before: View,
 }
@@ -60,10 +62,11 @@ impl Judge {
         let scripted = rewards.iter().any(script_reward) || endings.list.iter().any(|ending| ending.script.is_some());
         Judge {
             endings: EndingJudge::new(endings),
-            rewards: RewardJudge::new(rewards, &scripts, n_agents),
+            rewards: RewardJudge::new(rewards.clone(), &scripts, n_agents),
             records: RecordJudge::new(&scenario.records, n_agents),
             observation: scenario.observation.as_ref().map(ObservationJudge::new),
             known: Known::new(scripts, scripted, Purpose::Script),
+            memory: if scripted { Memory::All } else { memory(scenario, &rewards) },
             prev: View::EMPTY,
             before: View::EMPTY,
         }
@@ -85,7 +88,7 @@ impl Judge {
         if out.len() != observation.names().len() || agent >= game.agents.len() {
             return false;
         }
-        let input = self.known.input(&self.prev, &self.before, endings::judged_side(game));
+        let input = self.known.input(Sight::Live(game), &self.before, endings::judged_side(game));
         observation.write(game, agent, &input, out);
         true
     }
@@ -105,8 +108,7 @@ impl Judge {
         self.known.begin(drawn, params);
         self.prev = View::of(game);
         self.before = self.prev;
-        let start = self.prev;
-        let input = self.known.input(&start, &start, endings::judged_side(game));
+        let input = self.known.input(Sight::Live(game), &self.prev, endings::judged_side(game));
         self.endings.reset(&input);
         self.rewards.reset(game, &input);
         self.records.reset(game, &input);
@@ -117,9 +119,8 @@ impl Judge {
     /// # Errors
     /// A hook that failed; the episode can't go on.
     pub fn step(&mut self, game: &Match, events: &mut Events) -> Result<Option<Outcome>, ScriptError> {
-        let now = View::of(game);
-        let mut scene = self.known.scene(&now, &self.prev, events.as_slice());
-        let shared = self.known.input(&now, &self.prev, endings::judged_side(game));
+        let mut scene = self.known.scene(|| View::of(game), &self.prev, events.as_slice());
+        let shared = self.known.input(Sight::Live(game), &self.prev, endings::judged_side(game));
         let shown = scene.as_ref().map(|scene| (self.known.scripts(), scene));
         let outcome = self.endings.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
         if let Some(outcome) = &outcome {
@@ -138,8 +139,20 @@ impl Judge {
         if self.observation.is_some() {
             self.before = self.prev;
         }
-        self.prev = View::of(game);
+        self.prev.keep(game, self.memory);
     }
+}
+
+/// How much of a state must be kept for the next step's `prev`.
+fn memory(scenario: &Scenario, rewards: &[Reward]) -> Memory {
+    let of = |reward: &Reward| match &reward.body {
+        RewardBody::Program { step, .. } => Memory::of(step),
+        RewardBody::Script { .. } => Memory::All,
+    };
+    let programs = scenario.records.iter().map(|record| &record.program);
+    let programs = programs.chain(scenario.observation.iter().map(|observation| &observation.program));
+    let programs = programs.chain([&scenario.endings.program]);
+    programs.map(Memory::of).chain(rewards.iter().map(of)).max().unwrap_or_default()
 }
 
 #[cfg(test)]

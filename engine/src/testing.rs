@@ -2,7 +2,8 @@
 
 use crate::event::Event;
 use crate::judge::View;
-use crate::judge::machine::{DrawKey, Input, Machine};
+use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers};
+use crate::judge::view::Sight;
 use crate::state::PlayerId;
 use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Role, StartKind, Team};
@@ -50,7 +51,7 @@ impl Code {
         let value = self.number(value);
         let filter = EventFilter { kind, qualifier: None, by: Some(Who::Team(by)), to: None };
         let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
-        self.push(Instr::Each(Each { over: Over::Events(filter), body: 1, fold }));
+        self.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 1, fold })));
         self.push(Instr::Give { term, value, guard: None });
     }
 }
@@ -72,27 +73,36 @@ pub(crate) fn run(
     cells: &mut [f64],
     silent: bool,
 ) -> Left {
-    let mut left = Left { regs: vec![0.0; program.code.len()], terms: vec![0.0; 4], faults: 0 };
+    let mut regs = Registers::of(program);
+    let mut lanes: Vec<[f64; 1]> = cells.iter().map(|cell| [*cell]).collect();
+    let (mut terms, mut faults) = (vec![[0.0]; 4], 0);
+    let (plan, values) = regs.parts();
     let mut machine = Machine {
         input: Input {
-            now,
-            prev,
+            now: Some(Sight::Kept(now)),
+            prev: Some(Sight::Kept(prev)),
             events,
             params: &[7.0],
             lets: &[],
             index: 3,
             us: Team::Left,
-            me: Some(PlayerId(1)),
             silent,
         },
-        regs: &mut left.regs,
-        cells,
-        terms: &mut left.terms,
-        faults: &mut left.faults,
+        plan,
+        crew: Crew::one(Some(PlayerId(1))),
+        regs: values,
+        cells: &mut lanes,
+        terms: &mut terms,
+        faults: &mut faults,
         draws: Some(DrawKey { seed: 1, index: 0, attempt: 0 }),
     };
-    machine.run(program);
-    left
+    machine.begin();
+    machine.run();
+    for (cell, lane) in cells.iter_mut().zip(&lanes) {
+        *cell = lane[0];
+    }
+    let regs = (0..program.code.len()).map(|at| regs.value(Reg(at as u32))).collect();
+    Left { regs, terms: terms.iter().map(|term| term[0]).collect(), faults }
 }
 
 pub(crate) fn event(kind: EventKind, team: Option<Team>, by: Option<u8>) -> Event {
@@ -238,7 +248,7 @@ pub(crate) fn checkpoints() -> Reward {
     code.push(Instr::Assign { cell: collected, value: reached, guard });
     let filter = EventFilter { kind: EventKind::Goal, qualifier: None, by: Some(Who::Team(us)), to: None };
     let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
-    code.push(Instr::Each(Each { over: Over::Events(filter), body: 5, fold }));
+    code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 5, fold })));
     let before = code.push(Instr::Cell(collected));
     let rest = code.binary(BinaryOp::Sub, regions, before);
     let value = code.binary(BinaryOp::Mul, rest, each);

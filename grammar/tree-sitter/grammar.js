@@ -178,7 +178,7 @@ module.exports = grammar({
     require: ($) => seq("require", $._expression, optional(seq("with", $._expression)), optional($.label)),
     record: ($) => seq("record", field("name", $.identifier), "=", $._expression),
     remove: ($) => seq("remove", choice(
-      seq(choice("reward", "end", "require", "record"), $.identifier), "ball",
+      seq(choice("reward", "end", "require", "record"), choice($.identifier, $.string)), "ball",
     )),
     mirror: ($) => seq("mirror", ":", $.identifier),
     observe: ($) => seq("observe", "vector", block(seq($._expression, optional($.label)))),

@@ -29,6 +29,7 @@ from setpiece._errors import (
 )
 from setpiece._library import Entry, list, register_envs
 from setpiece._native import Param, Scenario, __version__, compile, load
+from setpiece._reload import Reload
 from setpiece._vocabulary import Action, GameMode, Role
 
 __all__ = [
@@ -45,6 +46,7 @@ __all__ = [
     "Label",
     "Param",
     "ParameterError",
+    "Reload",
     "RewardError",
     "Role",
     "Scenario",

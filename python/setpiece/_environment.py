@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from operator import index
 from os import PathLike, fspath
 from typing import Any
@@ -13,8 +13,9 @@ from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import ParameterError, ScriptError
-from setpiece._native import Scenario, load
+from setpiece._errors import ParameterError, ScriptError, SetpieceError
+from setpiece._native import Live, Scenario, load
+from setpiece._reload import Reload
 from setpiece._spaces import action_space, check_observation, observation_space
 
 ParamValue = bool | int | float | str
@@ -38,7 +39,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     - `outcome`: the ending's name; `records`: the scenario's own records.
     - `setpiece`: `return` by term, `length` in steps, `seed`, `index`, `digest` of the final state, `success` of the
-      side with agents, and `faults`: payments that were impossible (a division by zero) and left out.
+      side with agents, `faults`: payments that were impossible (a division by zero) and left out, and `scenario`: the
+      scenario's digest.
+
+    With `watch=True` every `reset` looks whether the scenario's file, an import or a script has changed, and begins the
+    episode under the new scenario; its `info` has `scenario`, the digest of what is played.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 10}
@@ -47,6 +52,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     """The scenario, with the parameters it was made with."""
     agents: tuple[str, ...]
     """The agents in order: a player's name, `left_CM_1`, or `left_0` for one that changes players."""
+    last_reload: Reload | None
+    """What became of the last change of the scenario's files; None before the first."""
 
     def __init__(
         self,
@@ -59,23 +66,36 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         events: bool = False,
         copy: bool = True,
         render_mode: str | None = None,
+        watch: bool = False,
+        on_reload: Callable[[Reload], object] | None = None,
     ) -> None:
         """Makes an environment; the arguments are those of `setpiece.make`."""
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
         self.render_mode = render_mode
-        if not isinstance(scenario, Scenario):
+        self._live: Live | None = None
+        if isinstance(scenario, Scenario):
+            if watch:
+                raise ParameterError("a `Scenario` has no file to watch: give its path", name="watch")
+        elif watch:
+            self._live = Live(fspath(scenario))
+            scenario = self._live.scenario
+        else:
             scenario = load(fspath(scenario))
-        self.scenario = scenario.with_params(**params) if params else scenario
+        self._on_reload = on_reload
+        self.last_reload = None
+        self._bound = dict(params or {})
         self._observation = check_observation(observation)
-        self._native = _native.Environment(
-            self.scenario,
-            observation=self._observation,
-            rewards=_reward_names(rewards),
-            events=events,
-            copy=copy,
-        )
-        self.agents = tuple(agent.id for agent in self._native.agents)
+        self._options: dict[str, Any] = {
+            "observation": self._observation,
+            "rewards": _reward_names(rewards),
+            "events": events,
+            "copy": copy,
+        }
+        self.scenario = scenario.with_params(**self._bound)
+        self._native = _native.Environment(self.scenario, **self._options)
+        self._digest = self.scenario.digest
+        self.agents = _agents(self._native)
         self.action_space = action_space(len(self.agents))
         self.observation_space = observation_space(self._native, self._observation)
         self._first_seed = None if seed is None else _check_number("seed", seed)
@@ -107,7 +127,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         at = at if episode is None else episode
         params = self._params if params is None else params
         self._playing = False
+        if self._live is not None:
+            self._follow(self._live)
         observation, info = self._native.reset(number, at, params)
+        if self._live is not None:
+            info["scenario"] = self._digest
         # A reset that fails leaves no trace but that nothing is being played.
         self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
         self._playing = True
@@ -129,7 +153,38 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self._playing = False
             raise
         self._playing = not (result[2] or result[3])
+        if not self._playing:
+            result[4]["setpiece"]["scenario"] = self._digest
         return result
+
+    def _follow(self, live: Live) -> None:
+        """Takes over what has changed in the scenario's files since the last reset."""
+        try:
+            fresh = live.poll()
+        except SetpieceError as error:
+            self._tell(Reload("broken", None, error, "the scenario's files have errors"))
+            return
+        if fresh is None:
+            return
+        try:
+            scenario = fresh.with_params(**self._bound)
+            native = _native.Environment(scenario, **self._options)
+        except SetpieceError as error:
+            self._tell(Reload("held back", fresh, error, f"no environment can be made of it: {error}"))
+            return
+        if _agents(native) != self.agents:
+            why = f"the agents would change from {', '.join(self.agents)} to {', '.join(_agents(native))}"
+            self._tell(Reload("held back", fresh, None, why))
+        elif observation_space(native, self._observation) != self.observation_space:
+            self._tell(Reload("held back", fresh, None, "the observation space would change"))
+        else:
+            self.scenario, self._native, self._digest = scenario, native, scenario.digest
+            self._tell(Reload("applied", fresh, None, f"`{scenario.name}` is played from this episode on"))
+
+    def _tell(self, reload: Reload) -> None:
+        self.last_reload = reload
+        if self._on_reload is not None:
+            self._on_reload(reload)
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
@@ -156,6 +211,8 @@ def make(
     events: bool = False,
     copy: bool = True,
     render_mode: str | None = None,
+    watch: bool = False,
+    on_reload: Callable[[Reload], object] | None = None,
 ) -> FootballEnv:
     """Makes an environment of a scenario.
 
@@ -168,6 +225,9 @@ def make(
     - `events`: whether `info["events"]` lists what happened in each step.
     - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one.
     - `render_mode`: None or `"ansi"`.
+    - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; a broken file
+      leaves the last good scenario in place, and one that would change the spaces is held back.
+    - `on_reload`: called with the `Reload` of every change; see also `env.unwrapped.last_reload`.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.
 
@@ -186,6 +246,8 @@ def make(
         "seed": seed,
         "events": events,
         "copy": copy,
+        "watch": watch,
+        "on_reload": on_reload,
     }
     env = FootballEnv(**kwargs, render_mode=render_mode)
     # So that `env.spec.make()` gives another one, as for environments that Gymnasium made.
@@ -195,6 +257,10 @@ def make(
         kwargs={**kwargs, "render_mode": render_mode},
     )
     return env
+
+
+def _agents(native: _native.Environment) -> tuple[str, ...]:
+    return tuple(agent.id for agent in native.agents)
 
 
 def _reward_names(rewards: str | Sequence[str] | None) -> list[str] | None:

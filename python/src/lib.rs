@@ -5,6 +5,7 @@ mod diagnostics;
 mod environment;
 mod errors;
 mod info;
+mod live;
 mod observation;
 mod params;
 mod scenario;
@@ -17,6 +18,8 @@ mod _native {
 
     #[pymodule_export]
     use crate::environment::{AgentInfo, Environment};
+    #[pymodule_export]
+    use crate::live::Live;
     #[pymodule_export]
     use crate::observation::simple115v2_bounds;
     #[pymodule_export]

@@ -23,7 +23,7 @@ impl Scenario {
         &self.inner
     }
 
-    fn from_loaded(py: Python<'_>, loaded: Loaded) -> PyResult<Scenario> {
+    pub(crate) fn from_loaded(py: Python<'_>, loaded: Loaded) -> PyResult<Scenario> {
         let warnings = diagnostics::to_python(py, &loaded.warnings, &loaded.sources)?;
         Ok(Scenario { inner: loaded.scenario, warnings: warnings.unbind() })
     }
@@ -51,6 +51,14 @@ impl Scenario {
     #[getter]
     fn doc(&self) -> &str {
         &self.inner.doc
+    }
+
+    /// 16 hexadecimal digits that change with anything in it, the values it is bound to included.
+    #[getter]
+    fn digest(&self, py: Python<'_>) -> PyResult<String> {
+        let digest = compiled::file::digest(&self.inner)
+            .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
+        Ok(format!("{digest:016x}"))
     }
 
     /// The parameters by name, in the file's order; the mapping can't be changed.

@@ -146,7 +146,7 @@ def test_goal_ends_the_episode_and_pays() -> None:
     assert info["reward_terms"]["scoring/goal"] == 1.0
     assert info["records"] == {}
     summary = info["setpiece"]
-    assert summary.keys() == {"return", "length", "seed", "index", "digest", "success", "faults"}
+    assert summary.keys() == {"return", "length", "seed", "index", "digest", "success", "faults", "scenario"}
     assert (summary["success"], summary["faults"]) == (True, 0)
     assert summary["return"] == {"scoring/goal": 1.0, "scoring/conceded": 0.0}
     assert summary["length"] == len(trajectory) - 1

@@ -79,6 +79,15 @@ pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     serde_json::to_string(&out).map_err(write)
 }
 
+/// A number that changes with anything in the scenario: the checksum of its file.
+///
+/// # Errors
+/// [`FormatError::Write`] where a constant is not finite.
+pub fn digest(scenario: &Scenario) -> Result<u64, FormatError> {
+    let body = serde_json::to_string(scenario).map_err(|error| FormatError::Write(error.to_string()))?;
+    Ok(fnv1a(body.as_bytes()))
+}
+
 /// Reads a scenario from text; what it returns is safe to run.
 ///
 /// # Errors

@@ -26,6 +26,7 @@ pub struct Reg(pub u32);
 
 impl Reg {
     /// The register as an index.
+    #[inline]
     pub const fn index(self) -> usize {
         self.0 as usize
     }
@@ -100,7 +101,7 @@ pub enum Instr {
     /// A field of the current event of the innermost `Each` over events.
     Event(EventField),
     /// A loop; see [`Each`].
-    Each(Each),
+    Each(Box<Each>),
     /// The value of a memory cell.
     Cell(u32),
     /// Whether `0` held at every step of the last `seconds`; the cell counts the steps in a row.
@@ -168,7 +169,7 @@ pub enum Instr {
         /// of what is drawn (the `let`'s name, the player's label or index) and of the draw's ordinal in it.
         key: u64,
         /// From what.
-        from: Distribution,
+        from: Box<Distribution>,
     },
 }
 
@@ -431,7 +432,7 @@ impl Instr {
                     f(*reg);
                 }
             }
-            Instr::Random { from, .. } => match from {
+            Instr::Random { from, .. } => match &**from {
                 Distribution::Uniform(a, b) | Distribution::Normal(a, b) | Distribution::Integer(a, b) => {
                     f(*a);
                     f(*b);

@@ -172,6 +172,14 @@ fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usiz
             (Instr::Event(_), _) if !open.iter().any(|body| body.3) => {
                 return Err(format!("instruction {at} reads an event outside a loop over events"));
             }
+            (
+                Instr::Held { .. }
+                | Instr::Ever { .. }
+                | Instr::Since { .. }
+                | Instr::Until { .. }
+                | Instr::Once { .. },
+                _,
+            ) if !open.is_empty() => return Err(format!("instruction {at} looks back inside a loop")),
             (Instr::Give { term, .. }, Place::Step { terms }) => below("term", *term, terms)?,
             (Instr::Random { .. }, Place::Start)
             | (Instr::Assign { .. }, Place::Init | Place::Step { .. })

@@ -54,6 +54,7 @@ macro_rules! words {
             }
 
             /// The variant's place in [`Self::ALL`].
+            #[inline]
             pub const fn index(self) -> usize {
                 self as usize
             }

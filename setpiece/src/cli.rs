@@ -56,6 +56,9 @@ enum Command {
         /// How to print the problems
         #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
         message_format: MessageFormat,
+        /// Check again whenever a file changes
+        #[arg(long)]
+        watch: bool,
     },
     /// Compile a scenario into one self-contained file (.pitchc)
     Build {
@@ -122,7 +125,10 @@ fn run(args: Args) -> u8 {
     let out = Out::new(args.color);
     let result = match args.command {
         Command::List => Ok(list(&out)),
-        Command::Check { files, message_format } => Ok(check::check(&files, message_format, &out)),
+        Command::Check { files, message_format, watch: true } => check::watch(&files, message_format, &out),
+        Command::Check { files, message_format, watch: false } => {
+            Ok(check::check(&files, message_format, &out, &mut Vec::new()))
+        }
         Command::Build { source, output } => build(&source, &output, &out),
         Command::Fmt(args) => Ok(fmt::fmt(&args, &out)),
         Command::Explain { code } => Ok(explain::explain(code.as_deref(), &out)),

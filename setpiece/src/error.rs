@@ -81,6 +81,8 @@ pub struct Failure {
     pub problems: Vec<Problem>,
     /// The files they point into.
     pub sources: Sources,
+    /// The files on disk that were read, or looked for: what a watcher watches until they are mended.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Error {

@@ -71,9 +71,11 @@ impl SourceLoader for FileLoader {
     fn load(&self, path: &str, from: &str) -> Result<Source, LoadError> {
         // A file of the library names its neighbours by `std/…` too.
         if let Some(inner) = path.strip_prefix("std/") {
-            return stdlib::file(inner).ok_or_else(|| LoadError {
-                message: format!("the standard library has no `{inner}`"),
-                similar: stdlib::paths().map(|name| format!("std/{name}")).collect(),
+            return stdlib::file(inner).ok_or_else(|| {
+                let known: Vec<String> = stdlib::paths().map(|name| format!("std/{name}")).collect();
+                let near = setpiece_dsl::problem::nearest(path, known.iter().map(String::as_str)).map(str::to_owned);
+                let message = format!("the standard library has no `{inner}`");
+                LoadError { message, similar: near.into_iter().collect(), awaited: None }
             });
         }
         let full = beside(from, path);
@@ -81,7 +83,8 @@ impl SourceLoader for FileLoader {
             Ok(text) => Ok(Source { name: full.to_string_lossy().into_owned(), text: text.into() }),
             Err(error) => {
                 let similar = similar_file(&full).into_iter().collect();
-                Err(LoadError { message: error.to_string(), similar })
+                let awaited = Some(full.to_string_lossy().into_owned());
+                Err(LoadError { message: error.to_string(), similar, awaited })
             }
         }
     }

@@ -11,17 +11,21 @@ pub mod drawing;
 pub mod error;
 pub mod explain;
 pub mod files;
+#[cfg(feature = "watch")]
+pub mod live;
 pub mod load;
 pub mod picture;
 pub mod probe;
 pub mod run;
-mod script_api;
+pub mod script_api;
 mod stdlib;
 #[cfg(feature = "watch")]
 pub mod watch;
 
 pub use error::Error;
-pub use load::{Entry, Loaded, bind, check, compile_text, list, load, load_file};
+#[cfg(feature = "watch")]
+pub use live::Live;
+pub use load::{Checked, Entry, Loaded, bind, check, compile_text, list, load, load_file};
 pub use setpiece_dsl as dsl;
 pub use setpiece_engine as engine;
 pub use setpiece_scenario as scenario;

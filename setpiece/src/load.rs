@@ -106,14 +106,28 @@ pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
     compile_source(Source { name: name.to_owned(), text: text.into() })
 }
 
+/// What a check found.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// Errors and warnings, in order.
+    pub problems: Vec<Problem>,
+    /// The files they point into.
+    pub sources: Sources,
+    /// The files on disk that were read, or looked for.
+    pub inputs: Vec<PathBuf>,
+}
+
 /// Compiles a name, a path or a text's file for its problems alone: a file of rewards or formations, which has nothing
 /// to run, is checked as a scenario would use it.
 ///
 /// # Errors
 /// As [`load`], but for problems of the text, which come back in order.
-pub fn check(name_or_path: &str) -> Result<(Vec<Problem>, Sources), Error> {
+pub fn check(name_or_path: &str) -> Result<Checked, Error> {
     let failure = match load(name_or_path) {
-        Ok(loaded) => return Ok((crate::probe::probe(&loaded), loaded.sources)),
+        Ok(loaded) => {
+            let problems = crate::probe::probe(&loaded, None);
+            return Ok(Checked { problems, sources: loaded.sources, inputs: loaded.inputs });
+        }
         Err(Error::Compile(failure)) => failure,
         Err(error) => return Err(error),
     };
@@ -122,7 +136,7 @@ pub fn check(name_or_path: &str) -> Result<(Vec<Problem>, Sources), Error> {
     let root = failure.sources.iter().next().map(|(_, source)| source.clone());
     let parts = root.as_ref().and_then(|root| setpiece_dsl::parts(&root.text));
     let (Some(root), Some(formations), true) = (root, parts, only_parts) else {
-        return Ok((failure.problems, failure.sources));
+        return Ok(Checked { problems: failure.problems, sources: failure.sources, inputs: failure.inputs });
     };
     let mut user = format!("import \"{}\"\n", root.name);
     let teams = formations.iter().map(|name| format!("team left {{ formation: {name} }}"));
@@ -131,13 +145,14 @@ pub fn check(name_or_path: &str) -> Result<(Vec<Problem>, Sources), Error> {
     }
     let options = compile_options();
     let outcome = compile(Source { name: "<check>".to_owned(), text: user.into() }, &FileLoader, &options);
-    Ok((outcome.problems, outcome.sources))
+    Ok(Checked { problems: outcome.problems, sources: outcome.sources, inputs: failure.inputs })
 }
 
 fn compile_source(source: Source) -> Result<Loaded, Error> {
     let options = compile_options();
     let outcome = compile(source, &FileLoader, &options);
     let (problems, sources) = (outcome.problems, outcome.sources);
+    let inputs = outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect();
     match outcome.scenario {
         Some(scenario) => Ok(Loaded {
             scenario: Arc::new(scenario),
@@ -145,9 +160,9 @@ fn compile_source(source: Source) -> Result<Loaded, Error> {
             sources,
             origin: outcome.origins.scenario,
             origins: outcome.origins,
-            inputs: outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect(),
+            inputs,
         }),
-        None => Err(Error::Compile(Box::new(Failure { problems, sources }))),
+        None => Err(Error::Compile(Box::new(Failure { problems, sources, inputs }))),
     }
 }
 

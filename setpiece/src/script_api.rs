@@ -5,11 +5,12 @@ use setpiece_dsl::source::Source;
 use setpiece_engine::judge::{ScriptFaultKind, check_script};
 
 /// The engine's answer to [`ScriptApi`].
-pub(crate) struct EngineScripts;
+#[derive(Clone, Copy, Debug)]
+pub struct EngineScripts;
 
 impl ScriptApi for EngineScripts {
-    fn check(&self, script: &Source, hook: &str) -> Vec<ScriptProblem> {
-        check_script(&script.text, hook)
+    fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem> {
+        check_script(&script.text, hook, params)
             .into_iter()
             .map(|fault| ScriptProblem {
                 code: match fault.kind {

@@ -425,3 +425,26 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     child.kill().unwrap();
     let _ = child.wait();
 }
+
+#[test]
+fn a_script_finds_the_parameters_by_their_names() {
+    let folder = folder();
+    let scenario = |name: &str| {
+        let script = format!("fn reward(ctx, now, prev, events) {{ ctx.params.{name} * 1.0 }}");
+        let reward = format!("param pace = 3\n    reward script rhai \"\"\"{script}\"\"\"\n    ball at");
+        CLOSE.replace("ball at", &reward)
+    };
+    let output = setpiece(&["check", &write(folder.path(), "right.pitch", scenario("pace"))]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(!text(&output.stderr).contains("SP0213"), "{}", text(&output.stderr));
+    let wrong = write(folder.path(), "wrong.pitch", scenario("paze"));
+    fails(&["check", &wrong], 1, &["SP0503", "no parameter `paze`", "did you mean `pace`?"]);
+    // A behavior's parameters are read beside the scenario's.
+    let script = "fn act(ctx, me, now) { if ctx.params.quick { \"sprint\" } else { \"idle\" } }";
+    let behavior = format!("behavior runs(quick: bool = on) script rhai \"\"\"{script}\"\"\"\n{CLOSE}");
+    let own = behavior.replace("CB at (-0.9, 0.3)", "CB at (-0.9, 0.3) { ai: runs }");
+    let output = setpiece(&["check", &write(folder.path(), "own.pitch", own.as_str())]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let wrong = write(folder.path(), "own_wrong.pitch", own.replace("params.quick", "params.quik"));
+    fails(&["check", &wrong], 1, &["SP0503", "no parameter `quik`", "did you mean `quick`?"]);
+}

@@ -21,7 +21,7 @@ impl SourceLoader for Library {
         let full = Path::new(env!("CARGO_MANIFEST_DIR")).join("../stdlib-scenarios").join(inner);
         match std::fs::read_to_string(full) {
             Ok(text) => Ok(Source { name: path.to_owned(), text: text.into() }),
-            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new() }),
+            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new(), awaited: None }),
         }
     }
 }

@@ -79,6 +79,27 @@ fn every_scenario_plays_to_its_end() {
 }
 
 #[test]
+fn who_lost_the_ball_is_known() {
+    let text = "scenario s extends 11_vs_11_stochastic {
+        agents { left: all }
+        reward lost { give 1 on ball_lost by me as \"me\"  give 1 on ball_lost by us as \"us\" }
+        end limit 1500 steps
+    }";
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let environment = EnvironmentOptions::default();
+    let options = RunOptions { episodes: 0..2, seed: 1, agent: Agent::Bot, threads: 2, environment };
+    let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
+    let term = |name: &str| summary.terms.iter().position(|(term, _)| term == name).unwrap();
+    for episode in summary.episodes.iter().flatten() {
+        let total = |name: &str| episode.terms.iter().map(|terms| terms[term(name)]).sum::<f64>();
+        let (by_me, by_us) = (total("lost/me"), total("lost/us") / episode.terms.len() as f64);
+        assert!(by_us > 5.0, "{by_us}");
+        // A player who was sent off, or a ball that was given to nobody, is nobody's loss.
+        assert!(by_me >= by_us - 2.0 && by_me <= by_us, "{by_me} of {by_us}");
+    }
+}
+
+#[test]
 fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
     let options = EnvironmentOptions {
         rewards: Some(vec!["scoring".to_owned(), "checkpoints".to_owned()]),

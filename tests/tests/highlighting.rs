@@ -27,6 +27,24 @@ struct Pattern {
     groups: Vec<(usize, String)>,
     /// Where it goes on to; a `match` has none.
     end: Option<Regex>,
+    /// What is passed over on the way there: an escaped quote ends no string.
+    inner: Vec<Regex>,
+}
+
+impl Pattern {
+    /// Where it ends in a line, from a place inside it.
+    fn end_in(&self, line: &[u8], from: usize) -> Option<usize> {
+        let mut at = from;
+        loop {
+            let end = self.end.as_ref()?.find_at(line, at)?;
+            let over =
+                self.inner.iter().filter_map(|inner| inner.find_at(line, at)).min_by_key(regex::bytes::Match::start);
+            match over.filter(|over| over.start() < end.start()) {
+                Some(over) => at = over.end(),
+                None => return Some(end.end()),
+            }
+        }
+    }
 }
 
 fn regex(text: &str) -> Regex {
@@ -47,6 +65,12 @@ fn patterns(grammar: &Value, list: &Value, into: &mut Vec<Pattern>) {
             scope: entry["name"].as_str().unwrap_or_default().to_owned(),
             groups: groups.map(|(n, group)| (n.parse().unwrap(), group["name"].as_str().unwrap().to_owned())).collect(),
             end: entry["end"].as_str().map(regex),
+            inner: entry["patterns"]
+                .as_array()
+                .into_iter()
+                .flatten()
+                .filter_map(|p| p["match"].as_str().map(regex))
+                .collect(),
         });
     }
 }
@@ -72,8 +96,8 @@ impl Highlighter {
             let mut at = 0;
             loop {
                 if let Some(pattern) = open {
-                    let end = pattern.end.as_ref().unwrap().find_at(bytes, at);
-                    let until = end.map_or(bytes.len(), |found| found.end());
+                    let end = pattern.end_in(bytes, at);
+                    let until = end.unwrap_or(bytes.len());
                     scopes[start + at..start + until].fill(&pattern.scope);
                     at = until;
                     if end.is_none() {

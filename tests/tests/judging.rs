@@ -7,6 +7,7 @@ use setpiece_dsl::{CompileOptions, compile};
 use setpiece_engine::batch::{EpisodeSummary, ReadyMade, run_episodes};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece_engine::judge::Recorded;
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_scenario::Scenario;
 use setpiece_scenario::vocabulary::{EventKind, Team};
@@ -25,7 +26,7 @@ impl SourceLoader for Library {
         let inner = path.strip_prefix("std/").unwrap_or(path);
         match std::fs::read_to_string(library().join(inner)) {
             Ok(text) => Ok(Source { name: path.to_owned(), text: text.into() }),
-            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new() }),
+            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new(), awaited: None }),
         }
     }
 }
@@ -123,6 +124,76 @@ fn an_edited_copy_pays_what_it_says() {
     assert!(summaries.iter().any(|summary| summary.score[0] == 1));
     for summary in summaries {
         assert_eq!(summary.returns, [5.0 * f64::from(summary.score[0])], "{}", summary.outcome);
+    }
+}
+
+/// Episodes of bots in a scenario, and the names of its terms.
+fn bots(text: &str, n: u64) -> (Vec<EpisodeSummary>, Vec<String>) {
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let episodes = run_episodes(&environment, 1, 0..n, 1, || ReadyMade::new(Agent::Bot), |_| ()).unwrap();
+    (episodes.into_iter().map(Result::unwrap).collect(), environment.term_names().to_vec())
+}
+
+#[test]
+fn a_potential_pays_its_difference_over_an_episode() {
+    let text = "scenario s extends academy_run_to_score {
+        remove reward scoring
+        reward near { give potential(ball.x, gamma: 1) as \"undiscounted\"  give potential(ball.x, gamma: 0.9) as \"discounted\" }
+        record all = sum of ball.x
+        record begin = first of prev(ball.x)
+        record over = last of ball.x
+    }";
+    for summary in bots(text, 3).0 {
+        let record = |name: &str| {
+            let found = summary.records.iter().find(|(known, _)| known == name);
+            found.and_then(|(_, value)| value.number()).unwrap()
+        };
+        let (begin, over, all) = (record("begin"), record("over"), record("all"));
+        assert!((summary.terms[0][0] - (over - begin)).abs() < 1e-6, "{} of {begin}..{over}", summary.terms[0][0]);
+        // 0.9 of every state less every state before.
+        let discounted = 0.9 * all - (all - over + begin);
+        assert!((summary.terms[0][1] - discounted).abs() < 1e-6, "{} of {discounted}", summary.terms[0][1]);
+    }
+}
+
+#[test]
+fn agents_judged_together_are_paid_as_if_judged_alone() {
+    // Rewards run for a team at once, records agent by agent.
+    let paid = [
+        "abs(me.x) * me.fatigue",
+        "distance(me, ball) / 1m",
+        "if me has ball then 1 else 0",
+        "if pressed(me, within: 3m) then 1 else 0",
+        "count(p in mates where distance(p, me) < 12m)",
+        "min(distance(p, me) / 1m for p in them)",
+        "if held(me.speed > 3m/s, for: 0.5s) then 1 else 0",
+        "if ever(me has ball) then 1 else 0",
+        "closing(me, ball) / 1m",
+        "if touch by me then 1 else 0",
+        "distance(nearest(mates, to: me), ball) / 1m - us.score",
+    ];
+    for agents in ["left: 1, right: 0", "left: 3, right: 0", "left: all, right: 0", "left: 0, right: all"] {
+        let mut text = format!("scenario s extends 11_vs_11_stochastic {{ agents {{ {agents} }} end limit 300 steps\n");
+        for (index, value) in paid.iter().enumerate() {
+            text.push_str(&format!(
+                "reward r{index} {{ give {value} as \"sum\" }}\nrecord m{index} = sum of ({value})\n"
+            ));
+        }
+        text.push('}');
+        let (summaries, names) = bots(&text, 1);
+        for summary in summaries {
+            for index in 0..paid.len() {
+                let term = names.iter().position(|name| *name == format!("r{index}/sum")).unwrap();
+                let (_, recorded) = summary.records.iter().find(|(name, _)| *name == format!("m{index}")).unwrap();
+                let alone: Vec<f64> = match recorded {
+                    Recorded::PerAgent(values) => values.iter().map(|value| value.number().unwrap()).collect(),
+                    one => vec![one.number().unwrap()],
+                };
+                let together: Vec<f64> = summary.terms.iter().map(|terms| terms[term]).collect();
+                assert_eq!(alone, together, "`{}` with {agents}", paid[index]);
+            }
+        }
     }
 }
 

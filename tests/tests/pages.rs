@@ -3,6 +3,7 @@
 
 use setpiece::Error;
 use setpiece::dsl::problem::{Code, Severity};
+use setpiece::dsl::report::{Format, render};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -34,6 +35,52 @@ fn blocks(page: &str) -> Vec<Block> {
     blocks
 }
 
+/// Every report of a text, as a terminal shows it.
+fn report(text: &str) -> String {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("scenario.pitch");
+    std::fs::write(&path, text).unwrap();
+    let found = setpiece::check(path.to_str().unwrap()).unwrap();
+    let shown = render(&found.problems, &found.sources, Format::Human { color: false, width: 100 });
+    shown.replace(path.to_str().unwrap(), "scenario.pitch")
+}
+
+fn texts(folder: &Path) -> String {
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let text = |path: &PathBuf| if path.is_dir() { texts(path) } else { std::fs::read_to_string(path).unwrap() };
+    paths.iter().map(text).collect()
+}
+
+/// What the compiler and the dry run say has a case of the specification; what only the command says, a console of its
+/// page or a test of the command.
+#[test]
+fn every_code_is_earned_somewhere() {
+    let root = folder().join("../..");
+    let (cases, commands) = (texts(&root.join("tests/spec")), texts(&root.join("setpiece/tests")));
+    for code in Code::ALL {
+        let name = code.to_string();
+        let of_the_command = name.starts_with("SP00") || name.starts_with("SP07");
+        let console = || setpiece::explain::page(*code).unwrap().contains("```console");
+        // A system that refuses threads can't be had for a test.
+        let told = *code == Code::NoThreads || commands.contains(&name) || console();
+        assert!(cases.contains(&name) || (of_the_command && told), "{code} is earned nowhere");
+    }
+}
+
+/// The look of each code's report; what only the command says stands in the pages' consoles.
+#[test]
+fn every_report_looks_as_it_should() {
+    for code in Code::ALL {
+        for (index, block) in blocks(setpiece::explain::page(*code).unwrap()).iter().enumerate() {
+            if block.info.contains("error=") {
+                let name = if index == 0 { format!("{code}") } else { format!("{code}_{index}") };
+                insta::assert_snapshot!(name, report(&block.text));
+            }
+        }
+    }
+}
+
 /// The codes that a text earns when it is run or checked, and whether one of them is an error.
 fn codes(text: &str) -> (BTreeSet<String>, bool) {
     let dir = tempfile::tempdir().unwrap();
@@ -44,7 +91,7 @@ fn codes(text: &str) -> (BTreeSet<String>, bool) {
         Err(Error::Compile(failure)) => failure.problems,
         Err(other) => panic!("{other}\n{text}"),
     };
-    problems.extend(setpiece::check(path.to_str().unwrap()).unwrap().0);
+    problems.extend(setpiece::check(path.to_str().unwrap()).unwrap().problems);
     let failed = problems.iter().any(|problem| problem.severity() == Severity::Error);
     (problems.iter().map(|problem| problem.code.to_string()).collect(), failed)
 }

@@ -83,7 +83,11 @@ enum Known {
 
 fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), what: &str, span: Span) -> Known {
     let (x, y) = (lower.interval(place.0), lower.interval(place.1));
-    let outside = |axis: Option<(f64, f64)>, limit: f64| axis.is_some_and(|(low, high)| low > limit || high < -limit);
+    // What is drawn up to the rim and beyond is never drawn on the rim.
+    let beyond = |low: f64, high: f64, limit: f64| low > limit || (low >= limit && high > low);
+    let outside = |axis: Option<(f64, f64)>, limit: f64| {
+        axis.is_some_and(|(low, high)| beyond(low, high, limit) || beyond(-high, -low, limit))
+    };
     if outside(x, limit.0) || outside(y, limit.1) {
         let text = lower.world.text(span);
         let far = |axis: Option<(f64, f64)>| axis.map_or(0.0, |(low, _)| low);

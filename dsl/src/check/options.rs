@@ -3,7 +3,6 @@
 use crate::ast::{Expr, Field, FieldValue};
 use crate::lower::Lower;
 use crate::problem::{Code, Problem};
-use crate::resolve::doubled;
 
 /// Keys of `agents { }`.
 pub(crate) const AGENTS: &[&str] = &["left", "right", "others", "switching"];
@@ -17,14 +16,13 @@ pub(crate) const BALL: &[&str] = &["velocity", "height", "spin", "owner"];
 /// Keys of `start … { }`.
 pub(crate) const START: &[&str] = &["score", "elapsed"];
 
-/// The fields of a list that are known; reports the others and doubled ones.
+/// The fields of a list that are known; reports the others.
 pub(crate) fn known_fields<'w>(
     lower: &Lower<'_, 'w>,
     fields: &'w [Field],
     known: &[&str],
     whose: &str,
 ) -> Vec<&'w Field> {
-    doubled(fields, &mut lower.world.problems.borrow_mut());
     fields.iter().filter(|field| is_known(lower, field, known, whose)).collect()
 }
 

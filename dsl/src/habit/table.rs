@@ -20,14 +20,6 @@ pub(super) const HABITS: &[Habit] = &[
     row(Name, "box¦six_yard¦half¦third¦penalty_spot¦byline", "it belongs to a team: `left.{1}`"),
     row(Name, "center", "write `centre`"),
     row(Name, "end", "`end` is an event only after `on`: `give 1 on end`"),
-    row(Name, "gauss¦normalvariate", "write `normal(mean, sd)`"),
-    row(Name, "randint¦randrange", "write `integer(lo, hi)`"),
-    row(Name, "random¦rand", "write `uniform(0, 1)`"),
-    row(Name, "boolean", "write `bool`"),
-    row(Name, "float¦double¦real", "write `number`"),
-    row(Name, "dist¦metres¦meters", "write `length`"),
-    row(Name, "vec¦vec2", "write `vector`"),
-    row(Name, "str¦text", "write `string`"),
     // Letters.
     row(Anywhere, "| é", "a name is of the letters a to z, digits and `_`"),
     row(

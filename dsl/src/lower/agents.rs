@@ -42,7 +42,7 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
             }
             side => {
                 let team = lower.world.mirror.team(if side == "left" { Team::Left } else { Team::Right });
-                if let Some(found) = lower_side(lower, expr, team)
+                if let Some(found) = lower_side(lower, expr, team, players)
                     && let (Some(slot), Some(at)) = (agents.sides.get_mut(team.index()), at.get_mut(team.index()))
                 {
                     *slot = found;
@@ -74,15 +74,22 @@ fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&s
     found
 }
 
-fn lower_side<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, team: Team) -> Option<SideAgents> {
+fn lower_side<'w>(
+    lower: &mut Lower<'_, 'w>,
+    expr: &'w Expr,
+    team: Team,
+    players: &[PlayerOptions],
+) -> Option<SideAgents> {
     match &expr.kind {
         ExprKind::Name(name) if name == "all" => Some(SideAgents::All),
         ExprKind::List(names) => {
-            let mut players = Vec::new();
+            let of_team = lower.world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
+            let controllable: Vec<bool> = of_team.map(|(_, options)| options.controllable).collect();
+            let mut list = Vec::new();
             for name in names {
-                players.extend(listed(lower, name, team, &players));
+                list.extend(listed(lower, name, team, &list, &controllable));
             }
-            Some(SideAgents::Players(players))
+            Some(SideAgents::Players(list))
         }
         _ => {
             let value = lower.expr(expr);
@@ -94,29 +101,42 @@ fn lower_side<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, team: Team) -> Opti
             }
             let reg = lower.reg(&value);
             lower.check_not_drawn(reg, "the number of agents", expr.span);
-            lower.check_range(reg, (0.0, 11.0), "the number of agents", expr.span, "`0..11`");
-            Some(SideAgents::Count(reg))
+            let fits = lower.check_range(reg, (0.0, 11.0), "the number of agents", expr.span, "`0..11`");
+            fits.then_some(SideAgents::Count(reg))
         }
     }
 }
 
-fn listed<'w>(lower: &mut Lower<'_, 'w>, name: &'w Expr, team: Team, known: &[u8]) -> Option<u8> {
+fn listed<'w>(
+    lower: &mut Lower<'_, 'w>,
+    name: &'w Expr,
+    team: Team,
+    known: &[u8],
+    controllable: &[bool],
+) -> Option<u8> {
     let players: Vec<_> = of_team(&lower.world.roster, team).collect();
     let text = lower.world.text(name.span);
     let index = players.iter().position(|player| player.name.is_some_and(|name| name.node == text));
     let Some(index) = index else {
-        let names = players.iter().filter_map(|player| player.name.map(|name| name.node.as_str()));
-        lower.report(
-            Problem::new(
-                Code::BadAgents,
-                name.span,
-                format!("no player of the {team} team is called `{text}`"),
-                "not known",
-            )
-            .did_you_mean(&text, names),
-        );
+        let names: Vec<&str> = players.iter().filter_map(|player| player.name.map(|name| name.node.as_str())).collect();
+        let message = format!("no player of the {team} team is called `{text}`");
+        let problem = Problem::new(Code::BadAgents, name.span, message, "not known");
+        lower.report(if crate::problem::nearest(&text, names.iter().copied()).is_some() {
+            problem.did_you_mean(&text, names)
+        } else if names.is_empty() {
+            problem.help("give the players names, `anna: CM at (0, 0)`, and list those: `[anna]`")
+        } else {
+            problem.help(format!("its players with names are `{}`", names.join("`, `")))
+        });
         return None;
     };
+    if controllable.get(index) == Some(&false) {
+        lower.report(
+            Problem::new(Code::BadAgents, name.span, format!("`{text}` is not `controllable`"), "")
+                .help("leave him out of the list, or leave `controllable: off` out of his options"),
+        );
+        return None;
+    }
     if known.contains(&(index as u8)) {
         lower.report(Problem::new(Code::BadAgents, name.span, format!("`{text}` is listed twice"), ""));
         return None;
@@ -124,45 +144,32 @@ fn listed<'w>(lower: &mut Lower<'_, 'w>, name: &'w Expr, team: Team, known: &[u8
     Some(index as u8)
 }
 
+/// Reports a team of which more players are asked for than it has.
 fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Span>, players: &[PlayerOptions]) {
     let world = lower.world;
-    let of_side: Vec<&PlayerOptions> = world
-        .roster
-        .iter()
-        .zip(players)
-        .filter(|(player, _)| player.team == team)
-        .map(|(_, options)| options)
-        .collect();
-    let controllable = of_side.iter().filter(|options| options.controllable).count();
-    match agents.sides.get(team.index()) {
-        Some(SideAgents::Count(reg)) => {
-            let Some((_, most)) = lower.interval(*reg) else { return };
-            if most <= controllable as f64 {
-                return;
-            }
-            let span = at.unwrap_or(world.flat.item.name.span);
-            let problem = Problem::new(
-                Code::BadAgents,
-                span,
-                format!("{most} of the {team} team's players are asked for, {controllable} can be controlled"),
-                "",
-            );
-            lower.report(if at.is_none() {
-                problem.help("without `agents { … }` one player of the left team is controlled")
-            } else {
-                problem.help(format!("write at most `{team}: {controllable}`, or `{team}: all`"))
-            });
-        }
-        Some(SideAgents::Players(list)) => {
-            for &index in list {
-                if of_side.get(usize::from(index)).is_some_and(|options| !options.controllable) {
-                    let span = at.unwrap_or(world.flat.item.name.span);
-                    lower.report(Problem::new(Code::BadAgents, span, "a player in the list is not `controllable`", ""));
-                }
-            }
-        }
-        _ => {}
+    let Some(SideAgents::Count(reg)) = agents.sides.get(team.index()) else { return };
+    let of_team = world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
+    let controllable = of_team.filter(|(_, options)| options.controllable).count();
+    let Some((_, most)) = lower.interval(*reg) else { return };
+    // Who is missing where a layout could not be read has been told.
+    if most <= controllable as f64 || !world.whole_roster {
+        return;
     }
+    let name = world.flat.item.name.span;
+    let message = format!("{most} of the {team} team's players are asked for, {controllable} can be controlled");
+    let problem = |span: Span| Problem::new(Code::BadAgents, span, message, "");
+    lower.report(match at {
+        None => problem(name).help("without `agents { … }` one player of the left team is controlled"),
+        Some(at) if world.flat.is_inherited(at) => {
+            let cure =
+                format!("place them, `team {team} {{ CM at (0, 0) }}`, or ask for fewer: `agents {{ {team}: … }}`");
+            problem(name).label(at, "asked for here").help(cure)
+        }
+        Some(at) if controllable == 0 => {
+            problem(at).help(format!("place players in `team {team} {{ … }}`, or leave `{team}` out"))
+        }
+        Some(at) => problem(at).help(format!("write at most `{team}: {controllable}`, or `{team}: all`")),
+    });
 }
 
 /// The one team that has agents; `None` if both have or none.

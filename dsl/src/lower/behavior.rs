@@ -10,13 +10,12 @@ mod statement;
 use super::builder::Layout;
 use super::value::{Binding, Frame, Scope, Value};
 use super::{Lower, Stage, World, param};
-use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, ItemKind, ParamDecl, ScenarioItem, ScriptRef, Span};
+use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use crate::source::FileId;
 use setpiece_scenario::vocabulary::Primitive;
 use setpiece_scenario::{Act, Ai, Behavior, Distribution, Do, Node, PlayerSlot, Reg, Watch};
-use std::collections::BTreeSet;
 
 /// Most nodes that calls of behaviours may add up to.
 const NODES_MAX: usize = 10_000;
@@ -110,16 +109,10 @@ fn check_unused(world: &World<'_>) {
     }
 }
 
-/// Warns of behaviours of the root that nothing uses, and reports those that hide a primitive.
-pub(crate) fn report_names<'a>(
-    items: impl Iterator<Item = &'a ItemKind>,
-    scenarios: &[(&ScenarioItem, &str)],
-    used: &BTreeSet<Span>,
-    problems: &mut Vec<Problem>,
-) {
-    let concrete = scenarios.iter().any(|(item, _)| !item.is_abstract);
+/// Reports behaviours that hide a primitive.
+pub(crate) fn report_names(items: &[Item], problems: &mut Vec<Problem>) {
     for item in items {
-        let ItemKind::Behavior(BehaviorItem { name, .. }) = item else { continue };
+        let ItemKind::Behavior(BehaviorItem { name, .. }) = &item.kind else { continue };
         if Primitive::from_name(&name.node).is_some() {
             problems.push(
                 Problem::new(
@@ -129,16 +122,6 @@ pub(crate) fn report_names<'a>(
                     "can't be declared again",
                 )
                 .help(format!("choose another name, for example `my_{}`", name.node)),
-            );
-        } else if concrete && !used.contains(&name.span) && !name.node.starts_with('_') {
-            problems.push(
-                Problem::new(
-                    Code::UnusedName,
-                    name.span,
-                    format!("behavior `{}` is never used", name.node),
-                    "not read",
-                )
-                .help(format!("give it to a player, `ai: {}`, leave it out, or begin its name with `_`", name.node)),
             );
         }
     }
@@ -200,28 +183,11 @@ impl<'c, 'w> Writer<'c, 'w> {
             return;
         }
         let mut scope = Scope::new(false, Frame::Own);
-        let in_world = self.lower.scope.frame == Frame::World;
         self.drawing(|writer| {
             writer.lower.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
         });
-        if in_world {
-            self.turn_angles(&item.params, &mut scope);
-        }
+        self.lower.turn_angles(&item.params, &mut scope);
         self.body(item, scope);
-    }
-
-    /// Angles that were read in the world's frame are read in the own one within the behaviour.
-    fn turn_angles(&mut self, params: &'w [ParamDecl], scope: &mut Scope<'w>) {
-        for decl in params {
-            if let Some(Binding::Expr { now: Some(value), .. }) = scope.find(&decl.name.node).cloned()
-                && value.ty == Ty::ANGLE
-            {
-                let read = self.lower.reg(&value);
-                let world = self.lower.in_frame(Frame::World, |lower| lower.turned_angle(read));
-                let own = self.lower.in_frame(Frame::Own, |lower| lower.turned_angle(world));
-                scope.bind(&decl.name.node, Binding::Value(Value::one(Ty::ANGLE, own)));
-            }
-        }
     }
 
     fn body(&mut self, item: &'w BehaviorItem, scope: Scope<'w>) {
@@ -261,7 +227,8 @@ impl<'c, 'w> Writer<'c, 'w> {
     }
 
     fn script(&mut self, script: &'w ScriptRef, args: Vec<setpiece_scenario::ScriptArg>) {
-        if let Some(script) = super::script::embed(self.lower.world, script, "act") {
+        let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
+        if let Some(script) = super::script::embed(self.lower.world, script, "act", &own) {
             let act = Act::Script { script, args };
             self.nodes.push(Node::Do(Do { act, sprint: false, until: None, seconds: None }));
         }

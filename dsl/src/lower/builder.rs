@@ -218,6 +218,8 @@ impl Builder {
         match (op, self.instr(a)) {
             (UnaryOp::Neg, Some(&Instr::Unary(UnaryOp::Neg, b)))
             | (UnaryOp::OtherTeam, Some(&Instr::Unary(UnaryOp::OtherTeam, b))) => return b,
+            // Who is judged plays for the team that is judged.
+            (UnaryOp::TeamOf, Some(Instr::Me)) => return self.us(),
             _ => {}
         }
         self.shared(self.block_of(&[a]), Key::Unary(op, a.0), Instr::Unary(op, a))
@@ -310,7 +312,7 @@ impl Builder {
 
     /// A draw of its own stream: never shared.
     pub(crate) fn random(&mut self, key: u64, from: Distribution) -> Reg {
-        self.push(self.here(), Instr::Random { key, from }, None)
+        self.push(self.here(), Instr::Random { key, from: Box::new(from) }, None)
     }
 
     /// Pays into a term.
@@ -331,7 +333,11 @@ impl Builder {
         let body = self.blocks.len();
         let at = self.nodes.len() as u32;
         let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
-        self.nodes.push(Node { instr: Instr::Each(Each { over, body: 0, fold }), block: body, body: Some(body) });
+        self.nodes.push(Node {
+            instr: Instr::Each(Box::new(Each { over, body: 0, fold })),
+            block: body,
+            body: Some(body),
+        });
         self.blocks.push(Block { owner: Some(at), ..Block::default() });
         self.open.push(body);
         OpenLoop { at, body }
@@ -501,7 +507,7 @@ impl Out {
                         })
                     }
                 };
-                Instr::Each(Each { over, body: each.body, fold: each.fold.clone() })
+                Instr::Each(Box::new(Each { over, body: each.body, fold: each.fold.clone() }))
             }
             Instr::Held { of, seconds, cell } => Instr::Held { of: p(of), seconds: p(seconds), cell: *cell },
             Instr::Ever { of, cell } => Instr::Ever { of: p(of), cell: *cell },
@@ -515,14 +521,14 @@ impl Out {
                 Instr::Assign { cell: *cell, value: p(value), guard: guard.as_ref().map(p) }
             }
             Instr::Random { key, from } => {
-                let from = match from {
+                let from = match &**from {
                     Distribution::Uniform(a, b) => Distribution::Uniform(p(a), p(b)),
                     Distribution::Normal(a, b) => Distribution::Normal(p(a), p(b)),
                     Distribution::TruncatedNormal(a, b, c, d) => Distribution::TruncatedNormal(p(a), p(b), p(c), p(d)),
                     Distribution::Integer(a, b) => Distribution::Integer(p(a), p(b)),
                     Distribution::Weighted(weights) => Distribution::Weighted(weights.iter().map(p).collect()),
                 };
-                Instr::Random { key: *key, from }
+                Instr::Random { key: *key, from: Box::new(from) }
             }
             Instr::Const(_)
             | Instr::Param(_)

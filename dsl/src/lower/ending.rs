@@ -62,7 +62,9 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
     let mut lowered = Ending { verdict, label, when: None, script: None };
     match (ending.condition, ending.label) {
         (Some(EndCondition::Expr(condition)), _) => lowered.when = Some(lower.condition(condition)),
-        (Some(EndCondition::Script(source)), _) => lowered.script = Some(script::embed(lower.world, source, "done")?),
+        (Some(EndCondition::Script(source)), _) => {
+            lowered.script = Some(script::embed(lower.world, source, "done", &[])?);
+        }
         (None, Some(reference)) => {
             let found = lower.world.library.find(reference.name.span.file, &reference.name.node);
             let item = found.and_then(|found| match &found.item.kind {

@@ -125,7 +125,8 @@ impl<'w> Lower<'_, 'w> {
             .collect();
         if let Some(at) = kinds.iter().position(Option::is_none) {
             let (ty, at) = (values.get(at).map_or(Ty::Error, |value| value.ty), parts.get(at));
-            let mut problem = self.mismatch(ty, Ty::LENGTH, at.map_or(span, |part| part.span));
+            let wanted = if kinds.contains(&Some(Ty::SPEED)) { Ty::SPEED } else { Ty::LENGTH };
+            let mut problem = self.mismatch(ty, wanted, at.map_or(span, |part| part.span));
             problem.help = Some("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`".to_owned());
             return self.fail(problem);
         }
@@ -205,6 +206,7 @@ impl<'w> Lower<'_, 'w> {
                 _ => "compare it with something: `… > 0`".to_owned(),
             });
             self.report(problem);
+            return self.code.unknown();
         }
         self.reg(&value)
     }

@@ -25,13 +25,12 @@ fn bounded(code: &Builder, reg: Reg, params: &[Option<Interval>], depth: u32) ->
             let (a, b) = (of(*a)?, of(*b)?);
             (a.0.min(b.0), a.1.max(b.1))
         }
-        Instr::Random {
-            from:
-                Distribution::Uniform(low, high)
-                | Distribution::Integer(low, high)
-                | Distribution::TruncatedNormal(_, _, low, high),
-            ..
-        } => (of(*low)?.0, of(*high)?.1),
+        Instr::Random { from, .. } => match &**from {
+            Distribution::Uniform(low, high)
+            | Distribution::Integer(low, high)
+            | Distribution::TruncatedNormal(_, _, low, high) => (of(*low)?.0, of(*high)?.1),
+            Distribution::Normal(..) | Distribution::Weighted(_) => return None,
+        },
         _ => return None,
     };
     (found.0.is_finite() && found.1.is_finite()).then_some(found)
@@ -40,7 +39,10 @@ fn bounded(code: &Builder, reg: Reg, params: &[Option<Interval>], depth: u32) ->
 fn unary(op: UnaryOp, a: Interval) -> Option<Interval> {
     Some(match op {
         UnaryOp::Neg => (-a.1, -a.0),
-        UnaryOp::Not => (0.0, 1.0),
+        UnaryOp::Not => match truth(a) {
+            Some(holds) => known(!holds),
+            None => (0.0, 1.0),
+        },
         UnaryOp::Abs if a.0 >= 0.0 => a,
         UnaryOp::Abs if a.1 <= 0.0 => (-a.1, -a.0),
         UnaryOp::Abs => (0.0, a.1.max(-a.0)),
@@ -61,14 +63,21 @@ fn binary(op: BinaryOp, a: Interval, b: Interval) -> Option<Interval> {
         BinaryOp::Div if b.0 > 0.0 || b.1 < 0.0 => corners(a, b, |x, y| x / y),
         BinaryOp::Min => (a.0.min(b.0), a.1.min(b.1)),
         BinaryOp::Max => (a.0.max(b.0), a.1.max(b.1)),
-        BinaryOp::Lt
-        | BinaryOp::Le
-        | BinaryOp::Gt
-        | BinaryOp::Ge
-        | BinaryOp::Eq
-        | BinaryOp::Ne
-        | BinaryOp::And
-        | BinaryOp::Or => (0.0, 1.0),
+        BinaryOp::Lt | BinaryOp::Le => order(a, b),
+        BinaryOp::Gt | BinaryOp::Ge => order(b, a),
+        BinaryOp::Eq if apart(a, b) || apart(b, a) => known(false),
+        BinaryOp::Ne if apart(a, b) || apart(b, a) => known(true),
+        BinaryOp::And => match (truth(a), truth(b)) {
+            (Some(false), _) | (_, Some(false)) => known(false),
+            (Some(true), Some(true)) => known(true),
+            _ => (0.0, 1.0),
+        },
+        BinaryOp::Or => match (truth(a), truth(b)) {
+            (Some(true), _) | (_, Some(true)) => known(true),
+            (Some(false), Some(false)) => known(false),
+            _ => (0.0, 1.0),
+        },
+        BinaryOp::Eq | BinaryOp::Ne => (0.0, 1.0),
         BinaryOp::Mod if b.0 > 0.0 => (0.0, b.1),
         BinaryOp::Hypot => {
             let size = |a: Interval| if a.0 <= 0.0 && a.1 >= 0.0 { 0.0 } else { a.0.abs().min(a.1.abs()) };
@@ -76,6 +85,36 @@ fn binary(op: BinaryOp, a: Interval, b: Interval) -> Option<Interval> {
         }
         _ => return None,
     })
+}
+
+/// What a condition with these values is, if it is always the same.
+fn truth(a: Interval) -> Option<bool> {
+    match a {
+        (0.0, 0.0) => Some(false),
+        (low, high) if low > 0.0 || high < 0.0 => Some(true),
+        _ => None,
+    }
+}
+
+fn known(holds: bool) -> Interval {
+    let value = f64::from(u8::from(holds));
+    (value, value)
+}
+
+/// `a < b`, `a <= b`.
+fn order(a: Interval, b: Interval) -> Interval {
+    if apart(a, b) {
+        known(true)
+    } else if apart(b, a) {
+        known(false)
+    } else {
+        (0.0, 1.0)
+    }
+}
+
+/// Whether `a` lies below `b` by more than what rounding does.
+fn apart(a: Interval, b: Interval) -> bool {
+    b.0 - a.1 > 1e-9 * (1.0 + a.1.abs())
 }
 
 fn corners(a: Interval, b: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {

@@ -28,10 +28,12 @@ impl Mirror {
         match word.node.as_str() {
             "flanks" => Mirror::Flanks,
             "ends" => Mirror::Ends,
+            // Undoes what is inherited.
+            "none" | "off" => Mirror::Off,
             other => {
                 problems.push(
                     Problem::new(Code::OutOfRange, word.span, format!("`mirror` is never `{other}`"), "")
-                        .help("write `mirror: flanks` or `mirror: ends`"),
+                        .help("write `mirror: flanks`, `mirror: ends` or `mirror: none`"),
                 );
                 Mirror::Off
             }

@@ -49,10 +49,13 @@ impl ParamInfo<'_> {
 pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
     match Type::from_name(ty.node.trim_end_matches('?')) {
         Some(Type::Behavior) | None => {
-            world.report(
-                Problem::new(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "")
-                    .did_you_mean(&ty.node, Type::ALL.iter().map(|ty| ty.name())),
-            );
+            let known: Vec<&str> = Type::ALL.iter().filter(|ty| **ty != Type::Behavior).map(|ty| ty.name()).collect();
+            let problem = Problem::new(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "");
+            world.report(if crate::problem::nearest(&ty.node, known.iter().copied()).is_some() {
+                problem.did_you_mean(&ty.node, known)
+            } else {
+                problem.help(format!("the types are `{}`", known.join("`, `")))
+            });
             Ty::Error
         }
         Some(ty) => Ty::of(ty),

@@ -331,6 +331,14 @@ impl<'w> Lower<'_, 'w> {
             let target = self.convert(value, Ty::Point, &facing.target);
             let target = self.pair(&target);
             let here = self.place_of_rostered(index, facing.target.span);
+            let constant = |place: (Reg, Reg)| Some((self.code.constant_of(place.0)?, self.code.constant_of(place.1)?));
+            let same = target == here || constant(target).is_some_and(|known| constant(here) == Some(known));
+            if same && !self.code.is_unknown(here.0) {
+                self.report(
+                    Problem::new(Code::Impossible, facing.target.span, "nobody can face the spot he stands on", "")
+                        .help("face another place, or an angle: `facing 90deg`"),
+                );
+            }
             let dx = self.code.binary(BinaryOp::Sub, target.0, here.0);
             let dy = self.code.binary(BinaryOp::Sub, target.1, here.1);
             self.code.binary(BinaryOp::Atan2, dy, dx)

@@ -28,7 +28,10 @@ fn lower_record<'w>(world: &World<'w>, binding: &'w Binding) -> Option<Record> {
     };
     let value = lower.expr(expr);
     let values = lower.measured(&value, expr)?;
-    let (program, layout) = lower.code.finish(&values);
+    // A program that knows whom it is for is run for each.
+    let me = lower.per_agent.then(|| lower.code.me());
+    let roots: Vec<Reg> = values.iter().copied().chain(me).collect();
+    let (program, layout) = lower.code.finish(&roots);
     let values = values.iter().map(|&reg| layout.reg(reg)).collect();
     Some(Record { name: binding.name.node.clone(), program, values, series })
 }

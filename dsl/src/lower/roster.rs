@@ -70,7 +70,8 @@ pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
             None => from_statements(world, *team, flat),
         };
         adjust(world, &mut players, &flat.absent, &flat.overrides, &Scope::new(true, Frame::World));
-        apply_each(world, &mut players, &flat.each, *team);
+        // What a parent says of a role that the child has not is said of nobody.
+        apply_each(world, &mut players, &flat.each, *team, &|who| world.flat.is_own(who));
         check_size(world, &players, *team);
         for (index, player) in players.iter_mut().enumerate() {
             player.id = (team.index() * TEAM_MAX + index) as u8;
@@ -227,6 +228,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
         let mut scope = scope.clone();
         scope.players_of = Some(team);
         if !std::ptr::eq(link, item) {
+            world.mark_used(link.name.span);
             // A parent's parameters are bound by the reference of its child.
             let mut lower = Lower::new(world, Stage::Start, scope);
             scope = Scope::new(false, Frame::Own);
@@ -254,7 +256,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
             }
         }
         adjust(world, &mut players, &absent, &overrides, &scope);
-        apply_each(world, &mut players, &each, team);
+        apply_each(world, &mut players, &each, team, &|_| true);
     }
     players
 }
@@ -278,6 +280,12 @@ fn copies<'w>(
                 "",
             )
             .help("leave the name out, or write one line per player"),
+        );
+    }
+    if let Some(none) = player.count.as_ref().filter(|count| count.node == 0) {
+        world.report(
+            Problem::new(Code::OutOfRange, none.span, format!("`0 {}` is nobody", player.role.node), "")
+                .help("leave the line out; whether a player takes part with a parameter says `when …`"),
         );
     }
     if player.place.is_none() {
@@ -381,8 +389,14 @@ fn adjust<'w>(
     }
 }
 
-/// `each …`: defaults, behind the players' own options.
-fn apply_each<'w>(world: &World<'w>, players: &mut [Rostered<'w>], each: &[(&'w Ident, &'w [Field])], team: Team) {
+/// `each …`: defaults, behind the players' own options; `is_own` tells whether it must fit somebody.
+fn apply_each<'w>(
+    world: &World<'w>,
+    players: &mut [Rostered<'w>],
+    each: &[(&'w Ident, &'w [Field])],
+    team: Team,
+    is_own: &dyn Fn(Span) -> bool,
+) {
     let mut defaults: Vec<Vec<&'w Field>> = vec![Vec::new(); players.len()];
     for (who, fields) in each {
         let role = Role::from_name(&who.node);
@@ -405,7 +419,7 @@ fn apply_each<'w>(world: &World<'w>, players: &mut [Rostered<'w>], each: &[(&'w 
                 defaults.extend(fields.iter());
             }
         }
-        if !anyone && !players.is_empty() {
+        if !anyone && !players.is_empty() && is_own(who.span) {
             world.report(Problem::new(
                 Code::UnknownRole,
                 who.span,
@@ -456,6 +470,14 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
                     "called so again here",
                 )
                 .label(first.span, "first called so here"),
+            );
+        }
+        if let Some(value) = world.declaration(&name.node) {
+            // Of the two the author wrote the one that stands in his own scenario.
+            let (again, first) = if world.flat.is_own(name.span) { (name.span, value) } else { (value, name.span) };
+            world.report(
+                Problem::declared_twice(&format!("`{}`", name.node), again, first)
+                    .help("a player and a value can't share a name: choose another for one of them"),
             );
         }
     }

@@ -5,7 +5,6 @@ use crate::ast::{ScriptRef, ScriptSource, Span};
 use crate::problem::{Code, Problem, ScriptApi};
 use crate::source::{FileId, LoadError, Source, SourceLoader};
 use setpiece_scenario::Script;
-use std::cell::RefCell;
 
 /// A script that the loader was asked for.
 pub(crate) struct LoadedScript {
@@ -22,16 +21,15 @@ pub(crate) struct LoadedScript {
 pub(crate) struct Scripts<'a> {
     loaded: Vec<LoadedScript>,
     api: Option<&'a dyn ScriptApi>,
-    checked: RefCell<Vec<(FileId, &'static str)>>,
 }
 
 impl<'a> Scripts<'a> {
     /// With the API that scripts are checked against.
     pub(crate) fn new(api: Option<&'a dyn ScriptApi>) -> Scripts<'a> {
-        Scripts { loaded: Vec::new(), api, checked: RefCell::default() }
+        Scripts { loaded: Vec::new(), api }
     }
 
-    /// Loads a script that a file names, once.
+    /// Loads a script that a file names, once; says which file it would be where there is none.
     pub(crate) fn load(
         &mut self,
         from: FileId,
@@ -39,17 +37,20 @@ impl<'a> Scripts<'a> {
         path: &str,
         loader: &dyn SourceLoader,
         add: &mut dyn FnMut(Source) -> FileId,
-    ) {
+    ) -> Option<String> {
         if self.loaded.iter().any(|script| script.from == from && script.path == path) {
-            return;
+            return None;
         }
         let found = loader.load(path, from_name).map(add);
+        let awaited = found.as_ref().err().and_then(|error| error.awaited.clone());
         self.loaded.push(LoadedScript { from, path: path.to_owned(), found });
+        awaited
     }
 }
 
-/// Embeds a script and gives its place in the scenario; `None` after a report.
-pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str) -> Option<u32> {
+/// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names that its hook finds
+/// among the scenario's parameters.
+pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, own: &[&str]) -> Option<u32> {
     let (name, source, text_at) = match &script.source {
         ScriptSource::File(path) => {
             let loaded = world.scripts_loaded.loaded.iter();
@@ -76,7 +77,12 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str) -
             (name, source, (text.span.file, text.span.start))
         }
     };
-    check(world, &source, text_at, hook);
+    check(world, &source, text_at, hook, own);
+    // A script reads a parameter by its name, in whatever way.
+    let words: Vec<&str> = source.text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    for param in world.params.iter().filter(|param| words.contains(&param.name.node.as_str())) {
+        world.mark_used(param.name.span);
+    }
     let mut scripts = world.scripts.borrow_mut();
     let embedded = Script { name, source: source.text.to_string() };
     let known = scripts.iter().position(|script| *script == embedded);
@@ -87,15 +93,11 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str) -
     Some(index as u32)
 }
 
-fn check(world: &World<'_>, source: &Source, (file, offset): (FileId, u32), hook: &'static str) {
+fn check(world: &World<'_>, source: &Source, (file, offset): (FileId, u32), hook: &str, own: &[&str]) {
     let Some(api) = world.scripts_loaded.api else { return };
-    let whole_file = offset == 0;
-    let mut checked = world.scripts_loaded.checked.borrow_mut();
-    if whole_file && checked.contains(&(file, hook)) {
-        return;
-    }
-    checked.push((file, hook));
-    for found in api.check(source, hook) {
+    let bound = world.params.iter().filter(|param| param.bound.is_none());
+    let params: Vec<&str> = bound.map(|param| param.param.name.as_str()).chain(own.iter().copied()).collect();
+    for found in api.check(source, hook, &params) {
         let span = Span {
             file,
             start: offset + found.range.start as u32,

@@ -426,7 +426,7 @@ impl<'w> Lower<'_, 'w> {
                 reg
             });
             let words = label.as_ref().map_or_else(|| self.world.text(condition.span), |label| label.node.clone());
-            if self.code.constant_of(met) == Some(0.0) && probability.is_none() {
+            if self.interval(met) == Some((0.0, 0.0)) && probability.is_none() {
                 self.report(
                     Problem::new(
                         Code::ImpossibleToDraw,

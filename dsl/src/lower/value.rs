@@ -93,6 +93,21 @@ impl<'w> Value<'w> {
         Value { ty, repr: Repr::Two(x, y) }
     }
 
+    /// Of as many registers as it was kept in.
+    pub(crate) fn of_regs(ty: Ty, regs: &[Reg]) -> Value<'w> {
+        match *regs {
+            [a] => Value::one(ty, a),
+            [a, b] => Value::two(ty, (a, b)),
+            [a, b, c] => Value { ty, repr: Repr::Three(a, b, c) },
+            _ => Value::error(),
+        }
+    }
+
+    /// Whether it can be kept from step to step: in a few numbers.
+    pub(crate) fn is_held(&self) -> bool {
+        matches!(self.repr, Repr::One(_) | Repr::Two(..) | Repr::Three(..))
+    }
+
     /// Whether the expression was broken.
     pub(crate) fn is_error(&self) -> bool {
         self.ty == Ty::Error
@@ -186,10 +201,14 @@ pub(crate) enum Binding<'w> {
     },
     /// A `state` of a reward.
     State {
-        /// Its cell.
-        cell: u32,
+        /// Its cells, one per register.
+        cells: Rc<[u32]>,
+        /// What they held when the step began.
+        before: Rc<[Reg]>,
         /// Its type.
         ty: Ty,
+        /// Where it is declared.
+        at: Span,
     },
 }
 

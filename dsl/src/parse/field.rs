@@ -3,6 +3,7 @@
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
 use crate::ast::{Field, FieldValue, ScriptRef, ScriptSource, Spanned};
+use crate::problem::Problem;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -10,7 +11,13 @@ impl Reader<'_> {
     /// The fields between braces.
     pub(super) fn fields(&mut self, node: Node<'_>) -> Vec<Field> {
         let fields = self.list(node, Context::Fields, |reader, field, _, _| reader.field(field), |_, _| None);
-        fields.into_iter().flatten().collect()
+        let fields: Vec<Field> = fields.into_iter().flatten().collect();
+        for (index, field) in fields.iter().enumerate() {
+            if let Some(first) = fields.iter().take(index).find(|first| first.key.node == field.key.node) {
+                self.push(Problem::given_twice(&format!("`{}`", field.key.node), field.key.span, first.key.span));
+            }
+        }
+        fields
     }
 
     /// Takes the next child if it is `fields`.

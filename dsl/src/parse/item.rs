@@ -96,7 +96,7 @@ impl Reader<'_> {
         let ending = node.as_rule() == Rule::ending;
         let mut nodes = Nodes::of(node);
         let name = nodes.seek(Rule::ident)?;
-        let name = if ending { self.ident(&name) } else { self.value_name(&name) };
+        let name = if ending { self.ident(&name) } else { self.callable_name(&name) };
         let params = nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
         let ty = nodes.eat(Rule::arrow).then(|| nodes.want(Rule::type_name).map(|ty| self.ident(&ty))).flatten();
         nodes.eat(Rule::equals);

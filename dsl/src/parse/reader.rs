@@ -3,12 +3,12 @@
 use super::scan::Scan;
 use super::{MAX_BLOCKS, MAX_PROBLEMS, span};
 use crate::ast::{Ident, Spanned};
+use crate::check::names::{owner_of_call, owner_of_value};
 use crate::problem::{Code, Problem};
 use crate::source::{FileId, Span};
 use pest::error::InputLocation;
 use pest::iterators::{Pair, Pairs};
 use setpiece_grammar::Rule;
-use setpiece_scenario::vocabulary::EventKind;
 use std::collections::BTreeSet;
 use std::iter::Peekable;
 use std::ops::Range;
@@ -202,11 +202,20 @@ impl<'t> Reader<'t> {
         Ident { node: node.as_str().to_owned(), span: self.span(node) }
     }
 
-    /// A name that expressions may use: it can't be an event's.
+    /// A name that expressions may use: it can't be an event's, nor hide a value of the language.
     pub(super) fn value_name(&mut self, node: &Node<'_>) -> Ident {
         let name = self.ident(node);
-        if EventKind::from_name(&name.node).is_some() {
-            self.push(reserved(&name.node, name.span, "events"));
+        if let Some(owner) = owner_of_value(&name.node) {
+            self.push(reserved(&name.node, name.span, owner));
+        }
+        name
+    }
+
+    /// The name of what is called: it can't be a function's, either.
+    pub(super) fn callable_name(&mut self, node: &Node<'_>) -> Ident {
+        let name = self.value_name(node);
+        if let Some(owner) = owner_of_call(&name.node) {
+            self.push(reserved(&name.node, name.span, owner));
         }
         name
     }

@@ -84,7 +84,11 @@ impl Reader<'_> {
             }
             Rule::remove => {
                 let what = nodes.next().map(|what| self.ident(&what))?;
-                ScenarioStmtKind::Remove { what, name: nodes.want(Rule::ident).map(|name| self.ident(&name)) }
+                let name = match nodes.next() {
+                    Some(name) if name.as_rule() == Rule::string => Some(self.string(&name)),
+                    name => name.map(|name| self.ident(&name)),
+                };
+                ScenarioStmtKind::Remove { what, name }
             }
             Rule::mirror => ScenarioStmtKind::Mirror(nodes.seek(Rule::ident).map(|what| self.ident(&what))?),
             Rule::observe => {

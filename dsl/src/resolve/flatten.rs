@@ -3,7 +3,9 @@
 //! Root first. A child's `ball`, `limit`, player list, and whatever bears the same name replace the parent's; fields
 //! merge key by key; unnamed endings, requirements and new rewards are added; `remove` acts on the parents' result.
 
-use super::load::Library;
+mod remove;
+
+use super::load::{Library, distinct_params};
 use super::parts::chain;
 use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
@@ -52,6 +54,24 @@ pub(crate) struct Flat<'a> {
     pub(crate) tuples: Vec<(&'a [Ident], &'a Expr)>,
     /// `mirror: flanks`
     pub(crate) mirror: Option<&'a Ident>,
+    /// What it extends, the root first.
+    pub(crate) parents: Vec<&'a ScenarioItem>,
+}
+
+impl Flat<'_> {
+    /// Whether a part stands in the scenario itself, not in one that it extends.
+    pub(crate) fn is_own(&self, part: Span) -> bool {
+        holds(self.item, part)
+    }
+
+    /// Whether a part stands in a scenario that it extends.
+    pub(crate) fn is_inherited(&self, part: Span) -> bool {
+        self.parents.iter().any(|parent| holds(parent, part))
+    }
+}
+
+fn holds(item: &ScenarioItem, part: Span) -> bool {
+    item.body.iter().map(|stmt| stmt.span).chain(item.params.iter().map(|param| param.span)).any(|own| own.holds(part))
 }
 
 /// A line of `observe vector { … }`: a value and its label.
@@ -130,6 +150,7 @@ pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems
         observed: None,
         tuples: Vec::new(),
         mirror: None,
+        parents: links.iter().map(|(parent, _)| *parent).filter(|parent| !std::ptr::eq(*parent, item)).collect(),
     };
     for (level, (scenario, _)) in links.iter().enumerate() {
         let mut adding = Adding { flat: &mut flat, problems, is_child: level > 0, own: Vec::new() };
@@ -162,26 +183,27 @@ impl<'a> Adding<'a, '_> {
         match &stmt.kind {
             ScenarioStmtKind::Param(param) => self.param(param),
             ScenarioStmtKind::Let(binding) => {
-                self.declare("let", &binding.name);
+                self.declare(&binding.name);
                 replace(&mut self.flat.lets, binding, |b| &b.name.node);
             }
             ScenarioStmtKind::Const(binding) => {
-                self.declare("const", &binding.name);
+                self.declare(&binding.name);
                 replace(&mut self.flat.consts, binding, |b| &b.name.node);
             }
             ScenarioStmtKind::Region(region) => {
-                self.declare("region", &region.name);
+                self.declare(&region.name);
+                distinct_params(&region.params, self.problems);
                 replace(&mut self.flat.regions, region, |r| &r.name.node);
             }
             ScenarioStmtKind::Rules(fields) => {
-                doubled(fields, self.problems);
                 for field in fields {
+                    self.key_once("rules", &field.key);
                     replace(&mut self.flat.rules, field, |f| &f.key.node);
                 }
             }
             ScenarioStmtKind::Agents(fields) => {
-                doubled(fields, self.problems);
                 for field in fields {
+                    self.key_once("agents", &field.key);
                     replace(&mut self.flat.agents, field, |f| &f.key.node);
                 }
             }
@@ -207,7 +229,7 @@ impl<'a> Adding<'a, '_> {
             ScenarioStmtKind::Require { .. } => self.flat.requires.push(stmt),
             ScenarioStmtKind::LetTuple { names, value } => {
                 for name in names {
-                    self.declare("let", name);
+                    self.declare(name);
                     self.flat.lets.retain(|known| known.name.node != name.node);
                 }
                 let redeclared = |known: &[Ident]| known.iter().any(|one| names.iter().any(|n| n.node == one.node));
@@ -230,55 +252,44 @@ impl<'a> Adding<'a, '_> {
     /// Records have names of their own: they stand apart from values.
     fn record(&mut self, binding: &'a Binding) {
         let name = &binding.name;
-        if let Some((_, _, first)) = self.own.iter().find(|(kind, known, _)| *kind == "record" && *known == name.node) {
-            self.problems.push(
-                Problem::new(
-                    Code::DuplicateName,
-                    name.span,
-                    format!("record `{}` is declared twice", name.node),
-                    "declared again here",
-                )
-                .label(*first, "first declared here"),
-            );
+        if let Some(first) = self.earlier("record", &name.node, name.span) {
+            self.problems.push(Problem::declared_twice(&format!("record `{}`", name.node), name.span, first));
             return;
         }
-        self.own.push(("record", name.node.clone(), name.span));
         replace(&mut self.flat.records, binding, |known| &known.name.node);
     }
 
-    fn declare(&mut self, kind: &'static str, name: &Ident) {
-        let clash = self
-            .own
-            .iter()
-            .find(|(kind, known, _)| *known == name.node && !matches!(*kind, "record" | "reward" | "end"));
-        if let Some((_, _, first)) = clash {
-            self.problems.push(
-                Problem::new(
-                    Code::DuplicateName,
-                    name.span,
-                    format!("`{}` is declared twice", name.node),
-                    "declared again here",
-                )
-                .label(*first, "first declared here"),
-            );
-        } else {
-            self.own.push((kind, name.node.clone(), name.span));
+    /// Where this scenario has named such a thing so before; else notes that it does here.
+    fn earlier(&mut self, kind: &'static str, name: &str, span: Span) -> Option<Span> {
+        let known = self.own.iter().find(|own| own.0 == kind && own.1 == name).map(|own| own.2);
+        if known.is_none() {
+            self.own.push((kind, name.to_owned(), span));
+        }
+        known
+    }
+
+    /// Declares a name that expressions may use.
+    fn declare(&mut self, name: &Ident) {
+        if let Some(first) = self.earlier("value", &name.node, name.span) {
+            self.problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, first));
         }
     }
 
     fn only_once(&mut self, what: &'static str, span: Span) {
-        if let Some((_, _, first)) = self.own.iter().find(|(kind, _, _)| *kind == what) {
-            self.problems.push(
-                Problem::new(Code::DuplicateOption, span, format!("{what} is given twice"), "given again here")
-                    .label(*first, "first given here"),
-            );
-        } else {
-            self.own.push((what, String::new(), span));
+        if let Some(first) = self.earlier(what, "", span) {
+            self.problems.push(Problem::given_twice(what, span, first));
+        }
+    }
+
+    /// A key of a group that may be written in several pairs of braces.
+    fn key_once(&mut self, group: &'static str, key: &Ident) {
+        if let Some(first) = self.earlier(group, &key.node, key.span) {
+            self.problems.push(Problem::given_twice(&format!("`{}`", key.node), key.span, first));
         }
     }
 
     fn param(&mut self, param: &'a ParamDecl) {
-        self.declare("param", &param.name);
+        self.declare(&param.name);
         let known = self.flat.params.iter_mut().find(|known| known.decl.name.node == param.name.node);
         match known {
             Some(known) if self.is_child => {
@@ -315,6 +326,7 @@ impl<'a> Adding<'a, '_> {
     }
 
     fn arguments(&mut self, reference: &'a Ref) {
+        let mut given: Vec<(&str, Span)> = Vec::new();
         for arg in &reference.args {
             let Some(name) = arg_name(arg) else {
                 self.problems.push(
@@ -328,6 +340,15 @@ impl<'a> Adding<'a, '_> {
                 );
                 continue;
             };
+            if let Some((_, first)) = given.iter().find(|(known, _)| *known == name) {
+                let message = format!("`{name}` is given twice");
+                self.problems.push(
+                    Problem::new(Code::WrongArguments, arg.span, message, "given again here")
+                        .label(*first, "first given here"),
+                );
+                continue;
+            }
+            given.push((name, arg.span));
             let param = self.flat.params.iter_mut().find(|param| param.decl.name.node == name);
             if let Some(param) = param {
                 param.value = Some(&arg.value);
@@ -371,7 +392,6 @@ impl<'a> Adding<'a, '_> {
             );
             return;
         };
-        let Some(flat) = self.flat.teams.get_mut(index) else { return };
         for stmt in body {
             let TeamStmtKind::Absent(role) = &stmt.kind else { continue };
             let placed = body
@@ -391,6 +411,10 @@ impl<'a> Adding<'a, '_> {
             }
         }
         for stmt in body {
+            if let TeamStmtKind::Field(field) = &stmt.kind {
+                self.key_once(if index == 0 { "team left" } else { "team right" }, &field.key);
+            }
+            let Some(flat) = self.flat.teams.get_mut(index) else { return };
             match &stmt.kind {
                 TeamStmtKind::Player(player) => flat.players.push((player, stmt.span)),
                 TeamStmtKind::Override { who, change } => {
@@ -408,7 +432,12 @@ impl<'a> Adding<'a, '_> {
     fn reward(&mut self, reward: &'a RewardUse, stmt: &'a ScenarioStmt) {
         let name = reward_name(reward);
         let known = self.flat.rewards.iter().position(|(known, _, _)| *known == name);
-        if let Some((_, _, first)) = self.own.iter().find(|(kind, known, _)| *kind == "reward" && *known == name) {
+        if let Some(first) = self.earlier("reward", &name, stmt.span) {
+            let what = match &reward.what {
+                RewardUseKind::Named(named) => named.name.node.as_str(),
+                RewardUseKind::Inline { name, .. } => name.node.as_str(),
+                RewardUseKind::Script(_) => "script …",
+            };
             self.problems.push(
                 Problem::new(
                     Code::DuplicateName,
@@ -416,12 +445,11 @@ impl<'a> Adding<'a, '_> {
                     format!("reward `{name}` is given twice"),
                     "given again here",
                 )
-                .label(*first, "first given here")
-                .help(format!("name one of them: `reward {name} as \"{name}_2\"`")),
+                .label(first, "first given here")
+                .help(format!("give one of them another label: `reward {what} as \"{name}_2\"`")),
             );
             return;
         }
-        self.own.push(("reward", name.clone(), stmt.span));
         match known.and_then(|at| self.flat.rewards.get_mut(at)) {
             Some(slot) => *slot = (name, reward, stmt),
             None => self.flat.rewards.push((name, reward, stmt)),
@@ -444,8 +472,7 @@ impl<'a> Adding<'a, '_> {
             return;
         };
         let name = label.bare();
-        let first = self.own.iter().find(|(kind, known, _)| *kind == "end" && *known == name).map(|own| own.2);
-        if let Some(first) = first {
+        if let Some(first) = self.earlier("end", name, span) {
             self.problems.push(
                 Problem::new(
                     Code::DuplicateName,
@@ -458,56 +485,10 @@ impl<'a> Adding<'a, '_> {
             );
             return;
         }
-        self.own.push(("end", name.to_owned(), span));
         let known = self.flat.ends.iter_mut().find(|known| known.label.is_some_and(|known| known.bare() == name));
         match known {
             Some(slot) => *slot = ending,
             None => self.flat.ends.push(ending),
-        }
-    }
-
-    /// `remove` acts on the parents' result, wherever it stands in the child.
-    fn removals(&mut self, body: &'a [ScenarioStmt]) {
-        for stmt in body {
-            let ScenarioStmtKind::Remove { what, name } = &stmt.kind else { continue };
-            let removed = self.remove(&what.node, name.as_ref().map(|name| name.node.as_str()));
-            if removed {
-                continue;
-            }
-            let (span, message) = match name {
-                Some(name) => (name.span, format!("no {} `{}` is inherited", what.node, name.node)),
-                None => (stmt.span, format!("no {} is inherited", what.node)),
-            };
-            let candidates: Vec<&str> = match what.node.as_str() {
-                "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
-                "record" => self.flat.records.iter().map(|known| known.name.node.as_str()).collect(),
-                "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.bare())).collect(),
-                _ => Vec::new(),
-            };
-            let problem = Problem::new(Code::NothingToRemove, span, message, "nothing to remove");
-            let found = name.as_ref().map_or("", |name| name.node.as_str());
-            self.problems.push(problem.did_you_mean(found, candidates));
-        }
-    }
-
-    fn remove(&mut self, what: &str, name: Option<&str>) -> bool {
-        let flat = &mut *self.flat;
-        match (what, name) {
-            ("ball", _) => flat.ball.take().is_some(),
-            ("reward", Some(name)) => removed(&mut flat.rewards, |(known, _, _)| known == name),
-            ("record", Some(name)) => removed(&mut flat.records, |known| known.name.node == name),
-            ("end", Some("limit")) => flat.limit.take().is_some(),
-            ("end", Some(name)) => removed(&mut flat.ends, |end| {
-                end.label.map_or_else(
-                    || end.verdict.is_some_and(|verdict| verdict.node == name),
-                    |label| label.bare() == name,
-                )
-            }),
-            ("require", Some(name)) => removed(
-                &mut flat.requires,
-                |stmt| matches!(&stmt.kind, ScenarioStmtKind::Require { label: Some(label), .. } if label.node == name),
-            ),
-            _ => false,
         }
     }
 }
@@ -536,32 +517,9 @@ pub(crate) fn arg_name(arg: &Arg) -> Option<&str> {
     }
 }
 
-fn removed<T>(list: &mut Vec<T>, test: impl Fn(&T) -> bool) -> bool {
-    let before = list.len();
-    list.retain(|entry| !test(entry));
-    list.len() < before
-}
-
 fn replace<'a, T>(list: &mut Vec<&'a T>, new: &'a T, name: impl Fn(&T) -> &str) {
     match list.iter_mut().find(|known| name(known) == name(new)) {
         Some(slot) => *slot = new,
         None => list.push(new),
-    }
-}
-
-/// Reports keys that stand twice in one pair of braces.
-pub(crate) fn doubled(fields: &[Field], problems: &mut Vec<Problem>) {
-    for (index, field) in fields.iter().enumerate() {
-        if let Some(first) = fields.iter().take(index).find(|first| first.key.node == field.key.node) {
-            problems.push(
-                Problem::new(
-                    Code::DuplicateOption,
-                    field.key.span,
-                    format!("`{}` is given twice", field.key.node),
-                    "given again here",
-                )
-                .label(first.key.span, "first given here"),
-            );
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! Loads the files a root needs and says which names each of them sees.
 
-use crate::ast::{File, FileId, Ident, Item, ItemKind, Span};
+use crate::ast::{File, FileId, Ident, Item, ItemKind, ParamDecl, Span};
 use crate::parse::parse;
 use crate::problem::{Code, Problem};
 use crate::source::{Source, SourceLoader, Sources};
@@ -174,6 +174,7 @@ impl Loading<'_> {
             let loaded = match self.loader.load(&path.node, &from) {
                 Ok(loaded) => loaded,
                 Err(error) => {
+                    self.library.inputs.extend(error.awaited);
                     let problem = Problem::new(Code::FileMissing, path.span, error.message, "imported here");
                     self.problems.push(match error.similar.first() {
                         Some(similar) => problem.help(format!("did you mean `{similar}`?")),
@@ -244,6 +245,13 @@ impl Library {
             )
             .help("import one of the files `as` a name and write `name.` before it"),
         )
+    }
+
+    /// The file that another one imports under a name.
+    pub(crate) fn imported_as(&self, file: FileId, alias: &str) -> Option<&str> {
+        let mut imports = self.imports.get(file.0 as usize)?.iter();
+        let import = imports.find(|import| import.alias.as_deref() == Some(alias))?;
+        self.sources.get(import.file).map(|source| source.name.as_str())
     }
 
     /// Every name a file sees with its item, in the order of names.
@@ -325,16 +333,9 @@ fn own_names(file: &File, problems: &mut Vec<Problem>) -> BTreeMap<String, Vec<I
     let mut spans: BTreeMap<&str, Span> = BTreeMap::new();
     for (index, item) in file.items.iter().enumerate() {
         let Some(name) = item_name(item) else { continue };
+        distinct_params(item.kind.params(), problems);
         if let Some(first) = spans.get(name.node.as_str()) {
-            problems.push(
-                Problem::new(
-                    Code::DuplicateName,
-                    name.span,
-                    format!("`{}` is declared twice", name.node),
-                    "declared again here",
-                )
-                .label(*first, "first declared here"),
-            );
+            problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, *first));
             continue;
         }
         spans.insert(&name.node, name.span);
@@ -361,5 +362,15 @@ fn item_name(item: &Item) -> Option<&Ident> {
         ItemKind::Fn(f) | ItemKind::Region(f) | ItemKind::Ending(f) => Some(&f.name),
         ItemKind::Behavior(behavior) => Some(&behavior.name),
         ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => None,
+    }
+}
+
+/// Reports parameters of one name.
+pub(super) fn distinct_params(params: &[ParamDecl], problems: &mut Vec<Problem>) {
+    for (index, param) in params.iter().enumerate() {
+        let name = &param.name;
+        if let Some(first) = params.iter().take(index).find(|first| first.name.node == name.node) {
+            problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, first.name.span));
+        }
     }
 }

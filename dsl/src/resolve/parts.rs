@@ -66,15 +66,12 @@ pub(super) fn chain<'a, T>(
                 .map(|(name, _)| name)
                 .chain(given)
                 .collect();
-            problems.push(
-                Problem::new(
-                    Code::UnknownParent,
-                    name.span,
-                    format!("no {noun} is called `{}`", name.node),
-                    "extends this",
-                )
-                .did_you_mean(&name.node, candidates),
-            );
+            let message = format!("no {noun} is called `{}`", name.node);
+            let problem = Problem::new(Code::UnknownParent, name.span, message, "extends this");
+            problems.push(match library.find(name.span.file, &name.node) {
+                Some(other) => problem.help(format!("`{}` is {}", name.node, other.item.kind.noun())),
+                None => problem.did_you_mean(&name.node, candidates),
+            });
             break;
         };
         if let Some(begin) = chain.iter().position(|(known, _)| std::ptr::eq(*known, parent)) {

@@ -12,9 +12,9 @@ pub mod steer;
 use crate::draw::Roster;
 use crate::event::Event;
 use crate::judge::known::Known;
-use crate::judge::machine::{Input, Machine};
+use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::script::{ScriptError, Scripts};
-use crate::judge::view::View;
+use crate::judge::view::{Sight, View};
 use crate::random::Purpose;
 use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
@@ -29,7 +29,8 @@ pub struct Actors {
     plans: Arc<[Behavior]>,
     list: Vec<Actor>,
     known: Known,
-    regs: Vec<f64>,
+    /// By plan.
+    regs: Vec<Registers>,
     prev: View,
     faults: u32,
 }
@@ -38,7 +39,6 @@ impl Actors {
     /// Prepares the scripted players of a roster.
     pub fn new(scenario: &Scenario, roster: &Roster, scripts: Scripts) -> Actors {
         let mut list = Vec::new();
-        let mut n_regs = 0;
         let mut scripted = false;
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team) {
@@ -47,7 +47,6 @@ impl Actors {
                 if !roster.present.get(id).copied().unwrap_or_default() {
                     continue;
                 }
-                n_regs = n_regs.max(plan.program.code.len());
                 scripted |= plan.nodes.iter().any(|node| matches!(node, Node::Do(Do { act: Act::Script { .. }, .. })));
                 list.push(Actor::new(PlayerId(id as u8), which as usize, plan));
             }
@@ -56,7 +55,7 @@ impl Actors {
             plans: scenario.behaviors.clone().into(),
             list,
             known: Known::new(scripts, scripted, Purpose::Behavior),
-            regs: vec![0.0; n_regs],
+            regs: scenario.behaviors.iter().map(|plan| Registers::of(&plan.program)).collect(),
             prev: View::EMPTY,
             faults: 0,
         }
@@ -92,7 +91,7 @@ impl Actors {
             return Ok(());
         }
         let now = View::of(game);
-        let scene = self.known.scene(&now, &self.prev, events);
+        let scene = self.known.scene(|| now, &self.prev, events);
         let (seed, index) = self.known.key();
         let plans = self.plans.clone();
         for actor in &mut self.list {
@@ -102,15 +101,18 @@ impl Actors {
                 continue;
             }
             let plan = &plans[actor.plan];
+            let (program, regs) = self.regs[actor.plan].parts();
             let machine = Machine {
-                input: Input { events, me: Some(id), ..self.known.input(&now, &self.prev, id.team()) },
-                regs: &mut self.regs,
+                input: Input { events, ..self.known.input(Sight::Kept(&now), &self.prev, id.team()) },
+                crew: Crew::one(Some(id)),
+                plan: program,
+                regs,
                 cells: &mut actor.cells,
                 terms: &mut [],
                 faults: &mut self.faults,
                 draws: None,
             };
-            let mut mind = Mind::new(machine, &plan.program, seed, index, id);
+            let mut mind = Mind::new(machine, seed, index, id);
             mind.see();
             let driven = game
                 .agents

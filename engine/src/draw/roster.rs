@@ -56,7 +56,9 @@ impl Roster {
     pub fn new(scenario: &Scenario, bindings: &Bindings, choice: Option<&AgentsChoice>) -> Result<Roster, RosterError> {
         let mut drawer = Drawer::new(scenario);
         // Presence and counts don't depend on draws: any seed tells them.
-        drawer.run(scenario, bindings, DrawKey { seed: 0, index: 0, attempt: 0 });
+        let draws = DrawKey { seed: 0, index: 0, attempt: 0 };
+        drawer.begin(bindings, draws);
+        drawer.run(bindings, draws);
         let mut roster = Roster { present: [false; PLAYERS_MAX], agents: Vec::new() };
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team).filter(|&(id, _)| id < PLAYERS_MAX) {

@@ -10,7 +10,7 @@ fn push(scenario: &mut Scenario, instr: Instr) -> Reg {
 
 fn uniform(scenario: &mut Scenario, key: u64, low: f64, high: f64) -> Reg {
     let (low, high) = (push(scenario, Instr::Const(low)), push(scenario, Instr::Const(high)));
-    push(scenario, Instr::Random { key, from: Distribution::Uniform(low, high) })
+    push(scenario, Instr::Random { key, from: Box::new(Distribution::Uniform(low, high)) })
 }
 
 /// A striker between two ends along the middle line, and a keeper.

@@ -25,6 +25,8 @@ pub struct Play {
     pub shot: Option<Flight>,
     /// The keeper who holds the ball in his hands, and since which tick.
     pub hands: Option<(PlayerId, u32)>,
+    /// Who had the ball last.
+    pub last_owner: Option<PlayerId>,
     /// Who kicked the ball on purpose last (the back-pass rule), by foot.
     pub kicked_by: Option<PlayerId>,
     /// Players in an offside position when the ball was last touched, a bit each.
@@ -137,6 +139,7 @@ impl Play {
             second: [None; 2],
             share: 0.5,
             ball_mean: Vec2::ZERO,
+            last_owner: None,
             kick_off: None,
             first_kickoff: Team::Left,
             second_half: false,

@@ -30,6 +30,9 @@ pub fn update(game: &mut Match, events: &mut Events) {
         }
         game.possession = team;
     }
+    if owner.is_some() {
+        game.play.last_owner = owner;
+    }
     game.owner = owner;
 }
 
@@ -38,7 +41,10 @@ fn won(game: &Match, events: &mut Events, owner: Option<PlayerId>) {
     let Some(winner) = owner else { return };
     let Some(before) = game.possession else { return };
     events.push(report::event(game, EventKind::BallWon).by(winner));
-    events.push(report::event(game, EventKind::BallLost).team(before));
+    let lost = report::event(game, EventKind::BallLost).team(before);
+    // At a set piece the ball may have been given to a team without anybody having had it.
+    let loser = game.play.last_owner.filter(|loser| loser.team() == before);
+    events.push(loser.map_or(lost, |loser| lost.by(loser)));
 }
 
 /// Renews the share of the ball that the left team had lately.

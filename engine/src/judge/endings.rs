@@ -1,7 +1,7 @@
 //! When an episode ends, and what that says of it.
 
 use crate::event::{Event, Events};
-use crate::judge::machine::{Input, Machine, truth};
+use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
 use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
@@ -28,8 +28,8 @@ pub struct EndingJudge {
     endings: Arc<Endings>,
     labels: Arc<[Arc<str>]>,
     limit: Arc<str>,
-    regs: Vec<f64>,
-    cells: Vec<f64>,
+    regs: Registers,
+    cells: Vec<[f64; 1]>,
     memories: Vec<Memory>,
     faults: u32,
     at_start: Option<usize>,
@@ -41,8 +41,8 @@ impl EndingJudge {
         EndingJudge {
             labels: endings.list.iter().map(|ending| Arc::from(ending.label.as_str())).collect(),
             limit: Arc::from(LIMIT),
-            regs: vec![0.0; endings.program.code.len()],
-            cells: vec![0.0; endings.program.cells as usize],
+            regs: Registers::of(&endings.program),
+            cells: vec![[0.0]; endings.program.cells as usize],
             memories: vec![Memory::default(); endings.list.len()],
             faults: 0,
             at_start: None,
@@ -52,11 +52,13 @@ impl EndingJudge {
 
     /// Begins an episode: `input` shows the start state.
     pub fn reset(&mut self, input: &Input<'_>) {
-        self.cells.fill(0.0);
+        self.cells.fill([0.0]);
         self.memories.fill(Memory::default());
         self.faults = 0;
-        self.run(&Input { silent: true, ..*input });
-        let holds = |ending: &Ending| ending.when.is_some_and(|when| truth(self.regs[when.index()]));
+        let input = Input { silent: true, ..*input };
+        self.machine(&input, |machine| machine.begin());
+        self.machine(&input, |machine| machine.run());
+        let holds = |ending: &Ending| ending.when.is_some_and(|when| truth(self.regs.value(when)));
         self.at_start = self.endings.list.iter().position(holds);
     }
 
@@ -75,10 +77,10 @@ impl EndingJudge {
         input: &Input<'_>,
         scene: Option<(&Scripts, &Arc<Scene>)>,
     ) -> Result<Option<Outcome>, ScriptError> {
-        self.run(input);
+        self.machine(input, |machine| machine.run());
         for (which, ending) in self.endings.list.iter().enumerate() {
             let mut label = None;
-            let mut holds = ending.when.is_some_and(|when| truth(self.regs[when.index()]));
+            let mut holds = ending.when.is_some_and(|when| truth(self.regs.value(when)));
             if let (Some(script), Some((scripts, scene))) = (ending.script, scene) {
                 let perspective = Perspective { us: input.us, me: None, agent: 0 };
                 match scripts.done(script, scene, perspective, &mut self.memories[which])? {
@@ -99,16 +101,19 @@ impl EndingJudge {
         Ok(over.then(|| Outcome { label: self.limit.clone(), verdict: None, truncated: true }))
     }
 
-    fn run(&mut self, input: &Input<'_>) {
+    fn machine(&mut self, input: &Input<'_>, work: impl FnOnce(&mut Machine<'_>)) {
+        let (plan, regs) = self.regs.parts();
         let mut machine = Machine {
             input: *input,
-            regs: &mut self.regs,
+            crew: Crew::one(None),
+            plan,
+            regs,
             cells: &mut self.cells,
             terms: &mut [],
             faults: &mut self.faults,
             draws: None,
         };
-        machine.run(&self.endings.program);
+        work(&mut machine);
     }
 }
 

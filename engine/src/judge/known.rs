@@ -3,7 +3,7 @@
 use crate::event::Event;
 use crate::judge::machine::Input;
 use crate::judge::script::{Params, Scene, Scripts};
-use crate::judge::view::View;
+use crate::judge::view::{Sight, View};
 use crate::random::{Purpose, Stream};
 use crate::start::Drawn;
 use setpiece_scenario::vocabulary::Team;
@@ -64,24 +64,23 @@ impl Known {
         (self.seed, self.index)
     }
 
-    /// What a program is shown, from a side, without an agent and without events.
-    pub fn input<'a>(&'a self, now: &'a View, prev: &'a View, us: Team) -> Input<'a> {
+    /// What a program is shown, from a side, without events.
+    pub fn input<'a>(&'a self, now: Sight<'a>, prev: &'a View, us: Team) -> Input<'a> {
         Input {
-            now,
-            prev,
+            now: Some(now),
+            prev: Some(Sight::Kept(prev)),
             events: &[],
             params: &self.params,
             lets: &self.lets,
             index: self.index,
             us,
-            me: None,
             silent: false,
         }
     }
 
     /// What scripts are shown; none where no script is asked.
-    pub fn scene(&self, now: &View, prev: &View, events: &[Event]) -> Option<Arc<Scene>> {
-        let scene = || Scene::new(*now, *prev, events, self.shown.clone(), self.random.clone(), self.key());
+    pub fn scene(&self, now: impl FnOnce() -> View, prev: &View, events: &[Event]) -> Option<Arc<Scene>> {
+        let scene = || Scene::new(now(), *prev, events, self.shown.clone(), self.random.clone(), self.key());
         self.scripted.then(|| Arc::new(scene()))
     }
 

@@ -1,31 +1,37 @@
 //! Runs register programs: rewards, endings and starts.
 //!
-//! The meaning of every instruction is that of [`setpiece_scenario::program`]. A [`Machine`] borrows all it needs, so
-//! running allocates nothing; registers and cells belong to the caller. Programs must have passed
-//! [`setpiece_scenario::verify`].
+//! The meaning of every instruction is that of [`setpiece_scenario::program`]. A program runs for several players of a
+//! team at once, each in a lane of its own: every register and cell holds `W` numbers, and what is the same for all is
+//! computed once. A [`Machine`] borrows all it needs, so running allocates nothing; registers and cells belong to the
+//! caller. Programs must have passed [`setpiece_scenario::verify`].
 
 mod fold;
 mod operators;
+mod plan;
 
 use crate::event::Event;
-use crate::judge::view::{View, player_index, player_number, team_number, team_of_number};
+use crate::judge::view::{Sight, ids, player_number, team_number, team_of_number};
 use crate::random::Stream;
 use crate::state::PlayerId;
 use fold::Folding;
 pub use operators::truth;
 use operators::{binary, unary};
+pub use plan::Plan;
+use plan::{ALWAYS, Loop, Op, Step};
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::program::PAY_MAX;
-use setpiece_scenario::vocabulary::{EventField, EventKind, Qualifier, Team};
-use setpiece_scenario::{Distribution, Each, EventFilter, Instr, Over, Program, Reg, When, Who};
+use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Qualifier, Team};
+use setpiece_scenario::{Distribution, EventFilter, Instr, Over, Program, Reg, When, Who};
+use std::array;
+use std::sync::Arc;
 
 /// What a program reads.
 #[derive(Clone, Copy)]
 pub struct Input<'a> {
-    /// The state after this step, before any restart.
-    pub now: &'a View,
+    /// The state after this step, before any restart; none in a start program, which may not look at it.
+    pub now: Option<Sight<'a>>,
     /// The state that the step before left behind, after its restart.
-    pub prev: &'a View,
+    pub prev: Option<Sight<'a>>,
     /// This step's events.
     pub events: &'a [Event],
     /// The bound parameters.
@@ -36,22 +42,40 @@ pub struct Input<'a> {
     pub index: u64,
     /// The team judged for.
     pub us: Team,
-    /// The agent's player; nobody while he is off the pitch.
-    pub me: Option<PlayerId>,
     /// On the start state: temporal instructions see it, effects don't happen.
     pub silent: bool,
 }
 
+/// Who sits in the lanes: their players by number, -1 for nobody.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crew<const W: usize = 1> {
+    /// The players.
+    pub players: [f64; W],
+    /// Which lanes are taken: effects happen in these alone.
+    pub seated: [bool; W],
+}
+
+impl Crew {
+    /// One lane, for a player or for nobody.
+    pub fn one(player: Option<PlayerId>) -> Crew {
+        Crew { players: [player_number(player)], seated: [true] }
+    }
+}
+
 /// A program at work: its input, and the memory it writes.
-pub struct Machine<'a> {
+pub struct Machine<'a, const W: usize = 1> {
     /// What it reads.
     pub input: Input<'a>,
-    /// At least as many registers as the program has instructions.
-    pub regs: &'a mut [f64],
+    /// For whom.
+    pub crew: Crew<W>,
+    /// The program.
+    pub plan: &'a Plan,
+    /// Its registers.
+    pub regs: &'a mut [[f64; W]],
     /// The program's memory cells.
-    pub cells: &'a mut [f64],
+    pub cells: &'a mut [[f64; W]],
     /// What each term was paid; [`Instr::Give`] adds here.
-    pub terms: &'a mut [f64],
+    pub terms: &'a mut [[f64; W]],
     /// Effects that were stopped because their value was impossible.
     pub faults: &'a mut u32,
     /// What draws are keyed by; without it a draw is NaN.
@@ -69,265 +93,361 @@ pub struct DrawKey {
     pub attempt: u32,
 }
 
-/// Registers of one program, its constants written once: programs begin with them.
+/// A program and its registers.
 #[derive(Clone, Debug, Default)]
-pub struct Registers {
-    values: Vec<f64>,
-    begin: usize,
+pub struct Registers<const W: usize = 1> {
+    plan: Arc<Plan>,
+    values: Vec<[f64; W]>,
+}
+
+impl<const W: usize> Registers<W> {
+    /// Registers for a verified program.
+    pub fn of(program: &Program) -> Registers<W> {
+        Registers { plan: Arc::new(Plan::of(program)), values: vec![[0.0; W]; program.code.len()] }
+    }
+
+    /// What a [`Machine`] needs of it.
+    pub fn parts(&mut self) -> (&Plan, &mut [[f64; W]]) {
+        (&self.plan, &mut self.values)
+    }
 }
 
 impl Registers {
-    /// Registers for a verified program.
-    pub fn of(program: &Program) -> Registers {
-        let mut values = vec![0.0; program.code.len()];
-        let mut begin = 0;
-        for (slot, instr) in values.iter_mut().zip(&program.code) {
-            let Instr::Const(value) = instr else { break };
-            *slot = *value;
-            begin += 1;
-        }
-        Registers { values, begin }
-    }
-
-    /// The registers, and where a run begins.
-    pub fn parts(&mut self) -> (&mut [f64], usize) {
-        (&mut self.values, self.begin)
-    }
-
     /// The value of a register.
     pub fn value(&self, reg: Reg) -> f64 {
-        self.values[reg.index()]
+        self.values[reg.index()][0]
     }
 }
 
 impl Machine<'_> {
-    /// Runs a verified program once; its values stand in `regs` afterwards.
-    pub fn run(&mut self, program: &Program) {
-        self.run_from(program, 0);
+    /// The value of a register.
+    pub fn value(&self, reg: Reg) -> f64 {
+        self.regs[reg.index()][0]
+    }
+}
+
+impl<const W: usize> Machine<'_, W> {
+    /// Computes what is the same in every step of an episode: once, before the first [`Machine::run`] of it.
+    pub fn begin(&mut self) {
+        self.block(&self.plan.once, None);
     }
 
-    /// Runs a program whose first instructions have been run before: see [`Registers`].
-    pub fn run_from(&mut self, program: &Program, begin: usize) {
-        self.block(&program.code, begin, program.code.len(), None);
+    /// Runs the program for a step; its values stand in the registers afterwards.
+    pub fn run(&mut self) {
+        self.block(&self.plan.each_step, None);
     }
 
     /// Computes the values anew after cells were written from outside, but for those of temporal instructions: they
     /// happen once a step.
-    pub fn run_again(&mut self, program: &Program) {
-        let code = &program.code;
-        let mut at = 0;
-        while at < code.len() {
-            match &code[at] {
-                Instr::Each(each) => {
-                    self.each(code, at, each, None);
-                    at += each.body as usize;
+    pub fn run_again(&mut self) {
+        for step in self.plan.each_step.iter().filter(|step| step.op != Op::Temporal) {
+            self.block(std::slice::from_ref(step), None);
+        }
+    }
+
+    /// The first `N` lanes of a register.
+    #[inline]
+    fn lanes<const N: usize>(&self, reg: Reg) -> [f64; N] {
+        let all = &self.regs[reg.index()];
+        array::from_fn(|lane| all[lane])
+    }
+
+    fn truths(&self, reg: Reg) -> [bool; W] {
+        self.lanes::<W>(reg).map(truth)
+    }
+
+    /// In which lanes an effect happens.
+    #[inline]
+    fn allowed(&self, guard: u32) -> [bool; W] {
+        if self.input.silent {
+            return [false; W];
+        }
+        if guard == ALWAYS {
+            return self.crew.seated;
+        }
+        let holds = self.truths(Reg(guard));
+        array::from_fn(|lane| self.crew.seated[lane] & holds[lane])
+    }
+
+    /// Runs instructions in order.
+    fn block(&mut self, steps: &[Step], event: Option<&Event>) {
+        let plan = self.plan;
+        for step in steps {
+            match step.op {
+                Op::Add => self.two(step, |a, b| a + b),
+                Op::Sub => self.two(step, |a, b| a - b),
+                Op::Mul => self.two(step, |a, b| a * b),
+                Op::Div => self.two(step, operators::quotient),
+                Op::Min => self.two(step, operators::least),
+                Op::Max => self.two(step, operators::most),
+                Op::Hypot => self.two(step, operators::length),
+                Op::Lt => self.two(step, |a, b| (a < b).into()),
+                Op::Le => self.two(step, |a, b| (a <= b).into()),
+                Op::Gt => self.two(step, |a, b| (a > b).into()),
+                Op::Ge => self.two(step, |a, b| (a >= b).into()),
+                Op::Eq => self.two(step, |a, b| (a == b).into()),
+                Op::And => self.two(step, |a, b| (truth(a) & truth(b)).into()),
+                Op::Or => self.two(step, |a, b| (truth(a) | truth(b)).into()),
+                Op::Not => self.one(step, |a| (!truth(a)).into()),
+                Op::Neg => self.one(step, |a| -a),
+                Op::Select => self.select(step),
+                Op::BallX => self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[0].into())),
+                Op::BallY => self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[1].into())),
+                Op::BallOwner => self.all(step, self.input.now.map_or(f64::NAN, |now| player_number(now.owner()))),
+                Op::PlayerX => {
+                    let now = self.input.now;
+                    self.one(step, |of| now.map_or(f64::NAN, |now| now.load(Field::PlayerX, of)));
                 }
-                Instr::Held { .. }
-                | Instr::Ever { .. }
-                | Instr::Since { .. }
-                | Instr::Until { .. }
-                | Instr::Once { .. } => {}
-                instr => self.regs[at] = self.instr(instr, None),
-            }
-            at += 1;
-        }
-    }
-
-    /// The value of a register.
-    pub fn value(&self, reg: Reg) -> f64 {
-        self.regs[reg.index()]
-    }
-
-    fn truth(&self, reg: Reg) -> bool {
-        truth(self.value(reg))
-    }
-
-    fn allowed(&self, guard: Option<Reg>) -> bool {
-        !self.input.silent && guard.is_none_or(|guard| self.truth(guard))
-    }
-
-    fn block(&mut self, code: &[Instr], from: usize, to: usize, event: Option<&Event>) {
-        let mut at = from;
-        while at < to {
-            if let Instr::Each(each) = &code[at] {
-                self.each(code, at, each, event);
-                at += 1 + each.body as usize;
-            } else {
-                self.regs[at] = self.instr(&code[at], event);
-                at += 1;
+                Op::PlayerY => {
+                    let now = self.input.now;
+                    self.one(step, |of| now.map_or(f64::NAN, |now| now.load(Field::PlayerY, of)));
+                }
+                Op::Me => self.regs[step.at as usize] = self.crew.players,
+                Op::Cell => self.regs[step.at as usize] = self.cells[step.a as usize],
+                Op::Give => self.give(step),
+                Op::Assign => self.assign(step),
+                Op::Rare => self.rare(step, &plan.rare[step.a as usize], event),
+                Op::Temporal => self.regs[step.at as usize] = self.temporal(&plan.rare[step.a as usize]),
+                Op::Loop => {
+                    let each = &plan.loops[step.a as usize];
+                    let at = step.at as usize;
+                    self.regs[at] =
+                        if step.uniform { [self.each::<1>(each, at)[0]; W] } else { self.each::<W>(each, at) };
+                }
             }
         }
     }
 
-    fn instr(&mut self, instr: &Instr, event: Option<&Event>) -> f64 {
+    #[inline(always)]
+    fn all(&mut self, step: &Step, value: f64) {
+        self.regs[step.at as usize] = [value; W];
+    }
+
+    #[inline(always)]
+    fn one(&mut self, step: &Step, f: impl Fn(f64) -> f64) {
+        let a = self.regs[step.a as usize];
+        self.regs[step.at as usize] =
+            if W == 1 || !step.uniform { array::from_fn(|lane| f(a[lane])) } else { [f(a[0]); W] };
+    }
+
+    #[inline(always)]
+    fn two(&mut self, step: &Step, f: impl Fn(f64, f64) -> f64) {
+        let (a, b) = (&self.regs[step.a as usize], &self.regs[step.b as usize]);
+        self.regs[step.at as usize] =
+            if W == 1 || !step.uniform { array::from_fn(|lane| f(a[lane], b[lane])) } else { [f(a[0], b[0]); W] };
+    }
+
+    fn select(&mut self, step: &Step) {
+        let [c, a, b] = [step.a, step.b, step.c].map(|reg| self.regs[reg as usize]);
+        self.regs[step.at as usize] = array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] });
+    }
+
+    /// What seldom occurs.
+    #[inline(never)]
+    fn rare(&mut self, step: &Step, instr: &Instr, event: Option<&Event>) {
+        self.regs[step.at as usize] =
+            if W == 1 || !step.uniform { self.pure::<W>(instr, event) } else { [self.pure::<1>(instr, event)[0]; W] };
+    }
+
+    /// The value of an instruction without memory, in the first `N` lanes.
+    fn pure<const N: usize>(&self, instr: &Instr, event: Option<&Event>) -> [f64; N] {
+        let input = &self.input;
         match instr {
-            Instr::Const(value) => *value,
-            Instr::Param(index) => self.input.params.get(*index as usize).copied().unwrap_or(f64::NAN),
-            Instr::Let(index) => self.input.lets.get(*index as usize).copied().unwrap_or(f64::NAN),
-            Instr::EpisodeIndex => self.input.index as f64,
-            Instr::Unary(op, a) => unary(*op, self.value(*a), self.input.now),
-            Instr::Binary(op, a, b) => binary(*op, self.value(*a), self.value(*b)),
-            Instr::Select(c, a, b) => self.value(if self.truth(*c) { *a } else { *b }),
-            Instr::Us => self.input.us.index() as f64,
-            Instr::Me => player_number(self.input.me),
-            Instr::Load { field, of, when } => {
-                let view = match when {
-                    When::Now => self.input.now,
-                    When::Prev => self.input.prev,
-                };
-                view.load(*field, of.map_or(0.0, |of| self.value(of)))
+            Instr::Const(value) => [*value; N],
+            Instr::Param(index) => [input.params.get(*index as usize).copied().unwrap_or(f64::NAN); N],
+            Instr::Let(index) => [input.lets.get(*index as usize).copied().unwrap_or(f64::NAN); N],
+            Instr::EpisodeIndex => [input.index as f64; N],
+            Instr::Unary(op, a) => unary(*op, self.lanes(*a), input.now),
+            Instr::Binary(op, a, b) => binary(*op, self.lanes(*a), self.lanes(*b)),
+            Instr::Select(c, a, b) => {
+                let (c, a, b) = (self.lanes::<N>(*c), self.lanes::<N>(*a), self.lanes::<N>(*b));
+                array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] })
             }
-            Instr::Event(field) => event.map_or(f64::NAN, |event| event_field(event, *field)),
-            Instr::Cell(cell) => self.cells[*cell as usize],
+            Instr::Us => [input.us.index() as f64; N],
+            Instr::Me => array::from_fn(|lane| self.crew.players[lane]),
+            Instr::Load { field, of, when } => {
+                let seen = match when {
+                    When::Now => input.now,
+                    When::Prev => input.prev,
+                };
+                let Some(seen) = seen else { return [f64::NAN; N] };
+                match of {
+                    None => [seen.load(*field, 0.0); N],
+                    Some(of) => self.lanes::<N>(*of).map(|of| seen.load(*field, of)),
+                }
+            }
+            Instr::Event(field) => [event.map_or(f64::NAN, |event| event_field(event, *field)); N],
+            Instr::Cell(cell) => {
+                let cell = &self.cells[*cell as usize];
+                array::from_fn(|lane| cell[lane])
+            }
+            Instr::Random { key, from } => [self.draw(*key, from); N],
+            // What has memory, effects and loops are run by `at`.
             Instr::Held { .. }
             | Instr::Ever { .. }
             | Instr::Since { .. }
             | Instr::Until { .. }
-            | Instr::Once { .. } => self.temporal(instr),
-            Instr::Give { term, value, guard } => {
-                if self.allowed(*guard) {
-                    let value = self.value(*value);
-                    if value.abs() <= PAY_MAX {
-                        self.terms[*term as usize] += value;
-                    } else {
-                        *self.faults += 1;
-                    }
-                }
-                0.0
-            }
-            Instr::Assign { cell, value, guard } => {
-                if self.allowed(*guard) {
-                    let value = self.value(*value);
-                    if value.is_nan() {
-                        *self.faults += 1;
-                    } else {
-                        self.cells[*cell as usize] = value;
-                    }
-                }
-                0.0
-            }
-            Instr::Random { key, from } => self.draw(*key, from),
-            // Loops are run by `block`.
-            Instr::Each(_) => 0.0,
+            | Instr::Once { .. }
+            | Instr::Give { .. }
+            | Instr::Assign { .. }
+            | Instr::Each(_) => [0.0; N],
         }
     }
 
-    fn temporal(&mut self, instr: &Instr) -> f64 {
+    #[inline]
+    fn give(&mut self, step: &Step) {
+        let (allowed, value) = (self.allowed(step.c), self.regs[step.b as usize]);
+        let term = &mut self.terms[step.a as usize];
+        for lane in 0..W {
+            if allowed[lane] {
+                if value[lane].abs() <= PAY_MAX {
+                    term[lane] += value[lane];
+                } else {
+                    *self.faults += 1;
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn assign(&mut self, step: &Step) {
+        let (allowed, value) = (self.allowed(step.c), self.regs[step.b as usize]);
+        let cell = &mut self.cells[step.a as usize];
+        for lane in 0..W {
+            if allowed[lane] {
+                if value[lane].is_nan() {
+                    *self.faults += 1;
+                } else {
+                    cell[lane] = value[lane];
+                }
+            }
+        }
+    }
+
+    fn temporal(&mut self, instr: &Instr) -> [f64; W] {
         match instr {
             Instr::Held { of, seconds, cell } => {
-                let run = if self.truth(*of) { self.cells[*cell as usize] + 1.0 } else { 0.0 };
-                self.cells[*cell as usize] = run;
-                let steps = libm::round(self.value(*seconds) * STEPS_PER_S).max(1.0);
-                (run >= steps && !self.value(*seconds).is_nan()).into()
+                let (holds, seconds) = (self.truths(*of), self.lanes::<W>(*seconds));
+                let runs = &mut self.cells[*cell as usize];
+                array::from_fn(|lane| {
+                    runs[lane] = if holds[lane] { runs[lane] + 1.0 } else { 0.0 };
+                    let steps = libm::round(seconds[lane] * STEPS_PER_S).max(1.0);
+                    (runs[lane] >= steps && !seconds[lane].is_nan()).into()
+                })
             }
             Instr::Ever { of, cell } => {
-                if self.truth(*of) {
-                    self.cells[*cell as usize] = 1.0;
-                }
-                self.cells[*cell as usize]
+                let holds = self.truths(*of);
+                let held = &mut self.cells[*cell as usize];
+                array::from_fn(|lane| {
+                    if holds[lane] {
+                        held[lane] = 1.0;
+                    }
+                    held[lane]
+                })
             }
             Instr::Since { of, cell } => {
-                let held = self.truth(*of);
-                let count = &mut self.cells[*cell as usize];
-                if held {
-                    *count = 1.0;
-                } else if *count > 0.0 {
-                    *count += 1.0;
-                }
-                if *count > 0.0 { (*count - 1.0) / STEPS_PER_S } else { f64::INFINITY }
+                let holds = self.truths(*of);
+                let counts = &mut self.cells[*cell as usize];
+                array::from_fn(|lane| {
+                    let count = &mut counts[lane];
+                    if holds[lane] {
+                        *count = 1.0;
+                    } else if *count > 0.0 {
+                        *count += 1.0;
+                    }
+                    if *count > 0.0 { (*count - 1.0) / STEPS_PER_S } else { f64::INFINITY }
+                })
             }
             Instr::Until { of, release, cell } => {
-                let (of, release) = (self.truth(*of), self.truth(*release));
-                let state = &mut self.cells[*cell as usize];
-                if *state == 0.0 {
-                    *state = if release {
-                        1.0
-                    } else if of {
-                        0.0
-                    } else {
-                        2.0
-                    };
-                }
-                (*state != 2.0).into()
+                let (holds, released) = (self.truths(*of), self.truths(*release));
+                let states = &mut self.cells[*cell as usize];
+                array::from_fn(|lane| {
+                    let state = &mut states[lane];
+                    if *state == 0.0 {
+                        *state = match (released[lane], holds[lane]) {
+                            (true, _) => 1.0,
+                            (false, true) => 0.0,
+                            (false, false) => 2.0,
+                        };
+                    }
+                    (*state != 2.0).into()
+                })
             }
             Instr::Once { of, cell } => {
-                let first = !self.input.silent && self.truth(*of) && self.cells[*cell as usize] == 0.0;
-                if first {
-                    self.cells[*cell as usize] = 1.0;
-                }
-                first.into()
+                let (holds, silent) = (self.truths(*of), self.input.silent);
+                let paid = &mut self.cells[*cell as usize];
+                array::from_fn(|lane| {
+                    let first = !silent && holds[lane] && paid[lane] == 0.0;
+                    if first {
+                        paid[lane] = 1.0;
+                    }
+                    first.into()
+                })
             }
-            _ => 0.0,
+            _ => [0.0; W],
         }
     }
 
-    fn each(&mut self, code: &[Instr], at: usize, each: &Each, event: Option<&Event>) {
-        let (from, to) = (at + 1, at + 1 + each.body as usize);
-        let mut folding = Folding::new(each.fold.kind);
+    /// Runs a loop, and folds it in the first `N` lanes: in one where all are the same.
+    fn each<const N: usize>(&mut self, each: &Loop, at: usize) -> [f64; N] {
+        let mut folding = Folding::<N>::new(each.fold.kind);
+        let around = self.crew.seated;
         match &each.over {
             Over::Players { team, except } => {
-                let wanted = self.value(*team);
-                let team = team_of_number(wanted);
-                let except = except.and_then(|except| player_index(self.value(except)));
-                if team.is_some() || wanted == -1.0 {
-                    let now = self.input.now;
-                    for (id, _) in now.on_pitch(team).filter(|(id, _)| Some(*id) != except) {
-                        self.regs[at] = id as f64;
-                        self.block(code, from, to, event);
-                        self.fold(each, id as f64, &mut folding);
+                let (teams, except) = (self.lanes::<W>(*team), except.map(|reg| self.lanes::<W>(reg)));
+                for id in players_of::<N, W>(&teams) {
+                    if !self.input.now.is_some_and(|now| now.is_active(id)) {
+                        continue;
+                    }
+                    let number = id as f64;
+                    let own = team_number(Some(PlayerId(id as u8).team()));
+                    let taken: [bool; W] = array::from_fn(|lane| {
+                        let but = except.is_some_and(|except| except[lane] == number);
+                        (teams[lane] == own || teams[lane] == -1.0) && !but
+                    });
+                    if taken[..N].contains(&true) {
+                        self.element(each, at, (number, None), (&around, &taken), &mut folding);
                     }
                 }
             }
             Over::Events(filter) => {
                 let events = self.input.events;
-                for (number, event) in events.iter().enumerate() {
-                    if self.passes(filter, event) {
-                        self.regs[at] = number as f64;
-                        self.block(code, from, to, Some(event));
-                        self.fold(each, number as f64, &mut folding);
+                for (number, event) in events.iter().enumerate().filter(|(_, event)| is_kind(filter, event)) {
+                    let taken: [bool; W] =
+                        array::from_fn(|lane| self.passes(filter, event, if N == 1 { 0 } else { lane }));
+                    if taken[..N].contains(&true) {
+                        self.element(each, at, (number as f64, Some(event)), (&around, &taken), &mut folding);
                     }
                 }
             }
         }
-        self.regs[at] = folding.result();
+        self.crew.seated = around;
+        folding.result()
     }
 
-    fn fold(&self, each: &Each, element: f64, folding: &mut Folding) {
-        if each.fold.guard.is_none_or(|guard| self.truth(guard)) {
-            folding.add(element, each.fold.value.map_or(0.0, |value| self.value(value)));
-        }
-    }
-
-    fn passes(&self, filter: &EventFilter, event: &Event) -> bool {
-        let qualified = match (filter.qualifier, filter.kind) {
-            (Some(qualifier), _) => event.qualifier == Some(qualifier),
-            // However the episode ends, it ends.
-            (None, EventKind::End) => true,
-            (None, EventKind::Pass) => event.qualifier == Some(Qualifier::Attempted),
-            (None, _) => event.qualifier.is_none(),
-        };
-        event.kind == filter.kind
-            && qualified
-            && filter.by.is_none_or(|who| match who {
-                Who::Team(reg) => event.team.is_some() && event.team == team_of_number(self.value(reg)),
-                Who::Player(reg) => {
-                    // An own goal rises the other team's score: it is no goal of its scorer's.
-                    let own = event.kind == EventKind::Goal && event.by.map(PlayerId::team) != event.team;
-                    is_player(event.by, self.value(reg)) && !own
-                }
-            })
-            && filter.to.is_none_or(|who| match who {
-                Who::Team(reg) => event.to.is_some() && event.to.map(PlayerId::team) == team_of_number(self.value(reg)),
-                Who::Player(reg) => is_player(event.to, self.value(reg)),
-            })
+    /// Runs the body of a loop for an element, in the lanes that take it.
+    #[inline]
+    fn element<const N: usize>(
+        &mut self,
+        each: &Loop,
+        at: usize,
+        (element, event): (f64, Option<&Event>),
+        (around, taken): (&[bool; W], &[bool; W]),
+        folding: &mut Folding<N>,
+    ) {
+        self.regs[at] = [element; W];
+        self.crew.seated = array::from_fn(|lane| around[lane] & taken[lane]);
+        self.block(&each.body, event);
+        let guard = each.fold.guard.map_or([true; N], |guard| self.lanes::<N>(guard).map(truth));
+        let value = each.fold.value.map_or([0.0; N], |value| self.lanes::<N>(value));
+        folding.add(element, array::from_fn(|lane| taken[lane] & guard[lane]), value);
     }
 
     /// Draws from the stream of a key; the distribution's registers have their present values.
     pub fn draw(&self, key: u64, from: &Distribution) -> f64 {
         let Some(draws) = self.draws else { return f64::NAN };
         let random = &mut Stream::of_draw(draws.seed, draws.index, draws.attempt, key);
-        let regs = &*self.regs;
-        let value = |reg: &Reg| regs[reg.index()];
+        let value = |reg: &Reg| self.regs[reg.index()][0];
         match from {
             Distribution::Uniform(low, high) => {
                 let (low, high) = (value(low), value(high));
@@ -363,6 +483,45 @@ impl Machine<'_> {
             }
         }
     }
+
+    fn passes(&self, filter: &EventFilter, event: &Event, lane: usize) -> bool {
+        let value = |reg: Reg| self.regs[reg.index()][lane];
+        filter.by.is_none_or(|who| match who {
+            Who::Team(reg) => event.team.is_some() && event.team == team_of_number(value(reg)),
+            Who::Player(reg) => {
+                // An own goal rises the other team's score: it is no goal of its scorer's.
+                let own = event.kind == EventKind::Goal && event.by.map(PlayerId::team) != event.team;
+                is_player(event.by, value(reg)) && !own
+            }
+        }) && filter.to.is_none_or(|who| match who {
+            Who::Team(reg) => event.to.is_some() && event.to.map(PlayerId::team) == team_of_number(value(reg)),
+            Who::Player(reg) => is_player(event.to, value(reg)),
+        })
+    }
+}
+
+/// The players a loop may go through: those of one team where every lane asks for the same.
+fn players_of<const N: usize, const W: usize>(teams: &[f64; W]) -> std::ops::Range<usize> {
+    if teams[..N].iter().all(|team| *team == teams[0]) {
+        match team_of_number(teams[0]) {
+            Some(team) => ids(Some(team)),
+            None if teams[0] == -1.0 => ids(None),
+            None => 0..0,
+        }
+    } else {
+        ids(None)
+    }
+}
+
+fn is_kind(filter: &EventFilter, event: &Event) -> bool {
+    event.kind == filter.kind
+        && match (filter.qualifier, filter.kind) {
+            (Some(qualifier), _) => event.qualifier == Some(qualifier),
+            // However the episode ends, it ends.
+            (None, EventKind::End) => true,
+            (None, EventKind::Pass) => event.qualifier == Some(Qualifier::Attempted),
+            (None, _) => event.qualifier.is_none(),
+        }
 }
 
 /// Most attempts at a draw between the ends before the nearer end is taken.

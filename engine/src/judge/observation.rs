@@ -1,6 +1,6 @@
 //! The observation that a scenario declares: a program, run for each agent on the state as it stands.
 
-use crate::judge::machine::{Input, Machine};
+use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::state::Match;
 use setpiece_scenario::Observation;
 use std::sync::Arc;
@@ -12,13 +12,13 @@ pub const OBSERVED_MAX: f32 = 1.0e6;
 #[derive(Clone, Debug)]
 pub struct ObservationJudge {
     observation: Arc<Observation>,
-    regs: Vec<f64>,
+    regs: Registers,
 }
 
 impl ObservationJudge {
     /// Prepares it.
     pub fn new(observation: &Observation) -> ObservationJudge {
-        ObservationJudge { regs: vec![0.0; observation.program.code.len()], observation: Arc::new(observation.clone()) }
+        ObservationJudge { regs: Registers::of(&observation.program), observation: Arc::new(observation.clone()) }
     }
 
     /// The numbers' names, in order.
@@ -30,17 +30,21 @@ impl ObservationJudge {
     pub fn write(&mut self, game: &Match, agent: usize, shared: &Input<'_>, out: &mut [f32]) {
         let Some(slot) = game.agents.get(agent) else { return };
         let me = slot.player.filter(|player| game.players[player.index()].active);
+        let (plan, regs) = self.regs.parts();
         let mut machine = Machine {
-            input: Input { us: slot.team, me, ..*shared },
-            regs: &mut self.regs,
+            input: Input { us: slot.team, ..*shared },
+            crew: Crew::one(me),
+            plan,
+            regs,
             cells: &mut [],
             terms: &mut [],
             faults: &mut 0,
             draws: None,
         };
-        machine.run(&self.observation.program);
+        machine.begin();
+        machine.run();
         for (slot, value) in out.iter_mut().zip(&self.observation.values) {
-            let number = self.regs[value.value.index()] as f32;
+            let number = self.regs.value(value.value) as f32;
             *slot = if number.is_nan() { 0.0 } else { number.clamp(-OBSERVED_MAX, OBSERVED_MAX) };
         }
     }

@@ -3,7 +3,7 @@
 //! Every record is a program of its own, run after the rewards of each step: once, or once per agent where it reads
 //! `me`. Its registers hold the metric so far; a series keeps them all.
 
-use crate::judge::machine::{Input, Machine};
+use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::state::Match;
 use setpiece_scenario::Record;
 use std::sync::Arc;
@@ -29,7 +29,6 @@ pub struct RecordJudge {
     records: Arc<[Record]>,
     states: Vec<RecordState>,
     n_agents: usize,
-    regs: Vec<f64>,
     faults: u32,
 }
 
@@ -38,7 +37,8 @@ pub struct RecordJudge {
 struct RecordState {
     per_agent: bool,
     n_cells: usize,
-    cells: Vec<f64>,
+    regs: Registers,
+    cells: Vec<[f64; 1]>,
     /// The last values, as many per instance as the record has.
     last: Vec<f64>,
     /// Of a series every step's values.
@@ -54,24 +54,19 @@ impl RecordJudge {
             RecordState {
                 per_agent,
                 n_cells,
-                cells: vec![0.0; instances * n_cells],
+                regs: Registers::of(&record.program),
+                cells: vec![[0.0]; instances * n_cells],
                 last: vec![f64::NAN; instances * record.values.len()],
                 kept: vec![Vec::new(); if record.series { instances } else { 0 }],
             }
         };
-        RecordJudge {
-            states: records.iter().map(state).collect(),
-            regs: vec![0.0; records.iter().map(|record| record.program.code.len()).max().unwrap_or_default()],
-            records: records.into(),
-            n_agents,
-            faults: 0,
-        }
+        RecordJudge { states: records.iter().map(state).collect(), records: records.into(), n_agents, faults: 0 }
     }
 
     /// Begins an episode: `input` shows the start state.
     pub fn reset(&mut self, game: &Match, input: &Input<'_>) {
         for state in &mut self.states {
-            state.cells.fill(0.0);
+            state.cells.fill([0.0]);
             state.last.fill(f64::NAN);
             state.kept.iter_mut().for_each(Vec::clear);
         }
@@ -88,29 +83,28 @@ impl RecordJudge {
             let instances = if state.per_agent { self.n_agents } else { 1 };
             for instance in 0..instances {
                 let slot = game.agents.get(instance).filter(|_| state.per_agent);
-                let own = match slot {
-                    Some(slot) => Input {
-                        us: slot.team,
-                        me: slot.player.filter(|player| game.players[player.index()].active),
-                        ..*input
-                    },
-                    None => *input,
-                };
+                let me = slot.and_then(|slot| slot.player.filter(|player| game.players[player.index()].active));
+                let (plan, regs) = state.regs.parts();
                 let mut machine = Machine {
-                    input: own,
-                    regs: &mut self.regs,
+                    input: Input { us: slot.map_or(input.us, |slot| slot.team), ..*input },
+                    crew: Crew::one(me),
+                    plan,
+                    regs,
                     cells: &mut state.cells[instance * state.n_cells..(instance + 1) * state.n_cells],
                     terms: &mut [],
                     faults: &mut self.faults,
                     draws: None,
                 };
-                machine.run(&record.program);
+                if input.silent {
+                    machine.begin();
+                }
+                machine.run();
                 if input.silent {
                     continue;
                 }
                 let n = record.values.len();
                 for (slot, reg) in state.last[instance * n..(instance + 1) * n].iter_mut().zip(&record.values) {
-                    *slot = self.regs[reg.index()];
+                    *slot = state.regs.value(*reg);
                     if let Some(kept) = state.kept.get_mut(instance) {
                         kept.push(*slot);
                     }

@@ -1,16 +1,20 @@
 //! What a scenario pays: its rewards run for each agent, their terms kept apart.
 //!
-//! A reward lives once per agent: its memory and its terms are his. One that reads nothing of `me` gives every agent
-//! of a team the same, so it is run once per team and copied.
+//! A reward lives once per agent: its memory and its terms are his. The agents of a team are judged together, each in a
+//! lane of [`Lanes`], so that what doesn't depend on `me` is computed once for all. A script that reads nothing of `me`
+//! is run once per team and its payment copied.
 
-use crate::judge::machine::{Input, Machine, Registers};
+mod lanes;
+
+use crate::judge::machine::Input;
 use crate::judge::script::{Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
-use setpiece_scenario::pitch::PLAYERS_MAX;
+use lanes::{Lanes, Pass};
+use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::Team;
-use setpiece_scenario::{Program, Reward, RewardBody};
+use setpiece_scenario::{Reward, RewardBody};
 use std::sync::Arc;
 
 /// The label of a script's one term.
@@ -37,15 +41,10 @@ struct RewardState {
     /// Its first term's place among all.
     first_term: usize,
     n_terms: usize,
-    /// Whether it lives per team rather than per agent.
+    /// Of a program, team by team.
+    lanes: [Option<Lanes>; 2],
+    /// Whether a script lives per team rather than per agent.
     shared: bool,
-    /// Cells per instance.
-    n_cells: usize,
-    /// Of the first values, and of every step.
-    init: Registers,
-    step: Registers,
-    /// Instance by instance.
-    cells: Vec<f64>,
     /// A script's memory, instance by instance.
     memories: Vec<Memory>,
 }
@@ -56,20 +55,10 @@ struct Judged {
     agent: usize,
     team: Team,
     me: Option<PlayerId>,
-    /// Whether he is the first of his team: what is shared is run for him.
-    first: bool,
 }
 
-/// Which program of a reward is run.
-#[derive(Clone, Copy)]
-enum Pass {
-    /// Its first values.
-    Init,
-    /// The start state, for what looks back later: nothing is paid.
-    Silent,
-    /// A step.
-    Step,
-}
+/// The agents of a team, in their order.
+type Squad = ArrayVec<Judged, TEAM_MAX>;
 
 impl RewardJudge {
     /// Prepares rewards for so many agents.
@@ -78,27 +67,23 @@ impl RewardJudge {
         let mut states = Vec::with_capacity(rewards.len());
         for reward in rewards.iter() {
             let first_term = names.len();
-            let (shared, n_cells, init, step) = match &reward.body {
-                RewardBody::Program { init, step, terms } => {
+            let (shared, n_memories) = match &reward.body {
+                RewardBody::Program { terms, .. } => {
                     names.extend(terms.iter().map(|label| format!("{}/{label}", reward.name)));
-                    (!step.uses_me(), step.cells as usize, Registers::of(init), Registers::of(step))
+                    (false, 0)
                 }
                 RewardBody::Script { script, .. } => {
                     names.push(format!("{}/{SCRIPT_TERM}", reward.name));
-                    (!scripts.uses_me(*script), 0, Registers::default(), Registers::default())
+                    let shared = !scripts.uses_me(*script);
+                    (shared, if shared { Team::ALL.len() } else { n_agents })
                 }
             };
-            let instances = if shared { Team::ALL.len() } else { n_agents };
-            let is_script = matches!(reward.body, RewardBody::Script { .. });
             states.push(RewardState {
                 first_term,
                 n_terms: names.len() - first_term,
+                lanes: [None, None],
                 shared,
-                n_cells,
-                init,
-                step,
-                cells: vec![0.0; instances * n_cells],
-                memories: vec![Memory::default(); if is_script { instances } else { 0 }],
+                memories: vec![Memory::default(); n_memories],
             });
         }
         let n_terms = names.len();
@@ -146,18 +131,24 @@ impl RewardJudge {
         self.faults = 0;
         self.sums.fill(0.0);
         self.clear_step();
-        for state in &mut self.states {
-            state.cells.fill(0.0);
-            state.memories.fill(Memory::default());
-        }
         let rewards = self.rewards.clone();
-        let all = self.judged(game);
-        for (which, reward) in rewards.iter().enumerate() {
-            if let RewardBody::Program { init, step, .. } = &reward.body {
-                for judged in self.instances(which, &all) {
-                    self.run(which, init, judged, input, Pass::Init);
-                    self.run(which, step, judged, input, Pass::Silent);
+        let squads = self.squads(game);
+        for (state, reward) in self.states.iter_mut().zip(rewards.iter()) {
+            state.memories.fill(Memory::default());
+            let RewardBody::Program { init, step, .. } = &reward.body else { continue };
+            for ((lanes, squad), team) in state.lanes.iter_mut().zip(&squads).zip(Team::ALL) {
+                if squad.is_empty() {
+                    *lanes = None;
+                    continue;
                 }
+                if lanes.as_ref().is_none_or(|lanes| !lanes.seats(squad.len())) {
+                    *lanes = Some(Lanes::new(init, step, state.n_terms, squad.len()));
+                }
+                let Some(lanes) = lanes else { continue };
+                let input = Input { us: *team, ..*input };
+                lanes.clear();
+                lanes.run(&players(squad), &input, Pass::Init, &mut self.faults);
+                lanes.run(&players(squad), &input, Pass::Silent, &mut self.faults);
             }
         }
         self.clear_step();
@@ -175,29 +166,22 @@ impl RewardJudge {
     ) -> Result<(), ScriptError> {
         self.clear_step();
         let rewards = self.rewards.clone();
-        let all = self.judged(game);
+        let squads = self.squads(game);
         for (which, reward) in rewards.iter().enumerate() {
-            for judged in self.instances(which, &all) {
-                match (&reward.body, scene) {
-                    (RewardBody::Program { step, .. }, _) => self.run(which, step, judged, input, Pass::Step),
-                    (RewardBody::Script { script, weight }, Some((scripts, scene))) => {
-                        let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
-                        let instance = self.instance(which, judged);
-                        if let Some(memory) = self.states[which].memories.get_mut(instance) {
-                            let value = scripts.reward(*script, scene, perspective, memory)?;
-                            let at = judged.agent * self.names.len() + self.states[which].first_term;
-                            if (value * weight).abs() <= PAY_MAX {
-                                self.terms[at] += value * weight;
-                            } else {
-                                self.faults += 1;
-                            }
-                        }
+            match (&reward.body, scene) {
+                (RewardBody::Program { .. }, _) => {
+                    for (team, squad) in Team::ALL.iter().zip(&squads) {
+                        self.program(which, squad, &Input { us: *team, ..*input });
                     }
-                    (RewardBody::Script { .. }, None) => {}
                 }
-            }
-            if self.states[which].shared {
-                self.share(which, game);
+                (RewardBody::Script { script, weight }, Some((scripts, scene))) => {
+                    for squad in &squads {
+                        self.script(which, squad, |perspective, memory| {
+                            Ok(scripts.reward(*script, scene, perspective, memory)? * weight)
+                        })?;
+                    }
+                }
+                (RewardBody::Script { .. }, None) => {}
             }
         }
         self.pay();
@@ -209,66 +193,52 @@ impl RewardJudge {
         self.paid.fill(0.0);
     }
 
-    /// The agents, in their order.
-    fn judged(&self, game: &Match) -> ArrayVec<Judged, PLAYERS_MAX> {
-        let mut seen = [false; 2];
-        let agents = game.agents.iter().take(self.n_agents).enumerate();
-        let judged = agents.map(|(agent, slot)| Judged {
-            agent,
-            team: slot.team,
-            me: slot.player.filter(|player| game.players[player.index()].active),
-            first: !std::mem::replace(&mut seen[slot.team.index()], true),
-        });
-        judged.collect()
+    /// The agents of each team.
+    fn squads(&self, game: &Match) -> [Squad; 2] {
+        let mut squads = [Squad::new(), Squad::new()];
+        for (agent, slot) in game.agents.iter().take(self.n_agents).enumerate() {
+            let me = slot.player.filter(|player| game.players[player.index()].active);
+            // A team has no more agents than players.
+            let _ = squads[slot.team.index()].try_push(Judged { agent, team: slot.team, me });
+        }
+        squads
     }
 
-    /// The agents a reward runs for: every one, or the first of each team.
-    fn instances<'j>(&self, which: usize, all: &'j [Judged]) -> impl Iterator<Item = Judged> + use<'j> {
-        let shared = self.states[which].shared;
-        all.iter().copied().filter(move |judged| !shared || judged.first)
-    }
-
-    fn instance(&self, which: usize, judged: Judged) -> usize {
-        if self.states[which].shared { judged.team.index() } else { judged.agent }
-    }
-
-    fn run(&mut self, which: usize, program: &Program, judged: Judged, input: &Input<'_>, pass: Pass) {
-        let instance = self.instance(which, judged);
+    /// Runs a program for a team's agents.
+    fn program(&mut self, which: usize, squad: &Squad, input: &Input<'_>) {
         let n_all = self.names.len();
         let state = &mut self.states[which];
-        let at = judged.agent * n_all + state.first_term;
-        let registers = if matches!(pass, Pass::Init) { &mut state.init } else { &mut state.step };
-        let (regs, begin) = registers.parts();
-        let mut machine = Machine {
-            input: Input { us: judged.team, me: judged.me, silent: matches!(pass, Pass::Silent), ..*input },
-            regs,
-            cells: &mut state.cells[instance * state.n_cells..(instance + 1) * state.n_cells],
-            terms: &mut self.terms[at..at + state.n_terms],
-            faults: &mut self.faults,
-            draws: None,
-        };
-        machine.run_from(program, begin);
+        let Some(lanes) = &mut state.lanes[input.us.index()] else { return };
+        lanes.run(&players(squad), input, Pass::Step, &mut self.faults);
+        for (lane, judged) in squad.iter().enumerate() {
+            let at = judged.agent * n_all + state.first_term;
+            lanes.paid(lane, &mut self.terms[at..at + state.n_terms]);
+        }
     }
 
-    /// Copies a shared reward's terms from the first agent of each team to the others.
-    fn share(&mut self, which: usize, game: &Match) {
-        let n_all = self.names.len();
-        let (first_term, n_terms) = (self.states[which].first_term, self.states[which].n_terms);
-        for team in Team::ALL {
-            let mut agents = game
-                .agents
-                .iter()
-                .take(self.n_agents)
-                .enumerate()
-                .filter(|(_, slot)| slot.team == *team)
-                .map(|(i, _)| i);
-            if let Some(first) = agents.next() {
-                let from = first * n_all + first_term;
-                for agent in agents {
-                    self.terms.copy_within(from..from + n_terms, agent * n_all + first_term);
+    /// Runs a script for a team's agents: for each, or for the first and all.
+    fn script(
+        &mut self,
+        which: usize,
+        squad: &Squad,
+        mut hook: impl FnMut(Perspective, &mut Memory) -> Result<f64, ScriptError>,
+    ) -> Result<(), ScriptError> {
+        let state = &mut self.states[which];
+        let mut value = 0.0;
+        for (place, judged) in squad.iter().enumerate() {
+            if place == 0 || !state.shared {
+                let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
+                let instance = if state.shared { judged.team.index() } else { judged.agent };
+                let Some(memory) = state.memories.get_mut(instance) else { continue };
+                value = hook(perspective, memory)?;
+                if value.is_nan() || value.abs() > PAY_MAX {
+                    self.faults += 1;
+                    value = 0.0;
                 }
             }
+            self.terms[judged.agent * self.names.len() + state.first_term] += value;
         }
+        Ok(())
     }
 
     fn pay(&mut self) {
@@ -281,6 +251,11 @@ impl RewardJudge {
             *paid = total as f32;
         }
     }
+}
+
+/// The agents' players.
+fn players(squad: &Squad) -> ArrayVec<Option<PlayerId>, TEAM_MAX> {
+    squad.iter().map(|judged| judged.me).collect()
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ fn goal_ends(scenario: &mut Scenario) {
     let us = code.push(Instr::Us);
     let filter = EventFilter { kind: EventKind::Goal, qualifier: None, by: Some(Who::Team(us)), to: None };
     let fold = Fold { kind: FoldKind::Count, value: None, guard: None };
-    let when = Some(code.push(Instr::Each(Each { over: Over::Events(filter), body: 0, fold })));
+    let when = Some(code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 0, fold }))));
     scenario.endings.program = code.program;
     let verdict = Some(Verdict::Success);
     scenario.endings.list.push(Ending { verdict, label: "scored".to_owned(), when, script: None });
@@ -75,7 +75,7 @@ fn rewards_of_the_last_step_see_the_end() {
     for (qualifier, term) in [(None, 0), (Some(Qualifier::Success), 1), (Some(Qualifier::Failure), 2)] {
         let filter = EventFilter { kind: EventKind::End, qualifier, by: None, to: None };
         let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
-        code.push(Instr::Each(Each { over: Over::Events(filter), body: 1, fold }));
+        code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 1, fold })));
         code.push(Instr::Give { term, value, guard: None });
     }
     let body = RewardBody::Program {
@@ -110,8 +110,11 @@ fn judging_and_observing_allocate_nothing() {
         let at = code.program.code.len() as u32;
         let value = Some(setpiece_scenario::Reg(at + 2));
         let fold = Fold { kind: FoldKind::Min, value, guard: None };
-        let each =
-            code.push(Instr::Each(Each { over: Over::Players { team: everybody, except: None }, body: 2, fold }));
+        let each = code.push(Instr::Each(Box::new(Each {
+            over: Over::Players { team: everybody, except: None },
+            body: 2,
+            fold,
+        })));
         let x = code.load_of(Field::PlayerX, each);
         code.binary(BinaryOp::Hypot, x, x);
         code.push(Instr::Give { term: 0, value: each, guard: None });

@@ -1,8 +1,10 @@
-//! What programs and scripts may read of a match: a small copy, made once per step.
+//! What programs and scripts may read of a match: the match itself, or a small copy that outlives the step.
 
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Field, GameMode, Role, Team};
+use setpiece_scenario::{Instr, Program, When};
+use std::ops::Range;
 
 /// What may be read of a player; world frame, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,17 +86,7 @@ impl View {
             ball_vel: game.ball.vel.into(),
             owner: game.owner,
             possession: game.possession,
-            players: game.players.each_ref().map(|player| PlayerView {
-                pos: player.pos.into(),
-                vel: player.vel.into(),
-                heading_rad: player.heading_rad,
-                fatigue: player.fatigue,
-                yellow_cards: player.yellow_cards,
-                role: player.role,
-                present: player.present,
-                active: player.active,
-                controlled: false,
-            }),
+            players: game.players.each_ref().map(PlayerView::of),
             score: game.score,
             mode: game.mode,
             dead: game.dead,
@@ -107,29 +99,129 @@ impl View {
         view
     }
 
-    /// The player of an id as programs write it; `None` for -1, for what is no id, and where nobody is.
-    pub fn player(&self, id: f64) -> Option<&PlayerView> {
-        let index = player_index(id)?;
-        self.players.get(index).filter(|player| player.present)
+    /// Takes over of a match what [`Memory`] says, and leaves the rest.
+    pub fn keep(&mut self, game: &Match, memory: Memory) {
+        match memory {
+            Memory::Nothing => {}
+            Memory::Ball => (self.ball, self.ball_vel) = (game.ball.pos.into(), game.ball.vel.into()),
+            Memory::All => *self = View::of(game),
+        }
     }
 
     /// The players on the pitch of a team, or of both, by id.
     pub fn on_pitch(&self, team: Option<Team>) -> impl Iterator<Item = (usize, &PlayerView)> {
-        let range = match team {
-            Some(team) => team.index() * TEAM_MAX..(team.index() + 1) * TEAM_MAX,
-            None => 0..PLAYERS_MAX,
+        let ids = ids(team);
+        let first = ids.start;
+        self.players[ids].iter().enumerate().filter(|(_, p)| p.active).map(move |(i, p)| (first + i, p))
+    }
+}
+
+/// How much of a state is remembered until the next step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Memory {
+    /// Nothing looks back.
+    #[default]
+    Nothing,
+    /// Only the ball's place and velocity.
+    Ball,
+    /// Everything.
+    All,
+}
+
+impl Memory {
+    /// What a program looks back at.
+    pub fn of(program: &Program) -> Memory {
+        let of = |instr: &Instr| match instr {
+            Instr::Load { field, when: When::Prev, .. } => match field {
+                Field::BallX | Field::BallY | Field::BallHeight | Field::BallVx | Field::BallVy | Field::BallVz => {
+                    Memory::Ball
+                }
+                _ => Memory::All,
+            },
+            _ => Memory::Nothing,
         };
-        let first = range.start;
-        self.players[range].iter().enumerate().filter(|(_, p)| p.active).map(move |(i, p)| (first + i, p))
+        program.code.iter().map(of).max().unwrap_or_default()
+    }
+}
+
+/// A state that is looked at: the match itself, or what was kept of one.
+#[derive(Clone, Copy, Debug)]
+pub enum Sight<'a> {
+    /// The match as it stands.
+    Live(&'a Match),
+    /// A copy.
+    Kept(&'a View),
+}
+
+impl Sight<'_> {
+    /// Whether a player is on the pitch.
+    #[inline]
+    pub fn is_active(self, index: usize) -> bool {
+        match self {
+            Sight::Live(game) => game.players[index].active,
+            Sight::Kept(view) => view.players[index].active,
+        }
+    }
+
+    /// The player of an id as programs write it; `None` for -1, for what is no id, and where nobody is.
+    #[inline]
+    fn player(self, id: f64) -> Option<PlayerView> {
+        let index = player_index(id)?;
+        let player = match self {
+            Sight::Live(game) => PlayerView::of(&game.players[index]),
+            Sight::Kept(view) => view.players[index],
+        };
+        player.present.then_some(player)
+    }
+
+    fn is_controlled(self, id: f64) -> f64 {
+        match (self, self.player(id)) {
+            (_, None) => f64::NAN,
+            (Sight::Kept(_), Some(player)) => player.controlled.into(),
+            (Sight::Live(game), Some(_)) => game.agents.iter().any(|agent| player_number(agent.player) == id).into(),
+        }
+    }
+
+    /// Whether a program's number means somebody on the pitch.
+    #[inline]
+    pub fn exists(self, id: f64) -> bool {
+        player_index(id).is_some_and(|index| self.is_active(index))
+    }
+
+    #[inline]
+    pub(super) fn ball(self) -> [f32; 3] {
+        match self {
+            Sight::Live(game) => game.ball.pos.into(),
+            Sight::Kept(view) => view.ball,
+        }
+    }
+
+    fn ball_vel(self) -> [f32; 3] {
+        match self {
+            Sight::Live(game) => game.ball.vel.into(),
+            Sight::Kept(view) => view.ball_vel,
+        }
+    }
+
+    #[inline]
+    pub(super) fn owner(self) -> Option<PlayerId> {
+        match self {
+            Sight::Live(game) => game.owner,
+            Sight::Kept(view) => view.owner,
+        }
     }
 
     /// World x beyond which a team's players are offside, metres: the second-last opponent, the ball or the halfway
     /// line, whichever is nearest to the opponents' goal.
-    pub fn offside_line_m(&self, team: Team) -> f64 {
+    pub fn offside_line_m(self, team: Team) -> f64 {
         let side = team.side();
         let (mut last, mut second) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for (_, player) in self.on_pitch(Some(team.other())) {
-            let x = side * f64::from(player.pos[0]);
+        for index in ids(Some(team.other())).filter(|&index| self.is_active(index)) {
+            let x = match self {
+                Sight::Live(game) => game.players[index].pos.x,
+                Sight::Kept(view) => view.players[index].pos[0],
+            };
+            let x = side * f64::from(x);
             if x > last {
                 second = last;
                 last = x;
@@ -137,67 +229,90 @@ impl View {
                 second = x;
             }
         }
-        side * second.max(side * f64::from(self.ball[0])).max(0.0)
+        side * second.max(side * f64::from(self.ball()[0])).max(0.0)
     }
 
     /// One number of the match as a program reads it; NaN of nobody, and of no team.
-    pub fn load(&self, field: Field, of: f64) -> f64 {
+    #[inline(always)]
+    pub fn load(self, field: Field, of: f64) -> f64 {
         match field {
-            Field::BallX => self.ball[0].into(),
-            Field::BallY => self.ball[1].into(),
-            Field::BallHeight => self.ball[2].into(),
-            Field::BallVx => self.ball_vel[0].into(),
-            Field::BallVy => self.ball_vel[1].into(),
-            Field::BallVz => self.ball_vel[2].into(),
-            Field::BallOwner => player_number(self.owner),
-            Field::Possession => team_number(self.possession),
-            Field::Score => team_of_number(of).map_or(f64::NAN, |team| self.score[team.index()].into()),
-            Field::TeamHasBall => match team_of_number(of) {
-                Some(team) => self.owner.is_some_and(|owner| owner.team() == team).into(),
-                None => f64::NAN,
-            },
-            Field::OffsideLine => team_of_number(of).map_or(f64::NAN, |team| self.offside_line_m(team)),
-            Field::Elapsed => f64::from(self.step) / STEPS_PER_S,
-            Field::Remaining => self.remaining_s(),
-            Field::GameMode => self.mode.index() as f64,
-            Field::BallDead => self.dead.into(),
-            Field::PlayerX
-            | Field::PlayerY
-            | Field::PlayerVx
-            | Field::PlayerVy
-            | Field::PlayerHeading
-            | Field::PlayerFatigue
-            | Field::PlayerYellowCards
-            | Field::PlayerRole
-            | Field::PlayerActive
-            | Field::PlayerControlled => self.player(of).map_or(f64::NAN, |player| player.load(field)),
+            Field::BallX => self.ball()[0].into(),
+            Field::BallY => self.ball()[1].into(),
+            Field::BallHeight => self.ball()[2].into(),
+            Field::BallVx => self.ball_vel()[0].into(),
+            Field::BallVy => self.ball_vel()[1].into(),
+            Field::BallVz => self.ball_vel()[2].into(),
+            Field::BallOwner => player_number(self.owner()),
+            Field::PlayerX => self.player(of).map_or(f64::NAN, |player| player.pos[0].into()),
+            Field::PlayerY => self.player(of).map_or(f64::NAN, |player| player.pos[1].into()),
+            Field::PlayerVx => self.player(of).map_or(f64::NAN, |player| player.vel[0].into()),
+            Field::PlayerVy => self.player(of).map_or(f64::NAN, |player| player.vel[1].into()),
+            Field::PlayerHeading => self.player(of).map_or(f64::NAN, |player| player.heading_rad.into()),
+            Field::PlayerFatigue => self.player(of).map_or(f64::NAN, |player| player.fatigue.into()),
+            Field::PlayerYellowCards => self.player(of).map_or(f64::NAN, |player| player.yellow_cards.into()),
+            Field::PlayerRole => self.player(of).map_or(f64::NAN, |player| player.role.index() as f64),
+            Field::PlayerActive => self.player(of).map_or(f64::NAN, |player| player.active.into()),
+            Field::PlayerControlled => self.is_controlled(of),
+            Field::Possession
+            | Field::Score
+            | Field::TeamHasBall
+            | Field::OffsideLine
+            | Field::Elapsed
+            | Field::Remaining
+            | Field::GameMode
+            | Field::BallDead => self.load_of_match(field, of),
         }
     }
 
-    /// Seconds until the limit; infinite without one.
-    pub fn remaining_s(&self) -> f64 {
-        match self.limit_steps {
-            Some(limit) => f64::from(limit.saturating_sub(self.step)) / STEPS_PER_S,
-            None => f64::INFINITY,
+    /// What is seldom asked.
+    #[inline(never)]
+    fn load_of_match(self, field: Field, of: f64) -> f64 {
+        let (possession, score, mode, dead, step, limit_steps) = match self {
+            Sight::Live(game) => (game.possession, game.score, game.mode, game.dead, game.step, game.limit_steps),
+            Sight::Kept(view) => (view.possession, view.score, view.mode, view.dead, view.step, view.limit_steps),
+        };
+        match (field, team_of_number(of)) {
+            (Field::Possession, _) => team_number(possession),
+            (Field::Score, Some(team)) => score[team.index()].into(),
+            (Field::TeamHasBall, Some(team)) => self.owner().is_some_and(|owner| owner.team() == team).into(),
+            (Field::OffsideLine, Some(team)) => self.offside_line_m(team),
+            (Field::Elapsed, _) => f64::from(step) / STEPS_PER_S,
+            (Field::Remaining, _) => remaining_s(step, limit_steps),
+            (Field::GameMode, _) => mode.index() as f64,
+            (Field::BallDead, _) => dead.into(),
+            _ => f64::NAN,
         }
     }
 }
 
+/// Seconds until the limit; infinite without one.
+pub fn remaining_s(step: u32, limit_steps: Option<u32>) -> f64 {
+    limit_steps.map_or(f64::INFINITY, |limit| f64::from(limit.saturating_sub(step)) / STEPS_PER_S)
+}
+
 impl PlayerView {
-    fn load(&self, field: Field) -> f64 {
-        match field {
-            Field::PlayerX => self.pos[0].into(),
-            Field::PlayerY => self.pos[1].into(),
-            Field::PlayerVx => self.vel[0].into(),
-            Field::PlayerVy => self.vel[1].into(),
-            Field::PlayerHeading => self.heading_rad.into(),
-            Field::PlayerFatigue => self.fatigue.into(),
-            Field::PlayerYellowCards => self.yellow_cards.into(),
-            Field::PlayerRole => self.role.index() as f64,
-            Field::PlayerActive => self.active.into(),
-            Field::PlayerControlled => self.controlled.into(),
-            _ => f64::NAN,
+    /// The view of a player; who controls him is not known here.
+    #[inline]
+    fn of(player: &Player) -> PlayerView {
+        PlayerView {
+            pos: player.pos.into(),
+            vel: player.vel.into(),
+            heading_rad: player.heading_rad,
+            fatigue: player.fatigue,
+            yellow_cards: player.yellow_cards,
+            role: player.role,
+            present: player.present,
+            active: player.active,
+            controlled: false,
         }
+    }
+}
+
+/// The ids of a team, or of both.
+pub fn ids(team: Option<Team>) -> Range<usize> {
+    match team {
+        Some(team) => team.index() * TEAM_MAX..(team.index() + 1) * TEAM_MAX,
+        None => 0..PLAYERS_MAX,
     }
 }
 

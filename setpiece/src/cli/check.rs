@@ -4,13 +4,36 @@ use super::{FAULT, FINE, MessageFormat, out::Out};
 use crate::Error;
 use crate::dsl::problem::Severity;
 use crate::dsl::report::{Format, render};
+use crate::load::Checked;
+use crate::watch::Watcher;
+use std::path::PathBuf;
+use std::time::Duration;
 
-/// Compiles each file and prints what was found.
-pub(crate) fn check(files: &[String], format: MessageFormat, out: &Out) -> u8 {
+/// How often the watcher looks up.
+const TICK: Duration = Duration::from_millis(200);
+
+/// Checks files again and again, as soon as one of them or of what they import has changed.
+pub(crate) fn watch(files: &[String], format: MessageFormat, out: &Out) -> Result<u8, Error> {
+    let mut inputs = Vec::new();
+    check(files, format, out, &mut inputs);
+    let mut watcher = Watcher::new(&inputs)?;
+    loop {
+        if format == MessageFormat::Human {
+            out.line(&out.dim("waiting for a change; Ctrl-C ends"));
+        }
+        while !watcher.changed(TICK) {}
+        inputs.clear();
+        check(files, format, out, &mut inputs);
+        watcher.watch(&inputs)?;
+    }
+}
+
+/// Compiles each file and prints what was found; adds the files that were read to `inputs`.
+pub(crate) fn check(files: &[String], format: MessageFormat, out: &Out, inputs: &mut Vec<PathBuf>) -> u8 {
     let mut failed = false;
     let mut array = Vec::new();
     for file in files {
-        let (problems, sources) = match crate::check(file) {
+        let Checked { problems, sources, inputs: read } = match crate::check(file) {
             Ok(found) => found,
             Err(error) => {
                 failed = true;
@@ -18,9 +41,12 @@ pub(crate) fn check(files: &[String], format: MessageFormat, out: &Out) -> u8 {
                     MessageFormat::Human => out.error(&error),
                     MessageFormat::Json => array.push(bare(&error, file)),
                 }
+                // A file that is not there may come.
+                inputs.push(PathBuf::from(file));
                 continue;
             }
         };
+        inputs.extend(read);
         let errors = problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
         failed |= errors > 0;
         match format {

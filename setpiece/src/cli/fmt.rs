@@ -58,7 +58,7 @@ fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
     let formatted = format(&source).map_err(|problems| {
         let mut sources = Sources::default();
         sources.add(source.clone());
-        Error::Compile(Box::new(Failure { problems, sources }))
+        Error::Compile(Box::new(Failure { problems, sources, inputs: Vec::new() }))
     })?;
     let changes = *formatted != *source.text;
     match (check, piped) {

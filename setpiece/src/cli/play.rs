@@ -3,14 +3,18 @@
 use super::{FAULT, FINE, out::Out, summary};
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{EnvironmentOptions, Physics};
+use crate::live::Live;
 use crate::run::{RunOptions, Summary, first_error, run};
-use crate::watch::Watcher;
+use crate::scenario::Scenario;
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::time::Duration;
 
+/// How long a reload may look for what only a dry run finds.
+const PROBE: Duration = Duration::from_millis(10);
 /// How often a progress bar and a watcher look up.
 const TICK: Duration = Duration::from_millis(200);
 
@@ -153,55 +157,54 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 
 /// Runs episode by episode: a changed file takes effect at the next one, a broken one leaves the last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
-    let mut loaded = crate::load(&args.scenario)?;
-    out.warnings(&loaded);
-    if loaded.inputs.is_empty() {
+    let mut live = Live::open(&args.scenario)?;
+    out.warnings(live.loaded());
+    if !live.is_watching() {
         out.fault("SP0001", &format!("`{}` is no file: there is nothing to watch", args.scenario), None);
         return Ok(FAULT);
     }
-    let mut watcher = Watcher::new(&loaded.inputs)?;
-    let mut options = options(args, &loaded)?;
+    let mut options = options(args, live.loaded())?;
+    let mut scenario = live.loaded().scenario.clone();
     loop {
-        out.line(&out.bold(&loaded.scenario.name, 0));
+        out.line(&out.bold(&scenario.name, 0));
         for index in 0..args.episodes {
             let one = RunOptions { episodes: index..index + 1, threads: 1, ..options.clone() };
-            let summary = run(&loaded.scenario, &one, |_| {})?;
+            let summary = run(&scenario, &one, |_| {})?;
             for episode in summary.episodes.iter().flatten() {
                 out.line(&summary::episode_line(episode, out));
             }
             if let Some(error) = first_error(&summary) {
                 out.error(&error);
             }
-            if watcher.changed(Duration::ZERO) && reload(args, &mut loaded, &mut options, &mut watcher, out)? {
-                out.line(&out.bold(&loaded.scenario.name, 0));
+            if let Some(fresh) = reload(args, &mut live, Duration::ZERO, out) {
+                (scenario, options) = fresh;
+                out.line(&out.bold(&scenario.name, 0));
             }
         }
         out.line(&out.dim("waiting for a change; Ctrl-C ends"));
-        while !(watcher.changed(TICK) && reload(args, &mut loaded, &mut options, &mut watcher, out)?) {}
+        (scenario, options) = loop {
+            if let Some(fresh) = reload(args, &mut live, TICK, out) {
+                break fresh;
+            }
+        };
     }
 }
 
-/// Takes a changed file; says what is wrong with a broken one and keeps the last good scenario.
-fn reload(
-    args: &RunArgs,
-    loaded: &mut Loaded,
-    run_options: &mut RunOptions,
-    watcher: &mut Watcher,
-    out: &Out,
-) -> Result<bool, Error> {
-    let fresh = crate::load(&args.scenario).and_then(|fresh| Ok((options(args, &fresh)?, fresh)));
+/// Takes a changed file; says what is wrong with a broken one, and the last good scenario goes on.
+fn reload(args: &RunArgs, live: &mut Live, timeout: Duration, out: &Out) -> Option<(Arc<Scenario>, RunOptions)> {
+    let fresh = live.poll(timeout)?.and_then(|fresh| Ok((fresh, options(args, fresh)?)));
     match fresh {
-        Ok((fresh_options, fresh)) => {
-            out.warnings(&fresh);
-            watcher.watch(&fresh.inputs)?;
-            *loaded = fresh;
-            *run_options = fresh_options;
-            Ok(true)
+        Ok((fresh, options)) => {
+            let problems = crate::probe::probe(fresh, Some(PROBE));
+            if !problems.is_empty() {
+                out.problems(&problems, &fresh.sources);
+            }
+            Some((fresh.scenario.clone(), options))
         }
         Err(error) => {
             out.error(&error);
             out.note("the last good scenario goes on");
-            Ok(false)
+            None
         }
     }
 }

@@ -17,7 +17,7 @@ impl<'w> Writer<'_, 'w> {
             DoWhat::Named { name, args, span } => (name, args.as_slice(), *span),
             DoWhat::Script(script) => {
                 self.refuse_sprint(stmt, "a script");
-                let index = crate::lower::script::embed(self.lower.world, script, "act");
+                let index = crate::lower::script::embed(self.lower.world, script, "act", &[]);
                 let (until, seconds) = self.clauses(stmt);
                 if let Some(script) = index {
                     let act = Act::Script { script, args: Vec::new() };
@@ -202,6 +202,7 @@ impl<'w> Writer<'_, 'w> {
         for decl in params {
             let known = self.lower.scope.find(&decl.name.node).cloned();
             let Some(Binding::Expr { now: Some(value), .. } | Binding::Value(value)) = known else { continue };
+            self.lower.world.mark_used(decl.name.span);
             if value.is_error() {
                 continue;
             }

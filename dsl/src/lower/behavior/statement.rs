@@ -4,7 +4,7 @@ use super::{State, Writer};
 use crate::ast::{BehaviorStmt, BehaviorStmtKind, Binding as Let, Chance, Expr, Ident, RepeatHow};
 use crate::check::types::Ty;
 use crate::lower::param;
-use crate::lower::value::{Binding, Repr, Scope, Value};
+use crate::lower::value::{Binding, Scope, Value};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{BinaryOp, Distribution, Node, Reg, Then, UnaryOp, Watch};
 
@@ -28,7 +28,7 @@ impl<'w> Writer<'_, 'w> {
             value.ty = Ty::Number;
         }
         let regs = value.regs();
-        let held = matches!(value.repr, Repr::One(_) | Repr::Two(..) | Repr::Three(..));
+        let held = value.is_held();
         if !held && !value.is_error() {
             self.lower.report(
                 Problem::new(Code::WrongType, state.value.span, format!("a state can't be {}", value.ty.noun()), "")
@@ -37,15 +37,10 @@ impl<'w> Writer<'_, 'w> {
         }
         let cells: Vec<u32> = regs.iter().map(|_| self.lower.code.new_cell()).collect();
         let read: Vec<Reg> = cells.iter().map(|&cell| self.lower.code.cell(cell)).collect();
-        let repr = match read.as_slice() {
-            [a] if held => Repr::One(*a),
-            [a, b] if held => Repr::Two(*a, *b),
-            [a, b, c] if held => Repr::Three(*a, *b, *c),
-            _ => Repr::Nothing,
-        };
-        let ty = if matches!(repr, Repr::Nothing) { Ty::Error } else { value.ty };
+        let kept = if held { Value::of_regs(value.ty, &read) } else { Value::error() };
+        let ty = kept.ty;
         self.nodes.push(Node::Let(cells.iter().copied().zip(regs).collect()));
-        self.lower.scope.bind(&state.name.node, Binding::Value(Value { ty, repr }));
+        self.lower.scope.bind(&state.name.node, Binding::Value(kept));
         self.states.push(State { name: &state.name.node, cells, ty });
     }
 
@@ -191,7 +186,7 @@ impl<'w> Writer<'_, 'w> {
     /// A counter of passes set to 0, and how many there are to be.
     fn count(&mut self, times: &'w Expr) -> (u32, Reg) {
         let wanted = self.drawing(|writer| writer.lower.want_reg(times, Ty::Int));
-        self.lower.check_range(wanted, (0.0, 1.0e9), "the number of passes", times.span, "`0` or more");
+        self.lower.check_range(wanted, (0.0, 1.0e9), "the number of passes", times.span, "`0..1000000000`");
         let (passed, limit) = (self.lower.code.new_cell(), self.lower.code.new_cell());
         let zero = self.lower.code.constant(0.0);
         self.nodes.push(Node::Let(vec![(passed, zero), (limit, wanted)]));

@@ -90,10 +90,12 @@ impl<'w> Lower<'_, 'w> {
             (_, right) if is_add && right.is_place() && offset(&x, a) => Ty::Point,
             (left, right) if !is_add && left.is_place() && right.is_place() => Ty::Vector,
             (left, right) if left.is_place() && right.is_place() => {
-                return self.fail(
-                    Problem::new(Code::WrongType, span, "two points can't be added", "")
-                        .help("add an offset in brackets: `ball + (2m, 0m)`; or write `between a and b`"),
-                );
+                let problem = Problem::new(Code::WrongType, span, "two points can't be added", "");
+                return self.fail(match (&b.kind, right) {
+                    (ExprKind::Name(name), Ty::Point) => problem
+                        .help(format!("an offset is a vector: declare it as one, `let {name}: vector = (2m, 0m)`")),
+                    _ => problem.help("add an offset in brackets: `ball + (2m, 0m)`; or write `between a and b`"),
+                });
             }
             _ => return self.disagree(&x, &y, a, b, if is_add { "add" } else { "subtract" }),
         };
@@ -410,7 +412,14 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn membership(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {
-        let (x, y) = (self.expr(a), self.expr(b));
+        let x = self.expr(a);
+        let y = match &b.kind {
+            ExprKind::List(modes) if x.ty == Ty::Mode => {
+                let list = modes.iter().map(|mode| self.mode(mode)).collect();
+                Value { ty: Ty::List, repr: Repr::List(list) }
+            }
+            _ => self.expr(b),
+        };
         if x.is_error() || y.is_error() {
             return Value::error();
         }

@@ -8,6 +8,23 @@ use crate::problem::{Code, Problem};
 use crate::resolve::arg_name;
 use setpiece_scenario::vocabulary::Function;
 
+/// What functions of the language are called elsewhere.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("gauss", "normal"),
+    ("gaussian", "normal"),
+    ("rand", "uniform"),
+    ("random", "uniform"),
+    ("randint", "integer"),
+    ("randn", "normal"),
+    ("dist", "distance"),
+    ("ln", "log"),
+    ("len", "count"),
+    ("size", "count"),
+    ("average", "mean"),
+    ("argmin", "min_by"),
+    ("argmax", "max_by"),
+];
+
 impl<'w> Lower<'_, 'w> {
     pub(super) fn call(&mut self, name: &'w Ident, args: &'w [Arg], span: Span) -> Value<'w> {
         let library = self.world.library;
@@ -17,8 +34,8 @@ impl<'w> Lower<'_, 'w> {
             }
             self.world.mark_used(found.name.span);
             match &found.item.kind {
-                ItemKind::Fn(item) => return self.call_item(item, args, span, None),
-                ItemKind::Region(item) => return self.call_item(item, args, span, Some(Ty::Region)),
+                ItemKind::Fn(item) => return self.call_fn(item, args, span),
+                ItemKind::Region(item) => return self.call_region(item, args, span, false),
                 _ => {}
             }
         }
@@ -26,7 +43,7 @@ impl<'w> Lower<'_, 'w> {
             && let Some(region) = self.world.flat.regions.iter().find(|region| region.name.node == name.node)
         {
             self.world.mark_used(region.name.span);
-            return self.call_item(region, args, span, Some(Ty::Region));
+            return self.call_region(region, args, span, true);
         }
         if let Some(function) = Function::from_name(&name.node) {
             return self.function(function, name, args, span);
@@ -37,22 +54,25 @@ impl<'w> Lower<'_, 'w> {
             .map(|(name, _)| name)
             .collect();
         known.extend(Function::ALL.iter().map(|function| function.name()));
-        self.fail(
-            Problem::new(
-                Code::UnknownFunction,
-                name.span,
-                format!("no function is called `{}`", name.node),
-                "not known",
-            )
-            .did_you_mean(&name.node, known),
-        )
+        let text = &name.node;
+        let problem =
+            Problem::new(Code::UnknownFunction, name.span, format!("no function is called `{text}`"), "not known");
+        let is_value = self.scope.find(text).is_some() || (self.scope.scenario && self.world.declares(text));
+        let other = library.find(name.span.file, text).map(|found| found.item.kind.noun());
+        let elsewhere = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
+        self.fail(match (other, elsewhere) {
+            _ if is_value => problem.help(format!("`{text}` is a value: write it without brackets")),
+            (Some(noun), _) => problem.help(format!("`{text}` is {noun}")),
+            (None, Some(ours)) => problem.help(format!("did you mean `{ours}`?")),
+            (None, None) => problem.did_you_mean(text, known),
+        })
     }
 
-    /// Calls a `fn` or `region` of a file: its body is read with the caller's frame and view.
-    fn call_item(&mut self, item: &'w FnItem, args: &'w [Arg], span: Span, ty: Option<Ty>) -> Value<'w> {
+    /// Calls a `fn` of a file: its body is read with the caller's frame and view.
+    fn call_fn(&mut self, item: &'w FnItem, args: &'w [Arg], span: Span) -> Value<'w> {
         let mut scope = Scope::new(false, self.scope.frame);
         self.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
-        let ty = ty.or_else(|| item.ty.as_ref().map(|ty| param::declared_type(self.world, ty)));
+        let ty = item.ty.as_ref().map(|ty| param::declared_type(self.world, ty));
         let value = self.inline(item.name.span, span, |lower| {
             lower.within(scope, |lower| match ty {
                 Some(ty) => lower.want(&item.body, ty),
@@ -60,6 +80,34 @@ impl<'w> Lower<'_, 'w> {
             })
         });
         value.unwrap_or_else(Value::error)
+    }
+
+    /// Calls a `region`: it lies in the world's frame, whoever calls it; a region of the scenario sees its values.
+    fn call_region(&mut self, item: &'w FnItem, args: &'w [Arg], span: Span, of_scenario: bool) -> Value<'w> {
+        let mut scope = Scope::new(of_scenario, Frame::World);
+        self.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
+        self.turn_angles(&item.params, &mut scope);
+        let value =
+            self.inline(item.name.span, span, |lower| lower.within(scope, |lower| lower.want(&item.body, Ty::Region)));
+        value.unwrap_or_else(Value::error)
+    }
+
+    /// Angles that were read in the present frame are read in the one of the scope they are bound in.
+    pub(crate) fn turn_angles(&mut self, params: &'w [ParamDecl], scope: &mut Scope<'w>) {
+        if self.scope.frame == scope.frame {
+            return;
+        }
+        for decl in params {
+            if let Some(Binding::Expr { now: Some(value), .. }) = scope.find(&decl.name.node).cloned()
+                && value.ty == Ty::ANGLE
+            {
+                let read = self.reg(&value);
+                let world = self.turned_angle(read);
+                let turned = self.in_frame(scope.frame, |lower| lower.turned_angle(world));
+                self.world.mark_used(decl.name.span);
+                scope.bind(&decl.name.node, Binding::Value(Value::one(Ty::ANGLE, turned)));
+            }
+        }
     }
 
     /// Binds declared parameters to arguments (read here) or defaults (read in the declaration's scope).

@@ -35,6 +35,7 @@ impl<'w> Lower<'_, 'w> {
                         F::Prev
                         | F::Delta
                         | F::Closing
+                        | F::Potential
                         | F::Held
                         | F::Ever
                         | F::Always
@@ -150,13 +151,12 @@ impl<'w> Lower<'_, 'w> {
         if let Some((low, _)) = self.interval(operand)
             && low < least
         {
-            let text = self.world.text(x.span);
-            return self.fail(Problem::new(
-                Code::Impossible,
-                span,
-                format!("{what} can't be computed, and `{text}` can be {low}"),
-                "",
-            ));
+            let mut message = format!("{what} can't be computed");
+            if self.code.constant_of(operand).is_none() {
+                let text = self.world.text(x.span);
+                message.push_str(&format!(", and `{text}` can be {low}"));
+            }
+            return self.fail(Problem::new(Code::Impossible, span, message, ""));
         }
         value
     }
@@ -300,6 +300,7 @@ fn signature(function: Function) -> (&'static [&'static str], usize) {
         F::Pressed => (&["p", "within"], 2),
         F::OffsideLine => (&["team"], 1),
         F::Prev | F::Delta => (&["e"], 1),
+        F::Potential => (&["e", "gamma"], 2),
         F::Held => (&["c", "for"], 2),
         F::Ever | F::Always => (&["c"], 1),
         F::Since => (&["E"], 1),

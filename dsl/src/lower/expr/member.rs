@@ -3,6 +3,7 @@
 use super::super::Lower;
 use super::super::value::{Repr, Value};
 use crate::ast::{Expr, ExprKind, Ident, Span};
+use crate::check::names;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
@@ -18,7 +19,7 @@ impl<'w> Lower<'_, 'w> {
                 return self.team_member(team, &name, part.span.to(member.span), span);
             }
             ExprKind::Name(name) if name == "event" && self.scope.find(name).is_none() => {
-                return self.event_member(member, span);
+                return self.event_member(of.span, member);
             }
             ExprKind::Name(name) if is_pitch_part(name) && self.scope.find(name).is_none() => {
                 let dotted = format!("{name}.{}", member.node);
@@ -27,10 +28,14 @@ impl<'w> Lower<'_, 'w> {
                     None => self.no_pitch_region(&dotted, span),
                 };
             }
-            // `defence.f_4_4_2`: an item of a file that was imported under a name.
             ExprKind::Name(name) if self.scope.find(name).is_none() => {
-                let dotted = format!("{name}.{}", member.node);
-                if let Some(value) = self.file_name(&dotted, span) {
+                if !self.world.declares(name)
+                    && !names::is_value(name)
+                    && let Some(state) = self.state_of_reward(name, of.span, member)
+                {
+                    return state;
+                }
+                if let Some(value) = self.imported(name, member, span) {
                     return value;
                 }
             }
@@ -38,6 +43,12 @@ impl<'w> Lower<'_, 'w> {
         }
         let value = self.expr(of);
         let name = member.node.as_str();
+        if self.is_nobody(of) {
+            return self.fail(
+                Problem::new(Code::Impossible, span, format!("`nobody` has no `{name}`"), "nobody is there")
+                    .help("name a player, or write `nearest(us, to: ball)`"),
+            );
+        }
         match value.ty {
             Ty::Error => Value::error(),
             Ty::Team => self.member_of_team(&value, name, member.span, of.span),
@@ -54,6 +65,29 @@ impl<'w> Lower<'_, 'w> {
             },
             _ => self.no_member(of.span, value.ty, member.span, name, &[]),
         }
+    }
+
+    /// `defence.f_4_4_2`: an item of a file that was imported under a name.
+    fn imported(&mut self, alias: &str, member: &Ident, span: Span) -> Option<Value<'w>> {
+        let library = self.world.library;
+        let dotted = format!("{alias}.{}", member.node);
+        if let Some(value) = self.file_name(&dotted, span) {
+            return Some(value);
+        }
+        let file = library.imported_as(span.file, alias)?;
+        if self.scope.scenario && self.world.declares(alias) {
+            return None;
+        }
+        let begins = format!("{alias}.");
+        let known: Vec<&str> =
+            library.visible(span.file).map(|(name, _)| name).filter(|name| name.starts_with(&begins)).collect();
+        let message = format!("`{file}` has no `{}`", member.node);
+        let problem = Problem::new(Code::UnknownName, member.span, message, "not known");
+        Some(self.fail(if known.is_empty() || crate::problem::nearest(&dotted, known.iter().copied()).is_some() {
+            problem.did_you_mean(&dotted, known)
+        } else {
+            problem.help(format!("it has `{}`", known.join("`, `")))
+        }))
     }
 
     fn team_member(&mut self, team: &'w Expr, name: &str, at: Span, span: Span) -> Value<'w> {
@@ -214,14 +248,23 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn event_member(&mut self, member: &'w Ident, span: Span) -> Value<'w> {
-        if self.event.is_none() {
+    fn event_member(&mut self, event: Span, member: &'w Ident) -> Value<'w> {
+        let Some(kind) = self.event else {
             return self.fail(
-                Problem::new(Code::WrongScope, span, "no event is known here", "")
+                Problem::new(Code::WrongScope, event.to(member.span), "no event is known here", "")
                     .help("`event` stands inside an `on` block, or in a `give … on …`"),
             );
-        }
+        };
         let name = member.node.as_str();
+        let nobody = match name {
+            "by" if !kind.has_actor() => Some(format!("nobody does `{kind}`")),
+            "to" if !kind.has_receiver() => Some(format!("`{kind}` reaches nobody")),
+            _ => None,
+        };
+        if let Some(message) = nobody {
+            let span = event.to(member.span);
+            return self.fail(Problem::new(Code::WrongArguments, span, message, "always nobody"));
+        }
         let (field, ty) = match name {
             "by" => (EventField::By, Ty::Player),
             "to" => (EventField::To, Ty::Player),
@@ -233,7 +276,7 @@ impl<'w> Lower<'_, 'w> {
             }
             _ => {
                 let known: Vec<&str> = EventField::NAMED.iter().map(|(name, _)| *name).collect();
-                return self.no_member(span, Ty::Event, member.span, name, &known);
+                return self.no_member(event, Ty::Event, member.span, name, &known);
             }
         };
         Value::one(ty, self.code.event(field))

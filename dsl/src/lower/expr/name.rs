@@ -2,31 +2,17 @@
 
 use super::super::value::{Binding, Frame, Repr, Scope, SetValue, Value};
 use super::super::{Lower, Stage};
-use crate::ast::{FormationItem, ItemKind, Span};
+use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
+use crate::check::names;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::TEAM_MAX;
-use setpiece_scenario::vocabulary::{Field, Owner, PROPERTIES, PitchRegion, Property, Team, Type};
-use setpiece_scenario::vocabulary::EventKind;
+use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
 use setpiece_scenario::{Reg, UnaryOp, When};
 
-/// Names of the language that are no properties.
-const BUILTIN: &[&str] = &[
-    "left",
-    "right",
-    "none",
-    "us",
-    "them",
-    "me",
-    "mates",
-    "players",
-    "ball",
-    "centre",
-    "pitch",
-    "centre_circle",
-    "score",
-    "nobody",
-];
+/// What to write where a `state` begins with what only the match knows.
+const BEFORE_THE_FIRST_STEP: &str =
+    "a state's first value is known before the first step: begin with a number, and assign the state further down";
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn name(&mut self, name: &'w str, span: Span) -> Value<'w> {
@@ -59,15 +45,18 @@ impl<'w> Lower<'_, 'w> {
         )
     }
 
-    fn local(&mut self, name: &str, binding: Binding<'w>, span: Span) -> Value<'w> {
+    pub(crate) fn local(&mut self, name: &str, binding: Binding<'w>, span: Span) -> Value<'w> {
         let value = match binding {
             Binding::Value(value) => value,
-            Binding::State { cell, ty } => {
-                let reg = match self.when {
-                    When::Now => self.code.cell(cell),
-                    When::Prev => self.code.cell_before(cell),
-                };
-                Value::one(ty, reg)
+            Binding::State { cells, before, ty, at } => {
+                self.world.mark_used(at);
+                match self.when {
+                    When::Now => {
+                        let now: Vec<Reg> = cells.iter().map(|&cell| self.code.cell(cell)).collect();
+                        Value::of_regs(ty, &now)
+                    }
+                    When::Prev => Value::of_regs(ty, &before),
+                }
             }
             Binding::Expr { expr, scope, ty, now, at } => {
                 self.world.mark_used(at);
@@ -147,8 +136,8 @@ impl<'w> Lower<'_, 'w> {
             return Some(self.fail(problem));
         }
         self.world.mark_used(found.name.span);
-        let needs_call =
-            |what: &str| Problem::new(Code::WrongType, span, format!("`{name}` is a {what}, not a value"), "");
+        let noun = found.item.kind.noun();
+        let no_value = || Problem::new(Code::WrongType, span, format!("`{name}` is {noun}, not a value"), "");
         Some(match &found.item.kind {
             ItemKind::Const(binding) => self.constant_item(binding, span),
             ItemKind::Region(region) if region.params.is_empty() => {
@@ -159,30 +148,33 @@ impl<'w> Lower<'_, 'w> {
                 value.unwrap_or_else(Value::error)
             }
             ItemKind::Formation(formation) => formation_value(formation),
-            ItemKind::Fn(_) | ItemKind::Region(_) => {
-                self.fail(needs_call("function").help(format!("call it: `{name}(…)`")))
-            }
+            ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value().help(format!("call it: `{name}(…)`"))),
             // A scenario or a reward may bear the name of a property; the property is meant here.
-            _ if is_builtin(name) => return None,
-            ItemKind::Scenario(_) => self.fail(needs_call("scenario")),
-            ItemKind::Reward(_) => self.fail(needs_call("reward")),
-            ItemKind::Behavior(_) => {
-                self.fail(needs_call("behavior").help(format!("give it to a player: `ai: {name}`")))
+            _ if names::is_value(name) => return None,
+            ItemKind::Reward(_) if matches!(self.stage, Stage::Record | Stage::Ending) => {
+                self.fail(no_value().help(format!("a `record` reads its states: `record r = max of {name}.STATE`")))
             }
-            _ => self.fail(needs_call("definition")),
+            ItemKind::Behavior(_) => self.fail(no_value().help(format!("give it to a player: `ai: {name}`"))),
+            _ => self.fail(no_value()),
         })
     }
 
     fn constant_item(&mut self, binding: &'w crate::ast::Binding, span: Span) -> Value<'w> {
         let ty = binding.ty.as_ref().map(|ty| super::super::param::declared_type(self.world, ty));
         let scope = Scope::new(false, Frame::World);
+        // Whoever reads it, a constant is computed before anything else is known.
+        let outer = (std::mem::replace(&mut self.stage, Stage::Constant), self.team.take());
         let value = self.inline(binding.name.span, span, |lower| {
             lower.within(scope, |lower| match ty {
                 Some(ty) => lower.want(&binding.value, ty),
                 None => lower.expr(&binding.value),
             })
         });
+        (self.stage, self.team) = outer;
         let value = value.unwrap_or_else(Value::error);
+        if value.regs().iter().any(|&reg| self.code.is_unknown(reg)) {
+            return Value::error();
+        }
         if value.regs().iter().any(|&reg| self.code.constant_of(reg).is_none()) {
             return self.fail(
                 Problem::new(
@@ -205,6 +197,13 @@ impl<'w> Lower<'_, 'w> {
             "none" => team(self.code.constant(-1.0)),
             "nobody" => Value::one(Ty::Player, self.code.constant(-1.0)),
             "ball" => Value { ty: Ty::Ball, repr: Repr::Nothing },
+            "event" => {
+                let parts: Vec<String> = EventField::NAMED.iter().map(|(part, _)| format!("event.{part}")).collect();
+                self.fail(
+                    Problem::new(Code::WrongType, span, "`event` is no value by itself", "")
+                        .help(format!("it has `{}`", parts.join("`, `"))),
+                )
+            }
             "score" => Value { ty: Ty::Score, repr: Repr::Nothing },
             "centre" => {
                 let zero = self.code.constant(0.0);
@@ -233,10 +232,15 @@ impl<'w> Lower<'_, 'w> {
             },
             "me" | "mates" => self.no_view(name, span),
             _ => {
-                let property = match_property(name)?;
+                let property = names::match_property(name)?;
                 self.match_value(property, span)
             }
         })
+    }
+
+    /// Whether `nobody` is written.
+    pub(crate) fn is_nobody(&self, expr: &Expr) -> bool {
+        matches!(&expr.kind, ExprKind::Name(name) if name == "nobody" && self.scope.find(name).is_none())
     }
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
@@ -246,7 +250,7 @@ impl<'w> Lower<'_, 'w> {
             (Stage::Ending | Stage::Record, "us" | "them") => {
                 problem.help("both teams have agents, or none: write `left` or `right`")
             }
-            (Stage::Init, "me" | "mates") => problem.help("a `state` begins before anyone plays; set it in a `when`"),
+            (Stage::Init, _) => problem.help(BEFORE_THE_FIRST_STEP),
             _ => problem.help("write `left`, `right` or a player's name; `us`, `them` and `me` belong to rewards"),
         })
     }
@@ -270,7 +274,11 @@ impl<'w> Lower<'_, 'w> {
         if self.stage.is_step() {
             return Some(self.code.load(field, of, self.when));
         }
-        let what = if self.stage == Stage::Constant { "a constant" } else { "the start" };
+        let (what, help) = match self.stage {
+            Stage::Constant => ("a constant", "use it in a `reward` or an `end`"),
+            Stage::Init => ("a state's first value", BEFORE_THE_FIRST_STEP),
+            _ => ("the start", "use it in a `reward` or an `end`"),
+        };
         self.report(
             Problem::new(
                 Code::WrongScope,
@@ -278,37 +286,40 @@ impl<'w> Lower<'_, 'w> {
                 format!("`{name}` is known only while the match runs"),
                 format!("{what} is computed before"),
             )
-            .help("use it in a `reward` or an `end`"),
+            .help(help),
         );
         None
     }
 
     /// Every name that could stand here.
     pub(crate) fn names_in_sight(&self, span: Span) -> Vec<String> {
-        let mut names: Vec<String> = self.scope.names().into_iter().map(str::to_owned).collect();
+        let mut known: Vec<String> = self.scope.names().into_iter().map(str::to_owned).collect();
         if let Some(team) = self.scope.players_of {
             let players = self.world.roster.iter().filter(|player| player.team == team);
-            names.extend(players.filter_map(|player| player.name.map(|name| name.node.clone())));
+            known.extend(players.filter_map(|player| player.name.map(|name| name.node.clone())));
         }
         if self.scope.scenario {
             let world = self.world;
-            names.extend(world.params.iter().map(|param| param.name.node.clone()));
-            names.extend(world.flat.lets.iter().map(|binding| binding.name.node.clone()));
+            known.extend(world.params.iter().map(|param| param.name.node.clone()));
+            known.extend(world.flat.lets.iter().map(|binding| binding.name.node.clone()));
             let shuffled = world.flat.tuples.iter().flat_map(|(names, _)| *names);
-            names.extend(shuffled.map(|name| name.node.clone()));
-            names.extend(world.flat.consts.iter().map(|binding| binding.name.node.clone()));
-            names.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
-            names.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
+            known.extend(shuffled.map(|name| name.node.clone()));
+            known.extend(world.flat.consts.iter().map(|binding| binding.name.node.clone()));
+            known.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
+            known.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
+        }
+        if self.stage == Stage::Record {
+            known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
         let values = |kind: &ItemKind| {
             matches!(kind, ItemKind::Const(_) | ItemKind::Region(_) | ItemKind::Formation(_) | ItemKind::Fn(_))
         };
         let visible = self.world.library.visible(span.file);
-        names.extend(visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()));
-        names.extend(BUILTIN.iter().map(|&name| name.to_owned()));
+        known.extend(visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()));
+        known.extend(names::VALUES.iter().map(|&name| name.to_owned()));
         let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
-        names.extend(of_match.map(|property| property.name.to_owned()));
-        names
+        known.extend(of_match.map(|property| property.name.to_owned()));
+        known
     }
 
     /// A player of the roster by his register, if it is constant.
@@ -317,16 +328,6 @@ impl<'w> Lower<'_, 'w> {
         debug_assert!(id < 2.0 * TEAM_MAX as f64);
         self.world.roster.iter().position(|rostered| f64::from(rostered.id) == id)
     }
-}
-
-fn is_builtin(name: &str) -> bool {
-    BUILTIN.contains(&name) || match_property(name).is_some()
-}
-
-fn match_property(name: &str) -> Option<&'static Property> {
-    let of_match = |property: &&Property| property.owner == Owner::Match && property.name == name;
-    debug_assert!(PROPERTIES.iter().all(|property| property.ty != Type::Behavior));
-    PROPERTIES.iter().find(of_match)
 }
 
 fn formation_value(formation: &FormationItem) -> Value<'_> {

@@ -125,8 +125,12 @@ impl<'w> Lower<'_, 'w> {
 
     /// Reports weights that are negative, or all nothing.
     pub(crate) fn check_weights(&mut self, weights: &[(Reg, Span)], span: Span) {
+        let mut fit = true;
         for &(weight, at) in weights {
-            self.check_range(weight, (0.0, f64::MAX), "the weight", at, "`0` or more");
+            fit &= self.check_range(weight, (0.0, f64::MAX), "the weight", at, "`0` or more");
+        }
+        if !fit {
+            return;
         }
         let sum = weights.iter().map(|(weight, _)| *weight).reduce(|a, b| self.code.binary(BinaryOp::Add, a, b));
         let Some(sum) = sum else { return };

@@ -7,6 +7,7 @@
 use super::super::Lower;
 use super::super::value::RegionValue;
 use crate::ast::Span;
+use crate::lower::interval::Interval;
 use crate::lower::triangles::triangulate;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
@@ -24,6 +25,20 @@ struct Candidate {
 impl Lower<'_, '_> {
     /// A point drawn uniformly in a region; `None` after a report.
     pub(crate) fn draw_in(&mut self, region: &RegionValue, span: Span) -> Option<(Reg, Reg)> {
+        let is_empty = self.bounds(region).is_some_and(|axes| axes.iter().any(|(low, high)| low > high));
+        if is_empty {
+            let text = self.world.text(span);
+            self.report(
+                Problem::new(
+                    Code::Impossible,
+                    span,
+                    format!("nothing can be drawn in `{text}`"),
+                    "its parts don't meet",
+                )
+                .help("`&` is what both regions hold, `|` what either does"),
+            );
+            return None;
+        }
         let first = self.candidate(region, span)?;
         let Some(mut accepted) = first.accepted else { return Some(first.place) };
         let mut place = first.place;
@@ -37,6 +52,34 @@ impl Lower<'_, '_> {
         let text = self.world.text(span);
         self.imply(accepted, format!("a point lies in {text}"));
         Some(place)
+    }
+
+    /// The least and greatest x and y that a point of a region can have, as far as they are known; the wrong way round
+    /// where there is none.
+    fn bounds(&self, region: &RegionValue) -> Option<[Interval; 2]> {
+        let hull = |regs: &[Reg]| {
+            let all: Option<Vec<Interval>> = regs.iter().map(|&reg| self.interval(reg)).collect();
+            all?.into_iter().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        };
+        let disc = |centre: (Reg, Reg), radius: Reg| {
+            let (x, y, r) = (self.interval(centre.0)?, self.interval(centre.1)?, self.interval(radius)?.1.max(0.0));
+            Some([(x.0 - r, x.1 + r), (y.0 - r, y.1 + r)])
+        };
+        let both = |a: &RegionValue, b: &RegionValue, of: fn(Interval, Interval) -> Interval| {
+            let ([ax, ay], [bx, by]) = (self.bounds(a)?, self.bounds(b)?);
+            Some([of(ax, bx), of(ay, by)])
+        };
+        match region {
+            RegionValue::Rect(a, b) => Some([hull(&[a.0, b.0])?, hull(&[a.1, b.1])?]),
+            RegionValue::Circle(centre, radius) | RegionValue::Sector { centre, radius, .. } => disc(*centre, *radius),
+            RegionValue::Polygon(corners) => {
+                let (xs, ys): (Vec<Reg>, Vec<Reg>) = corners.iter().copied().unzip();
+                Some([hull(&xs)?, hull(&ys)?])
+            }
+            RegionValue::Union(a, b) => both(a, b, |a, b| (a.0.min(b.0), a.1.max(b.1))),
+            RegionValue::Intersection(a, b) => both(a, b, |a, b| (a.0.max(b.0), a.1.min(b.1))),
+            RegionValue::Difference(a, _) => self.bounds(a),
+        }
     }
 
     fn candidate(&mut self, region: &RegionValue, span: Span) -> Option<Candidate> {

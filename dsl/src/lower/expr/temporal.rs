@@ -16,6 +16,7 @@ impl<'w> Lower<'_, 'w> {
             (F::Prev, &[e]) => self.before(e, span).unwrap_or_else(Value::error),
             (F::Delta, &[e]) => self.delta(e, span),
             (F::Closing, &[a, b]) => self.closing(a, b, span),
+            (F::Potential, &[e, gamma]) => self.potential(e, gamma, span),
             _ if self.stage == Stage::Observation => self.fail(
                 Problem::new(
                     Code::WrongScope,
@@ -120,6 +121,17 @@ impl<'w> Lower<'_, 'w> {
         let q = if before.ty.is_place() { self.place_of(&before, e.span) } else { self.pair(&before) };
         self.when = When::Now;
         Value::two(ty, (self.code.binary(BinaryOp::Sub, p.0, q.0), self.code.binary(BinaryOp::Sub, p.1, q.1)))
+    }
+
+    /// What a potential pays in a step: γ Φ(s') - Φ(s) (Ng, Harada and Russell 1999, theorem 1).
+    fn potential(&mut self, e: &'w Expr, gamma: &'w Expr, span: Span) -> Value<'w> {
+        let now = self.want_reg(e, Ty::Number);
+        let discount = self.want_reg(gamma, Ty::Number);
+        self.check_range(discount, (0.0, 1.0), "`gamma`", gamma.span, "`0..1`");
+        let Some(before) = self.before(e, span).filter(|before| !before.is_error()) else { return Value::error() };
+        let before = self.reg(&before);
+        let discounted = self.code.binary(BinaryOp::Mul, discount, now);
+        Value::one(Ty::Number, self.code.binary(BinaryOp::Sub, discounted, before))
     }
 
     /// The length by which two places came nearer in this step.

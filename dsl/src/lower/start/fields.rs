@@ -44,8 +44,8 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             };
             let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
-            self.check_range(goals.0, (0.0, 99.0), "a team's goals", left.span, "`0..99`");
-            self.check_range(goals.1, (0.0, 99.0), "a team's goals", right.span, "`0..99`");
+            self.check_range(goals.0, (0.0, 99.0), "a team's score", left.span, "`0..99`");
+            self.check_range(goals.1, (0.0, 99.0), "a team's score", right.span, "`0..99`");
             score = Some(goals);
         }
         (score, elapsed)

@@ -3,10 +3,11 @@
 use crate::ast::{Ident, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
 use crate::lower::Lower;
+use crate::lower::mirror::Mirror;
 use crate::lower::value::{Frame, Scope};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M};
-use setpiece_scenario::vocabulary::StartKind;
+use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 
 impl Lower<'_, '_> {
@@ -57,6 +58,12 @@ impl Lower<'_, '_> {
             let outer = self.team.take();
             let reg = self.within(scope, |lower| lower.drawing("start", |lower| lower.want_reg(team, Ty::Team)));
             self.team = outer;
+            if found != StartKind::Open && self.code.constant_of(reg) == Some(-1.0) {
+                self.report(
+                    Problem::new(Code::OutOfRange, team.span, format!("a {} belongs to a team", spoken(found)), "")
+                        .help(format!("write `start {} for left`", kind.node)),
+                );
+            }
             reg
         });
         (found, team.or(first.filter(|_| found == StartKind::Kickoff)))
@@ -100,6 +107,7 @@ impl Lower<'_, '_> {
             let scope = Scope::new(true, Frame::World);
             let place = self.within(scope, |lower| lower.drawing("ball", |lower| lower.want_point(at)));
             self.team = outer;
+            self.check_place_of_start(kind, team, place, at.span);
             return Some(place);
         }
         let x = match kind {
@@ -130,11 +138,44 @@ impl Lower<'_, '_> {
     }
 }
 
+impl Lower<'_, '_> {
+    /// Reports a corner or a throw-in whose place is known and lies elsewhere.
+    fn check_place_of_start(&self, kind: StartKind, team: Option<Reg>, place: (Reg, Reg), span: Span) {
+        let (Some(x), Some(y)) = (self.code.constant_of(place.0), self.code.constant_of(place.1)) else { return };
+        let side = match team.and_then(|team| self.code.constant_of(team)) {
+            Some(0.0) => Team::Left.side(),
+            Some(1.0) => Team::Right.side(),
+            _ => x.signum(),
+        };
+        let on_side_line = (y.abs() - HALF_WIDTH_M).abs() <= NEAR_M;
+        let on_byline = (x * side - HALF_LENGTH_M).abs() <= NEAR_M;
+        let (message, help) = match kind {
+            StartKind::Corner if !(on_side_line && on_byline) => {
+                let end = if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };
+                let help = format!("write `at {end}.corner.top` or `at {end}.corner.bottom`");
+                ("a corner is taken from a corner of the other end", help)
+            }
+            StartKind::ThrowIn if !on_side_line => {
+                ("a throw-in is taken from a side line", "their y is -0.42 and 0.42: `at (0.3, 0.42)`".to_owned())
+            }
+            _ => return,
+        };
+        self.report(Problem::new(Code::OutOfRange, span, message, "lies elsewhere").help(help));
+    }
+}
+
+/// How far from its line the ball of a corner or throw-in may be said to lie; it is put on the line.
+const NEAR_M: f64 = 1.5;
+
 /// Whether `at …` says where it is: a corner's tells which of the two.
 fn has_place(kind: StartKind) -> bool {
     matches!(kind, StartKind::Corner | StartKind::FreeKick | StartKind::ThrowIn)
 }
 
 fn spoken(kind: StartKind) -> String {
-    kind.name().replace('_', " ")
+    match kind {
+        StartKind::ThrowIn => "throw-in".to_owned(),
+        StartKind::Kickoff => "kick-off".to_owned(),
+        kind => kind.name().replace('_', " "),
+    }
 }

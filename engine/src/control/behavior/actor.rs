@@ -8,7 +8,7 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::vocabulary::Action;
-use setpiece_scenario::{Act, Behavior, Do, Node, Program, Reg, Then, Watch};
+use setpiece_scenario::{Act, Behavior, Do, Node, Reg, Then, Watch};
 use std::sync::Arc;
 
 /// Most nodes gone through in one step: more than any that ends can need, so that a damaged file costs little.
@@ -22,7 +22,7 @@ pub struct Actor {
     /// His behaviour, by its place in the scenario's.
     pub plan: usize,
     /// The memory of the behaviour's program.
-    pub cells: Vec<f64>,
+    pub cells: Vec<[f64; 1]>,
     /// Where he is in it.
     pub thread: Thread,
 }
@@ -74,17 +74,17 @@ impl Actor {
             turned: vec![0; behavior.watches.len()],
             memories: scripts.collect(),
         };
-        Actor { player, plan, cells: vec![0.0; behavior.program.cells as usize], thread }
+        Actor { player, plan, cells: vec![[0.0]; behavior.program.cells as usize], thread }
     }
 
     /// Begins an episode.
     pub fn reset(&mut self, behavior: &Behavior) {
-        self.cells.fill(0.0);
+        self.cells.fill([0.0]);
         for node in &behavior.nodes {
             if let Node::Let(pairs) = node {
                 // What is read before it is frozen is nothing.
                 for (cell, _) in pairs {
-                    self.cells[*cell as usize] = f64::NAN;
+                    self.cells[*cell as usize] = [f64::NAN];
                 }
             }
         }
@@ -99,7 +99,6 @@ impl Actor {
 /// The values that a behaviour sees in a step.
 pub struct Mind<'a> {
     machine: Machine<'a>,
-    program: &'a Program,
     /// A cell was written since the registers were computed.
     stale: bool,
     seed: u64,
@@ -109,18 +108,19 @@ pub struct Mind<'a> {
 
 impl<'a> Mind<'a> {
     /// The mind of a player; see [`Self::see`].
-    pub fn new(machine: Machine<'a>, program: &'a Program, seed: u64, index: u64, player: PlayerId) -> Mind<'a> {
-        Mind { machine, program, stale: false, seed, index, player }
+    pub fn new(machine: Machine<'a>, seed: u64, index: u64, player: PlayerId) -> Mind<'a> {
+        Mind { machine, stale: false, seed, index, player }
     }
 
     /// Computes every value of the step.
     pub fn see(&mut self) {
-        self.machine.run(self.program);
+        self.machine.begin();
+        self.machine.run();
     }
 
     fn value(&mut self, reg: Reg) -> f64 {
         if std::mem::take(&mut self.stale) {
-            self.machine.run_again(self.program);
+            self.machine.run_again();
         }
         self.machine.value(reg)
     }
@@ -147,7 +147,7 @@ impl<'a> Mind<'a> {
             if stopped && value.is_nan() {
                 *self.machine.faults += 1;
             } else {
-                self.machine.cells[*cell as usize] = value;
+                self.machine.cells[*cell as usize] = [value];
             }
         }
         self.stale = true;
@@ -156,14 +156,14 @@ impl<'a> Mind<'a> {
     fn draw(&mut self, node: &Node) {
         let Node::Draw { cell, count, key, from } = node else { return };
         if std::mem::take(&mut self.stale) {
-            self.machine.run_again(self.program);
+            self.machine.run_again();
         }
-        let drawn = self.machine.cells[*count as usize];
-        self.machine.cells[*count as usize] = drawn + 1.0;
+        let [drawn] = self.machine.cells[*count as usize];
+        self.machine.cells[*count as usize] = [drawn + 1.0];
         // Players of one behaviour draw apart.
         let own = key.wrapping_add((u64::from(self.player.0) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         self.machine.draws = Some(DrawKey { seed: self.seed, index: self.index, attempt: drawn as u32 });
-        self.machine.cells[*cell as usize] = self.machine.draw(own, from);
+        self.machine.cells[*cell as usize] = [self.machine.draw(own, from)];
         self.stale = true;
     }
 }
@@ -219,11 +219,11 @@ impl Thread {
                 }
                 Node::Jump(to) => self.at = Frame::at(*to),
                 Node::Mark(cell) => {
-                    mind.machine.cells[*cell as usize] = f64::from(self.steps);
+                    mind.machine.cells[*cell as usize] = [f64::from(self.steps)];
                     self.next();
                 }
                 Node::Loop { to, mark } => {
-                    let began = mind.machine.cells[*mark as usize];
+                    let [began] = mind.machine.cells[*mark as usize];
                     self.at = Frame::at(*to);
                     if began == f64::from(self.steps) {
                         return Ok(Action::Idle);

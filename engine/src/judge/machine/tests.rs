@@ -180,7 +180,7 @@ fn folded(kind: FoldKind, team: f64) -> f64 {
     let mut code = Code::default();
     let team = code.number(team);
     let fold = Fold { kind, value: Some(Reg(2)), guard: None };
-    let each = code.push(Instr::Each(Each { over: Over::Players { team, except: None }, body: 1, fold }));
+    let each = code.push(Instr::Each(Box::new(Each { over: Over::Players { team, except: None }, body: 1, fold })));
     code.load_of(Field::PlayerX, each);
     let now = view([10.0, 0.0], [20.0, 0.0], [0.0; 3]);
     run(&code.program, &now, &now, &[], &mut [], false).regs[each.index()]
@@ -205,7 +205,8 @@ fn folds_over_nobody() {
         value(|code| {
             let team = code.number(0.0);
             let fold = Fold { kind, value: Some(Reg(2)), guard: None };
-            let each = code.push(Instr::Each(Each { over: Over::Players { team, except: None }, body: 1, fold }));
+            let each =
+                code.push(Instr::Each(Box::new(Each { over: Over::Players { team, except: None }, body: 1, fold })));
             code.number(1.0);
             each
         })
@@ -224,10 +225,14 @@ fn loops_nest() {
     let (ours, theirs) = (code.number(0.0), code.number(1.0));
     let count = Fold { kind: FoldKind::Count, value: None, guard: Some(Reg(6)) };
     let sum = Fold { kind: FoldKind::Sum, value: Some(Reg(4)), guard: None };
-    let outer = code.push(Instr::Each(Each { over: Over::Players { team: ours, except: None }, body: 4, fold: sum }));
+    let outer =
+        code.push(Instr::Each(Box::new(Each { over: Over::Players { team: ours, except: None }, body: 4, fold: sum })));
     let own_x = code.load_of(Field::PlayerX, outer);
-    let inner =
-        code.push(Instr::Each(Each { over: Over::Players { team: theirs, except: None }, body: 2, fold: count }));
+    let inner = code.push(Instr::Each(Box::new(Each {
+        over: Over::Players { team: theirs, except: None },
+        body: 2,
+        fold: count,
+    })));
     let x = code.load_of(Field::PlayerX, inner);
     code.binary(BinaryOp::Gt, x, own_x);
     let now = view([10.0, 0.0], [20.0, 0.0], [0.0; 3]);
@@ -240,7 +245,7 @@ fn counted(filter: EventFilter, events: &[crate::event::Event]) -> f64 {
     code.number(0.0);
     code.number(1.0);
     let fold = Fold { kind: FoldKind::Count, value: None, guard: None };
-    let each = code.push(Instr::Each(Each { over: Over::Events(filter), body: 0, fold }));
+    let each = code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 0, fold })));
     run(&code.program, &View::EMPTY, &View::EMPTY, events, &mut [], false).regs[each.index()]
 }
 
@@ -266,7 +271,7 @@ fn draws_stay_within_their_ends_and_are_keyed_by_name() {
     let drawn = |key, from: fn(Reg, Reg) -> Distribution| {
         value(|code| {
             let (low, high) = (code.number(-1.0), code.number(2.0));
-            code.push(Instr::Random { key, from: from(low, high) })
+            code.push(Instr::Random { key, from: Box::new(from(low, high)) })
         })
     };
     let mut seen = [0; 4];
@@ -290,7 +295,7 @@ fn weights_choose_in_proportion() {
     for key in 0..2000 {
         let chosen = value(|code| {
             let weights = [3.0, 0.0, 1.0].map(|weight| code.number(weight));
-            code.push(Instr::Random { key, from: Distribution::Weighted(weights.to_vec()) })
+            code.push(Instr::Random { key, from: Box::new(Distribution::Weighted(weights.to_vec())) })
         });
         seen[chosen as usize] += 1;
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::event::Event;
-use crate::judge::View;
+use crate::judge::{Sight, View};
 use crate::testing::{checkpoints, event, scenario, scoring};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 
@@ -48,7 +48,8 @@ impl Bench {
 
 fn input<'a>(now: &'a View, prev: &'a View, events: &'a [Event]) -> Input<'a> {
     let us = Team::Left;
-    Input { now, prev, events, params: &[], lets: &[], index: 0, us, me: None, silent: false }
+    let (now, prev) = (Some(Sight::Kept(now)), Some(Sight::Kept(prev)));
+    Input { now, prev, events, params: &[], lets: &[], index: 0, us, silent: false }
 }
 
 #[test]

@@ -50,10 +50,11 @@ fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subject)]> {
     }
 }
 
-/// Finds what is wrong with a script that is to serve as `hook` (`reward`, `done`, `act` or `reset`).
+/// Finds what is wrong with a script that is to serve as `hook` (`reward`, `done`, `act` or `reset`) and finds these names
+/// in `ctx.params`.
 ///
 /// Faults are in the order of the text; a script that is not Rhai has one.
-pub fn check_script(source: &str, hook: &str) -> Vec<ScriptFault> {
+pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFault> {
     let ast = match host::engine().compile(source) {
         Ok(ast) => ast,
         Err(error) => {
@@ -72,7 +73,7 @@ pub fn check_script(source: &str, hook: &str) -> Vec<ScriptFault> {
     let mut faults: Vec<ScriptFault> = check_hook(source, hook, &ast).into_iter().collect();
     faults.extend(check_reset(source, &ast));
     faults.extend(check_top_level(source, &ast));
-    let mut names = Names::of(source, hook, &ast);
+    let mut names = Names::of(source, hook, params, &ast);
     ast.walk(&mut |path: &[ASTNode]| {
         names.visit(path);
         true
@@ -139,16 +140,18 @@ struct Names<'a> {
     /// Keys of maps and of `this` that the script itself makes.
     keys: Vec<String>,
     own_functions: Vec<String>,
+    params: &'a [&'a str],
     faults: Vec<ScriptFault>,
 }
 
 impl<'a> Names<'a> {
-    fn of(source: &'a str, hook: &str, ast: &AST) -> Names<'a> {
+    fn of(source: &'a str, hook: &str, params: &'a [&'a str], ast: &AST) -> Names<'a> {
         let mut names = Names {
             source,
             variables: BTreeMap::new(),
             keys: Vec::new(),
             own_functions: ast.iter_functions().map(|f| f.name.to_owned()).collect(),
+            params,
             faults: Vec::new(),
         };
         for function in ast.iter_functions() {
@@ -261,8 +264,10 @@ impl<'a> Names<'a> {
 
     fn unknown_property(&mut self, of: Option<Subject>, name: &str, position: Position) {
         let candidates = members().filter(|member| of.is_none_or(|of| member.of == of)).map(|member| member.name);
-        let help = suggest(name, candidates);
+        let params = self.params.iter().copied().filter(|_| of == Some(Subject::Params));
+        let help = suggest(name, candidates.chain(params));
         let message = match of {
+            Some(Subject::Params) => format!("the scenario has no parameter `{name}`"),
             Some(of) => format!("{} has no property `{name}`", of.words()),
             None => format!("unknown property `{name}`"),
         };
@@ -278,8 +283,7 @@ impl<'a> Names<'a> {
     fn subject(&self, expr: &Expr, unknown: &mut Unknown<'_>) -> Option<Subject> {
         match expr {
             Expr::Variable(variable, ..) => self.variables.get(variable.1.as_str()).copied().flatten(),
-            // `this` is the script's own map: like the parameters, it has whatever names it was given.
-            Expr::ThisPtr(_) => Some(Subject::Params),
+            Expr::ThisPtr(_) => Some(Subject::Memory),
             Expr::Dot(pair, ..) => {
                 let of = self.subject(&pair.lhs, unknown);
                 self.chain(of, &pair.rhs, unknown)
@@ -329,7 +333,13 @@ impl<'a> Names<'a> {
     ) -> Option<Subject> {
         let is_function = || functions().any(|known| known == name);
         match of {
-            Some(Subject::Params) => None,
+            Some(Subject::Memory) => None,
+            Some(of @ Subject::Params) => {
+                if !self.params.contains(&name) && !is_function() {
+                    unknown(Some(of), name, position);
+                }
+                None
+            }
             Some(of @ (Subject::Players | Subject::Events | Subject::Plain)) => {
                 if !is_function() {
                     unknown(Some(of), name, position);

@@ -148,7 +148,7 @@ fn the_sandbox_holds() {
     let error = scripts(recursion).reward(0, &scene(&[]), perspective, &mut Memory::default()).unwrap_err();
     assert!(error.message.contains("deeper"), "{error}");
     for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
-        let faults = check_script(&format!("fn reward(ctx, now, prev, events) {{ {text} }}"), "reward");
+        let faults = check_script(&format!("fn reward(ctx, now, prev, events) {{ {text} }}"), "reward", &[]);
         assert!(!faults.is_empty(), "{text}");
     }
     for call in ["timestamp()", "sleep(1)", "exit()", "parse_json(\"1\")"] {
@@ -173,7 +173,7 @@ fn failures_name_their_place() {
 fn faults(body: &str) -> Vec<(ScriptFaultKind, String, Option<String>)> {
     let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
     let of = |fault: ScriptFault| (fault.kind, source[fault.range].to_owned(), fault.help);
-    check_script(&source, "reward").into_iter().map(of).collect()
+    check_script(&source, "reward", &["pace"]).into_iter().map(of).collect()
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn right_scripts_have_no_fault() {
         "let n = 0; for p in now.them.players { if p.x > now.ball.x && distance(p, now.ball) < 5.0 { n += 1; } } n * 0.1",
         "this.last = #{ x: now.ball.x, taken: false }; this.last.taken = true; if this.last.taken { 1.0 } else { 0.0 }",
         "now.us.players.filter(|p| p.role != \"GK\").len() * 0.1",
-        "let m = #{ width: 2 }; m.width + ctx.params.anything",
+        "let m = #{ width: 2 }; m.width + ctx.params.pace",
         "now.us.players[0].velocity.x + now.us.players[0].at.y",
         "if events.is_empty() { 0 } else { events[0].by.speed }",
         "let own = now.ball; own.height.floor() + min(1.0, 2.0) + `${now.ball.x}`.len",
@@ -207,6 +207,8 @@ fn wrong_names_are_found_with_their_place() {
     assert_eq!(faults("distnce(now.me, now.ball)"), [name("distnce", "distance")]);
     assert_eq!(faults("now.posession"), [name("posession", "possession")]);
     assert_eq!(faults("noww.ball.x"), [name("noww", "now")]);
+    assert_eq!(faults("ctx.params.paze * 2.0"), [name("paze", "pace")]);
+    assert_eq!(faults("let p = ctx.params; p.width")[0].1, "width");
     let several = faults("now.ball.heigth + prev.me.sped\n+ distnce(1, 2)");
     assert_eq!(several.len(), 3);
     // A player's property is none of the ball's.
@@ -215,18 +217,18 @@ fn wrong_names_are_found_with_their_place() {
 
 #[test]
 fn hooks_are_checked() {
-    let missing = check_script("fn rewards(ctx, now, prev, events) { 0 }", "reward");
+    let missing = check_script("fn rewards(ctx, now, prev, events) { 0 }", "reward", &[]);
     assert_eq!((missing.len(), missing[0].kind), (1, ScriptFaultKind::Hook));
     assert_eq!(missing[0].help.as_deref(), Some("write `fn reward(ctx, now, prev, events) { … }`"));
     let source = "\n fn reward(now) { 0 }";
-    let few = check_script(source, "reward");
+    let few = check_script(source, "reward", &[]);
     assert_eq!((few[0].kind, &source[few[0].range.clone()]), (ScriptFaultKind::Hook, "reward"));
     assert_eq!(few[0].message, "`reward` takes 4 arguments, found 1");
     let source = "fn reward(ctx, now, prev, events) {\n    1 + \n}";
-    let broken = check_script(source, "reward");
+    let broken = check_script(source, "reward", &[]);
     assert_eq!(broken[0].kind, ScriptFaultKind::Syntax);
     assert_eq!(&source[broken[0].range.clone()], "}");
-    assert_eq!(check_script("", "reward")[0].kind, ScriptFaultKind::Hook);
+    assert_eq!(check_script("", "reward", &[])[0].kind, ScriptFaultKind::Hook);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::table::{Subject, members};
 use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
-use crate::judge::view::View;
+use crate::judge::view::{self, View, remaining_s};
 use rhai::{Dynamic, Engine};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, STEPS_PER_S, X_SCALE_M};
 use setpiece_scenario::vocabulary::{Qualifier, Team};
@@ -23,7 +23,7 @@ pub(super) fn register(engine: &mut Engine) {
             Subject::Event => add(engine, name, event(name)),
             Subject::Point => add(engine, name, point(name)),
             Subject::Vector => add(engine, name, vector(name)),
-            Subject::Players | Subject::Events | Subject::Params | Subject::Plain => {}
+            Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => {}
         }
     }
 }
@@ -47,7 +47,7 @@ pub(super) fn is_registered(of: Subject, name: &str) -> bool {
         Subject::Event => event(name).is_some(),
         Subject::Point => point(name).is_some(),
         Subject::Vector => vector(name).is_some(),
-        Subject::Players | Subject::Events | Subject::Params | Subject::Plain => true,
+        Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => true,
     }
 }
 
@@ -85,7 +85,7 @@ fn state(name: &str) -> Option<Getter<Sight>> {
         "score" => |now| Dynamic::from(Score(now.clone())),
         "possession" => |now| now.team_word(now.view().possession),
         "elapsed" => |now| (f64::from(now.view().step) / STEPS_PER_S).into(),
-        "remaining" => |now| now.view().remaining_s().into(),
+        "remaining" => |now| remaining_s(now.view().step, now.view().limit_steps).into(),
         "game_mode" => |now| now.view().mode.name().into(),
         "ball_dead" => |now| now.view().dead.into(),
         _ => return None,
@@ -157,7 +157,9 @@ fn team(name: &str) -> Option<Getter<Side>> {
         "goal" => |team| Dynamic::from(Point { metres: [-team.1.side() * HALF_LENGTH_M, 0.0], side: team.0.side() }),
         "score" => |team| whole(view(team).score[team.1.index()]),
         "has_ball" => |team| view(team).owner.is_some_and(|owner| owner.team() == team.1).into(),
-        "offside_line" => |team| (team.0.side() * view(team).offside_line_m(team.1) / X_SCALE_M).into(),
+        "offside_line" => {
+            |team| (team.0.side() * view::Sight::Kept(view(team)).offside_line_m(team.1) / X_SCALE_M).into()
+        }
         _ => return None,
     })
 }

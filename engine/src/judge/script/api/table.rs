@@ -29,6 +29,8 @@ pub enum Subject {
     Events,
     /// The scenario's parameters, by their names.
     Params,
+    /// What a script remembers, under names of its own.
+    Memory,
     /// A number, word or truth value.
     Plain,
 }
@@ -49,6 +51,7 @@ impl Subject {
             Subject::Players => "an array of players",
             Subject::Events => "an array of events",
             Subject::Params => "the parameters",
+            Subject::Memory => "the script's memory",
             Subject::Plain => "a plain value",
         }
     }

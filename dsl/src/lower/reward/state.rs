@@ -1,0 +1,175 @@
+//! What a reward remembers: its states, and the names that it gives.
+
+use super::Written;
+use super::writer::Writer;
+use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, RewardUseKind, Span};
+use crate::check::types::Ty;
+use crate::lower::value::{Binding, Scope, Value};
+use crate::lower::{Lower, Stage, World, param};
+use crate::problem::{Code, Problem};
+use setpiece_scenario::{Reg, When};
+
+/// The states at the top of a reward.
+pub(super) fn states<'w>(statements: &[&'w RewardStmt]) -> Vec<&'w Let> {
+    let state = |statement: &&'w RewardStmt| match &statement.kind {
+        RewardStmtKind::State(state) => Some(state),
+        _ => None,
+    };
+    statements.iter().filter_map(state).collect()
+}
+
+/// Reports a name that a reward gives to two things: a child may give a parent's parameter another default.
+pub(super) fn check_names(world: &World<'_>, written: &Written<'_>) {
+    let params = written.links.iter().flat_map(|(link, _)| &link.params).map(|param| &param.name);
+    let mut known: Vec<&Ident> = params.collect();
+    let statements = written.statements();
+    for state in states(&statements) {
+        declare(world, &state.name, &mut known);
+    }
+    check_lets(world, &statements, &mut known);
+}
+
+fn declare<'w>(world: &World<'_>, name: &'w Ident, known: &mut Vec<&'w Ident>) {
+    if let Some(first) = known.iter().find(|first| first.node == name.node) {
+        world.report(Problem::declared_twice(&format!("`{}`", name.node), name.span, first.span));
+    }
+    known.push(name);
+}
+
+fn check_lets<'w>(world: &World<'_>, statements: &[&'w RewardStmt], known: &mut Vec<&'w Ident>) {
+    let inner = |body: &'w [RewardStmt], known: &mut Vec<&'w Ident>| {
+        let outer = known.len();
+        check_lets(world, &body.iter().collect::<Vec<_>>(), known);
+        known.truncate(outer);
+    };
+    for statement in statements {
+        match &statement.kind {
+            RewardStmtKind::Let(binding) => declare(world, &binding.name, known),
+            RewardStmtKind::On { body, .. } => inner(body, known),
+            RewardStmtKind::When { then, otherwise, .. } => {
+                inner(then, known);
+                inner(otherwise.as_deref().unwrap_or_default(), known);
+            }
+            _ => {}
+        }
+    }
+}
+
+impl<'w> Lower<'_, 'w> {
+    /// The first value of a state.
+    pub(super) fn first_value(&mut self, state: &'w Let) -> Value<'w> {
+        let declared = state.ty.as_ref().map(|ty| param::declared_type(self.world, ty));
+        let mut value = match declared {
+            Some(ty) => self.want(&state.value, ty),
+            None => self.expr(&state.value),
+        };
+        // The ball as a value is where it is.
+        if value.ty == Ty::Ball {
+            value = self.convert(value, Ty::Point, &state.value);
+        }
+        // `state x = 0` holds numbers, not whole ones alone.
+        if value.ty == Ty::Int && declared.is_none() {
+            value.ty = Ty::Number;
+        }
+        if value.is_error() || value.is_held() {
+            return value;
+        }
+        let message = format!("a state can't be {}", value.ty.noun());
+        self.fail(
+            Problem::new(Code::WrongType, state.value.span, message, "")
+                .help("keep numbers, players and points in states"),
+        )
+    }
+
+    /// Makes a state known to the statements.
+    pub(super) fn bind_state(&mut self, state: &'w Let, cells: Vec<u32>, before: Vec<Reg>, ty: Ty) {
+        let binding = Binding::State { cells: cells.into(), before: before.into(), ty, at: state.name.span };
+        self.scope.bind(&state.name.node, binding);
+    }
+
+    /// `chain.n` in a record: a state of a reward that the scenario uses.
+    ///
+    /// The record's program keeps the reward's states itself: it has the reward's statements without its payments.
+    pub(crate) fn state_of_reward(&mut self, name: &str, of: Span, member: &'w Ident) -> Option<Value<'w>> {
+        if self.stage != Stage::Record {
+            return None;
+        }
+        let (_, used, stmt) = self.world.flat.rewards.iter().find(|(known, ..)| known == name)?;
+        let known = self.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
+        let scope = known.unwrap_or_else(|| {
+            let scope = self.remember(used, stmt.span);
+            self.rewards.push((name.to_owned(), scope.clone()));
+            scope
+        });
+        let Some(scope) = scope else {
+            // Where there is no such reward, that has been told.
+            if matches!(used.what, RewardUseKind::Script(_)) {
+                let message = format!("reward `{name}` is a script, whose memory is its own");
+                self.report(Problem::new(Code::UnknownMember, member.span, message, "can't be read"));
+            }
+            return Some(Value::error());
+        };
+        if let Some(state @ Binding::State { .. }) = scope.find(&member.node).cloned() {
+            return Some(self.local(&member.node, state, of.to(member.span)));
+        }
+        let is_state = |name: &&str| matches!(scope.find(name), Some(Binding::State { .. }));
+        let states: Vec<&str> = scope.names().into_iter().filter(is_state).collect();
+        let message = format!("reward `{name}` has no state `{}`", member.node);
+        let problem = Problem::new(Code::UnknownMember, member.span, message, "not known");
+        let near = crate::problem::nearest(&member.node, states.iter().copied()).is_some();
+        Some(self.fail(match states.is_empty() {
+            false if !near => problem.help(format!("it has `{}`", states.join("`, `"))),
+            false => problem.did_you_mean(&member.node, states),
+            true => problem.help("a record reads what a reward keeps in `state`s"),
+        }))
+    }
+
+    /// Writes a reward's statements without its payments, outside every loop; gives the scope with its states.
+    fn remember(&mut self, used: &'w RewardUse, span: Span) -> Option<Scope<'w>> {
+        let (written, _) = super::written(self.world, used, span)?;
+        let loops = self.code.leave_loops();
+        // Where both teams have agents, or none, it is kept for each of them.
+        self.per_agent |= self.world.agents.is_none();
+        let us = self.world.agents.map(|team| self.code.constant(team.index() as f64));
+        let us = us.unwrap_or_else(|| self.code.us());
+        let outer = (self.event.take(), std::mem::replace(&mut self.when, When::Now), self.team.replace(us));
+        let outer_scope = self.scope.clone();
+        let statements = written.statements();
+        let states = states(&statements);
+
+        self.stage = Stage::Init;
+        self.scope = written.bind(self);
+        let firsts: Vec<Value<'w>> = states.iter().map(|state| self.first_value(state)).collect();
+        self.stage = Stage::Reward;
+        self.scope = written.bind(self);
+        // Cells begin at 0: another first value is put there in the first step.
+        let begun = self.code.new_cell();
+        let has_begun = self.code.cell_before(begun);
+        for (state, first) in states.iter().zip(&firsts) {
+            let (mut cells, mut before) = (Vec::new(), Vec::new());
+            for reg in first.regs() {
+                let cell = self.code.new_cell();
+                let kept = self.code.cell_before(cell);
+                let known = if self.code.constant_of(reg) == Some(0.0) {
+                    kept
+                } else {
+                    let known = self.code.select(has_begun, kept, reg);
+                    self.code.assign(cell, known, None);
+                    known
+                };
+                cells.push(cell);
+                before.push(known);
+            }
+            self.bind_state(state, cells, before, first.ty);
+        }
+        let with_states = self.scope.clone();
+        Writer::write(self, &statements, None, false);
+        let one = self.code.constant(1.0);
+        self.code.assign(begun, one, None);
+        self.stage = Stage::Record;
+        (self.event, self.when, self.team) = outer;
+        self.scope = outer_scope;
+        self.code.return_to(loops);
+        Some(with_states)
+    }
+}

@@ -1,0 +1,261 @@
+//! The statements of a reward: conditions as guards, events as loops, payments and assignments as effects.
+
+use crate::ast::{Binding as Let, EventExpr, Expr, GiveStmt, Ident, RewardStmt, RewardStmtKind};
+use crate::check::types::Ty;
+use crate::lower::value::Binding;
+use crate::lower::{Lower, fold, param};
+use crate::problem::{Code, Problem};
+use setpiece_scenario::program::PAY_MAX;
+use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, UnaryOp};
+
+/// Writes the step program.
+pub(super) struct Writer<'l, 'c, 'w> {
+    lower: &'l mut Lower<'c, 'w>,
+    terms: Vec<String>,
+    /// What every payment is multiplied by.
+    weight: Option<Reg>,
+    /// Whether anything is paid; else only the states are kept.
+    pays: bool,
+    guard: Option<Reg>,
+    unlabelled: usize,
+}
+
+impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
+    /// Writes the statements, for what their names are bound to in the present scope; gives the terms.
+    pub(super) fn write(
+        lower: &'l mut Lower<'c, 'w>,
+        statements: &[&'w RewardStmt],
+        weight: Option<Reg>,
+        pays: bool,
+    ) -> Vec<String> {
+        let mut writer = Writer { lower, terms: Vec::new(), weight, pays, guard: None, unlabelled: 0 };
+        // The step's `let`s come first, top to bottom: they see no assignment of this step.
+        for statement in statements {
+            if let RewardStmtKind::Let(binding) = &statement.kind {
+                writer.bind_let(binding);
+            }
+        }
+        for statement in statements {
+            writer.statement(statement, true);
+        }
+        writer.terms
+    }
+
+    fn bind_let(&mut self, binding: &'w Let) {
+        let lower = &mut *self.lower;
+        let scope = lower.scope.clone();
+        let ty = binding.ty.as_ref().map(|ty| param::declared_type(lower.world, ty));
+        let value = match ty {
+            Some(ty) => lower.want(&binding.value, ty),
+            None => lower.expr(&binding.value),
+        };
+        let at = binding.name.span;
+        // A `let` that takes a state's name has been told.
+        if matches!(lower.scope.find(&binding.name.node), Some(Binding::State { .. })) {
+            return;
+        }
+        lower.scope.bind(&binding.name.node, Binding::Expr { expr: &binding.value, scope, ty, now: Some(value), at });
+    }
+
+    fn statement(&mut self, statement: &'w RewardStmt, is_top: bool) {
+        match &statement.kind {
+            RewardStmtKind::State(state) if !is_top => {
+                self.lower.report(
+                    Problem::new(Code::WrongScope, state.name.span, "a `state` stands at the top of a reward", "")
+                        .help("move it above the block"),
+                );
+            }
+            RewardStmtKind::Let(binding) if !is_top => self.bind_let(binding),
+            RewardStmtKind::Give(give) if self.pays => self.give(give),
+            RewardStmtKind::State(_) | RewardStmtKind::Let(_) | RewardStmtKind::Give(_) | RewardStmtKind::Broken => {}
+            RewardStmtKind::On { events, when, body } => {
+                for event in events {
+                    self.on_event(event, when.as_ref(), |writer| writer.block(body));
+                }
+            }
+            RewardStmtKind::When { condition, then, otherwise } => {
+                let condition = self.lower.condition(condition);
+                self.guarded(condition, |writer| writer.block(then));
+                if let Some(otherwise) = otherwise {
+                    let not = self.lower.code.unary(UnaryOp::Not, condition);
+                    self.guarded(not, |writer| writer.block(otherwise));
+                }
+            }
+            RewardStmtKind::Assign { name, value } => self.assign(name, value),
+        }
+    }
+
+    fn block(&mut self, body: &'w [RewardStmt]) {
+        let scope = self.lower.scope.clone();
+        for statement in body {
+            self.statement(statement, false);
+        }
+        self.lower.scope = scope;
+    }
+
+    fn guarded(&mut self, condition: Reg, f: impl FnOnce(&mut Self)) {
+        let outer = self.guard;
+        self.guard = Some(match outer {
+            Some(guard) => self.lower.code.binary(BinaryOp::And, guard, condition),
+            None => condition,
+        });
+        f(self);
+        self.guard = outer;
+    }
+
+    /// Runs `f` once per matching event.
+    fn on_event(&mut self, event: &'w EventExpr, when: Option<&'w Expr>, f: impl FnOnce(&mut Self)) {
+        if self.lower.event.is_some() {
+            self.lower.report(
+                Problem::new(Code::WrongScope, event.span, "an `on` stands inside another one", "")
+                    .help("write the inner event as a condition: `when goal by us { … }`"),
+            );
+            return;
+        }
+        let Some(matching) = self.lower.open_events(event) else { return };
+        let scope = self.lower.scope.clone();
+        let outer = self.guard;
+        let guards = [matching.guard, when.map(|when| self.lower.condition(when))];
+        for guard in guards.into_iter().flatten() {
+            self.guard = Some(match self.guard {
+                Some(known) => self.lower.code.binary(BinaryOp::And, known, guard),
+                None => guard,
+            });
+        }
+        f(self);
+        self.guard = outer;
+        self.lower.scope = scope;
+        self.lower.close_events(matching, Fold { kind: FoldKind::Nothing, value: None, guard: None });
+    }
+
+    fn give(&mut self, give: &'w GiveStmt) {
+        if give.label.is_none() {
+            self.unlabelled += 1;
+        }
+        if let Some(label) = give.label.as_ref().filter(|label| label.node.trim().is_empty()) {
+            self.lower.report(
+                Problem::new(Code::OutOfRange, label.span, "a label has at least one letter", "")
+                    .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
+            );
+        }
+        let label = give.label.as_ref().map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
+        let term = self.term(label);
+        if give.on.is_empty() {
+            let when = give.when.as_ref().map(|when| self.lower.condition(when));
+            match when {
+                Some(when) => self.guarded(when, |writer| writer.pay(give, term)),
+                None => self.pay(give, term),
+            }
+            return;
+        }
+        // All loops of a `give once on a or b` share one memory.
+        let paid = give.once.map(|_| self.lower.code.new_cell());
+        for event in &give.on {
+            self.on_event(event, give.when.as_ref(), |writer| {
+                let value = writer.amount(give);
+                match paid {
+                    Some(cell) => writer.pay_once(term, value, cell),
+                    None => writer.lower.code.give(term, value, writer.guard),
+                }
+            });
+        }
+    }
+
+    fn term(&mut self, label: String) -> u32 {
+        let known = self.terms.iter().position(|term| *term == label);
+        known.unwrap_or_else(|| {
+            self.terms.push(label);
+            self.terms.len() - 1
+        }) as u32
+    }
+
+    fn pay(&mut self, give: &'w GiveStmt, term: u32) {
+        let value = self.amount(give);
+        match give.once {
+            Some(_) if self.lower.code.in_loop() => {
+                let cell = self.lower.code.new_cell();
+                self.pay_once(term, value, cell);
+            }
+            Some(_) => {
+                let guard = self.guard.unwrap_or_else(|| self.lower.code.bool(true));
+                let first = self.lower.code.once(guard);
+                self.lower.code.give(term, value, Some(first));
+            }
+            None => self.lower.code.give(term, value, self.guard),
+        }
+    }
+
+    /// Pays at the first match, which may be one of several in a step.
+    fn pay_once(&mut self, term: u32, value: Reg, cell: u32) {
+        let code = &mut self.lower.code;
+        let paid = code.cell(cell);
+        let open = code.unary(UnaryOp::Not, paid);
+        let guard = match self.guard {
+            Some(guard) => code.binary(BinaryOp::And, guard, open),
+            None => open,
+        };
+        code.give(term, value, Some(guard));
+        let one = code.constant(1.0);
+        code.assign(cell, one, Some(guard));
+    }
+
+    fn amount(&mut self, give: &'w GiveStmt) -> Reg {
+        let value = self.lower.want(&give.value, Ty::Number);
+        let mut reg = self.lower.reg(&value);
+        self.check_payable(reg, &give.value);
+        if give.per_second {
+            let step = self.lower.code.constant(0.1);
+            reg = self.lower.code.binary(BinaryOp::Mul, reg, step);
+        }
+        match self.weight {
+            Some(weight) => self.lower.code.binary(BinaryOp::Mul, reg, weight),
+            None => reg,
+        }
+    }
+
+    /// Reports a constant that is more than can be paid.
+    fn check_payable(&self, reg: Reg, value: &Expr) {
+        let code = &self.lower.code;
+        let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
+            Some(&Instr::Binary(op, a, b)) => fold::binary(op, code.constant_of(a)?, code.constant_of(b)?),
+            _ => None,
+        });
+        if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {
+            let text = self.lower.world.text(value.span);
+            self.lower.report(
+                Problem::new(Code::OutOfRange, value.span, format!("`{text}` is more than can be paid"), "")
+                    .help("rewards are small numbers: `give 1`"),
+            );
+        }
+    }
+
+    fn assign(&mut self, name: &'w Ident, value: &'w Expr) {
+        let Some(Binding::State { cells, ty, .. }) = self.lower.scope.find(&name.node).cloned() else {
+            self.not_a_state(name);
+            self.lower.expr(value);
+            return;
+        };
+        let regs = self.lower.want(value, ty).regs();
+        for (cell, reg) in cells.iter().zip(regs) {
+            self.lower.code.assign(*cell, reg, self.guard);
+        }
+    }
+
+    fn not_a_state(&self, name: &Ident) {
+        let scope = &self.lower.scope;
+        let known = scope.names();
+        let states = known.iter().copied().filter(|name| matches!(scope.find(name), Some(Binding::State { .. })));
+        let states: Vec<&str> = states.collect();
+        let problem = |message: String| Problem::new(Code::UnknownName, name.span, message, "can't be assigned");
+        let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
+        self.lower.report(if known.contains(&name.node.as_str()) {
+            problem(format!("`{}` is no `state`, and only a `state` is assigned", name.node))
+                .help(format!("declare it at the top: `state {} = 0`", name.node))
+        } else if near {
+            problem(format!("no `state` is called `{}`", name.node)).did_you_mean(&name.node, states)
+        } else {
+            problem(format!("no `state` is called `{}`", name.node))
+                .help(format!("declare it at the top: `state {} = 0`", name.node))
+        });
+    }
+}

@@ -1,0 +1,64 @@
+//! `remove …`: what a child takes away from what it inherits.
+
+use super::Adding;
+use crate::ast::{ScenarioStmt, ScenarioStmtKind};
+use crate::problem::{Code, Problem};
+
+impl<'a> Adding<'a, '_> {
+    /// `remove` acts on the parents' result, wherever it stands in the child.
+    pub(super) fn removals(&mut self, body: &'a [ScenarioStmt]) {
+        for stmt in body {
+            let ScenarioStmtKind::Remove { what, name } = &stmt.kind else { continue };
+            let removed = self.remove(&what.node, name.as_ref().map(|name| name.node.as_str()));
+            if removed {
+                continue;
+            }
+            let (span, message) = match name {
+                Some(name) => (name.span, format!("no {} `{}` is inherited", what.node, name.node)),
+                None => (stmt.span, format!("no {} is inherited", what.node)),
+            };
+            let candidates: Vec<&str> = match what.node.as_str() {
+                "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
+                "record" => self.flat.records.iter().map(|known| known.name.node.as_str()).collect(),
+                "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.bare())).collect(),
+                "require" => self.flat.requires.iter().filter_map(|stmt| label(stmt)).collect(),
+                _ => Vec::new(),
+            };
+            let problem = Problem::new(Code::NothingToRemove, span, message, "nothing to remove");
+            let found = name.as_ref().map_or("", |name| name.node.as_str());
+            self.problems.push(problem.did_you_mean(found, candidates));
+        }
+    }
+
+    fn remove(&mut self, what: &str, name: Option<&str>) -> bool {
+        let flat = &mut *self.flat;
+        match (what, name) {
+            ("ball", _) => flat.ball.take().is_some(),
+            ("reward", Some(name)) => removed(&mut flat.rewards, |(known, _, _)| known == name),
+            ("record", Some(name)) => removed(&mut flat.records, |known| known.name.node == name),
+            ("end", Some("limit")) => flat.limit.take().is_some(),
+            ("end", Some(name)) => removed(&mut flat.ends, |end| {
+                end.label.map_or_else(
+                    || end.verdict.is_some_and(|verdict| verdict.node == name),
+                    |label| label.bare() == name,
+                )
+            }),
+            ("require", Some(name)) => removed(&mut flat.requires, |stmt| label(stmt) == Some(name)),
+            _ => false,
+        }
+    }
+}
+
+/// The label of a requirement.
+fn label(stmt: &ScenarioStmt) -> Option<&str> {
+    match &stmt.kind {
+        ScenarioStmtKind::Require { label, .. } => label.as_ref().map(|label| label.node.as_str()),
+        _ => None,
+    }
+}
+
+fn removed<T>(list: &mut Vec<T>, test: impl Fn(&T) -> bool) -> bool {
+    let before = list.len();
+    list.retain(|entry| !test(entry));
+    list.len() < before
+}

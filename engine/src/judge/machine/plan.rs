@@ -1,0 +1,245 @@
+//! A program made ready to run: what must run how often, and for whom.
+
+use setpiece_scenario::vocabulary::Field;
+use setpiece_scenario::{BinaryOp, Each, Fold, Instr, Over, Program, Reg, UnaryOp, When, Who};
+
+/// A program as a [`Machine`](super::Machine) runs it.
+#[derive(Clone, Debug, Default)]
+pub struct Plan {
+    /// What depends on parameters and `let`s alone: runs once per episode.
+    pub(super) once: Vec<Step>,
+    /// The rest: runs at every step.
+    pub(super) each_step: Vec<Step>,
+    /// The instructions that have no [`Op`] of their own.
+    pub(super) rare: Vec<Instr>,
+    pub(super) loops: Vec<Loop>,
+}
+
+/// An instruction, small and flat: one jump leads to its work.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    pub(super) op: Op,
+    /// Whether every lane has the same value there, so that one is enough.
+    pub(super) uniform: bool,
+    /// Its register.
+    pub(super) at: u32,
+    /// Its operands; [`Op`] says which.
+    pub(super) a: u32,
+    pub(super) b: u32,
+    pub(super) c: u32,
+}
+
+/// What a step does: the frequent instructions each by a name of their own.
+///
+/// Operands are registers, in the order of the instruction's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Op {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Min,
+    Max,
+    Hypot,
+    Lt,
+    Le,
+    Gt,
+    Ge,
+    Eq,
+    And,
+    Or,
+    Not,
+    Neg,
+    /// `if a then b else c`
+    Select,
+    BallX,
+    BallY,
+    BallOwner,
+    /// `a`: the player.
+    PlayerX,
+    PlayerY,
+    Me,
+    /// `a`: the cell.
+    Cell,
+    /// `a`: the term; `b`: the value; `c`: the guard, or [`ALWAYS`].
+    Give,
+    /// `a`: the cell; `b`: the value; `c`: the guard, or [`ALWAYS`].
+    Assign,
+    /// `a`: the place in [`Plan::rare`].
+    Rare,
+    /// The same, of an instruction that happens once a step and remembers it.
+    Temporal,
+    /// `a`: the place in [`Plan::loops`].
+    Loop,
+}
+
+/// In place of a guard: none.
+pub(super) const ALWAYS: u32 = u32::MAX;
+
+/// A loop and its body.
+#[derive(Clone, Debug)]
+pub(super) struct Loop {
+    pub(super) over: Over,
+    pub(super) fold: Fold,
+    pub(super) body: Vec<Step>,
+}
+
+impl Plan {
+    /// Makes a verified program ready.
+    pub fn of(program: &Program) -> Plan {
+        let mut reader = Reader {
+            code: &program.code,
+            uniform: vec![false; program.code.len()],
+            open: Vec::new(),
+            plan: Plan::default(),
+        };
+        let mut fixed = vec![false; program.code.len()];
+        let mut at = 0;
+        while let Some(instr) = program.code.get(at) {
+            fixed[at] = is_fixed(instr, &fixed);
+            let (step, next) = reader.step(at);
+            let plan = &mut reader.plan;
+            if fixed[at] { &mut plan.once } else { &mut plan.each_step }.push(step);
+            at = next;
+        }
+        reader.plan
+    }
+}
+
+/// Goes through a program, loops within loops.
+struct Reader<'a> {
+    code: &'a [Instr],
+    uniform: Vec<bool>,
+    /// The loops around the present place.
+    open: Vec<usize>,
+    plan: Plan,
+}
+
+impl Reader<'_> {
+    /// The step of an instruction, and where the next one stands.
+    fn step(&mut self, at: usize) -> (Step, usize) {
+        let instr = &self.code[at];
+        let Instr::Each(each) = instr else {
+            self.uniform[at] = self.is_uniform(instr);
+            return (self.simple(instr, at), at + 1);
+        };
+        let mut uniform = true;
+        over(each, &mut |reg| uniform &= self.is_the_same(reg));
+        let end = at + 1 + each.body as usize;
+        self.open.push(at);
+        let mut body = Vec::new();
+        let mut next = at + 1;
+        while next < end {
+            let (step, after) = self.step(next);
+            body.push(step);
+            next = after;
+        }
+        for reg in each.fold.value.iter().chain(&each.fold.guard) {
+            uniform &= self.is_the_same(*reg);
+        }
+        self.open.pop();
+        self.uniform[at] = uniform;
+        self.plan.loops.push(Loop { over: each.over.clone(), fold: each.fold.clone(), body });
+        let step = Step { op: Op::Loop, uniform, at: at as u32, a: self.plan.loops.len() as u32 - 1, b: 0, c: 0 };
+        (step, end)
+    }
+
+    /// The step of anything but a loop.
+    fn simple(&mut self, instr: &Instr, at: usize) -> Step {
+        let guard = |guard: &Option<Reg>| guard.map_or(ALWAYS, |guard| guard.0);
+        let (op, a, b, c) = match instr {
+            Instr::Binary(op, a, b) if two(*op).is_some() => (two(*op).unwrap_or(Op::Add), a.0, b.0, 0),
+            Instr::Unary(UnaryOp::Not, a) => (Op::Not, a.0, 0, 0),
+            Instr::Unary(UnaryOp::Neg, a) => (Op::Neg, a.0, 0, 0),
+            Instr::Select(a, b, c) => (Op::Select, a.0, b.0, c.0),
+            Instr::Load { field: Field::BallX, when: When::Now, .. } => (Op::BallX, 0, 0, 0),
+            Instr::Load { field: Field::BallY, when: When::Now, .. } => (Op::BallY, 0, 0, 0),
+            Instr::Load { field: Field::BallOwner, when: When::Now, .. } => (Op::BallOwner, 0, 0, 0),
+            Instr::Load { field: Field::PlayerX, of: Some(of), when: When::Now } => (Op::PlayerX, of.0, 0, 0),
+            Instr::Load { field: Field::PlayerY, of: Some(of), when: When::Now } => (Op::PlayerY, of.0, 0, 0),
+            Instr::Me => (Op::Me, 0, 0, 0),
+            Instr::Cell(cell) => (Op::Cell, *cell, 0, 0),
+            Instr::Give { term, value, guard: only } => (Op::Give, *term, value.0, guard(only)),
+            Instr::Assign { cell, value, guard: only } => (Op::Assign, *cell, value.0, guard(only)),
+            other => {
+                self.plan.rare.push(other.clone());
+                let temporal = matches!(
+                    other,
+                    Instr::Held { .. }
+                        | Instr::Ever { .. }
+                        | Instr::Since { .. }
+                        | Instr::Until { .. }
+                        | Instr::Once { .. }
+                );
+                let op = if temporal { Op::Temporal } else { Op::Rare };
+                (op, self.plan.rare.len() as u32 - 1, 0, 0)
+            }
+        };
+        Step { op, uniform: self.uniform[at], at: at as u32, a, b, c }
+    }
+
+    fn is_uniform(&self, instr: &Instr) -> bool {
+        // A cell may have been written for one lane alone, and an effect looks at every lane's guard.
+        let mut uniform = !matches!(instr, Instr::Me | Instr::Cell(_) | Instr::Give { .. } | Instr::Assign { .. });
+        instr.operands(&mut |reg| uniform &= self.is_the_same(reg));
+        uniform
+    }
+
+    /// Whether a register is the same in every lane; that of a loop is its element while its body runs.
+    fn is_the_same(&self, reg: Reg) -> bool {
+        self.open.contains(&reg.index()) || self.uniform.get(reg.index()).copied().unwrap_or_default()
+    }
+}
+
+/// The frequent operators of two operands.
+fn two(op: BinaryOp) -> Option<Op> {
+    Some(match op {
+        BinaryOp::Add => Op::Add,
+        BinaryOp::Sub => Op::Sub,
+        BinaryOp::Mul => Op::Mul,
+        BinaryOp::Div => Op::Div,
+        BinaryOp::Min => Op::Min,
+        BinaryOp::Max => Op::Max,
+        BinaryOp::Hypot => Op::Hypot,
+        BinaryOp::Lt => Op::Lt,
+        BinaryOp::Le => Op::Le,
+        BinaryOp::Gt => Op::Gt,
+        BinaryOp::Ge => Op::Ge,
+        BinaryOp::Eq => Op::Eq,
+        BinaryOp::And => Op::And,
+        BinaryOp::Or => Op::Or,
+        BinaryOp::Mod | BinaryOp::Pow | BinaryOp::Atan2 | BinaryOp::Ne => return None,
+    })
+}
+
+fn is_fixed(instr: &Instr, fixed: &[bool]) -> bool {
+    let mut all = match instr {
+        Instr::Unary(op, _) => *op != UnaryOp::Exists,
+        Instr::Const(_)
+        | Instr::Param(_)
+        | Instr::Let(_)
+        | Instr::EpisodeIndex
+        | Instr::Binary(..)
+        | Instr::Select(..) => true,
+        _ => false,
+    };
+    instr.operands(&mut |reg| all &= fixed.get(reg.index()).copied().unwrap_or_default());
+    all
+}
+
+/// Calls `f` with what a loop reads before its first element.
+fn over(each: &Each, f: &mut dyn FnMut(Reg)) {
+    match &each.over {
+        Over::Players { team, except } => {
+            f(*team);
+            except.iter().for_each(|&reg| f(reg));
+        }
+        Over::Events(filter) => {
+            for who in filter.by.iter().chain(&filter.to) {
+                match who {
+                    Who::Team(reg) | Who::Player(reg) => f(*reg),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! One reward of one team: its agents are judged at once, each in a lane.
+
+use crate::judge::machine::{Crew, Input, Machine, Registers};
+use crate::judge::view::player_number;
+use crate::state::PlayerId;
+use setpiece_scenario::Program;
+use std::array;
+
+/// Which program of a reward is run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pass {
+    /// Its first values.
+    Init,
+    /// The start state, for what looks back later: nothing is paid.
+    Silent,
+    /// A step.
+    Step,
+}
+
+/// A reward's memory for a team: as wide as its agents need.
+#[derive(Clone, Debug)]
+pub(super) enum Lanes {
+    /// For one agent.
+    One(Box<Memory<1>>),
+    /// For up to four.
+    Four(Box<Memory<4>>),
+    /// For up to a whole team, and an even number of lanes.
+    Twelve(Box<Memory<12>>),
+}
+
+/// Registers, cells and terms, lane by lane.
+#[derive(Clone, Debug)]
+pub(super) struct Memory<const W: usize> {
+    init: Registers<W>,
+    step: Registers<W>,
+    cells: Vec<[f64; W]>,
+    terms: Vec<[f64; W]>,
+}
+
+impl Lanes {
+    /// Memory for so many agents.
+    pub(super) fn new(init: &Program, step: &Program, n_terms: usize, n_agents: usize) -> Lanes {
+        match n_agents {
+            0..=1 => Lanes::One(Box::new(Memory::new(init, step, n_terms))),
+            2..=4 => Lanes::Four(Box::new(Memory::new(init, step, n_terms))),
+            _ => Lanes::Twelve(Box::new(Memory::new(init, step, n_terms))),
+        }
+    }
+
+    /// Whether it is as wide as so many agents need.
+    pub(super) fn seats(&self, n_agents: usize) -> bool {
+        match self {
+            Lanes::One(_) => n_agents <= 1,
+            Lanes::Four(_) => (2..=4).contains(&n_agents),
+            Lanes::Twelve(_) => n_agents > 4,
+        }
+    }
+
+    /// Forgets everything.
+    pub(super) fn clear(&mut self) {
+        match self {
+            Lanes::One(memory) => memory.cells.fill([0.0; 1]),
+            Lanes::Four(memory) => memory.cells.fill([0.0; 4]),
+            Lanes::Twelve(memory) => memory.cells.fill([0.0; 12]),
+        }
+    }
+
+    /// Runs a program of the reward for the agents' players.
+    pub(super) fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, pass: Pass, faults: &mut u32) {
+        match self {
+            Lanes::One(memory) => memory.run(players, input, pass, faults),
+            Lanes::Four(memory) => memory.run(players, input, pass, faults),
+            Lanes::Twelve(memory) => memory.run(players, input, pass, faults),
+        }
+    }
+
+    /// Writes what an agent's terms were paid in the last run.
+    pub(super) fn paid(&self, lane: usize, out: &mut [f64]) {
+        match self {
+            Lanes::One(memory) => memory.paid(lane, out),
+            Lanes::Four(memory) => memory.paid(lane, out),
+            Lanes::Twelve(memory) => memory.paid(lane, out),
+        }
+    }
+}
+
+impl<const W: usize> Memory<W> {
+    fn new(init: &Program, step: &Program, n_terms: usize) -> Memory<W> {
+        Memory {
+            init: Registers::of(init),
+            step: Registers::of(step),
+            cells: vec![[0.0; W]; step.cells as usize],
+            terms: vec![[0.0; W]; n_terms],
+        }
+    }
+
+    fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, pass: Pass, faults: &mut u32) {
+        self.terms.fill([0.0; W]);
+        let (plan, regs) = if pass == Pass::Init { &mut self.init } else { &mut self.step }.parts();
+        let mut machine = Machine {
+            input: Input { silent: pass == Pass::Silent, ..*input },
+            crew: Crew {
+                players: array::from_fn(|lane| player_number(players.get(lane).copied().flatten())),
+                seated: array::from_fn(|lane| lane < players.len()),
+            },
+            plan,
+            regs,
+            cells: &mut self.cells,
+            terms: &mut self.terms,
+            faults,
+            draws: None,
+        };
+        if pass != Pass::Step {
+            machine.begin();
+        }
+        machine.run();
+    }
+
+    fn paid(&self, lane: usize, out: &mut [f64]) {
+        for (out, term) in out.iter_mut().zip(&self.terms) {
+            *out = term[lane];
+        }
+    }
+}

@@ -1,0 +1,95 @@
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import setpiece
+
+SHOT = """scenario shot extends academy {
+    ball at (0.6, 0)
+    team left { CM at (0.5, 0) }
+    end limit LIMIT steps
+}
+"""
+
+
+def save(path: Path, text: str) -> None:
+    """Saves as editors do: a new file takes the old one's place."""
+    fresh = path.with_suffix(".tmp")
+    fresh.write_text(text, encoding="utf-8")
+    fresh.replace(path)
+
+
+def wait_for_reload(env: setpiece.FootballEnv, before: setpiece.Reload | None) -> setpiece.Reload:
+    """Resets until the change has been noticed."""
+    end = time.monotonic() + 20
+    while time.monotonic() < end:
+        env.reset()
+        if env.last_reload is not None and env.last_reload is not before:
+            return env.last_reload
+        time.sleep(0.02)
+    raise AssertionError("the change was never noticed")
+
+
+def length(env: setpiece.FootballEnv) -> int:
+    env.reset()
+    for steps in range(1, 1000):
+        _, _, terminated, truncated, info = env.step(setpiece.Action.IDLE)
+        if terminated or truncated:
+            assert info["setpiece"]["scenario"] == env.scenario.digest
+            return steps
+    raise AssertionError("the episode has no end")
+
+
+def test_a_watched_file_takes_effect_at_the_next_reset(pitch_file: Callable[[str], Path]) -> None:
+    path = pitch_file(SHOT.replace("LIMIT", "5"))
+    told: list[setpiece.Reload] = []
+    env = setpiece.make(path, watch=True, on_reload=told.append)
+    _, info = env.reset(seed=1)
+    first = info["scenario"]
+    assert first == env.scenario.digest
+    assert env.last_reload is None
+    save(path, SHOT.replace("LIMIT", "7"))
+    assert wait_for_reload(env, None).state == "applied"
+    assert length(env) == 7
+    assert env.scenario.digest != first
+    # A broken file leaves the last good scenario in place.
+    save(path, SHOT.replace("LIMIT", "7").replace("CM at", "CMM at"))
+    broken = wait_for_reload(env, env.last_reload)
+    assert broken.state == "broken"
+    assert isinstance(broken.error, setpiece.CompileError)
+    assert length(env) == 7
+    # What would change the agents is held back.
+    save(path, SHOT.replace("LIMIT", "7").replace("CM at (0.5, 0)", "CM at (0.5, 0)  CFF at (0.4, 0)"))
+    assert wait_for_reload(env, broken).state == "broken"
+    two = SHOT.replace("LIMIT", "9").replace(
+        "CM at (0.5, 0) }", "CM at (0.5, 0)  CF at (0.4, 0) }\n    agents { left: all }"
+    )
+    save(path, two)
+    held = wait_for_reload(env, env.last_reload)
+    assert held.state == "held back"
+    assert "agents" in held.why
+    assert length(env) == 7
+    save(path, SHOT.replace("LIMIT", "11"))
+    wait_for_reload(env, held)
+    assert length(env) == 11
+    assert [reload.state for reload in told] == ["applied", "broken", "broken", "held back", "applied"]
+
+
+def test_a_file_that_is_deleted_and_comes_back_is_taken(pitch_file: Callable[[str], Path]) -> None:
+    path = pitch_file(SHOT.replace("LIMIT", "5"))
+    env = setpiece.make(path, watch=True)
+    path.unlink()
+    time.sleep(0.2)
+    assert length(env) == 5
+    save(path, SHOT.replace("LIMIT", "6"))
+    assert wait_for_reload(env, env.last_reload).state == "applied"
+    assert length(env) == 6
+
+
+def test_only_files_can_be_watched() -> None:
+    with pytest.raises(setpiece.ParameterError, match="nothing to watch"):
+        setpiece.make("academy_corner", watch=True)
+    with pytest.raises(setpiece.ParameterError, match="give its path"):
+        setpiece.make(setpiece.load("academy_corner"), watch=True)

@@ -1,0 +1,68 @@
+//! A scenario that follows its files: compiled anew when one of them changes.
+
+use crate::error::Error;
+use crate::load::{Loaded, load};
+use crate::watch::Watcher;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// A scenario and the watch on everything it is made of: its file, imports and scripts.
+pub struct Live {
+    source: String,
+    loaded: Loaded,
+    watcher: Watcher,
+}
+
+impl Live {
+    /// Loads a scenario and watches its files.
+    ///
+    /// # Errors
+    /// As [`load`]; [`Error::File`] where a folder can't be watched.
+    pub fn open(source: &str) -> Result<Live, Error> {
+        let loaded = load(source)?;
+        let watcher = Watcher::new(&loaded.inputs)?;
+        Ok(Live { source: source.to_owned(), loaded, watcher })
+    }
+
+    /// The last good scenario.
+    pub fn loaded(&self) -> &Loaded {
+        &self.loaded
+    }
+
+    /// Whether there is anything to watch: a scenario of the library has no files.
+    pub fn is_watching(&self) -> bool {
+        !self.loaded.inputs.is_empty()
+    }
+
+    /// Compiles anew where a file has changed since the last call; waits for at most `timeout`.
+    ///
+    /// A broken file leaves the last good scenario in place; what it asks for in vain is watched too.
+    ///
+    /// # Errors
+    /// As [`load`], of the changed files.
+    pub fn poll(&mut self, timeout: Duration) -> Option<Result<&Loaded, Error>> {
+        if !self.watcher.changed(timeout) {
+            return None;
+        }
+        let fresh = load(&self.source).and_then(|fresh| {
+            self.watcher.watch(&fresh.inputs)?;
+            Ok(fresh)
+        });
+        Some(match fresh {
+            Ok(fresh) => {
+                self.loaded = fresh;
+                Ok(&self.loaded)
+            }
+            Err(error) => {
+                let mut files: Vec<PathBuf> = self.loaded.inputs.clone();
+                if let Error::Compile(failure) = &error {
+                    files.extend(failure.inputs.iter().filter(|file| !self.loaded.inputs.contains(file)).cloned());
+                }
+                match self.watcher.watch(&files) {
+                    Ok(()) => Err(error),
+                    Err(unwatched) => Err(unwatched),
+                }
+            }
+        })
+    }
+}

@@ -1,0 +1,117 @@
+//! What names mean while a match runs: regions in the reader's frame, and a reward's states in records.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use setpiece_dsl::source::{LoadError, Source, SourceLoader};
+use setpiece_dsl::{CompileOptions, compile};
+use setpiece_engine::control::agents::Agent;
+use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece_engine::judge::Recorded;
+use setpiece_engine::random::{Purpose, Stream};
+use std::sync::Arc;
+
+/// Loads nothing.
+struct Alone;
+
+impl SourceLoader for Alone {
+    fn load(&self, path: &str, _from: &str) -> Result<Source, LoadError> {
+        Err(LoadError { message: format!("no file `{path}`"), similar: Vec::new(), awaited: None })
+    }
+}
+
+fn environment(text: &str) -> Environment {
+    let root = Source { name: "test.pitch".to_owned(), text: text.into() };
+    let outcome = compile(root, &Alone, &CompileOptions::default());
+    let scenario = outcome.scenario.unwrap_or_else(|| panic!("{:#?}", outcome.problems));
+    assert!(outcome.problems.is_empty(), "{:#?}", outcome.problems);
+    Environment::new(Arc::new(scenario), EnvironmentOptions::default()).unwrap()
+}
+
+/// Plays some steps; gives what the first agent was paid in each.
+fn paid(environment: &mut Environment, steps: usize) -> Vec<f32> {
+    let (mut scratch, mut stream) = (Scratch::default(), Stream::new(1, 0, Purpose::Agent));
+    environment.reset(Some(1), None).unwrap();
+    let n = environment.state().agents.len();
+    let mut step = |environment: &mut Environment| {
+        let actions: Vec<_> =
+            (0..n).map(|agent| Agent::RunAndShoot.act(environment.state(), agent, &mut stream)).collect();
+        environment.step(&actions, &mut scratch).unwrap();
+        environment.rewards()[0]
+    };
+    (0..steps).map(|_| step(environment)).collect()
+}
+
+#[test]
+fn a_region_lies_where_it_is_declared_and_its_arguments_where_it_is_used() {
+    let text = |team: &str, side: &str| {
+        format!(
+            "region fixed = rect((0.5, -0.2), (1, 0.2))
+            region band(w: number) = rect((0.5, -w), (1, w))
+            region around(p: point) = circle(p, 3m)
+            region slice(a: angle) = sector((0.7, 0), 30m, a - 45deg, a + 45deg)
+            reward r {{
+                give 1 when ball in fixed
+                give 10 when ball in band(0.2)
+                give 100 when ball in around(({side}0.8, 0))
+                give 1000 when ball in slice({angle})
+            }}
+            scenario s {{
+                param depth = 0.9
+                region deep(w: number) = rect((0.5, -w), (depth, w))
+                ball at (0.8, 0)
+                team {team} {{ CM at (0, 0.3) }}
+                agents {{ left: {left}, right: {right} }}
+                reward r
+                reward inner {{ give 10000 when ball in deep(0.1) }}
+                end limit 9 steps
+            }}",
+            angle = if side.is_empty() { "0deg" } else { "180deg" },
+            left = u8::from(team == "left"),
+            right = u8::from(team == "right"),
+        )
+    };
+    assert_eq!(paid(&mut environment(&text("left", "")), 1), [11111.0]);
+    assert_eq!(paid(&mut environment(&text("right", "-")), 1), [11111.0]);
+}
+
+#[test]
+fn a_record_reads_what_a_reward_remembers() {
+    let mut environment = environment(
+        "reward counted(step: number = 1) {
+            state n = 3
+            state spot = (0.5, 0.1)
+            state last = nobody
+            n = n + step + delta(me.x)
+            on touch by us { last = event.by }
+            spot = me
+            give n
+            give 100 when last == me
+            give spot.x
+        }
+        scenario s {
+            ball at (0.05, 0)
+            team left { CM at (0, 0)  CM at (0, 0.2) }
+            team right { CM at (0.9, 0.3) }
+            agents { left: 2 }
+            reward counted(step: 2) as \"links\"
+            record n = last of links.n
+            record change = sum of delta(links.n)
+            record first = first of prev(links.n)
+            record mine = last of (if links.last == me then 100 else 0)
+            record x = last of links.spot.x
+            end limit 30 steps
+        }",
+    );
+    let last = f64::from(*paid(&mut environment, 25).last().unwrap());
+    let of_first = |name: &str| {
+        let recorded = environment.records().find(|(known, _)| *known == name).map(|(_, value)| value).unwrap();
+        let Recorded::PerAgent(agents) = recorded else { panic!("`{name}` is one for all: {recorded:?}") };
+        assert_eq!(agents.len(), 2);
+        let Recorded::Number(Some(number)) = agents[0] else { panic!("{agents:?}") };
+        number
+    };
+    let n = of_first("n");
+    assert!(n > 50.0, "{n}");
+    assert!((of_first("change") - (n - 3.0)).abs() < 1e-9);
+    assert_eq!(of_first("first"), 3.0);
+    assert!((last - (n + of_first("mine") + of_first("x"))).abs() < 1e-4, "{last}");
+}

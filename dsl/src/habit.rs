@@ -170,7 +170,9 @@ mod tests {
             assert!(!habit.write.is_empty() && !habit.seen.trim().is_empty());
             assert_eq!(habit.place == Place::Name, !habit.seen.contains('|'), "{}", habit.seen);
             let open = habit.seen.split_whitespace().filter(|token| {
-                ["_", "*", "9", "9a", "é", "\"\"", "ROLE"].contains(token) || token.contains('¦') || token.ends_with("_*")
+                ["_", "*", "9", "9a", "é", "\"\"", "ROLE"].contains(token)
+                    || token.contains('¦')
+                    || token.ends_with("_*")
             });
             let open = open.count();
             for index in 1..9 {

@@ -69,8 +69,8 @@ impl Problem {
     /// Says "did you mean" where one of the candidates is near enough, or how another language's word is written here.
     #[must_use]
     pub fn did_you_mean<'a>(self, found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Problem {
-        let meant = habit::of_name(found)
-            .or_else(|| nearest(found, candidates).map(|name| format!("did you mean `{name}`?")));
+        let meant =
+            habit::of_name(found).or_else(|| nearest(found, candidates).map(|name| format!("did you mean `{name}`?")));
         match meant {
             Some(help) => self.help(help),
             None => self,
@@ -142,7 +142,6 @@ codes! {
     FileMissing = 1 Error "a file can't be read";
     FileTooLarge = 2 Error "a file is too large";
     NotUtf8 = 3 Error "a file is not UTF-8 text";
-    FileEmpty = 4 Error "a file holds no scenario";
     UnknownScenario = 5 Error "no scenario has this name";
     FileIsDirectory = 6 Error "a directory stands for a file";
     BadCompiled = 7 Error "a compiled scenario can't be read";

@@ -96,7 +96,7 @@ impl Error {
             Error::File { why: FileFault::Directory, .. } => Code::FileIsDirectory,
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Code::NotUtf8,
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
-            Error::Compile(failure) => failure.problems.first().map_or(Code::FileEmpty, |problem| problem.code),
+            Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, |problem| problem.code),
             Error::Format { .. } => Code::BadCompiled,
             Error::Param { .. } => Code::BadParameter,
             Error::Environment(why) => match why {

@@ -70,3 +70,25 @@ fn score_and_clock_begin_where_the_start_says() {
     assert_eq!(environment.score(), [2, 1]);
     assert_eq!(environment.start().elapsed_steps, 300);
 }
+
+#[test]
+fn a_set_piece_of_a_team_without_players_is_taken_by_the_others() {
+    let text = "scenario s {
+        start throw_in for left at (0.5, -0.43)
+        agents { left: 0, right: 0 }
+        team right { GK at (1, 0)  CF at (0.2, 0.1)  CM at (0, 0) }
+        end limit 600 steps
+    }";
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    environment.reset(Some(1), Some(0)).unwrap();
+    let mut scratch = Scratch::default();
+    let mut touches = 0;
+    while environment.is_running() {
+        let owner = environment.state().owner;
+        assert!(owner.is_none_or(|owner| environment.state().player(owner).active), "{owner:?} is not there");
+        environment.step(&[], &mut scratch).unwrap();
+        touches += environment.events().iter().filter(|event| event.kind == EventKind::Touch).count();
+    }
+    assert!(touches > 10, "{touches}");
+}

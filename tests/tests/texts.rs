@@ -49,6 +49,28 @@ fn every_example_of_the_pages_compiles() {
     }
 }
 
+/// A block of the reference may be a file of rewards or regions alone, as `check` takes it.
+#[test]
+fn every_example_of_the_reference_is_sound() {
+    let folder = root().join("docs/language");
+    let dir = tempfile::tempdir().unwrap();
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let page = entry.unwrap().path();
+        for block in blocks(&std::fs::read_to_string(&page).unwrap()) {
+            let path = dir.path().join("page.pitch");
+            std::fs::write(&path, &block).unwrap();
+            let found = setpiece::check(path.to_str().unwrap()).unwrap_or_else(|error| panic!("{}", reports(&error)));
+            assert!(found.problems.is_empty(), "{}: {:?}\n{block}", page.display(), found.problems);
+            let source = setpiece::dsl::source::Source { name: "page.pitch".to_owned(), text: block.as_str().into() };
+            let laid_out = setpiece::dsl::format::format(&source).unwrap();
+            assert_eq!(*laid_out, *block, "{} is not laid out as `setpiece fmt` does", page.display());
+            seen += 1;
+        }
+    }
+    assert!(seen >= 25, "{seen}");
+}
+
 #[test]
 fn every_example_file_compiles_without_a_warning() {
     let mut seen = 0;

@@ -87,8 +87,16 @@ pub(super) const HABITS: &[Habit] = &[
     row(Scenario, "^ | var¦val¦int¦float¦double¦auto _ =", "write `let {2} = …`"),
     row(File, "^ | var¦val¦int¦float¦double¦auto¦let _ =", "write `const {2} = …`"),
     row(File, "^ | _ =", "write `const {1} = …`"),
-    row(Reward, "^ | var¦val¦int¦float¦double¦auto _ =", "write `let {2} = …`, or `state {2} = …` for what is remembered"),
-    row(Behavior, "^ | var¦val¦int¦float¦double¦auto _ =", "write `let {2} = …`, or `state {2} = …` for what is remembered"),
+    row(
+        Reward,
+        "^ | var¦val¦int¦float¦double¦auto _ =",
+        "write `let {2} = …`, or `state {2} = …` for what is remembered",
+    ),
+    row(
+        Behavior,
+        "^ | var¦val¦int¦float¦double¦auto _ =",
+        "write `let {2} = …`, or `state {2} = …` for what is remembered",
+    ),
     row(Anywhere, "scenario¦reward¦behavior¦formation¦team … | :", "a body stands between braces: `{ … }`"),
     // Brackets.
     row(Anywhere, "ROLE | (", "write `{1} at (…)`"),
@@ -130,8 +138,16 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "^ | builder . config ( ) . game_duration", "write `end limit 400 steps`"),
     row(Anywhere, "^ | builder . config ( ) . end_episode_on_score", "write `end scored when goal`"),
     row(Anywhere, "^ | builder . config ( ) . end_episode_on_out_of_play", "write `end out when out_of_play`"),
-    row(Anywhere, "^ | builder . config ( ) . end_episode_on_possession_change", "write `end lost when possession changes`"),
-    row(Anywhere, "^ | builder . config ( ) . left_team_difficulty¦right_team_difficulty", "write `team right { difficulty: 0.6 }`"),
+    row(
+        Anywhere,
+        "^ | builder . config ( ) . end_episode_on_possession_change",
+        "write `end lost when possession changes`",
+    ),
+    row(
+        Anywhere,
+        "^ | builder . config ( ) . left_team_difficulty¦right_team_difficulty",
+        "write `team right { difficulty: 0.6 }`",
+    ),
     row(Anywhere, "^ | builder . config ( ) . offsides", "write `rules { offside: off }`"),
     row(Anywhere, "^ | builder . config ( ) . deterministic", "write `rules { stochastic: off }`"),
     row(Anywhere, "^ | builder . config", "rules stand in `rules { … }`, endings are `end … when …`"),
@@ -171,9 +187,5 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "number | of", "write `count of …`"),
     // Behaviours.
     row(File, "behavior … | extends", "a behavior extends nothing: call the other one by `do`"),
-    row(
-        Behavior,
-        "repeat … | has¦in¦changes¦==¦!=¦<¦>¦<=¦>=¦and¦or¦{",
-        "write `repeat until …`, or `repeat 3 times`",
-    ),
+    row(Behavior, "repeat … | has¦in¦changes¦==¦!=¦<¦>¦<=¦>=¦and¦or¦{", "write `repeat until …`, or `repeat 3 times`"),
 ];

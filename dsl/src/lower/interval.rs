@@ -1,26 +1,53 @@
 //! The least and greatest value a register can have, as far as parameters' ranges and draws tell.
 
 use super::builder::Builder;
+use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Distribution, Instr, Reg, UnaryOp};
+use std::cell::Cell;
 
 /// A closed interval.
 pub(crate) type Interval = (f64, f64);
 
-/// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
-pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
-    bounded(code, reg, params, 0)
+/// That of a condition that never holds.
+pub(crate) const NEVER: Interval = (0.0, 0.0);
+
+/// What a number of the match can be, generously: metres, m/s, radians. The ball may fly on a little beyond the lines.
+fn of_field(field: Field) -> Option<Interval> {
+    Some(match field {
+        Field::BallX | Field::PlayerX => (-80.0, 80.0),
+        Field::BallY | Field::PlayerY => (-60.0, 60.0),
+        Field::BallHeight => (-1.0, 100.0),
+        Field::BallVx | Field::BallVy | Field::BallVz => (-100.0, 100.0),
+        Field::PlayerVx | Field::PlayerVy => (-15.0, 15.0),
+        Field::PlayerFatigue => (0.0, 1.0),
+        Field::PlayerYellowCards => (0.0, 2.0),
+        Field::PlayerHeading => (-4.0, 4.0),
+        _ => return None,
+    })
 }
 
-fn bounded(code: &Builder, reg: Reg, params: &[Option<Interval>], depth: u32) -> Option<Interval> {
+/// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
+pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
+    bounded(code, reg, params, 0, &Cell::new(VISITS_MAX))
+}
+
+/// Most registers that are looked at: what is shared is looked at again and again.
+const VISITS_MAX: u32 = 4_000;
+
+fn bounded(code: &Builder, reg: Reg, params: &[Option<Interval>], depth: u32, visits: &Cell<u32>) -> Option<Interval> {
+    visits.set(visits.get().checked_sub(1)?);
     if depth > 64 {
         return None;
     }
-    let of = |reg: Reg| bounded(code, reg, params, depth + 1);
+    let of = |reg: Reg| bounded(code, reg, params, depth + 1, visits);
     let found = match code.instr(reg)? {
         Instr::Const(value) => (*value, *value),
         Instr::Param(index) => params.get(*index as usize).copied().flatten()?,
         Instr::Unary(op, a) => unary(*op, of(*a)?)?,
+        // One half that never holds is enough, whatever the other one is.
+        Instr::Binary(BinaryOp::And, a, b) if of(*a) == Some(NEVER) || of(*b) == Some(NEVER) => NEVER,
         Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
+        Instr::Load { field, .. } => of_field(*field)?,
         Instr::Select(_, a, b) => {
             let (a, b) = (of(*a)?, of(*b)?);
             (a.0.min(b.0), a.1.max(b.1))
@@ -50,7 +77,7 @@ fn unary(op: UnaryOp, a: Interval) -> Option<Interval> {
         UnaryOp::Floor => (a.0.floor(), a.1.floor()),
         UnaryOp::Ceil => (a.0.ceil(), a.1.ceil()),
         UnaryOp::Round => (a.0.round(), a.1.round()),
-        UnaryOp::Sin | UnaryOp::Cos => (-1.0, 1.0),
+        UnaryOp::Sin | UnaryOp::Cos | UnaryOp::Side => (-1.0, 1.0),
         _ => return None,
     })
 }

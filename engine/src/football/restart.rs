@@ -29,13 +29,16 @@ pub fn apply(game: &mut Match) {
 }
 
 /// Sets up a set piece.
+///
+/// One that is awarded to a team without players is taken by the others; without anybody the ball just lies there.
 pub fn place(game: &mut Match, restart: Restart) {
     calm(game);
     lay_ball(game, restart.spot);
+    let others = Restart { team: restart.team.other(), ..restart };
+    let takers = [restart, others].map(|restart| (restart, set_piece::taker(game, restart)));
     if restart.mode == GameMode::KickOff {
         kick_off(game, restart.team, restart.spot);
-    } else {
-        let taker = set_piece::taker(game, restart);
+    } else if let Some((restart, taker)) = takers.iter().find_map(|&(restart, taker)| Some((restart, taker?))) {
         set_piece::arrange(game, restart, taker);
         game.play.set_piece =
             Some(SetPiece { mode: restart.mode, team: restart.team, taker, spot: restart.spot, waited_steps: 0 });
@@ -43,6 +46,9 @@ pub fn place(game: &mut Match, restart: Restart) {
         game.owner = Some(taker);
         game.possession = Some(restart.team);
         game.last_touch = Some(taker);
+    } else {
+        game.mode = GameMode::Normal;
+        game.owner = None;
     }
     face_ball(game);
     forecast::renew(game);

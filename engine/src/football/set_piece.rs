@@ -9,7 +9,7 @@ use setpiece_scenario::pitch::{
 use setpiece_scenario::vocabulary::{GameMode, Role, Team};
 
 /// Who takes a set piece: the nearest, but the keeper for goal kicks and nobody but an outfielder else.
-pub fn taker(game: &Match, restart: Restart) -> PlayerId {
+pub fn taker(game: &Match, restart: Restart) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(restart.team) {
         let keeper = player.role == Role::GK;
@@ -19,7 +19,7 @@ pub fn taker(game: &Match, restart: Restart) -> PlayerId {
             best = Some((distance, id));
         }
     }
-    best.map_or(PlayerId::new(restart.team, 0), |(_, id)| id)
+    best.map(|(_, id)| id)
 }
 
 /// Places everyone for a set piece other than a kick-off.

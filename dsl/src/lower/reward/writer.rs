@@ -2,6 +2,7 @@
 
 use crate::ast::{Binding as Let, EventExpr, Expr, GiveStmt, Ident, RewardStmt, RewardStmtKind};
 use crate::check::types::Ty;
+use crate::lower::interval::NEVER;
 use crate::lower::value::Binding;
 use crate::lower::{Lower, fold, param};
 use crate::problem::{Code, Problem};
@@ -203,6 +204,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         let value = self.lower.want(&give.value, Ty::Number);
         let mut reg = self.lower.reg(&value);
         self.check_payable(reg, &give.value);
+        self.check_pays(reg, &give.value);
         if give.per_second {
             let step = self.lower.code.constant(0.1);
             reg = self.lower.code.binary(BinaryOp::Mul, reg, step);
@@ -211,6 +213,22 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             Some(weight) => self.lower.code.binary(BinaryOp::Mul, reg, weight),
             None => reg,
         }
+    }
+
+    /// Warns of a payment that never happens, in a reward that stands in its scenario: another's parameters may switch
+    /// a part of it off.
+    fn check_pays(&self, reg: Reg, value: &Expr) {
+        let never = self.guard.is_some_and(|guard| self.lower.interval(guard) == Some(NEVER));
+        let nothing = self.lower.code.constant_of(reg) == Some(0.0);
+        if !self.lower.scope.scenario || !(never || nothing) {
+            return;
+        }
+        let problem = Problem::new(Code::NeverPays, value.span, "this `give` never pays", "");
+        self.lower.report(if never {
+            problem.help("its condition can't hold: x lies between about -1 and 1, y between -0.42 and 0.42")
+        } else {
+            problem.help("it pays 0: write another value, or leave it out")
+        });
     }
 
     /// Reports a constant that is more than can be paid.

@@ -65,7 +65,8 @@ impl Reader<'_> {
         let whole = wrong.tokens.get(wrong.token_at()).filter(|(from, _)| *from == at);
         let word = whole.map_or_else(|| self.word(at), |(_, word)| *word);
         let starts = at == wrong.junk.start && !wrong.inside;
-        let wanted = if starts && !(wrong.before.is_some() && wrong.positives.is_empty()) && !is_name(&wrong.positives) {
+        let wanted = if starts && !(wrong.before.is_some() && wrong.positives.is_empty()) && !is_name(&wrong.positives)
+        {
             noun(wrong.context.statement()).to_owned()
         } else {
             // What could stand behind any statement is no news.
@@ -154,7 +155,10 @@ impl Reader<'_> {
         let text = self.text.get(before?.clone())?;
         let (_, value) = text.split_once(':')?;
         let value = value.trim();
-        if token(value) != value || Role::from_name(value).is_some() || !value.starts_with(|char: char| char.is_alphabetic()) {
+        if token(value) != value
+            || Role::from_name(value).is_some()
+            || !value.starts_with(|char: char| char.is_alphabetic())
+        {
             return None;
         }
         let end = before?.end;

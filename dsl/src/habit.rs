@@ -7,6 +7,9 @@ use setpiece_grammar::{PitchParser, Rule};
 use setpiece_scenario::vocabulary::Role;
 use table::HABITS;
 
+/// Tokens on either side of a place that are looked at.
+const WINDOW: usize = 64;
+
 /// Where a habit is met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
@@ -72,7 +75,8 @@ pub(crate) fn of_text(place: Place, tokens: &[&str], at: usize, first: usize) ->
     let habits = HABITS.iter().filter(|habit| habit.place == place || habit.place == Place::Anywhere);
     habits.flat_map(|habit| [(habit, at), (habit, first)]).find_map(|(habit, at)| {
         let (before, behind) = tokens.split_at_checked(at)?;
-        Some((at, habit.at(before, behind, at == first)?))
+        let near = (before.get(before.len().saturating_sub(WINDOW)..)?, behind.get(..behind.len().min(WINDOW))?);
+        Some((at, habit.at(near.0, near.1, at == first)?))
     })
 }
 

@@ -47,6 +47,8 @@ impl Reader<'_> {
         let span = self.span(&node);
         let source = match Nodes::of(node).last()? {
             file if file.as_rule() == Rule::string => ScriptSource::File(self.string(&file)),
+            // A script that is not closed was told: it holds whatever follows it.
+            raw if raw.as_span().end() + self.base > self.original().len() => return None,
             raw => {
                 let text = raw.as_str();
                 let text = text.get(3..text.len().saturating_sub(3)).unwrap_or_default().to_owned();

@@ -363,6 +363,11 @@ impl<'c, 'w> Lower<'c, 'w> {
         interval::interval(&self.code, reg, &self.world.ranges())
     }
 
+    /// Whether a condition never holds, whatever happens in the match.
+    pub(crate) fn never_holds(&self, reg: Reg) -> bool {
+        interval::never_holds(&self.code, reg, &self.world.ranges())
+    }
+
     /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`
     /// after a report.
     pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) -> bool {

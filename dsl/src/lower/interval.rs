@@ -9,7 +9,7 @@ use std::cell::Cell;
 pub(crate) type Interval = (f64, f64);
 
 /// That of a condition that never holds.
-pub(crate) const NEVER: Interval = (0.0, 0.0);
+const NEVER: Interval = (0.0, 0.0);
 
 /// What a number of the match can be, generously: metres, m/s, radians. The ball may fly on a little beyond the lines.
 fn of_field(field: Field) -> Option<Interval> {
@@ -28,39 +28,57 @@ fn of_field(field: Field) -> Option<Interval> {
 
 /// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
 pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
-    bounded(code, reg, params, 0, &Cell::new(VISITS_MAX))
+    Search { code, params, in_play: false, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
+}
+
+/// Whether a condition never holds, whatever happens in the match.
+pub(crate) fn never_holds(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> bool {
+    Search { code, params, in_play: true, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0) == Some(NEVER)
 }
 
 /// Most registers that are looked at: what is shared is looked at again and again.
 const VISITS_MAX: u32 = 4_000;
+/// Deepest nesting that is looked into.
+const DEPTH_MAX: u32 = 64;
 
-fn bounded(code: &Builder, reg: Reg, params: &[Option<Interval>], depth: u32, visits: &Cell<u32>) -> Option<Interval> {
-    visits.set(visits.get().checked_sub(1)?);
-    if depth > 64 {
-        return None;
-    }
-    let of = |reg: Reg| bounded(code, reg, params, depth + 1, visits);
-    let found = match code.instr(reg)? {
-        Instr::Const(value) => (*value, *value),
-        Instr::Param(index) => params.get(*index as usize).copied().flatten()?,
-        Instr::Unary(op, a) => unary(*op, of(*a)?)?,
-        // One half that never holds is enough, whatever the other one is.
-        Instr::Binary(BinaryOp::And, a, b) if of(*a) == Some(NEVER) || of(*b) == Some(NEVER) => NEVER,
-        Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
-        Instr::Load { field, .. } => of_field(*field)?,
-        Instr::Select(_, a, b) => {
-            let (a, b) = (of(*a)?, of(*b)?);
-            (a.0.min(b.0), a.1.max(b.1))
+struct Search<'a> {
+    code: &'a Builder,
+    params: &'a [Option<Interval>],
+    /// Whether what the match can show counts.
+    in_play: bool,
+    visits: Cell<u32>,
+}
+
+impl Search<'_> {
+    fn bounded(&self, reg: Reg, depth: u32) -> Option<Interval> {
+        self.visits.set(self.visits.get().checked_sub(1)?);
+        if depth > DEPTH_MAX {
+            return None;
         }
-        Instr::Random { from, .. } => match &**from {
-            Distribution::Uniform(low, high)
-            | Distribution::Integer(low, high)
-            | Distribution::TruncatedNormal(_, _, low, high) => (of(*low)?.0, of(*high)?.1),
-            Distribution::Normal(..) | Distribution::Weighted(_) => return None,
-        },
-        _ => return None,
-    };
-    (found.0.is_finite() && found.1.is_finite()).then_some(found)
+        let of = |reg: Reg| self.bounded(reg, depth + 1);
+        let found = match self.code.instr(reg)? {
+            Instr::Const(value) => (*value, *value),
+            Instr::Param(index) => self.params.get(*index as usize).copied().flatten()?,
+            Instr::Unary(UnaryOp::Side, _) if self.in_play => (-1.0, 1.0),
+            Instr::Unary(op, a) => unary(*op, of(*a)?)?,
+            // One half that never holds is enough, whatever the other one is.
+            Instr::Binary(BinaryOp::And, a, b) if of(*a) == Some(NEVER) || of(*b) == Some(NEVER) => NEVER,
+            Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
+            Instr::Load { field, .. } if self.in_play => of_field(*field)?,
+            Instr::Select(_, a, b) => {
+                let (a, b) = (of(*a)?, of(*b)?);
+                (a.0.min(b.0), a.1.max(b.1))
+            }
+            Instr::Random { from, .. } => match &**from {
+                Distribution::Uniform(low, high)
+                | Distribution::Integer(low, high)
+                | Distribution::TruncatedNormal(_, _, low, high) => (of(*low)?.0, of(*high)?.1),
+                Distribution::Normal(..) | Distribution::Weighted(_) => return None,
+            },
+            _ => return None,
+        };
+        (found.0.is_finite() && found.1.is_finite()).then_some(found)
+    }
 }
 
 fn unary(op: UnaryOp, a: Interval) -> Option<Interval> {
@@ -77,7 +95,7 @@ fn unary(op: UnaryOp, a: Interval) -> Option<Interval> {
         UnaryOp::Floor => (a.0.floor(), a.1.floor()),
         UnaryOp::Ceil => (a.0.ceil(), a.1.ceil()),
         UnaryOp::Round => (a.0.round(), a.1.round()),
-        UnaryOp::Sin | UnaryOp::Cos | UnaryOp::Side => (-1.0, 1.0),
+        UnaryOp::Sin | UnaryOp::Cos => (-1.0, 1.0),
         _ => return None,
     })
 }

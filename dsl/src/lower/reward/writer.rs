@@ -2,7 +2,6 @@
 
 use crate::ast::{Binding as Let, EventExpr, Expr, GiveStmt, Ident, RewardStmt, RewardStmtKind};
 use crate::check::types::Ty;
-use crate::lower::interval::NEVER;
 use crate::lower::value::Binding;
 use crate::lower::{Lower, fold, param};
 use crate::problem::{Code, Problem};
@@ -218,7 +217,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     /// Warns of a payment that never happens, in a reward that stands in its scenario: another's parameters may switch
     /// a part of it off.
     fn check_pays(&self, reg: Reg, value: &Expr) {
-        let never = self.guard.is_some_and(|guard| self.lower.interval(guard) == Some(NEVER));
+        let never = self.guard.is_some_and(|guard| self.lower.never_holds(guard));
         let nothing = self.lower.code.constant_of(reg) == Some(0.0);
         if !self.lower.scope.scenario || !(never || nothing) {
             return;

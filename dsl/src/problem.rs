@@ -69,8 +69,8 @@ impl Problem {
     /// Says "did you mean" where one of the candidates is near enough, or how another language's word is written here.
     #[must_use]
     pub fn did_you_mean<'a>(self, found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Problem {
-        let meant = habit::of_name(found)
-            .or_else(|| nearest(found, candidates).map(|name| format!("did you mean `{name}`?")));
+        let meant =
+            habit::of_name(found).or_else(|| nearest(found, candidates).map(|name| format!("did you mean `{name}`?")));
         match meant {
             Some(help) => self.help(help),
             None => self,

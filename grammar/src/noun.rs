@@ -97,9 +97,13 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::doc => "a doc comment",
         Rule::wc => "a letter, digit or `_`",
         Rule::wstart => "a letter",
-        Rule::word | Rule::ident | Rule::free_name | Rule::path | Rule::reference | Rule::named_end | Rule::act_name => {
-            "a name"
-        }
+        Rule::word
+        | Rule::ident
+        | Rule::free_name
+        | Rule::path
+        | Rule::reference
+        | Rule::named_end
+        | Rule::act_name => "a name",
         Rule::type_name => "a type, for example `number`",
         Rule::reserved | Rule::scen_word | Rule::next_word | Rule::team_key => "a reserved word",
         Rule::role => "a role, for example `CB`",

@@ -289,8 +289,7 @@ pub(super) fn token(text: &str) -> &str {
             if text.starts_with("///") {
                 return "///";
             }
-            let two =
-                SIGNS.iter().any(|sign| text.starts_with(sign));
+            let two = SIGNS.iter().any(|sign| text.starts_with(sign));
             if two { 2 } else { first.len_utf8() }
         }
         None => 0,

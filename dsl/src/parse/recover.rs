@@ -123,7 +123,8 @@ impl Reader<'_> {
     /// Whether junk goes on with the statement before it: on its line, or with a word or sign that begins no statement.
     fn belongs(&self, before: &Range<usize>, junk: &Range<usize>) -> bool {
         let first = token(text(self.text, junk.clone()));
-        let unit = first.starts_with("step") && text(self.text, before.clone()).ends_with(|char: char| char.is_ascii_digit());
+        let unit =
+            first.starts_with("step") && text(self.text, before.clone()).ends_with(|char: char| char.is_ascii_digit());
         !text(self.text, before.end..junk.start).contains('\n')
             || unit
             || first.starts_with(|char: char| "=.,:*/+-<>!?&|%^([{".contains(char))
@@ -148,7 +149,8 @@ impl Reader<'_> {
         let belonging = before.filter(|before| self.belongs(before, junk));
         let tokens = self.tokens(belonging.map_or(junk.start, |before| before.start)..junk.end);
         let first = tokens.partition_point(|(from, _)| *from < junk.start);
-        let wrong = Wrong { context, junk: junk.clone(), before: whole.cloned(), at, positives, tokens, first, inside: false };
+        let wrong =
+            Wrong { context, junk: junk.clone(), before: whole.cloned(), at, positives, tokens, first, inside: false };
         let Finding { problem, fresh, goes_on } = self.explain(wrong);
         let condemned = belonging.is_some() && !fresh && (whole.is_some() || goes_on);
         self.push(problem);

@@ -7,7 +7,18 @@ use std::ops::Range;
 
 /// Words behind which a name is declared.
 const DECLARING: &[&str] = &[
-    "let", "const", "param", "state", "fn", "region", "ending", "reward", "behavior", "formation", "scenario", "record",
+    "let",
+    "const",
+    "param",
+    "state",
+    "fn",
+    "region",
+    "ending",
+    "reward",
+    "behavior",
+    "formation",
+    "scenario",
+    "record",
 ];
 
 impl<'t> Reader<'t> {
@@ -45,7 +56,8 @@ impl<'t> Reader<'t> {
             let next = tokens.get(index + 1).map_or("", |(_, next)| *next);
             let last = index.checked_sub(1).and_then(|last| tokens.get(last)).map_or("", |(_, last)| *last);
             in_list = if in_list { *word != ")" } else { last == "let" && *word == "(" };
-            let declared = in_list || matches!(next, ":" | "=") || (index == 1 && !is_reserved(last)) || DECLARING.contains(&last);
+            let declared =
+                in_list || matches!(next, ":" | "=") || (index == 1 && !is_reserved(last)) || DECLARING.contains(&last);
             if declared && word.starts_with(|char: char| char.is_alphanumeric() || char == '_') {
                 self.lost.insert((*word).to_owned());
             }

@@ -37,7 +37,7 @@ struct Habit {
     /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text begins.
     ///
     /// `_` is a name, `""` a string, `9` a number, `9a` a number with letters, `é` a word of other letters, `ROLE` a
-    /// role, `a¦b` one of two, `a*` what begins with `a`, `*` any token, `…` any number of them, `$` the end.
+    /// role, `a¦b` one of two, `a*` what begins with `a`, `*` any token and `\*` that sign, `…` any number of them, `$` the end.
     seen: &'static str,
     /// What to write; `{1}` is the first that was not spelt out in `seen`.
     write: &'static str,
@@ -73,6 +73,9 @@ pub(crate) fn of_name(name: &str) -> Option<String> {
 /// Gives the token, too, that the habit is seen at.
 pub(crate) fn of_text(place: Place, tokens: &[&str], at: usize, first: usize) -> Option<(usize, Found)> {
     let habits = HABITS.iter().filter(|habit| habit.place == place || habit.place == Place::Anywhere);
+    // A sign is only wrong where nothing fits.
+    let word = |token: &&str| token.starts_with(|char: char| char.is_alphanumeric() || "_\"".contains(char));
+    let first = if tokens.get(first).is_some_and(word) { first } else { at };
     habits.flat_map(|habit| [(habit, at), (habit, first)]).find_map(|(habit, at)| {
         let (before, behind) = tokens.split_at_checked(at)?;
         let near = (before.get(before.len().saturating_sub(WINDOW)..)?, behind.get(..behind.len().min(WINDOW))?);
@@ -138,7 +141,7 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
             return rest.is_some() && matches(pattern, tokens, found);
         }
         literals if literals.contains('¦') => literals.split('¦').any(|literal| literal == *token),
-        literal => return literal == *token && matches(pattern, tokens, found),
+        literal => return literal.trim_start_matches('\\') == *token && matches(pattern, tokens, found),
     };
     if meant {
         found.push(token);

@@ -42,7 +42,7 @@ fn report(text: &str) -> String {
     std::fs::write(&path, text).unwrap();
     let found = setpiece::check(path.to_str().unwrap()).unwrap();
     let shown = render(&found.problems, &found.sources, Format::Human { color: false, width: 100 });
-    shown.replace(path.to_str().unwrap(), "scenario.pitch").replace(dir.path().to_str().unwrap(), "folder")
+    shown.replace(&format!("{}/", dir.path().display()), "")
 }
 
 fn texts(folder: &Path) -> String {

@@ -102,7 +102,20 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "ROLE | (", "write `{1} at (…)`"),
     row(Anywhere, "ball | (", "write `ball at (…)`"),
     row(Anywhere, "_ | (", "a call's bracket touches its name: `{1}(…)`"),
+    // Clauses.
+    row(Scenario, "param … , | in", "no comma stands before a parameter's range: `= 0.2 in 0..1`"),
+    row(Scenario, "start _ | left¦right", "write `start {1} for {2}`"),
+    row(Scenario, "end limit | :", "write `end limit 400 steps`"),
+    row(Scenario, "end when … | success¦failure", "write `end {1} when …`"),
+    row(Scenario, "reward … \\* … | as", "the label stands before the weight: `as \"label\" * 0.5`"),
+    row(Scenario, "remove | _", "write `remove reward {1}`, `remove end {1}` or the like"),
+    row(Reward, "once | per", "`per second` stands before `once`"),
+    row(Anywhere, "as | _", "write `as \"{1}\"`"),
+    row(Anywhere, "has | *", "write `has ball`"),
+    row(Team, "^ | _ ROLE", "write `{1}: {2} at …`"),
+    row(Team, "^ | 9a ROLE", "a count is a number alone: `2 {2} in …`"),
     // Conditions.
+    row(Behavior, "if … | then", "write `if … { … } else { … }`"),
     row(Anywhere, "| if … else", "write `if c then a else b`"),
     row(Scenario, "end … | if", "write `when …`"),
     row(Scenario, "^ | if", "a value may be `if c then a else b`, and a player stand there `when c`"),
@@ -186,6 +199,18 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "total | of", "write `sum of …`"),
     row(Anywhere, "number | of", "write `count of …`"),
     // Behaviours.
+    row(
+        Behavior,
+        "^ | move_to¦dribble_to¦pass_to¦high_pass_to¦long_pass_to¦shoot¦tackle¦slide¦mark¦press¦hold¦wait¦run¦bot",
+        "write `do {1}`",
+    ),
+    row(Behavior, "do … | 9a", "a time stands behind `for`: `for {1}`"),
+    row(
+        Behavior,
+        "do move_to¦dribble_to¦pass_to¦high_pass_to¦long_pass_to¦mark | _",
+        "an argument stands in brackets: `do {1}({2})`",
+    ),
+    row(Behavior, "choose { | do", "a weight stands before each: `1: do hold`"),
     row(File, "behavior … | extends", "a behavior extends nothing: call the other one by `do`"),
     row(Behavior, "repeat … | has¦in¦changes¦==¦!=¦<¦>¦<=¦>=¦and¦or¦{", "write `repeat until …`, or `repeat 3 times`"),
 ];

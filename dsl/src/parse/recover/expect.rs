@@ -179,8 +179,8 @@ impl Wrong<'_> {
     /// A lone word could always have been an option's key or a state: the word is the news, not the missing sign.
     fn is_lone_word(&self) -> bool {
         let Some((from, first)) = self.tokens.get(self.first) else { return false };
-        let next = self.tokens.get(self.first + 1).map_or(self.junk.end, |(next, _)| *next);
-        if *from != self.junk.start || self.at < next.min(self.junk.end) {
+        let next = self.tokens.get(self.first + 1).map_or(usize::MAX, |(next, _)| *next);
+        if *from != self.junk.start || self.at == *from || self.at > next {
             return false;
         }
         let elsewhere = |word: &str| Context::ALL.iter().any(|other| other.keywords().contains(&word));
@@ -189,9 +189,9 @@ impl Wrong<'_> {
             Context::Reward | Context::Behavior if self.positives == [Rule::equals] => {
                 let further = if self.before.is_some() { self.context.further() } else { &[] };
                 let near = nearest(first, self.context.keywords().iter().chain(further).copied());
-                (near.is_some() || elsewhere(first)) && self.at <= next
+                near.is_some() || elsewhere(first) || self.first > 0
             }
-            _ => self.positives == [Rule::colon] && self.at <= next && !self.context.keywords().contains(first),
+            _ => self.positives == [Rule::colon] && !self.context.keywords().contains(first),
         }
     }
 }
@@ -245,7 +245,7 @@ fn list(context: Context, positives: &[Rule]) -> String {
         }
     }
     match nouns.as_slice() {
-        [] => return noun(context.statement()).to_owned(),
+        [] => return noun(if let [only] = positives { *only } else { context.statement() }).to_owned(),
         [only] => return (*only).to_owned(),
         _ => {}
     }

@@ -15,7 +15,7 @@ impl Scanner<'_> {
             // The braces that this line opened are all that it may close.
             (b'}', b'(' | b'[') => {
                 let line = self.bytes.get(at..).unwrap_or_default().split(|byte| *byte == b'\n').next();
-                let closed = line.unwrap_or_default().iter().filter(|byte| **byte == b'}').count();
+                let closed = line.unwrap_or_default().split(|byte| *byte == b'}').count() - 1;
                 last.at >= self.line_from && closed > self.open.iter().filter(here).count() && !self.line_start
             }
             (b'}', _) => false,

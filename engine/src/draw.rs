@@ -189,18 +189,20 @@ impl Drawer {
 
     /// Computes what no draw changes.
     fn begin(&mut self, bindings: &Bindings, draws: DrawKey) {
-        self.machine(bindings, draws, |machine| machine.begin());
+        let mut faults = 0;
+        self.machine(bindings, draws, &mut faults).begin();
     }
 
     /// Runs the start program for an attempt.
     fn run(&mut self, bindings: &Bindings, draws: DrawKey) {
-        self.machine(bindings, draws, |machine| machine.run());
+        let mut faults = 0;
+        self.machine(bindings, draws, &mut faults).run();
     }
 
-    /// Puts the start program to work; its values stand in the registers afterwards.
-    fn machine(&mut self, bindings: &Bindings, draws: DrawKey, work: impl FnOnce(&mut Machine<'_>)) {
+    /// The start program at work; its values stand in the registers afterwards.
+    fn machine<'a>(&'a mut self, bindings: &'a Bindings, draws: DrawKey, faults: &'a mut u32) -> Machine<'a> {
         let (plan, regs) = self.regs.parts();
-        let mut machine = Machine {
+        Machine {
             input: Input {
                 now: None,
                 prev: None,
@@ -216,10 +218,9 @@ impl Drawer {
             regs,
             cells: &mut [],
             terms: &mut [],
-            faults: &mut 0,
+            faults,
             draws: Some(draws),
-        };
-        work(&mut machine);
+        }
     }
 
     /// The requirement that the present attempt fails, if any: the author's come before the pitch's.

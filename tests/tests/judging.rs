@@ -183,7 +183,7 @@ fn agents_judged_together_are_paid_as_if_judged_alone() {
         text.push('}');
         let (summaries, names) = bots(&text, 1);
         for summary in summaries {
-            for index in 0..paid.len() {
+            for (index, value) in paid.iter().enumerate() {
                 let term = names.iter().position(|name| *name == format!("r{index}/sum")).unwrap();
                 let (_, recorded) = summary.records.iter().find(|(name, _)| *name == format!("m{index}")).unwrap();
                 let alone: Vec<f64> = match recorded {
@@ -191,7 +191,7 @@ fn agents_judged_together_are_paid_as_if_judged_alone() {
                     one => vec![one.number().unwrap()],
                 };
                 let together: Vec<f64> = summary.terms.iter().map(|terms| terms[term]).collect();
-                assert_eq!(alone, together, "`{}` with {agents}", paid[index]);
+                assert_eq!(alone, together, "`{value}` with {agents}");
             }
         }
     }

@@ -56,8 +56,8 @@ impl EndingJudge {
         self.memories.fill(Memory::default());
         self.faults = 0;
         let input = Input { silent: true, ..*input };
-        self.machine(&input, |machine| machine.begin());
-        self.machine(&input, |machine| machine.run());
+        self.machine(&input).begin();
+        self.machine(&input).run();
         let holds = |ending: &Ending| ending.when.is_some_and(|when| truth(self.regs.value(when)));
         self.at_start = self.endings.list.iter().position(holds);
     }
@@ -77,7 +77,7 @@ impl EndingJudge {
         input: &Input<'_>,
         scene: Option<(&Scripts, &Arc<Scene>)>,
     ) -> Result<Option<Outcome>, ScriptError> {
-        self.machine(input, |machine| machine.run());
+        self.machine(input).run();
         for (which, ending) in self.endings.list.iter().enumerate() {
             let mut label = None;
             let mut holds = ending.when.is_some_and(|when| truth(self.regs.value(when)));
@@ -101,9 +101,9 @@ impl EndingJudge {
         Ok(over.then(|| Outcome { label: self.limit.clone(), verdict: None, truncated: true }))
     }
 
-    fn machine(&mut self, input: &Input<'_>, work: impl FnOnce(&mut Machine<'_>)) {
+    fn machine<'a>(&'a mut self, input: &Input<'a>) -> Machine<'a> {
         let (plan, regs) = self.regs.parts();
-        let mut machine = Machine {
+        Machine {
             input: *input,
             crew: Crew::one(None),
             plan,
@@ -112,8 +112,7 @@ impl EndingJudge {
             terms: &mut [],
             faults: &mut self.faults,
             draws: None,
-        };
-        work(&mut machine);
+        }
     }
 }
 

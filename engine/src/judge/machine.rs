@@ -218,19 +218,19 @@ impl<const W: usize> Machine<'_, W> {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn all(&mut self, step: &Step, value: f64) {
         self.regs[step.at as usize] = [value; W];
     }
 
-    #[inline(always)]
+    #[inline]
     fn one(&mut self, step: &Step, f: impl Fn(f64) -> f64) {
         let a = self.regs[step.a as usize];
         self.regs[step.at as usize] =
             if W == 1 || !step.uniform { array::from_fn(|lane| f(a[lane])) } else { [f(a[0]); W] };
     }
 
-    #[inline(always)]
+    #[inline]
     fn two(&mut self, step: &Step, f: impl Fn(f64, f64) -> f64) {
         let (a, b) = (&self.regs[step.a as usize], &self.regs[step.b as usize]);
         self.regs[step.at as usize] =

@@ -233,7 +233,7 @@ impl Sight<'_> {
     }
 
     /// One number of the match as a program reads it; NaN of nobody, and of no team.
-    #[inline(always)]
+    #[inline]
     pub fn load(self, field: Field, of: f64) -> f64 {
         match field {
             Field::BallX => self.ball()[0].into(),

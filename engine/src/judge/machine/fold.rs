@@ -26,8 +26,8 @@ impl<const N: usize> Folding<N> {
     /// Takes an element and its values, in the lanes that count it.
     #[inline]
     pub(super) fn add(&mut self, element: f64, counts: [bool; N], values: [f64; N]) {
-        for lane in 0..N {
-            self.n[lane] += u32::from(counts[lane]);
+        for (n, counts) in self.n.iter_mut().zip(counts) {
+            *n += u32::from(counts);
         }
         match self.kind {
             FoldKind::Nothing | FoldKind::Count => {}

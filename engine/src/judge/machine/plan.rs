@@ -232,7 +232,9 @@ fn over(each: &Each, f: &mut dyn FnMut(Reg)) {
     match &each.over {
         Over::Players { team, except } => {
             f(*team);
-            except.iter().for_each(|&reg| f(reg));
+            if let Some(reg) = except {
+                f(*reg);
+            }
         }
         Over::Events(filter) => {
             for who in filter.by.iter().chain(&filter.to) {

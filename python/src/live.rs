@@ -42,7 +42,7 @@ impl Live {
             .map_err(|_| errors::parameter(py, "timeout", &format!("`{timeout}` is no number of seconds")))?;
         let polled = py.detach(|| {
             let mut live = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
-            live.poll(timeout).map(Result::cloned)
+            live.poll(timeout).map(Result::<&setpiece::Loaded, _>::cloned)
         });
         match polled {
             None => Ok(None),

@@ -112,7 +112,6 @@ pub(super) const HABITS: &[Habit] = &[
     row(Reward, "once | per", "`per second` stands before `once`"),
     row(Anywhere, "as | _", "write `as \"{1}\"`"),
     row(Anywhere, "has | *", "write `has ball`"),
-    row(Team, "^ | _ ROLE", "write `{1}: {2} at …`"),
     row(Team, "^ | 9a ROLE", "a count is a number alone: `2 {2} in …`"),
     // Conditions.
     row(Behavior, "if … | then", "write `if … { … } else { … }`"),

@@ -184,14 +184,20 @@ impl Wrong<'_> {
             return false;
         }
         let elsewhere = |word: &str| Context::ALL.iter().any(|other| other.keywords().contains(&word));
+        let keywords = self.context.keywords();
         match self.context {
             Context::Fields => false,
             Context::Reward | Context::Behavior if self.positives == [Rule::equals] => {
                 let further = if self.before.is_some() { self.context.further() } else { &[] };
-                let near = nearest(first, self.context.keywords().iter().chain(further).copied());
+                let near = nearest(first, keywords.iter().chain(further).copied());
                 near.is_some() || elsewhere(first) || self.first > 0
             }
-            _ => self.positives == [Rule::colon] && !self.context.keywords().contains(first),
+            _ => {
+                // `striker CF at …` lacks its colon.
+                let role = self.tokens.get(self.first + 1).is_some_and(|(_, next)| Role::from_name(next).is_some());
+                let named = role && nearest(first, keywords.iter().copied()).is_none();
+                self.positives == [Rule::colon] && !named && !keywords.contains(first)
+            }
         }
     }
 }

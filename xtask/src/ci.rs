@@ -73,7 +73,8 @@ fn cargo(args: &[&str]) -> Result<(), String> {
     run(Command::new("cargo").args(args))
 }
 
-fn run(command: &mut Command) -> Result<(), String> {
+/// Says and runs a command, in the repository's root unless it names another folder.
+pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     let words: Vec<String> = std::iter::once(command.get_program())
         .chain(command.get_args())
         .map(|word| word.to_string_lossy().into_owned())

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod ci;
+mod fuzz;
 mod tidy;
 
 use std::process::ExitCode;
@@ -14,12 +15,16 @@ fn main() -> ExitCode {
         "python" => ci::python(),
         "schema" => schema(),
         "tidy" => tidy::tidy(),
+        "fuzz" => fuzz::fuzz(&std::env::args().skip(2).collect::<Vec<_>>()),
         _ => {
             println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
             println!("cargo xtask test    the Rust tests");
             println!("cargo xtask python  build the wheel and run the Python tests");
             println!("cargo xtask schema  write docs/pitchc.schema.json");
             println!("cargo xtask tidy    the rules of the house: who may use whom, file lengths");
+            println!(
+                "cargo xtask fuzz    [TARGET…] [--seconds N] [--seed S] [--keep]: random inputs; see fuzz/README.md"
+            );
             return if command.is_empty() || command == "help" { ExitCode::SUCCESS } else { ExitCode::from(2) };
         }
     };

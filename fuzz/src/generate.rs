@@ -1,0 +1,184 @@
+//! Scenarios assembled from the fuzzer's bytes: nearly all of them compile.
+//!
+//! Every choice ends at its first, simplest case when the bytes are used up.
+
+mod expr;
+mod play;
+mod start;
+
+use crate::choice::Choices;
+use std::fmt::Write as _;
+
+/// Writes a scenario's text.
+#[derive(Debug)]
+struct Writer<'a, 'b> {
+    choices: &'a mut Choices<'b>,
+    out: String,
+    /// The named players, left and right.
+    squads: [Vec<String>; 2],
+    /// Names of numbers: parameters and `let`s.
+    numbers: Vec<String>,
+    /// Names of regions.
+    regions: Vec<String>,
+    /// Names of behaviours that take no arguments.
+    behaviors: Vec<String>,
+}
+
+/// Where an expression stands: what it may say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum View {
+    /// Before the match: places and draws.
+    Start,
+    /// In the world's frame: endings and records.
+    World,
+    /// In the own frame: rewards.
+    Own,
+    /// In a behaviour.
+    Behavior,
+    /// In an observation.
+    Observed,
+    /// Where nothing may remember: inside an operator over time, or of a loop's player.
+    Inner { own: bool },
+}
+
+impl View {
+    /// Whether `me`, `us` and `them` mean something.
+    fn is_own(self) -> bool {
+        matches!(self, View::Own | View::Behavior | View::Observed | View::Inner { own: true })
+    }
+
+    /// Whether operators over time may stand there.
+    fn knows_time(self) -> bool {
+        matches!(self, View::World | View::Own | View::Behavior)
+    }
+}
+
+/// The text of a scenario that the choices say.
+pub fn scenario(choices: &mut Choices<'_>) -> String {
+    let (squads, numbers) = (Default::default(), Vec::new());
+    let mut writer = Writer { choices, out: String::new(), squads, numbers, regions: vec![], behaviors: vec![] };
+    writer.file();
+    writer.out
+}
+
+impl Writer<'_, '_> {
+    fn file(&mut self) {
+        // The roster comes first, since everything may name a player of it.
+        let sizes = [self.choices.below(12), self.choices.below(12)];
+        for (side, letter) in ["p", "q"].into_iter().enumerate() {
+            self.squads[side] = (0..sizes[side]).map(|n| format!("{letter}{n}")).collect();
+        }
+        for n in 0..self.choices.below(3) {
+            let shape = self.shape();
+            self.line(&format!("region area{n} = {shape}"));
+            self.regions.push(format!("area{n}"));
+        }
+        let squads = std::mem::take(&mut self.squads);
+        for n in 0..self.choices.below(3) {
+            self.behavior(n);
+        }
+        self.squads = squads;
+        let academy = self.choices.rarely(3);
+        self.line(&format!("scenario fuzzed{} {{", if academy { " extends academy" } else { "" }));
+        if self.choices.rarely(6) {
+            let mirror = self.choices.one(&["flanks", "ends"]);
+            self.line(&format!("mirror: {mirror}"));
+        }
+        self.parameters();
+        self.rules();
+        self.start();
+        self.teams();
+        self.agents();
+        for n in 0..self.choices.below(3) {
+            self.reward(n);
+        }
+        for n in 0..self.choices.below(4) {
+            self.ending(n);
+        }
+        for n in 0..self.choices.below(4) {
+            self.record(n);
+        }
+        if self.choices.rarely(3) {
+            self.observation();
+        }
+        self.line("end limit 100 steps");
+        self.line("}");
+    }
+
+    fn line(&mut self, text: &str) {
+        let _ = writeln!(self.out, "{text}");
+    }
+
+    fn parameters(&mut self) {
+        for n in 0..self.choices.below(3) {
+            let value = self.choices.between(0.0, 1.0);
+            self.line(&format!("param k{n}: number = {value:.2} in 0..1"));
+            self.numbers.push(format!("k{n}"));
+        }
+        for n in 0..self.choices.below(4) {
+            let value = match self.choices.below(6) {
+                0 => "uniform(-1, 1)".to_owned(),
+                1 => "normal(0, 0.5)".to_owned(),
+                2 => "truncated_normal(0, 1, -1, 1)".to_owned(),
+                3 => "integer(-3, 3)".to_owned(),
+                4 => "choice(0.1: 3, 0.5: 1, -0.2: 2)".to_owned(),
+                _ => "alternate(-0.5, 0.5)".to_owned(),
+            };
+            self.line(&format!("let d{n} = {value}"));
+            self.numbers.push(format!("d{n}"));
+        }
+    }
+
+    fn rules(&mut self) {
+        const SWITCHES: &[&str] = &[
+            "offside",
+            "fouls",
+            "cards",
+            "penalties",
+            "kickoff_circle",
+            "back_pass",
+            "fatigue",
+            "stochastic",
+            "assist",
+            "anti_stalling",
+            "grf_keeper",
+        ];
+        let mut rules: Vec<String> = Vec::new();
+        for _ in 0..self.choices.below(5) {
+            let (rule, switch) = (self.choices.one(SWITCHES), self.choices.one(&["off", "on"]));
+            if !rules.iter().any(|other| other.starts_with(rule)) {
+                rules.push(format!("{rule}: {switch}"));
+            }
+        }
+        if self.choices.rarely(4) {
+            let steps = 1 + self.choices.below(60);
+            rules.push(format!("half_time: {steps} steps"));
+        }
+        if self.choices.rarely(8) {
+            rules.push("physics: full".to_owned());
+        }
+        self.line(&format!("rules {{ {} }}", rules.join(", ")));
+    }
+
+    fn agents(&mut self) {
+        let mut sides = Vec::new();
+        for (side, name) in ["left", "right"].into_iter().enumerate() {
+            let n = self.squads[side].len();
+            let who = match self.choices.below(5) {
+                0 => usize::from(side == 0).min(n).to_string(),
+                1 => "all".to_owned(),
+                2 if n > 0 => format!("[{}]", self.squads[side][..=self.choices.below(n)].join(", ")),
+                3 => self.choices.below(n + 1).to_string(),
+                _ => "0".to_owned(),
+            };
+            sides.push(format!("{name}: {who}"));
+        }
+        if self.choices.rarely(4) {
+            sides.push("others: hold".to_owned());
+        }
+        if self.choices.rarely(4) {
+            sides.push("switching: fixed".to_owned());
+        }
+        self.line(&format!("agents {{ {} }}", sides.join(", ")));
+    }
+}

@@ -1,0 +1,64 @@
+//! Any text through the compiler, its reports and the formatter.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use setpiece::Error;
+use setpiece::dsl::problem::{Problem, Severity};
+use setpiece::dsl::report::{Format, render};
+use setpiece::dsl::source::{Source, Sources};
+use setpiece::scenario::{Scenario, file, verify};
+
+const NAME: &str = "<fuzz>";
+
+fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
+    let Ok(text) = std::str::from_utf8(data) else { return };
+    let scenario = match setpiece::compile_text(text, NAME) {
+        Ok(loaded) => {
+            assert!(loaded.warnings.iter().all(|problem| problem.severity() == Severity::Warning));
+            report(&loaded.warnings, &loaded.sources);
+            survives(&loaded.scenario);
+            Some(loaded.scenario)
+        }
+        Err(Error::Compile(failure)) => {
+            let failed = failure.problems.iter().any(|problem| problem.severity() == Severity::Error);
+            assert!(failed, "no scenario, and no error says why");
+            report(&failure.problems, &failure.sources);
+            None
+        }
+        Err(error) => panic!("a text is refused otherwise than by its problems: {error}"),
+    };
+    let source = Source { name: NAME.to_owned(), text: text.into() };
+    let Ok(formatted) = setpiece::dsl::format::format(&source) else {
+        assert!(scenario.is_none(), "what compiles can be formatted");
+        return;
+    };
+    let again = Source { name: NAME.to_owned(), text: formatted.as_str().into() };
+    let again = setpiece::dsl::format::format(&again).expect("what was formatted can be formatted");
+    assert_eq!(formatted, again, "what was formatted is its own format");
+    if let Some(scenario) = scenario {
+        let other = setpiece::compile_text(&formatted, NAME).expect("what was formatted compiles as before");
+        assert_eq!(file::to_json(&scenario), file::to_json(&other.scenario), "what was formatted says the same");
+    }
+});
+
+/// Problems point into their files, and can be told in both forms.
+fn report(problems: &[Problem], sources: &Sources) {
+    for label in problems.iter().flat_map(|problem| &problem.labels) {
+        let source = sources.get(label.span.file).expect("a label in a file");
+        let range = label.span.start as usize..label.span.end as usize;
+        assert!(source.text.get(range).is_some(), "{label:?} points outside its file");
+    }
+    let human = render(problems, sources, Format::Human { color: false, width: 80 });
+    assert_eq!(human.is_empty(), problems.is_empty(), "a report says something");
+    let json = render(problems, sources, Format::Json);
+    let list: Vec<serde_json::Value> = serde_json::from_str(&json).expect("a report in JSON");
+    assert_eq!(list.len(), problems.len(), "a report in JSON holds every problem");
+}
+
+/// A compiled scenario holds what a loaded one must, and comes back from its file.
+fn survives(scenario: &Scenario) {
+    verify::verify(scenario).expect("a compiled scenario holds");
+    let text = file::to_json(scenario).expect("a compiled scenario can be written");
+    let again = file::from_json(&text).expect("a written scenario can be read");
+    assert_eq!(file::to_json(&again).as_ref(), Ok(&text), "a scenario that was read is what was written");
+}

@@ -421,8 +421,8 @@ def test_failing_script_says_where(pitch_file: PitchFile, tmp_path: Path) -> Non
 
 
 def test_requirements_that_are_never_met() -> None:
-    text = "scenario s {\n ball at (uniform(0, 0.1), 0)\n team left { CM at (0, 0) }\n"
-    env = setpiece.make(setpiece.compile(text + ' require ball.x > 0.5 as "too far"\n end limit 10 steps\n}\n'))
+    text = "scenario s {\n param far = 0.5 in 0..1\n ball at (uniform(0, 0.1), 0)\n team left { CM at (0, 0) }\n"
+    env = setpiece.make(setpiece.compile(text + ' require ball.x > far as "too far"\n end limit 10 steps\n}\n'))
     with pytest.raises(setpiece.DrawError, match="too far"):
         env.reset(seed=1)
 

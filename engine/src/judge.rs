@@ -35,7 +35,7 @@ use crate::state::Match;
 use known::Known;
 use machine::Input;
 use observation::ObservationJudge;
-use script::Scripts;
+use script::{Scene, Scripts};
 use setpiece_scenario::{Endings, Reward, RewardBody, Scenario};
 use std::sync::Arc;
 
@@ -119,18 +119,18 @@ impl Judge {
     /// # Errors
     /// A hook that failed; the episode can't go on.
     pub fn step(&mut self, game: &Match, events: &mut Events) -> Result<Option<Outcome>, ScriptError> {
-        let mut scene = self.known.scene(|| View::of(game), &self.prev, events.as_slice());
-        let shared = self.known.input(Sight::Live(game), &self.prev, endings::judged_side(game));
-        let shown = scene.as_ref().map(|scene| (self.known.scripts(), scene));
-        let outcome = self.endings.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
+        let side = endings::judged_side(game);
+        let mut scene = self.known.show(|| View::of(game), &self.prev, events.as_slice());
+        let input = Input { events: events.as_slice(), ..self.known.input(Sight::Live(game), &self.prev, side) };
+        let outcome = self.endings.step(game, &input, shown(&self.known, scene.as_ref()))?;
         if let Some(outcome) = &outcome {
             endings::announce(outcome, game, events);
-            scene = scene.map(|scene| Arc::new(scene.with_events(events.as_slice())));
+            drop(scene);
+            scene = self.known.show(|| View::of(game), &self.prev, events.as_slice());
         }
-        let shown = scene.as_ref().map(|scene| (self.known.scripts(), scene));
-        self.rewards.step(game, &Input { events: events.as_slice(), ..shared }, shown)?;
-        self.records.step(game, &Input { events: events.as_slice(), ..shared });
-        self.known.settle(scene);
+        let input = Input { events: events.as_slice(), ..self.known.input(Sight::Live(game), &self.prev, side) };
+        self.rewards.step(game, &input, shown(&self.known, scene.as_ref()))?;
+        self.records.step(game, &input);
         Ok(outcome)
     }
 
@@ -141,6 +141,11 @@ impl Judge {
         }
         self.prev.keep(game, self.memory);
     }
+}
+
+/// What a judge's scripts are shown.
+fn shown<'a>(known: &'a Known, scene: Option<&'a Arc<Scene>>) -> Option<(&'a Scripts, &'a Arc<Scene>)> {
+    scene.map(|scene| (known.scripts(), scene))
 }
 
 /// How much of a state must be kept for the next step's `prev`.

@@ -66,22 +66,32 @@ const SHAPING: &str = "reward shaping {
         give -0.001 * me.fatigue as \"fatigue\"
     }";
 
-const SCRIPT: &str = "reward script rhai \"\"\"
+/// Twenty operations: operators, assignments, calls and properties.
+const SCRIPT_WITH_HELPERS: &str = "reward script rhai \"\"\"
         fn reward(ctx, now, prev, events) {
-            let gap = distance(now.ball, now.them.goal);
-            let before = distance(prev.ball, prev.them.goal);
-            let r = (before - gap) * 0.02;
+            let ball = now.ball;
+            let goal = now.them.goal;
+            let gap = distance(ball, goal);
+            let r = (distance(prev.ball, goal) - gap) * 0.02;
+            if gap < 20.0 && speed(ball) > 5.0 { r += 0.005 * speed(ball); }
+            r + 0.01 * smoothstep(5.0, 30.0, gap) - clamp(gap, 0.0, 0.001)
+        }
+    \"\"\"";
+
+/// Twenty operations, twelve of them properties.
+const SCRIPT_WITH_GETTERS: &str = "reward script rhai \"\"\"
+        fn reward(ctx, now, prev, events) {
+            let r = (now.ball.x - prev.ball.x) * 0.5;
             if now.me.has_ball { r += 0.01; }
-            if gap < 20.0 && now.ball.speed > 5.0 { r += 0.005 * now.ball.speed; }
+            if now.ball.speed > -1.0 { r += 0.005 * now.me.speed; }
             r - 0.001 * now.me.fatigue
         }
     \"\"\"";
 
 /// A judge in the middle of a match, ready to judge one step again and again.
 fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) {
-    let text = format!(
-        "scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ left: {agents} }}  {rewards} }}"
-    );
+    let text =
+        format!("scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ {agents} }}  {rewards} }}");
     let scenario = compiled(&text).scenario;
     let mut environment = Environment::new(scenario.clone(), EnvironmentOptions::default())
         .unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -122,11 +132,12 @@ fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) 
 }
 
 fn judges(c: &mut Criterion<CpuTime>) {
-    judging(c, "judge/nothing", "", "1");
-    judging(c, "judge/checkpoints", "reward checkpoints", "1");
-    judging(c, "judge/shaping_of_ten_terms", SHAPING, "1");
-    judging(c, "judge/shaping_of_ten_terms_11_agents", SHAPING, "all");
-    judging(c, "judge/script", SCRIPT, "1");
+    judging(c, "judge/nothing", "", "left: 1");
+    judging(c, "judge/checkpoints", "reward checkpoints", "left: 1");
+    judging(c, "judge/shaping_of_ten_terms", SHAPING, "left: 1");
+    judging(c, "judge/shaping_of_ten_terms_22_agents", SHAPING, "left: all  right: all");
+    judging(c, "judge/script_with_helpers", SCRIPT_WITH_HELPERS, "left: 1");
+    judging(c, "judge/script_with_getters", SCRIPT_WITH_GETTERS, "left: 1");
 }
 
 criterion_group! {

@@ -91,7 +91,7 @@ impl Actors {
             return Ok(());
         }
         let now = View::of(game);
-        let scene = self.known.scene(|| now, &self.prev, events);
+        let scene = self.known.show(|| now, &self.prev, events);
         let (seed, index) = self.known.key();
         let plans = self.plans.clone();
         for actor in &mut self.list {
@@ -125,7 +125,6 @@ impl Actors {
                 game.play.acting[id.index()].chosen = Some(chosen);
             }
         }
-        self.known.settle(scene);
         self.prev = now;
         Ok(())
     }

@@ -2,24 +2,23 @@
 
 use crate::event::Event;
 use crate::judge::machine::Input;
-use crate::judge::script::{Params, Scene, Scripts};
+use crate::judge::script::{Scene, Scripts};
 use crate::judge::view::{Sight, View};
 use crate::random::{Purpose, Stream};
 use crate::start::Drawn;
 use setpiece_scenario::vocabulary::Team;
 use std::sync::Arc;
 
-/// Parameters, `let`s, and the stream that scripts draw from.
+/// Parameters, `let`s, and what scripts are shown.
 #[derive(Clone, Debug)]
 pub struct Known {
     scripts: Scripts,
     /// Whether a script is asked at all.
     scripted: bool,
     purpose: Purpose,
-    random: Stream,
     params: Vec<f64>,
-    /// The same as scripts see them.
-    shown: Params,
+    /// What scripts are shown, with their parameters and their stream; none where no script is asked.
+    scene: Option<Arc<Scene>>,
     lets: Vec<f64>,
     seed: u64,
     index: u64,
@@ -28,30 +27,20 @@ pub struct Known {
 impl Known {
     /// Nothing yet; `purpose` says which stream scripts draw from.
     pub fn new(scripts: Scripts, scripted: bool, purpose: Purpose) -> Known {
-        Known {
-            scripts,
-            scripted,
-            purpose,
-            random: Stream::new(0, 0, purpose),
-            params: Vec::new(),
-            shown: Params::default(),
-            lets: Vec::new(),
-            seed: 0,
-            index: 0,
-        }
+        Known { scripts, scripted, purpose, params: Vec::new(), scene: None, lets: Vec::new(), seed: 0, index: 0 }
     }
 
     /// Begins an episode.
     pub fn begin(&mut self, drawn: &Drawn, params: &[f64]) {
         self.params.clear();
         self.params.extend_from_slice(params);
-        if self.scripted {
-            self.shown = self.scripts.params(params);
-        }
         self.lets.clear();
         self.lets.extend_from_slice(&drawn.lets);
         (self.seed, self.index) = (drawn.seed, drawn.index);
-        self.random = Stream::new(drawn.seed, drawn.index, self.purpose);
+        self.scene = self.scripted.then(|| {
+            let random = Stream::new(drawn.seed, drawn.index, self.purpose);
+            Arc::new(Scene::new(View::EMPTY, View::EMPTY, &[], self.scripts.params(params), random, self.key()))
+        });
     }
 
     /// The scripts.
@@ -78,16 +67,16 @@ impl Known {
         }
     }
 
-    /// What scripts are shown; none where no script is asked.
-    pub fn scene(&self, now: impl FnOnce() -> View, prev: &View, events: &[Event]) -> Option<Arc<Scene>> {
-        let scene = || Scene::new(now(), *prev, events, self.shown.clone(), self.random.clone(), self.key());
-        self.scripted.then(|| Arc::new(scene()))
-    }
-
-    /// Takes the stream back from a scene, as far as scripts have drawn from it.
-    pub fn settle(&mut self, scene: Option<Arc<Scene>>) {
-        if let Some(scene) = scene {
-            self.random = scene.random();
+    /// Shows scripts a step; none where no script is asked.
+    ///
+    /// A script may keep in its memory what it was shown, and a clone of the environment shares it: then the next
+    /// step is shown by a scene of its own.
+    pub fn show(&mut self, now: impl FnOnce() -> View, prev: &View, events: &[Event]) -> Option<Arc<Scene>> {
+        let scene = self.scene.as_mut()?;
+        match Arc::get_mut(scene) {
+            Some(scene) => scene.show(now(), prev, events),
+            None => *scene = Arc::new(scene.followed_by(now(), prev, events)),
         }
+        Some(scene.clone())
     }
 }

@@ -10,6 +10,7 @@
 //! - `fn act(ctx, me, now)` names the action of the player it plays, each step.
 
 mod api;
+mod call;
 mod check;
 mod host;
 mod place;
@@ -18,8 +19,9 @@ pub use api::{Argument, Member, Perspective, Scene, Subject, functions, members}
 pub use check::{ScriptFault, ScriptFaultKind, check_script};
 
 use api::{Sight, events_of};
+use call::Code;
 use place::hook_position;
-use rhai::{AST, CallFnOptions, Dynamic, EvalAltResult, Scope};
+use rhai::{Array, Dynamic, EvalAltResult};
 use setpiece_scenario::vocabulary::{Action, Type};
 use setpiece_scenario::{Param, Scenario};
 use std::sync::Arc;
@@ -100,14 +102,18 @@ pub struct Scripts {
 struct Compiled {
     name: String,
     source: String,
-    ast: AST,
+    code: Code,
     uses_me: bool,
+    /// Whether a hook looks at the step's events.
+    reads_events: bool,
     /// Whether it has a `reset` hook.
     resets: bool,
 }
 
 /// The hook that is called before a script's first hook of an episode.
 const RESET: &str = "reset";
+const REWARD: &str = "reward";
+const DONE: &str = "done";
 
 impl Scripts {
     /// Compiles a scenario's scripts.
@@ -128,13 +134,25 @@ impl Scripts {
                 name: script.name.clone(),
                 source: script.source.clone(),
                 uses_me: check::mentions_me(&ast),
-                ast,
+                reads_events: [REWARD, DONE].iter().any(|hook| check::mentions_events(&ast, hook)),
+                code: Code::of(ast),
             })
         };
         Ok(Scripts {
             list: scenario.scripts.iter().map(compile).collect::<Result<_, _>>()?,
             params: scenario.params.clone().into(),
         })
+    }
+
+    #[cfg(test)]
+    fn walked(mut self) -> Scripts {
+        Arc::get_mut(&mut self.list).into_iter().flatten().for_each(|compiled| compiled.code.walk());
+        self
+    }
+
+    #[cfg(test)]
+    fn is_lowered(&self) -> bool {
+        self.list.iter().all(|compiled| compiled.code.is_lowered())
     }
 
     /// Whether a script asks about the agent's own player, so that it must be run for each agent.
@@ -160,13 +178,13 @@ impl Scripts {
         perspective: Perspective,
         memory: &mut Memory,
     ) -> Result<f64, ScriptError> {
-        let value = self.call(script, "reward", scene, perspective, memory)?;
+        let value = self.call(script, REWARD, scene, perspective, memory)?;
         match value.as_float() {
             Ok(number) => Ok(number),
             Err(_) => value
                 .as_int()
                 .map(|whole| whole as f64)
-                .map_err(|found| self.wrong_type(script, "reward", "a number", found, scene)),
+                .map_err(|found| self.wrong_type(script, REWARD, "a number", found, scene)),
         }
     }
 
@@ -181,14 +199,14 @@ impl Scripts {
         perspective: Perspective,
         memory: &mut Memory,
     ) -> Result<Done, ScriptError> {
-        let value = self.call(script, "done", scene, perspective, memory)?;
+        let value = self.call(script, DONE, scene, perspective, memory)?;
         match value.as_bool() {
             Ok(true) => Ok(Done::Yes),
             Ok(false) => Ok(Done::No),
             Err(_) => value
                 .into_string()
                 .map(Done::Labelled)
-                .map_err(|found| self.wrong_type(script, "done", "true, false or a label", found, scene)),
+                .map_err(|found| self.wrong_type(script, DONE, "true, false or a label", found, scene)),
         }
     }
 
@@ -210,14 +228,7 @@ impl Scripts {
         let seen = own.as_ref().unwrap_or(scene);
         let now = Sight::now(seen, perspective);
         compiled.begin(&now, memory)?;
-        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
-        let called = host::engine().call_fn_with_options::<Dynamic>(
-            options,
-            &mut Scope::new(),
-            &compiled.ast,
-            HOOK,
-            (now.ctx(), now.me(), now.clone()),
-        );
+        let called = compiled.code.call(HOOK, (now.ctx(), now.me(), now.clone()), &mut memory.this);
         if let Some(own) = &own {
             scene.take_random(own);
         }
@@ -243,11 +254,9 @@ impl Scripts {
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Dynamic::UNIT) };
         let now = Sight::now(scene, perspective);
         compiled.begin(&now, memory)?;
-        let arguments = (now.ctx(), now.clone(), Sight::prev(scene, perspective), events_of(&now));
-        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
-        host::engine()
-            .call_fn_with_options::<Dynamic>(options, &mut Scope::new(), &compiled.ast, hook, arguments)
-            .map_err(|error| compiled.fault(hook, error, scene))
+        let events = if compiled.reads_events { events_of(&now) } else { Array::new() };
+        let arguments = (now.ctx(), now.clone(), Sight::prev(scene, perspective), events);
+        compiled.code.call(hook, arguments, &mut memory.this).map_err(|error| compiled.fault(hook, error, scene))
     }
 
     fn wrong_type(&self, script: u32, hook: &str, expected: &str, found: &str, scene: &Scene) -> ScriptError {
@@ -274,9 +283,8 @@ impl Compiled {
         if std::mem::replace(&mut memory.begun, true) || !self.resets {
             return Ok(());
         }
-        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(&mut memory.this);
-        host::engine()
-            .call_fn_with_options::<Dynamic>(options, &mut Scope::new(), &self.ast, RESET, (now.ctx(),))
+        self.code
+            .call(RESET, (now.ctx(),), &mut memory.this)
             .map(drop)
             .map_err(|error| self.fault(RESET, error, now.scene()))
     }

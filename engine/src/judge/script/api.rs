@@ -40,11 +40,17 @@ impl Scene {
         Scene { now, prev, events: events.to_vec(), params, random: Mutex::new(random), seed: key.0, index: key.1 }
     }
 
-    /// The same scene after further events.
+    /// Turns to another step.
+    pub fn show(&mut self, now: View, prev: &View, events: &[Event]) {
+        (self.now, self.prev) = (now, *prev);
+        self.events.clear();
+        self.events.extend_from_slice(events);
+    }
+
+    /// A scene of another step, which goes on with the random numbers of this one.
     #[must_use]
-    pub fn with_events(&self, events: &[Event]) -> Scene {
-        let key = (self.seed, self.index);
-        Scene::new(self.now, self.prev, events, self.params.clone(), self.random(), key)
+    pub fn followed_by(&self, now: View, prev: &View, events: &[Event]) -> Scene {
+        Scene::new(now, *prev, events, self.params.clone(), self.random(), (self.seed, self.index))
     }
 
     /// The same scene with a behaviour's arguments among `ctx.params`.

@@ -91,6 +91,17 @@ pub(super) fn mentions_me(ast: &AST) -> bool {
     })
 }
 
+/// Whether a script looks at the events that its hook is given.
+pub(super) fn mentions_events(ast: &AST, hook: &str) -> bool {
+    let arguments = hook_arguments(hook).unwrap_or_default();
+    let Some(place) = arguments.iter().position(|(_, subject)| *subject == Subject::Events) else { return false };
+    let defined = ast.iter_functions().find(|f| f.name == hook && f.params.len() == arguments.len());
+    let Some(events) = defined.and_then(|f| f.params.get(place).copied()) else { return false };
+    !ast.walk(&mut |path: &[ASTNode]| {
+        !matches!(path.last(), Some(ASTNode::Expr(Expr::Variable(variable, ..))) if variable.1 == events)
+    })
+}
+
 fn check_hook(source: &str, hook: &str, ast: &AST) -> Option<ScriptFault> {
     let arguments = hook_arguments(hook)?;
     let wanted = arguments.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");

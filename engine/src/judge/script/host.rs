@@ -1,11 +1,11 @@
 //! The one Rhai engine of the process: what a script may use, and how much.
 
-use super::api;
+use super::{api, call};
 use rhai::packages::{
     ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage, BasicStringPackage,
     LogicPackage, MoreStringPackage, Package,
 };
-use rhai::{Engine, EvalAltResult, OptimizationLevel, ParseError, ParseErrorType, Position};
+use rhai::{Dynamic, Engine, EvalAltResult, OptimizationLevel, ParseError, ParseErrorType, Position};
 use std::sync::OnceLock;
 
 /// Most operations of one call of a hook, a few milliseconds.
@@ -27,16 +27,15 @@ pub(super) fn engine() -> &'static Engine {
     ENGINE.get_or_init(build)
 }
 
+rhai::def_package! {
+    /// What scripts have of Rhai itself, as one module: a function is found by one look.
+    Basics(module) : ArithmeticPackage, LogicPackage, BasicMathPackage, BasicStringPackage, MoreStringPackage,
+        BasicIteratorPackage, BasicArrayPackage, BasicMapPackage {}
+}
+
 fn build() -> Engine {
     let mut engine = Engine::new_raw();
-    ArithmeticPackage::new().register_into_engine(&mut engine);
-    LogicPackage::new().register_into_engine(&mut engine);
-    BasicMathPackage::new().register_into_engine(&mut engine);
-    BasicStringPackage::new().register_into_engine(&mut engine);
-    MoreStringPackage::new().register_into_engine(&mut engine);
-    BasicIteratorPackage::new().register_into_engine(&mut engine);
-    BasicArrayPackage::new().register_into_engine(&mut engine);
-    BasicMapPackage::new().register_into_engine(&mut engine);
+    Basics::new().register_into_engine(&mut engine);
     register_maths(&mut engine);
     api::register(&mut engine);
     for word in DISABLED {
@@ -45,7 +44,8 @@ fn build() -> Engine {
     engine.set_strict_variables(true);
     // Never higher: the optimiser would fold a call of `ctx.random()`.
     engine.set_optimization_level(OptimizationLevel::Simple);
-    engine.set_max_operations(OPERATIONS_MAX);
+    // Not Rhai's own limit: a machine that is used again goes on counting, and a closure counts from 0.
+    engine.on_progress(|_| (!call::count_operation()).then_some(Dynamic::UNIT));
     engine.set_max_call_levels(CALL_LEVELS_MAX);
     engine.set_max_expr_depths(EXPRESSION_DEPTH_MAX, EXPRESSION_DEPTH_MAX);
     engine.set_max_string_size(STRING_MAX);
@@ -119,7 +119,7 @@ pub(super) fn explain(error: Box<EvalAltResult>) -> (Option<(usize, usize)>, Str
 
 fn runtime_message(error: EvalAltResult) -> String {
     match error {
-        EvalAltResult::ErrorTooManyOperations(_) => {
+        EvalAltResult::ErrorTerminated(..) => {
             format!("more than {OPERATIONS_MAX} operations in one call: a loop doesn't end")
         }
         EvalAltResult::ErrorStackOverflow(_) => format!("calls nest deeper than {CALL_LEVELS_MAX}"),

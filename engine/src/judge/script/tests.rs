@@ -170,6 +170,99 @@ fn failures_name_their_place() {
     assert!(fail("let a = [1]; a[5]").line == 2);
 }
 
+/// Whatever a script does, its bytecode and Rhai's tree walker agree: values, memory, messages and places.
+#[test]
+fn bytecode_and_walker_agree() {
+    let events = [event(EventKind::Shot, Some(Team::Left), Some(1)), event(EventKind::Corner, Some(Team::Right), None)];
+    let mut lowered = 0;
+    for body in [
+        "now.ball.x + now.us.players[1].speed",
+        "let gap = distance(now.ball, now.them.goal); if gap < 20.0 && now.ball.speed > 5.0 { 1.0 } else { -gap }",
+        "angle(now.me, events[0]) + grf_distance(prev.ball, now.point(0.5, 0.1)) + distance(events[1], now.me)",
+        "this.n = (this.n ?? 0) + 1; this.seen = now.ball.x; this.n * 0.5 + this.seen",
+        "let n = 0; for (p, i) in now.players { if p.x > 0.0 { n += i; } else { continue; } } n",
+        "let a = [1, 2.5, now.ball]; a.push(4); a[1] + a[3] + a[2].x",
+        "now.us.players.filter(|p| p.role != \"GK\").len() * 0.1",
+        "let k = 2.0; let f = |x| x * k; f.call(3.0)",
+        "switch now.game_mode { \"corner\" => 1.0, \"normal\" if events.len > 1 => 2.0, _ => 0.0 }",
+        "let m = #{ a: #{ b: 1 } }; m.a.b += 2; `${m.a.b} and ${now.ball.x}`.len",
+        "helper(2) + helper(now.ball.x)",
+        "try { helper(()) } catch (e) { 3.0 }",
+        "let i = 0; while true { i += 1; if i > 10 { break; } } do { i -= 1; } until i < 5; i",
+        "ctx.random() + ctx.params.width + ctx.step + ctx.index",
+        "count(events, \"shot\", \"us\") + count(events, \"shot\", \"them\") * 10",
+        "let x = 1;\n  now.ball.heigth",
+        "distance(now.me, prev.ball.owner)",
+        "distance(now.me,\n 5)",
+        "throw \"no\"",
+        "let a = [1];\n a[5]",
+        "helper(())",
+        "\"far\"",
+        "this.a.b",
+        "loop { }",
+        "now.players.map(|p| { loop { } }).len",
+    ] {
+        let source = format!(
+            "fn helper(x) {{ if x == 2 {{ return 1.0; }} x * 3.0 }}\nfn reward(ctx, now, prev, events) {{\n{body}\n}}"
+        );
+        let (own, walked) = (scripts(&source), scripts(&source).walked());
+        lowered += u32::from(own.is_lowered());
+        let perspective = Perspective { us: Team::Left, me: Some(PlayerId(1)), agent: 0 };
+        let run = |scripts: &Scripts| {
+            let (mut memory, scene) = (Memory::default(), scene(&events));
+            let paid: Vec<_> = (0..3).map(|_| scripts.reward(0, &scene, perspective, &mut memory)).collect();
+            (paid, memory.this.to_string(), scene.random())
+        };
+        assert_eq!(format!("{:?}", run(&own)), format!("{:?}", run(&walked)), "{body}");
+    }
+    assert!(lowered > 18, "only {lowered} were lowered");
+}
+
+#[test]
+fn scripts_on_one_thread_do_not_mix() {
+    let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
+    let double = scripts("fn f(x) { x * 2 }\nfn reward(ctx, now, prev, events) { f(3) }");
+    let triple = scripts("fn f(x) { x * 3 }\nfn reward(ctx, now, prev, events) { f(3) }");
+    let broken = scripts("fn f(x) { throw x }\nfn reward(ctx, now, prev, events) { f(3) }");
+    let pay = |scripts: &Scripts| scripts.reward(0, &scene(&[]), perspective, &mut Memory::default());
+    for _ in 0..3 {
+        assert_eq!(pay(&double), Ok(6.0));
+        assert!(pay(&broken).is_err());
+        assert_eq!(pay(&triple), Ok(9.0));
+    }
+}
+
+#[test]
+fn every_call_has_operations_of_its_own() {
+    let scripts = scripts("fn reward(ctx, now, prev, events) { let n = 0; for i in 0..10000 { n += i; } n }");
+    let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
+    for _ in 0..40 {
+        assert_eq!(scripts.reward(0, &scene(&[]), perspective, &mut Memory::default()), Ok(49_995_000.0));
+    }
+    for body in [
+        "now.players.map(|p| { let n = 0; for i in 0..80000 { n += i; } n }).len",
+        "let n = 0; for i in 0..300000 { n += i; } n",
+    ] {
+        assert_eq!(fail(body).message, "more than 200000 operations in one call: a loop doesn't end");
+    }
+}
+
+/// A hook that doesn't look at the events is not handed any; one that does gets them wherever it looks.
+#[test]
+fn events_are_there_for_who_looks() {
+    let events = [event(EventKind::Goal, Some(Team::Left), Some(1))];
+    let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
+    for source in [
+        "fn reward(ctx, now, prev, happened) { happened.len }",
+        "fn n(list) { list.len }\nfn reward(ctx, now, prev, events) { n(events) }",
+        "fn reward(ctx, now, prev, events) { let f = || events.len; f.call() }",
+        "fn reward(ctx, now, prev, events) { `${events.len}`.parse_int() }",
+    ] {
+        let paid = scripts(source).reward(0, &scene(&events), perspective, &mut Memory::default());
+        assert_eq!(paid, Ok(1.0), "{source}");
+    }
+}
+
 fn faults(body: &str) -> Vec<(ScriptFaultKind, String, Option<String>)> {
     let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
     let of = |fault: ScriptFault| (fault.kind, source[fault.range].to_owned(), fault.help);

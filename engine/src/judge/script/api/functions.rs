@@ -162,17 +162,12 @@ pub(super) fn register(engine: &mut Engine) {
         let mut random = ctx.0.scene.random.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         random.unit_f64()
     });
-    engine.register_fn("distance", |a: Dynamic, b: Dynamic| -> Failable<f64> {
-        let (a, b) = (place(&a)?, place(&b)?);
-        Ok(libm::hypot(a.metres[0] - b.metres[0], a.metres[1] - b.metres[1]))
+    between(engine, "distance", apart_m);
+    between(engine, "grf_distance", |a, b| {
+        libm::hypot((a.metres[0] - b.metres[0]) / X_SCALE_M, (a.metres[1] - b.metres[1]) / Y_SCALE_M)
     });
-    engine.register_fn("grf_distance", |a: Dynamic, b: Dynamic| -> Failable<f64> {
-        let (a, b) = (place(&a)?, place(&b)?);
-        Ok(libm::hypot((a.metres[0] - b.metres[0]) / X_SCALE_M, (a.metres[1] - b.metres[1]) / Y_SCALE_M))
-    });
-    engine.register_fn("angle", |a: Dynamic, b: Dynamic| -> Failable<f64> {
-        let (a, b) = (place(&a)?, place(&b)?);
-        Ok(libm::atan2(a.side * (b.metres[1] - a.metres[1]), a.side * (b.metres[0] - a.metres[0])))
+    between(engine, "angle", |a, b| {
+        libm::atan2(a.side * (b.metres[1] - a.metres[1]), a.side * (b.metres[0] - a.metres[0]))
     });
     engine.register_fn("nearest", nearest);
     engine.register_fn("pressed", |player: Player, within: f64| player.nearest_opponent_m() < within);
@@ -192,6 +187,22 @@ pub(super) fn register(engine: &mut Engine) {
     engine.register_fn("count", |events: Array, kind: &str| count(&events, kind, None));
     engine.register_fn("count", |events: Array, kind: &str, team: &str| count(&events, kind, Some(team)));
     register_equality(engine);
+}
+
+/// Registers a function of two places.
+fn between(engine: &mut Engine, name: &str, f: fn(Point, Point) -> f64) {
+    fn from<A: Placed>(engine: &mut Engine, name: &str, f: fn(Point, Point) -> f64) {
+        engine.register_fn(name, move |a: &mut A, b: Point| f(a.place(), b));
+        engine.register_fn(name, move |a: &mut A, b: Player| f(a.place(), b.place()));
+        engine.register_fn(name, move |a: &mut A, b: Ball| f(a.place(), b.place()));
+        engine.register_fn(name, move |a: &mut A, b: Happening| f(a.place(), b.place()));
+    }
+    from::<Point>(engine, name, f);
+    from::<Player>(engine, name, f);
+    from::<Ball>(engine, name, f);
+    from::<Happening>(engine, name, f);
+    // What else comes gets an error that says what was expected. Rhai asks this one last.
+    engine.register_fn(name, move |a: Dynamic, b: Dynamic| -> Failable<f64> { Ok(f(place(&a)?, place(&b)?)) });
 }
 
 /// Things are equal when they are the same thing, whenever they were looked at.
@@ -242,23 +253,49 @@ fn apart_m(a: Point, b: Point) -> f64 {
     libm::hypot(a.metres[0] - b.metres[0], a.metres[1] - b.metres[1])
 }
 
+/// What has a place.
+trait Placed: Clone + Send + Sync + 'static {
+    fn place(&self) -> Point;
+}
+
+impl Placed for Point {
+    fn place(&self) -> Point {
+        *self
+    }
+}
+
+impl Placed for Player {
+    fn place(&self) -> Point {
+        self.point()
+    }
+}
+
+impl Placed for Ball {
+    fn place(&self) -> Point {
+        let [x, y, _] = self.0.view().ball;
+        self.0.point([x, y])
+    }
+}
+
+impl Placed for Happening {
+    fn place(&self) -> Point {
+        self.0.point([self.1.at.x, self.1.at.y])
+    }
+}
+
 /// The place of a player, the ball, an event or a point.
 fn place(of: &Dynamic) -> Failable<Point> {
-    if let Some(point) = of.read_lock::<Point>() {
-        return Ok(*point);
+    fn of_a<T: Placed>(of: &Dynamic) -> Option<Point> {
+        of.read_lock::<T>().map(|it| it.place())
     }
-    if let Some(player) = of.read_lock::<Player>() {
-        return Ok(player.point());
-    }
-    if let Some(ball) = of.read_lock::<Ball>() {
-        let [x, y, _] = ball.0.view().ball;
-        return Ok(ball.0.point([x, y]));
-    }
-    if let Some(event) = of.read_lock::<Happening>() {
-        return Ok(event.0.point([event.1.at.x, event.1.at.y]));
-    }
-    let found = if of.is_unit() { "nobody" } else { of.type_name() };
-    Err(format!("expected a player, a point or the ball, found {found}").into())
+    of_a::<Point>(of)
+        .or_else(|| of_a::<Player>(of))
+        .or_else(|| of_a::<Ball>(of))
+        .or_else(|| of_a::<Happening>(of))
+        .ok_or_else(|| {
+            let found = if of.is_unit() { "nobody" } else { of.type_name() };
+            format!("expected a player, a point or the ball, found {found}").into()
+        })
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "Rhai passes arguments by value")]

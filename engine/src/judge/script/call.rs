@@ -1,0 +1,72 @@
+//! Calls a script's functions: as Rhai's bytecode where all of it can be lowered, else by Rhai's tree walker.
+
+use super::host::{self, OPERATIONS_MAX};
+use rhai::grain::{Compiler, Program, Vm};
+use rhai::{AST, CallFnOptions, Dynamic, EvalAltResult, FuncArgs, Scope};
+use std::cell::{Cell, RefCell};
+
+/// A script, ready to be called.
+#[derive(Debug)]
+pub(super) struct Code {
+    ast: AST,
+    /// Its bytecode; none where some of it must be walked.
+    program: Option<Program<'static>>,
+}
+
+thread_local! {
+    /// A machine keeps what it found about the engine's functions; scripts' own functions are not in it.
+    static MACHINE: RefCell<Option<Vm<'static>>> = const { RefCell::new(None) };
+    /// Operations that the present call may still use.
+    static LEFT: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Counts an operation of the present call; `false` where it has none left.
+pub(super) fn count_operation() -> bool {
+    LEFT.with(|left| {
+        left.set(left.get().saturating_sub(1));
+        left.get() > 0
+    })
+}
+
+impl Code {
+    pub(super) fn of(ast: AST) -> Code {
+        let program = Compiler::new().compile(&ast);
+        // A closure outlives its machine's frame, and what is not lowered is found by name: both are the walker's.
+        let whole = program.residual_count() == 0 && !program.makes_fn_pointers();
+        Code { ast, program: whole.then_some(program) }
+    }
+
+    /// Leaves it to the tree walker.
+    #[cfg(test)]
+    pub(super) fn walk(&mut self) {
+        self.program = None;
+    }
+
+    #[cfg(test)]
+    pub(super) fn is_lowered(&self) -> bool {
+        self.program.is_some()
+    }
+
+    /// Calls a function; `this` is bound to it.
+    pub(super) fn call(
+        &self,
+        name: &str,
+        arguments: impl FuncArgs,
+        this: &mut Dynamic,
+    ) -> Result<Dynamic, Box<EvalAltResult>> {
+        LEFT.with(|left| left.set(OPERATIONS_MAX + 1));
+        let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(this);
+        let scope = &mut Scope::new();
+        let Some(program) = &self.program else {
+            return host::engine().call_fn_with_options(options, scope, &self.ast, name, arguments);
+        };
+        let kept = MACHINE.with(|machine| machine.borrow_mut().take());
+        let mut machine = kept.unwrap_or_else(|| Vm::new(host::engine()));
+        let value = machine.call_fn_with_options(options, scope, program, name, arguments);
+        // One that failed is not trusted with another call.
+        if value.is_ok() {
+            MACHINE.with(|kept| *kept.borrow_mut() = Some(machine));
+        }
+        value
+    }
+}

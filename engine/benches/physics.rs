@@ -1,56 +1,18 @@
 //! What a tick of the ball costs: free, at the goal, at a body, and with rapier on every tick.
 //!
-//! In thread CPU time, so that a busy machine counts little. The kernel books it by its own tick (4 ms), hence the flat
-//! samples of 150 ms.
+//! In thread CPU time, so that a busy machine counts little.
 #![allow(missing_docs, reason = "criterion's macros write the entry point")]
-#![allow(clippy::expect_used, reason = "a bench without a clock has nothing to say")]
 
-use criterion::measurement::{Measurement, ValueFormatter, WallTime};
+#[path = "../../setpiece/benches/measure/cpu.rs"]
+mod cpu;
+
+use cpu::CpuTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, criterion_group, criterion_main};
 use glam::{Vec2, Vec3};
 use setpiece_engine::physics::{Body, Scratch, advance_ball, forecast};
 use setpiece_engine::state::Ball;
 use std::hint::black_box;
 use std::time::Duration;
-
-/// CPU time of this thread.
-struct CpuTime(WallTime);
-
-/// Nanoseconds that this thread has run; Linux only.
-fn cpu_ns() -> u64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("the kernel counts CPU time");
-    text.split_whitespace().next().and_then(|ns| ns.parse().ok()).expect("nanoseconds come first")
-}
-
-impl Measurement for CpuTime {
-    type Intermediate = u64;
-    type Value = Duration;
-
-    fn start(&self) -> u64 {
-        cpu_ns()
-    }
-
-    fn end(&self, start: u64) -> Duration {
-        // At least a nanosecond: criterion divides by it.
-        Duration::from_nanos((cpu_ns() - start).max(1))
-    }
-
-    fn add(&self, one: &Duration, other: &Duration) -> Duration {
-        *one + *other
-    }
-
-    fn zero(&self) -> Duration {
-        Duration::ZERO
-    }
-
-    fn to_f64(&self, value: &Duration) -> f64 {
-        value.as_nanos() as f64
-    }
-
-    fn formatter(&self) -> &dyn ValueFormatter {
-        self.0.formatter()
-    }
-}
 
 const FLYING: Ball =
     Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::new(20.0, 3.0, 4.0), spin: Vec3::new(2.0, -15.0, 8.0) };
@@ -93,7 +55,7 @@ fn ticks(c: &mut Criterion<CpuTime>) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default().with_measurement(CpuTime(WallTime)).sample_size(20)
+    config = Criterion::default().with_measurement(CpuTime).sample_size(20)
         .warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3));
     targets = ticks
 }

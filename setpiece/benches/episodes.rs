@@ -1,4 +1,4 @@
-//! Steps per CPU-second, resets and compilation.
+//! Steps per CPU-second, and resets.
 //!
 //! Times are the thread's CPU time, so that a busy machine changes little. Steps are played by the bot on one core, with
 //! the simple115v2 observation of every step written, as an agent would have it. Throughput is steps per CPU-second.
@@ -12,15 +12,11 @@
 mod cpu;
 
 use cpu::CpuTime;
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use setpiece::dsl::source::Source;
-use setpiece::dsl::{CompileOptions, Prelude, compile};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Physics, Scratch};
 use setpiece::engine::observe;
-use setpiece::files::FileLoader;
 use setpiece::scenario::Action;
 use std::hint::black_box;
-use std::path::PathBuf;
 use std::time::Duration;
 
 /// Steps of one sample.
@@ -77,36 +73,6 @@ fn resets(c: &mut Criterion<CpuTime>) {
     group.finish();
 }
 
-/// Every file of the library, with all that it imports but the prelude: from its text to what would be run.
-fn compilation(c: &mut Criterion<CpuTime>) {
-    let mut group = c.benchmark_group("compile");
-    let prelude = Prelude::load(&FileLoader);
-    let options = CompileOptions { prelude: Some(&prelude), ..CompileOptions::default() };
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../stdlib-scenarios");
-    let mut folders = vec![PathBuf::from(root)];
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
-            let path = entry.path();
-            if path.is_dir() { folders.push(path) } else { files.push(path) }
-        }
-    }
-    files.sort();
-    for path in files {
-        let name = path.strip_prefix(root).unwrap_or(&path).display().to_string();
-        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let source = Source { name: format!("std/{name}"), text: text.into() };
-        group.bench_function(name, |b| {
-            b.iter_batched(
-                || source.clone(),
-                |source| black_box(compile(source, &FileLoader, &options)),
-                BatchSize::SmallInput,
-            );
-        });
-    }
-    group.finish();
-}
-
 criterion_group! {
     name = all;
     config = Criterion::default()
@@ -114,6 +80,6 @@ criterion_group! {
         .sample_size(20)
         .warm_up_time(Duration::from_secs(1))
         .measurement_time(Duration::from_secs(3));
-    targets = steps, resets, compilation
+    targets = steps, resets
 }
 criterion_main!(all);

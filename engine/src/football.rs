@@ -4,8 +4,9 @@
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
 //! [`movement`] and [`separation`] move bodies; [`reach`] says who is at the ball first; [`touch`], [`duel`],
 //! [`slide`], [`kick`] and [`keeper`] play it; [`flight`] says what that means; [`referee`], [`offside`], [`foul`] stop
-//! play and [`mod@restart`] goes on.
+//! play, [`advantage`] lets it run, and [`mod@restart`] goes on.
 
+pub mod advantage;
 pub mod begin;
 pub mod body;
 pub mod clock;

@@ -39,7 +39,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     game.players[id.index()].vel *= 0.45;
     if near < 0.7 && foul::trips(game, id, rival) {
         game.players[rival.index()].body.strike_pose(Pose::Down, 45);
-        foul::call(game, events, id, rival, noise_severity(behind));
+        foul::call_or_let_run(game, events, id, rival, noise_severity(behind));
     }
 }
 

@@ -1,16 +1,22 @@
-//! Fouls and cards: what a trip costs.
+//! Fouls and cards: what a trip or a hand costs.
 
 use crate::event::Events;
-use crate::football::{noise, referee, report};
+use crate::football::play::Restart;
+use crate::football::{advantage, noise, referee, report};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{BOX_DEPTH_M, BOX_HALF_WIDTH_M, HALF_LENGTH_M, PENALTY_SPOT_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Stat, Team};
+use std::ops::Range;
 
 /// Severity above which a foul earns a yellow card.
 const YELLOW: f32 = 1.4;
 /// Severity above which a foul earns a red card.
 const RED: f32 = 1.97;
+/// At which heights a ball meets a player's arms, metres.
+const ARMS_M: Range<f32> = 0.6..1.5;
+/// How often it is one of them that the ball springs off there.
+const HANDBALL: f32 = 0.04;
 
 /// Whether a failed tackle brings the victim down.
 pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
@@ -22,8 +28,45 @@ pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
 
 /// Calls a foul of a severity: below 1 nothing, then a free kick or penalty, cards by severity.
 pub fn call(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) {
-    if !game.rule(Rule::Fouls) || severity <= 1.0 || game.dead {
+    if let Some(restart) = note(game, events, by, victim, severity) {
+        referee::stop(game, events, restart.mode, restart.team, restart.spot);
+    }
+}
+
+/// The same of a standing foul, which may be let run where it is worth no card and no penalty.
+pub fn call_or_let_run(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) {
+    match note(game, events, by, victim, severity) {
+        Some(restart) if restart.mode == GameMode::FreeKick && severity <= YELLOW => {
+            advantage::wait(game, by, victim, restart);
+        }
+        Some(restart) => referee::stop(game, events, restart.mode, restart.team, restart.spot),
+        None => {}
+    }
+}
+
+/// Calls a handball, rarely, where the ball has sprung off a player at the height of his arms; `shot`: off the way of
+/// an opponent's shot, which is worth a yellow card.
+pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool) {
+    let (spot, height) = (game.ball.pos.truncate(), game.ball.pos.z);
+    let own_keeper = game.player(by).role == Role::GK && in_box(spot, by.team());
+    if !game.rule(Rule::Handball) || game.dead || own_keeper || !ARMS_M.contains(&height) {
         return;
+    }
+    if noise::roll(game) >= HANDBALL {
+        return;
+    }
+    report::did(game, events, EventKind::Handball, by, None);
+    if shot && game.rule(Rule::Cards) {
+        caution(game, events, by);
+    }
+    let restart = award(game, spot, by.team());
+    referee::stop(game, events, restart.mode, restart.team, restart.spot);
+}
+
+/// Reports a foul and shows its card; what it is worth, if it is one.
+fn note(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) -> Option<Restart> {
+    if !game.rule(Rule::Fouls) || severity <= 1.0 || game.dead {
+        return None;
     }
     report::did(game, events, EventKind::Foul, by, Some(victim));
     if game.rule(Rule::Cards) {
@@ -33,15 +76,18 @@ pub fn call(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerI
             caution(game, events, by);
         }
     }
-    let spot = game.player(victim).pos;
-    let team = victim.team();
-    if in_box(spot, by.team()) && game.rule(Rule::Penalties) {
-        let side = team.side() as f32;
-        let penalty = Vec2::new((HALF_LENGTH_M - PENALTY_SPOT_M) as f32 * side, 0.0);
-        referee::stop(game, events, GameMode::Penalty, team, penalty);
+    Some(award(game, game.player(victim).pos, by.team()))
+}
+
+/// The penalty or free kick for an offence at a place.
+fn award(game: &Match, spot: Vec2, offenders: Team) -> Restart {
+    let team = offenders.other();
+    if in_box(spot, offenders) && game.rule(Rule::Penalties) {
+        let x = (HALF_LENGTH_M - PENALTY_SPOT_M) as f32 * team.side() as f32;
+        Restart { mode: GameMode::Penalty, team, spot: Vec2::new(x, 0.0) }
     } else {
         let spot = spot.clamp(Vec2::new(-52.0, -34.5), Vec2::new(52.0, 34.5));
-        referee::stop(game, events, GameMode::FreeKick, team, spot);
+        Restart { mode: GameMode::FreeKick, team, spot }
     }
 }
 

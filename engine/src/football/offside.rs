@@ -1,7 +1,7 @@
 //! Offside: who stands beyond the line when the ball is touched, and who is caught when he touches it next.
 
 use crate::event::Events;
-use crate::football::{referee, report};
+use crate::football::{advantage, referee, report};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Team};
@@ -41,6 +41,9 @@ pub fn caught(game: &mut Match, events: &mut Events, by: PlayerId) -> bool {
     let several = game.team(by.team().other()).count() > 1;
     if game.play.offside & (1 << by.0) == 0 || !several || !game.rule(Rule::Offside) {
         return false;
+    }
+    if advantage::called_back(game, events) {
+        return true;
     }
     report::did(game, events, EventKind::Offside, by, None);
     let spot = game.player(by).pos.clamp(Vec2::new(-52.0, -34.0), Vec2::new(52.0, 34.0));

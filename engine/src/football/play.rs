@@ -1,5 +1,6 @@
 //! What the game keeps of a match beside what everyone may see.
 
+use crate::football::advantage::Advantage;
 use crate::football::body::NEVER;
 use crate::football::forecast::Forecast;
 use crate::state::PlayerId;
@@ -19,6 +20,8 @@ pub struct Play {
     pub set_piece: Option<SetPiece>,
     /// The restart that a stop of play calls for.
     pub pending: Option<Restart>,
+    /// The foul that was let run.
+    pub advantage: Option<Advantage>,
     /// The pass under way.
     pub pass: Option<Flight>,
     /// The shot under way.
@@ -130,6 +133,7 @@ impl Play {
             others: Others::Bot,
             set_piece: None,
             pending: None,
+            advantage: None,
             pass: None,
             shot: None,
             hands: None,

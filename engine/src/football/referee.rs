@@ -2,7 +2,7 @@
 
 use crate::event::Events;
 use crate::football::play::Restart;
-use crate::football::{report, restart};
+use crate::football::{advantage, report, restart};
 use crate::physics::{self, Line};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
@@ -16,7 +16,9 @@ pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
     }
     if let Some(goal_of) = physics::crossed_goal_line(before, game.ball.pos) {
         goal(game, events, goal_of.other());
-    } else if let Some(line) = physics::left_pitch(game.ball.pos) {
+    } else if let Some(line) = physics::left_pitch(game.ball.pos)
+        && !advantage::called_back(game, events)
+    {
         out(game, events, line);
     }
 }
@@ -40,6 +42,9 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
         Some(id) => base.by(id),
         None => base,
     });
+    if game.play.advantage.is_some_and(|advantage| advantage.restart.team == scorers) {
+        advantage::played(game, events);
+    }
     stop(game, events, GameMode::KickOff, scorers.other(), Vec2::ZERO);
 }
 

@@ -107,6 +107,7 @@ fn calm(game: &mut Match) {
     game.play.kicked_by = None;
     game.play.offside = 0;
     game.play.kick_off = None;
+    game.play.advantage = None;
     game.play.save = [None; 2];
     for player in &mut game.players {
         player.vel = Vec2::ZERO;

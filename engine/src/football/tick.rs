@@ -3,7 +3,8 @@
 use crate::event::Events;
 use crate::football::play::ticks_since;
 use crate::football::{
-    flight, forecast, keeper, kick, movement, possession, reach, referee, report, separation, slide, touch,
+    advantage, flight, forecast, foul, keeper, kick, movement, possession, reach, referee, report, separation, slide,
+    touch,
 };
 use crate::physics::{self, Body, Contact, Scratch};
 use crate::state::{Match, PlayerId};
@@ -33,6 +34,9 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
         move_ball(game, events, scratch);
         possession::update(game, events);
         referee::judge(game, events, before);
+        if !game.dead {
+            advantage::watch(game, events);
+        }
     }
     game.tick += 1;
 }
@@ -59,7 +63,10 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
             game.play.save = [None; 2];
         }
         Some(Contact::Body(i)) if (i as usize) < PLAYERS_MAX => {
-            flight::deflected(game, events, PlayerId(i));
+            let by = PlayerId(i);
+            let shot = game.play.shot.is_some_and(|shot| shot.by.team() != by.team());
+            flight::deflected(game, events, by);
+            foul::handball(game, events, by, shot);
             forecast::renew(game);
         }
         _ => {}

@@ -3,7 +3,8 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
-use setpiece_engine::football::keeper;
+use setpiece_engine::event::Event;
+use setpiece_engine::football::{flight, foul, keeper};
 use setpiece_engine::state::{Ball, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Rule, Team};
 
@@ -164,4 +165,132 @@ fn half_time_gives_the_others_the_kick_off() {
         assert_eq!(bench.seen(EventKind::FullTime).is_some(), step == 60);
     }
     assert_eq!(halves, 1);
+}
+
+/// A bench where nobody but the named stands near anything.
+fn alone(rules: &[(Rule, f64)], seed: u64) -> Bench {
+    let mut start = drawn(Layout::Eleven, seed);
+    for (rule, value) in rules {
+        start.rules[rule.index()] = *value;
+    }
+    let mut bench = Bench::of(&start);
+    for (i, player) in bench.game.players.iter_mut().enumerate() {
+        player.pos = Vec2::new(if i < 11 { -40.0 } else { -50.0 }, 3.0 * (i % 11) as f32 - 15.0);
+    }
+    bench
+}
+
+/// A standing foul of the right man on the left one, who has the ball.
+fn fouled(bench: &mut Bench) {
+    bench.game.players[LEFT_MAN.index()].pos = Vec2::new(10.0, 5.0);
+    bench.game.players[RIGHT_MAN.index()].pos = Vec2::new(10.8, 5.0);
+    bench.game.ball = Ball { pos: Vec3::new(10.3, 5.0, 0.11), vel: Vec3::ZERO, spin: Vec3::ZERO };
+    (bench.game.last_touch, bench.game.possession) = (Some(LEFT_MAN), Some(Team::Left));
+    bench.game.owner = Some(LEFT_MAN);
+    foul::call_or_let_run(&mut bench.game, &mut bench.events, RIGHT_MAN, LEFT_MAN, 1.2);
+    assert_eq!(bench.seen(EventKind::Foul).unwrap().to, Some(LEFT_MAN));
+    assert!(!bench.game.dead && bench.seen(EventKind::FreeKick).is_none(), "it was let run");
+}
+
+/// Plays until play stops or an event is seen.
+fn until(bench: &mut Bench, steps: usize, kind: EventKind) -> Option<usize> {
+    (1..=steps).find(|_| {
+        bench.step(Action::BuiltinAi);
+        bench.game.dead || bench.seen(kind).is_some()
+    })
+}
+
+#[test]
+fn a_foul_is_called_back_where_the_advantage_is_lost() {
+    let mut bench = alone(&[], 0);
+    fouled(&mut bench);
+    bench.game.players[LEFT_MAN.index()].pos = Vec2::new(-40.0, 20.0);
+    (bench.game.last_touch, bench.game.possession) = (Some(RIGHT_MAN), Some(Team::Right));
+    assert_eq!(until(&mut bench, 20, EventKind::FreeKick), Some(7), "after 600 ms");
+    let awarded = bench.seen(EventKind::FreeKick).unwrap();
+    assert_eq!(awarded.team, Some(Team::Left));
+    assert!(bench.seen(EventKind::Advantage).is_none());
+    bench.restart();
+    assert_eq!((bench.game.mode, bench.game.ball.pos.truncate()), (GameMode::FreeKick, Vec2::new(10.0, 5.0)));
+    assert_eq!(bench.game.play.advantage, None);
+}
+
+#[test]
+fn a_team_that_keeps_the_ball_has_had_its_advantage() {
+    let mut bench = alone(&[], 0);
+    fouled(&mut bench);
+    bench.game.players[RIGHT_MAN.index()].pos = Vec2::new(-50.0, 20.0);
+    assert_eq!(until(&mut bench, 40, EventKind::Advantage), Some(31), "after 3 s");
+    assert!(!bench.game.dead);
+    let advantage = bench.seen(EventKind::Advantage).unwrap();
+    assert_eq!((advantage.by, advantage.to), (Some(RIGHT_MAN), Some(LEFT_MAN)));
+}
+
+#[test]
+fn a_ball_that_goes_out_after_a_foul_gives_the_free_kick_and_a_goal_counts() {
+    let mut bench = alone(&[], 0);
+    fouled(&mut bench);
+    bench.game.players[RIGHT_MAN.index()].pos = Vec2::new(-50.0, 20.0);
+    bench.game.ball = Ball { pos: Vec3::new(10.0, -35.8, 0.11), vel: Vec3::new(0.0, -9.0, 0.0), spin: Vec3::ZERO };
+    until(&mut bench, 5, EventKind::ThrowIn);
+    assert!(bench.seen(EventKind::FreeKick).is_some() && bench.seen(EventKind::ThrowIn).is_none());
+
+    let mut bench = alone(&[], 0);
+    fouled(&mut bench);
+    bench.game.ball = Ball { pos: Vec3::new(54.5, 0.0, 0.5), vel: Vec3::new(20.0, 0.0, 0.0), spin: Vec3::ZERO };
+    until(&mut bench, 5, EventKind::Goal);
+    assert!(bench.seen(EventKind::Goal).is_some() && bench.seen(EventKind::Advantage).is_some());
+    assert_eq!(bench.game.score, [1, 0]);
+}
+
+#[test]
+fn a_card_or_a_penalty_is_not_let_run() {
+    for (spot, severity, mode) in [(10.0, 1.5, GameMode::FreeKick), (50.0, 1.2, GameMode::Penalty)] {
+        let mut bench = alone(&[], 0);
+        bench.game.players[LEFT_MAN.index()].pos = Vec2::new(spot, 0.0);
+        foul::call_or_let_run(&mut bench.game, &mut bench.events, RIGHT_MAN, LEFT_MAN, severity);
+        assert!(bench.game.dead);
+        bench.restart();
+        assert_eq!(bench.game.mode, mode);
+    }
+}
+
+/// Shots at a man's chest: how often each seed's was a handball, and what was given.
+fn handballs(rules: &[(Rule, f64)], man: PlayerId, at: Vec2, height: f32) -> Vec<(Event, GameMode)> {
+    let mut called = Vec::new();
+    for seed in 0..400 {
+        let mut bench = alone(rules, seed);
+        bench.game.players[man.index()].pos = at;
+        let from = Vec3::new(at.x - 3.0, at.y, height);
+        bench.game.ball = Ball { pos: from, vel: Vec3::new(25.0, 0.0, 0.5), spin: Vec3::ZERO };
+        bench.game.last_touch = Some(LEFT_MAN);
+        flight::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, from.truncate());
+        bench.step(Action::BuiltinAi);
+        bench.step(Action::BuiltinAi);
+        if let Some(event) = bench.seen(EventKind::Handball) {
+            assert_eq!(bench.game.player(man).yellow_cards, 1, "it stopped a shot");
+            bench.restart();
+            called.push((event, bench.game.mode));
+        }
+    }
+    called
+}
+
+#[test]
+fn handball_is_rare_and_only_where_the_rule_is_on() {
+    let on = [(Rule::Handball, 1.0)];
+    let (middle, near_goal) = (Vec2::new(0.0, 10.0), Vec2::new(48.0, 5.0));
+    let called = handballs(&on, RIGHT_MAN, middle, 1.0);
+    assert!((4..=40).contains(&called.len()), "{} of 400", called.len());
+    assert!(called.iter().all(|(event, mode)| event.by == Some(RIGHT_MAN) && *mode == GameMode::FreeKick));
+    let called = handballs(&on, RIGHT_MAN, near_goal, 1.0);
+    assert!(!called.is_empty() && called.iter().all(|(_, mode)| *mode == GameMode::Penalty));
+    for (rules, man, at, height) in [
+        (&[] as &[_], RIGHT_MAN, middle, 1.0),
+        (&on, RIGHT_MAN, middle, 0.2),
+        (&on, PlayerId(11), near_goal, 1.0),
+        (&[(Rule::Handball, 1.0), (Rule::Stochastic, 0.0)], RIGHT_MAN, middle, 1.0),
+    ] {
+        assert_eq!(handballs(rules, man, at, height), []);
+    }
 }

@@ -92,3 +92,44 @@ fn a_set_piece_of_a_team_without_players_is_taken_by_the_others() {
     }
     assert!(touches > 10, "{touches}");
 }
+
+/// Where everybody stands in an episode, normalised.
+fn places(text: &str, index: u64) -> Vec<[f32; 2]> {
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{text}: {error}"));
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    environment.reset(Some(1), Some(index)).unwrap();
+    let players = environment.state().players.iter().filter(|player| player.present);
+    players.map(|player| [player.pos.x / 54.4, player.pos.y / 83.6]).collect()
+}
+
+fn near(found: &[[f32; 2]], expected: &[[f32; 2]]) -> bool {
+    let close = |(a, b): (&[f32; 2], &[f32; 2])| (a[0] - b[0]).abs() < 1e-5 && (a[1] - b[1]).abs() < 1e-5;
+    found.len() == expected.len() && found.iter().zip(expected).all(close)
+}
+
+#[test]
+fn a_role_without_a_place_stands_in_its_zone() {
+    let teams = "team left { GK  RM } team right { LB }";
+    let text =
+        |more: &str| format!("scenario s {{ ball at (0.5, 0) agents {{ left: 1 }} {more} {teams} end limit 9 steps }}");
+    let plain = places(&text(""), 0);
+    assert!(near(&plain, &[[-1.0, 0.0], [-0.01, 0.2161], [0.422, 0.19576]]), "{plain:?}");
+    let flanks = places(&text("mirror: flanks"), 0);
+    assert!(near(&flanks, &[[-1.0, 0.0], [-0.01, -0.2161], [0.422, -0.19576]]), "{flanks:?}");
+}
+
+#[test]
+fn a_formation_may_be_chosen_by_a_draw() {
+    let text = "formation narrow { GK  RM at (-0.1, 0.1) } formation wide { GK  RM at (-0.1, 0.3) }
+        scenario s { agents { left: 1 } ball at (0.5, 0) let up = uniform(0, 1) > 0.5
+            team left { formation: if up then narrow else wide } team right { formation: if up then wide else narrow }
+            end limit 9 steps }";
+    let mut seen = [0, 0];
+    for index in 0..20 {
+        let found = places(text, index);
+        let layout = |left: f32, right: f32| [[-1.0, 0.0], [-0.1, left], [1.0, 0.0], [0.1, -right]];
+        let which = [layout(0.1, 0.3), layout(0.3, 0.1)].iter().position(|expected| near(&found, expected));
+        seen[which.unwrap_or_else(|| panic!("{found:?}"))] += 1;
+    }
+    assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
+}

@@ -38,7 +38,7 @@ pub(crate) fn check_places(
     for (nth, situation) in situations.iter().enumerate() {
         for (index, place) in situation.iter().enumerate() {
             let Some(player) = lower.world.roster.get(index) else { continue };
-            let (shown, span) = (player.shown(), player.place.map_or(player.span, |place| place.span));
+            let (shown, span) = (player.shown(), player.place_span());
             if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == Known::Later {
                 on_pitch.push(within(lower, *place, (RIM_X_M, RIM_Y_M)));
             }
@@ -143,7 +143,7 @@ fn check_pair(
         if apart >= SAME_SPOT_M || one.present.is_some() || other.present.is_some() {
             return None;
         }
-        let at = |player: &crate::lower::roster::Rostered<'_>| player.place.map_or(player.span, |place| place.span);
+        let at = |player: &crate::lower::roster::Rostered<'_>| player.place_span();
         let where_ =
             if lower.world.flat.kickoff.is_some() { format!(" at kick-off {}", nth + 1) } else { String::new() };
         lower.report(

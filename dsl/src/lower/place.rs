@@ -1,6 +1,7 @@
 //! Where things are: at the start by their place statements, in the match by its state.
 
 use super::mirror::Mirror;
+use super::roster::{Rostered, Stand};
 use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
@@ -75,12 +76,15 @@ impl<'w> Lower<'_, 'w> {
             let (a, b) = (self.start_place(a, span), self.start_place(b, span));
             return (self.code.select(c, a.0, b.0), self.code.select(c, a.1, b.1));
         }
-        self.report(Problem::new(
-            Code::NoPlace,
-            span,
-            format!("`{}` is nobody who has a place at the start", self.world.text(span)),
-            "",
-        ));
+        self.report(
+            Problem::new(
+                Code::NoPlace,
+                span,
+                format!("`{}` may be nobody, who has no place", self.world.text(span)),
+                "whose place?",
+            )
+            .help("let it be a player in every case, or write a place: `at (0.5, 0)`"),
+        );
         self.nowhere()
     }
 
@@ -153,11 +157,10 @@ impl<'w> Lower<'_, 'w> {
         let name = player.stream();
         self.for_team(player.team.index() as f64, |lower| {
             lower.drawing(&name, |lower| {
-                let Some(start) = &player.place else { return lower.nowhere() };
-                let place = lower.player_statement(start, player.jitter, &player.scope);
+                let place = lower.player_stand(player, &player.stand);
                 let Some(receiving) = &player.receiving else { return place };
                 // At a kick-off the team that is first has the layout of the kicking side.
-                let other = lower.player_statement(receiving, player.jitter, &player.receiving_scope);
+                let other = lower.player_stand(player, receiving);
                 let first = lower.first_team();
                 let team = lower.code.constant(player.team.index() as f64);
                 let kicks = lower.code.binary(BinaryOp::Eq, first, team);
@@ -169,10 +172,27 @@ impl<'w> Lower<'_, 'w> {
         })
     }
 
-    fn player_statement(&mut self, place: &'w Place, jitter: Option<&'w Expr>, scope: &Scope<'w>) -> (Reg, Reg) {
+    /// A player's place in one of his team's layouts.
+    fn player_stand(&mut self, player: &Rostered<'w>, stand: &Stand<'w>) -> (Reg, Reg) {
+        let (place, scope) = match stand {
+            Stand::At(place, scope) => (*place, scope),
+            Stand::Either(condition, then, otherwise) => {
+                let condition =
+                    self.within(Scope::new(true, Frame::World), |lower| lower.want_reg(condition, Ty::Bool));
+                let (a, b) = (self.player_stand(player, then), self.player_stand(player, otherwise));
+                return (self.code.select(condition, a.0, b.0), self.code.select(condition, a.1, b.1));
+            }
+        };
         self.within(scope.clone(), |lower| {
-            let place = lower.place(place);
-            lower.jittered(place, jitter)
+            let place = match place {
+                Some(place) => lower.place(place),
+                None => {
+                    let team = lower.code.constant(player.team.index() as f64);
+                    // The role is that of the mirrored player already.
+                    lower.zone(lower.world.mirror.role(player.role), team)
+                }
+            };
+            lower.jittered(place, player.jitter)
         })
     }
 

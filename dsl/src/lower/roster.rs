@@ -25,13 +25,11 @@ pub(crate) struct Rostered<'w> {
     /// His statement.
     pub(crate) span: Span,
     /// Where he starts; when his team kicks off, if there are layouts.
-    pub(crate) place: Option<&'w Place>,
-    /// In which scope that is read.
+    pub(crate) stand: Stand<'w>,
+    /// In which scope the rest of him is read.
     pub(crate) scope: Scope<'w>,
-    /// Where he stands when the others kick off.
-    pub(crate) receiving: Option<&'w Place>,
-    /// In which scope that is read.
-    pub(crate) receiving_scope: Scope<'w>,
+    /// Where he stands when the others kick off, if there are layouts.
+    pub(crate) receiving: Option<Stand<'w>>,
     /// Where he looks.
     pub(crate) facing: Option<&'w Facing>,
     /// How far his place is moved.
@@ -42,7 +40,24 @@ pub(crate) struct Rostered<'w> {
     pub(crate) fields: Vec<&'w Field>,
 }
 
+/// Where a player stands in a layout.
+#[derive(Clone)]
+pub(crate) enum Stand<'w> {
+    /// At a place, read in a scope; in the zone of his role without one.
+    At(Option<&'w Place>, Scope<'w>),
+    /// As in one formation or another.
+    Either(&'w Expr, Box<Stand<'w>>, Box<Stand<'w>>),
+}
+
 impl Rostered<'_> {
+    /// What a report of his place points at.
+    pub(crate) fn place_span(&self) -> Span {
+        match self.stand {
+            Stand::At(Some(place), _) => place.span,
+            Stand::At(None, _) | Stand::Either(..) => self.span,
+        }
+    }
+
     /// The name of the stream of his draws: his label, else his team and index.
     pub(crate) fn stream(&self) -> String {
         match self.name {
@@ -171,31 +186,47 @@ fn from_layouts<'w>(
     let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving")) else {
         return Vec::new();
     };
-    let same =
-        kicking.len() == receiving.len() && kicking.iter().zip(&receiving).all(|(one, other)| one.role == other.role);
-    if !same && team == Team::Left {
-        let roles = |players: &[Rostered<'w>]| -> String {
-            players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
-        };
-        world.report(
-            Problem::new(
-                Code::WrongRoster,
-                at,
-                format!("the layouts differ: `{}` and `{}`", roles(&kicking), roles(&receiving)),
-                "the same players, in the same order, stand in both",
-            )
-            .help("list the roles of both formations in the same order"),
-        );
+    if team == Team::Left {
+        check_same(world, &kicking, &receiving, at);
     }
     for (player, other) in kicking.iter_mut().zip(receiving) {
-        player.receiving = other.place;
-        player.receiving_scope = other.scope;
+        player.receiving = Some(other.stand);
     }
     kicking
 }
 
-/// The players of a formation value: its name, or a call with arguments.
+/// Two layouts of one team have the same players.
+fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], at: Span) {
+    if one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.role == other.role) {
+        return;
+    }
+    let roles = |players: &[Rostered<'_>]| -> String {
+        players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
+    };
+    world.report(
+        Problem::new(
+            Code::WrongRoster,
+            at,
+            format!("the layouts differ: `{}` and `{}`", roles(one), roles(other)),
+            "the same players, in the same order, stand in both",
+        )
+        .help("list the roles of both formations in the same order"),
+    );
+}
+
+/// The players of a formation value: its name, a call with arguments, or a choice of two, which has the places of both
+/// and is the first in everything else.
 fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<Rostered<'w>> {
+    if let ExprKind::If(condition, then, otherwise) = &expr.kind {
+        let mut players = formation_players(world, then, team);
+        let others = formation_players(world, otherwise, team);
+        check_same(world, &players, &others, expr.span);
+        for (player, other) in players.iter_mut().zip(others) {
+            let stand = Stand::Either(condition, Box::new(player.stand.clone()), Box::new(other.stand));
+            player.stand = stand;
+        }
+        return players;
+    }
     let mut lower = Lower::new(world, Stage::Start, Scope::new(true, Frame::World));
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
@@ -288,27 +319,15 @@ fn copies<'w>(
                 .help("leave the line out; whether a player takes part with a parameter says `when …`"),
         );
     }
-    if player.place.is_none() {
-        world.report(
-            Problem::new(
-                Code::NoPlace,
-                player.role.span,
-                format!("`{}` has no place", player.role.node),
-                "where does he stand?",
-            )
-            .help(format!("write, for example, `{} at (-0.5, 0)`", player.role.node)),
-        );
-    }
     let one = Rostered {
         id: 0,
         team,
         role: player.role.node,
         name: player.name.as_ref(),
         span,
-        place: player.place.as_ref(),
+        stand: Stand::At(player.place.as_ref(), scope.clone()),
         scope: scope.clone(),
         receiving: None,
-        receiving_scope: scope.clone(),
         facing: player.facing.as_ref(),
         jitter: player.jitter.as_ref(),
         when: player.when.as_ref(),
@@ -376,7 +395,7 @@ fn adjust<'w>(
         }
         if let Some(player) = players.iter_mut().find(|player| meant(player)) {
             if change.place.is_some() {
-                player.place = change.place.as_ref();
+                player.stand = Stand::At(change.place.as_ref(), scope.clone());
                 player.scope = scope.clone();
                 player.receiving = None;
                 player.jitter = change.jitter.as_ref();

@@ -8,7 +8,7 @@ use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role};
-use setpiece_scenario::{BinaryOp, UnaryOp};
+use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn member(&mut self, of: &'w Expr, member: &'w Ident, span: Span) -> Value<'w> {
@@ -99,6 +99,14 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
+    /// Where a role of a team stands in the standard formation.
+    pub(crate) fn zone(&mut self, role: Role, team: Reg) -> (Reg, Reg) {
+        let (x, y) = self.world.mirror.role(role).zone();
+        let side = self.code.unary(UnaryOp::Side, team);
+        let (x, y) = (self.code.constant(x * X_SCALE_M), self.code.constant(y * Y_SCALE_M));
+        (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side))
+    }
+
     pub(super) fn member_of_team(&mut self, team: &Value<'w>, name: &str, at: Span, of: Span) -> Value<'w> {
         let reg = self.reg(team);
         if let Some(landmark) = Landmark::from_name(name) {
@@ -109,13 +117,7 @@ impl<'w> Lower<'_, 'w> {
             return Value::two(Ty::Point, (self.code.binary(BinaryOp::Mul, x, side), y));
         }
         if let Some(role) = name.strip_prefix("zone.").and_then(Role::from_name) {
-            let (x, y) = self.world.mirror.role(role).zone();
-            let side = self.code.unary(UnaryOp::Side, reg);
-            let (x, y) = (self.code.constant(x * X_SCALE_M), self.code.constant(y * Y_SCALE_M));
-            return Value::two(
-                Ty::Point,
-                (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side)),
-            );
+            return Value::two(Ty::Point, self.zone(role, reg));
         }
         if let Some(region) = RegionName::from_name(name) {
             return self.team_region(region, reg);

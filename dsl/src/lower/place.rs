@@ -184,13 +184,12 @@ impl<'w> Lower<'_, 'w> {
             }
         };
         self.within(scope.clone(), |lower| {
-            let place = match place {
-                Some(place) => lower.place(place),
-                None => {
-                    let team = lower.code.constant(player.team.index() as f64);
-                    // The role is that of the mirrored player already.
-                    lower.zone(lower.world.mirror.role(player.role), team)
-                }
+            let place = if let Some(place) = place {
+                lower.place(place)
+            } else {
+                let team = lower.code.constant(player.team.index() as f64);
+                // The role is that of the mirrored player already.
+                lower.zone(lower.world.mirror.role(player.role), team)
             };
             lower.jittered(place, player.jitter)
         })

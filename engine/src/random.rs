@@ -23,6 +23,9 @@ pub enum Purpose {
     Behavior = 6,
 }
 
+/// Most proposals of one draw: that so many are refused in a row is less likely than a fault of the machine.
+const ATTEMPTS_MAX: usize = 1000;
+
 /// A stream of random numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stream(Pcg32);
@@ -73,6 +76,46 @@ impl Stream {
         let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.unit_f64()));
         radius * libm::cos(std::f64::consts::TAU * self.unit_f64())
     }
+
+    /// Normal, given that it lies in low..=high; NaN for ends that are none.
+    ///
+    /// Rejection from whatever proposal accepts often: a normal, uniform or, in a tail, exponential one.
+    /// Source: C. P. Robert, Simulation of truncated normal variables, Statistics and Computing 5 (1995).
+    pub fn truncated_normal(&mut self, mean: f64, sd: f64, low: f64, high: f64) -> f64 {
+        if low.is_nan() || high.is_nan() || low > high || mean.is_nan() || sd.is_nan() {
+            return f64::NAN;
+        }
+        let (a, b) = ((low - mean) / sd.abs(), (high - mean) / sd.abs());
+        if low == high || sd == 0.0 {
+            return mean.clamp(low, high);
+        }
+        // One tail is the other's mirror image.
+        let z = if b < 0.0 { -self.standard_between(-b, -a) } else { self.standard_between(a, b) };
+        (mean + sd.abs() * z).clamp(low, high)
+    }
+
+    /// Standard normal, given that it lies in a..b, where b >= 0.
+    fn standard_between(&mut self, a: f64, b: f64) -> f64 {
+        let rate = (a + libm::sqrt(a * a + 4.0)) * 0.5;
+        // How far the mass of a tail reaches; beyond it the far end is of no account.
+        let wide = if a > 0.0 { b - a > 2.0 / rate } else { b - a > 2.5 };
+        for _ in 0..ATTEMPTS_MAX {
+            let (z, accepted) = if wide && a > 0.5 {
+                let z = a - libm::log(1.0 - self.unit_f64()) / rate;
+                (z, libm::exp(-0.5 * (z - rate) * (z - rate)))
+            } else if wide {
+                (self.normal(), 1.0)
+            } else {
+                let z = a + (b - a) * self.unit_f64();
+                let peak = if a > 0.0 { a } else { 0.0 };
+                (z, libm::exp(0.5 * (peak * peak - z * z)))
+            };
+            if (a..=b).contains(&z) && (accepted >= 1.0 || self.unit_f64() < accepted) {
+                return z;
+            }
+        }
+        a
+    }
 }
 
 /// Splitmix64's finaliser.
@@ -81,4 +124,81 @@ fn mix(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mean and standard deviation of many draws.
+    fn moments(mean: f64, sd: f64, low: f64, high: f64) -> (f64, f64) {
+        let mut stream = Stream::new(3, 5, Purpose::Draw);
+        let draws: Vec<f64> = (0..20_000).map(|_| stream.truncated_normal(mean, sd, low, high)).collect();
+        assert!(draws.iter().all(|draw| (low..=high).contains(draw)));
+        assert!(draws.iter().filter(|draw| **draw == low || **draw == high).count() < 2, "no atom at an end");
+        let average = draws.iter().sum::<f64>() / draws.len() as f64;
+        let spread = draws.iter().map(|draw| (draw - average).powi(2)).sum::<f64>() / draws.len() as f64;
+        (average, spread.sqrt())
+    }
+
+    /// Against the closed form: mean φ-differences over Φ-differences, by numerical integration.
+    fn expected(low: f64, high: f64) -> (f64, f64) {
+        let n = 200_000;
+        let (mut mass, mut first, mut second) = (0.0, 0.0, 0.0);
+        let (from, to) = (low.max(-40.0), high.min(40.0));
+        for i in 0..n {
+            let z = from + (to - from) * (f64::from(i) + 0.5) / f64::from(n);
+            // Relative to the density at the nearer end, so that a far tail doesn't vanish.
+            let peak = if from > 0.0 {
+                from
+            } else if to < 0.0 {
+                to
+            } else {
+                0.0
+            };
+            let density = (0.5 * (peak * peak - z * z)).exp();
+            mass += density;
+            first += density * z;
+            second += density * z * z;
+        }
+        let mean = first / mass;
+        (mean, (second / mass - mean * mean).sqrt())
+    }
+
+    #[test]
+    fn a_truncated_normal_follows_its_distribution_however_far_its_ends() {
+        for (low, high) in [
+            (-1.0, 1.0),
+            (-3.0, 3.0),
+            (-0.2, 0.1),
+            (0.3, 4.0),
+            (1.0, 1.2),
+            (3.0, 4.0),
+            (4.0, 5.0),
+            (5.0, 6.0),
+            (8.0, 100.0),
+            (-6.0, -5.0),
+            (-100.0, -2.0),
+            (-0.1, 9.0),
+            (0.6, 2.0),
+            (30.0, 31.0),
+        ] {
+            let ((mean, sd), (wanted_mean, wanted_sd)) = (moments(0.0, 1.0, low, high), expected(low, high));
+            assert!((mean - wanted_mean).abs() < 0.04 * wanted_sd, "{low}..{high}: mean {mean}, not {wanted_mean}");
+            assert!((sd / wanted_sd - 1.0).abs() < 0.04, "{low}..{high}: sd {sd}, not {wanted_sd}");
+        }
+        let (mean, sd) = moments(10.0, 2.0, 14.0, 18.0);
+        let (wanted_mean, wanted_sd) = expected(2.0, 4.0);
+        assert!((mean - 10.0 - 2.0 * wanted_mean).abs() < 0.05 && (sd - 2.0 * wanted_sd).abs() < 0.05);
+    }
+
+    #[test]
+    fn a_truncated_normal_of_impossible_ends_is_none() {
+        let mut stream = Stream::new(1, 2, Purpose::Draw);
+        assert!(stream.truncated_normal(0.0, 1.0, 2.0, 1.0).is_nan());
+        assert!(stream.truncated_normal(f64::NAN, 1.0, 0.0, 1.0).is_nan());
+        assert_eq!(stream.truncated_normal(5.0, 0.0, 0.0, 1.0), 1.0);
+        assert_eq!(stream.truncated_normal(0.5, 0.0, 0.0, 1.0), 0.5);
+        assert_eq!(stream.truncated_normal(0.0, 1.0, 3.0, 3.0), 3.0);
+    }
 }

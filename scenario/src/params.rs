@@ -171,11 +171,7 @@ impl Param {
         let unit =
             Unit::ALL.iter().find(|u| u.name() == unit || (unit == "step" && **u == Unit::Step)).ok_or_else(wrong)?;
         let plain = matches!(self.ty, Type::Number | Type::Percent);
-        if unit.ty() == self.ty || (plain && *unit == Unit::Percent) {
-            Ok(number * unit.factor())
-        } else {
-            Err(wrong())
-        }
+        if unit.ty() == self.ty || (plain && *unit == Unit::Percent) { Ok(unit.si(number)) } else { Err(wrong()) }
     }
 
     /// Checks a value against type, range and choices.

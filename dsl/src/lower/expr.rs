@@ -81,7 +81,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn number(&mut self, value: f64, is_int: bool, unit: Option<Unit>, span: Span) -> Value<'w> {
-        let si = value * unit.map_or(1.0, Unit::factor);
+        let si = unit.map_or(value, |unit| unit.si(value));
         if !si.is_finite() {
             return self.fail(Problem::new(Code::Impossible, span, "the number is too large", ""));
         }

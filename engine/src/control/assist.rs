@@ -1,4 +1,5 @@
-//! GRF's magnet: a controlled player runs to a ball that is his, whatever direction is held.
+//! GRF's magnet: a controlled player runs to a ball that is his, whatever direction is held. Whoever is scripted and no
+//! agent's does what is written.
 
 use crate::football::touch;
 use crate::state::{Match, PlayerId};
@@ -6,7 +7,8 @@ use setpiece_scenario::vocabulary::Rule;
 
 /// Whether the ball is the player's to get: he is his team's nearest, and no rival has it or is much sooner there.
 pub fn ball_is_his(game: &Match, id: PlayerId) -> bool {
-    if !game.rule(Rule::Assist) || game.play.set_piece.is_some() || game.play.hands.is_some() {
+    let controlled = game.agents.iter().any(|slot| slot.player == Some(id));
+    if !controlled || !game.rule(Rule::Assist) || game.play.set_piece.is_some() || game.play.hands.is_some() {
         return false;
     }
     let team = id.team();

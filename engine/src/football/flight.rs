@@ -1,10 +1,11 @@
 //! What a touch of the ball means: passes completed and cut out, shots blocked, offside.
 
-use crate::event::Events;
+use crate::event::{Event, Events};
 use crate::football::play::Flight;
 use crate::football::{offside, report, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role};
 
 /// Records that a player touches the ball; false if that was an offence that stops play.
@@ -31,7 +32,7 @@ pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
                 report::did(game, events, EventKind::Save, by, Some(shot.by));
             }
             let verdict = if role == Role::GK { Qualifier::OnTarget } else { Qualifier::Blocked };
-            events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(verdict));
+            events.push(of_shot(game, EventKind::Shot, shot).qualified(verdict));
         }
     }
     report::did(game, events, EventKind::Touch, by, None);
@@ -63,7 +64,7 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
     }
     if let Some(shot) = game.play.shot {
         if shot.by.team() != by.team() {
-            events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::Blocked));
+            events.push(of_shot(game, EventKind::Shot, shot).qualified(Qualifier::Blocked));
             game.play.shot = None;
         } else if shot.by != by || game.tick > shot.tick + 20 {
             game.play.shot = None;
@@ -91,7 +92,14 @@ pub fn pass_struck(game: &mut Match, events: &mut Events, by: PlayerId, to: Opti
 /// A shot has been struck.
 pub fn shot_struck(game: &mut Match, events: &mut Events, by: PlayerId, from: Vec2) {
     game.play.pass = None;
-    game.play.shot = Some(Flight { by, to: None, from, tick: game.tick });
-    let goal = Vec2::new(55.0 * by.team().side() as f32, 0.0);
-    events.push(report::event(game, EventKind::Shot).by(by).length(goal.distance(from)));
+    let shot = Flight { by, to: None, from, tick: game.tick };
+    game.play.shot = Some(shot);
+    events.push(of_shot(game, EventKind::Shot, shot));
+}
+
+/// An event of a shot: at the place it was struck from, and as long as it is to the goal, whatever became of it.
+pub fn of_shot(game: &Match, kind: EventKind, shot: Flight) -> Event {
+    let goal = Vec2::new(HALF_LENGTH_M as f32 * shot.by.team().side() as f32, 0.0);
+    let at = shot.from.extend(BALL_RADIUS_M as f32);
+    report::event(game, kind).by(shot.by).at(at).length(goal.distance(shot.from))
 }

@@ -147,7 +147,7 @@ fn consider(
 fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     let shot = game.play.shot.take();
     if let Some(shot) = shot.filter(|shot| shot.by.team() != id.team()) {
-        events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OnTarget));
+        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
         report::did(game, events, EventKind::Save, id, Some(shot.by));
     }
     if holds && foul::in_box(game.ball.pos.truncate(), id.team()) {
@@ -196,7 +196,7 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     let chance = (1.25 - speed / 22.0).clamp(0.1, 1.0) * brave * (0.6 + 0.4 * player.body.level);
     if noise::roll(game) < chance {
         if let Some(shot) = game.play.shot.take().filter(|shot| shot.by.team() != team) {
-            events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OnTarget));
+            events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
             report::did(game, events, EventKind::Save, id, Some(shot.by));
         }
         take(game, events, id);

@@ -2,11 +2,11 @@
 
 use crate::event::Events;
 use crate::football::play::Restart;
-use crate::football::{advantage, report, restart};
+use crate::football::{advantage, flight, report, restart};
 use crate::physics::{self, Line};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::pitch::{BALL_RADIUS_M, GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
 
 /// Judges the tick in which the ball came from `before`.
@@ -25,15 +25,18 @@ pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
 
 /// A goal.
 fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
-    if let Some(shot) = game.play.shot.take()
-        && shot.by.team() == scorers
-    {
-        events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OnTarget));
+    let shot = game.play.shot.take().filter(|shot| shot.by.team() == scorers);
+    if let Some(shot) = shot {
+        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
     }
     let scorer = game.last_touch;
     let score = &mut game.score[scorers.index()];
     *score = score.saturating_add(1);
-    let base = report::event(game, EventKind::Goal).team(scorers);
+    let mut base = report::event(game, EventKind::Goal).team(scorers);
+    if let Some(shot) = shot {
+        let struck = flight::of_shot(game, EventKind::Goal, shot);
+        base = base.at(struck.at).length(struck.length_m);
+    }
     if let Some(id) = scorer.filter(|id| id.team() != scorers) {
         let own = report::event(game, EventKind::OwnGoal).team(scorers);
         events.push(own.by(id));
@@ -52,7 +55,7 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
 fn out(game: &mut Match, events: &mut Events, line: Line) {
     let ball = game.ball.pos;
     if let Some(shot) = game.play.shot.take() {
-        events.push(report::event(game, EventKind::Shot).by(shot.by).qualified(Qualifier::OffTarget));
+        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OffTarget));
     }
     let last = game.last_touch.map_or(Team::Left, PlayerId::team);
     let out = report::event(game, EventKind::OutOfPlay);
@@ -83,5 +86,6 @@ pub fn stop(game: &mut Match, events: &mut Events, mode: GameMode, team: Team, s
     game.dead = true;
     game.owner = None;
     game.play.pending = Some(Restart { mode, team, spot });
-    events.push(report::event(game, restart::event_of(mode)).team(team));
+    let spot = spot.extend(BALL_RADIUS_M as f32);
+    events.push(report::event(game, restart::event_of(mode)).team(team).at(spot));
 }

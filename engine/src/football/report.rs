@@ -3,10 +3,12 @@
 use crate::event::{Event, Events};
 use crate::state::{Match, PlayerId};
 use glam::Vec3;
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
 
-/// An event at the ball, of now.
+/// An event of now, at the ball; where it has left the pitch, on the line it crossed.
 pub fn event(game: &Match, kind: EventKind) -> Event {
+    let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
     Event {
         tick: game.tick,
         kind,
@@ -14,7 +16,7 @@ pub fn event(game: &Match, kind: EventKind) -> Event {
         team: None,
         by: None,
         to: None,
-        at: game.ball.pos,
+        at: game.ball.pos.clamp(Vec3::new(-x, -y, 0.0), Vec3::new(x, y, f32::INFINITY)),
         length_m: 0.0,
         speed_mps: game.ball.vel.length(),
     }

@@ -455,7 +455,7 @@ impl<const W: usize> Machine<'_, W> {
             }
             Distribution::Normal(mean, sd) => value(mean) + value(sd) * random.normal(),
             Distribution::TruncatedNormal(mean, sd, low, high) => {
-                truncated_normal(random, value(mean), value(sd), value(low), value(high))
+                random.truncated_normal(value(mean), value(sd), value(low), value(high))
             }
             Distribution::Integer(low, high) => {
                 let (low, high) = (libm::ceil(value(low)), libm::floor(value(high)));
@@ -522,22 +522,6 @@ fn is_kind(filter: &EventFilter, event: &Event) -> bool {
             (None, EventKind::Pass) => event.qualifier == Some(Qualifier::Attempted),
             (None, _) => event.qualifier.is_none(),
         }
-}
-
-/// Most attempts at a draw between the ends before the nearer end is taken.
-const TRUNCATED_ATTEMPTS: usize = 1000;
-
-fn truncated_normal(random: &mut Stream, mean: f64, sd: f64, low: f64, high: f64) -> f64 {
-    if low.is_nan() || high.is_nan() || low > high {
-        return f64::NAN;
-    }
-    for _ in 0..TRUNCATED_ATTEMPTS {
-        let value = mean + sd * random.normal();
-        if value.is_nan() || (low..=high).contains(&value) {
-            return value;
-        }
-    }
-    mean.clamp(low, high)
 }
 
 fn is_player(player: Option<PlayerId>, number: f64) -> bool {

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 use setpiece_engine::event::Event;
 use setpiece_engine::football::{flight, foul, keeper};
 use setpiece_engine::state::{Ball, PlayerId};
-use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Rule, Team};
+use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Rule, Team};
 
 /// Sends the ball on its way as if a player had touched it last, and plays until play stops.
 fn roll(bench: &mut Bench, from: Vec3, vel: Vec3, last: PlayerId) {
@@ -33,7 +33,9 @@ fn over_the_side_line_is_a_throw_in_for_the_others() {
     let mut bench = Bench::new(Layout::Eleven, 0);
     roll(&mut bench, Vec3::new(10.0, -35.5, 0.11), Vec3::new(1.0, -12.0, 0.0), LEFT_MAN);
     assert_eq!(bench.seen(EventKind::OutOfPlay).unwrap().by, Some(LEFT_MAN));
-    assert_eq!(bench.seen(EventKind::ThrowIn).unwrap().team, Some(Team::Right));
+    let awarded = bench.seen(EventKind::ThrowIn).unwrap();
+    assert_eq!((awarded.team, awarded.at.y), (Some(Team::Right), -36.0));
+    assert_eq!(bench.seen(EventKind::OutOfPlay).unwrap().at.y, -36.0);
     bench.restart();
     assert_eq!(bench.game.mode, GameMode::ThrowIn);
     assert_eq!(bench.game.ball.pos.y, -36.0);
@@ -64,6 +66,7 @@ fn a_goal_counts_and_an_own_goal_for_the_others() {
         assert_eq!(bench.game.score, [1, 0]);
         let goal = bench.seen(EventKind::Goal).unwrap();
         assert_eq!((goal.team, goal.by), (Some(Team::Left), Some(last)));
+        assert!((goal.at.truncate().distance(Vec2::new(55.0, 1.0))) < 0.1, "on the line: {}", goal.at);
         assert_eq!(bench.seen(EventKind::OwnGoal).is_some(), own);
         assert!(bench.seen(EventKind::OutOfPlay).is_none());
         bench.restart();
@@ -292,5 +295,24 @@ fn handball_is_rare_and_only_where_the_rule_is_on() {
         (&[(Rule::Handball, 1.0), (Rule::Stochastic, 0.0)], RIGHT_MAN, middle, 1.0),
     ] {
         assert_eq!(handballs(rules, man, at, height), []);
+    }
+}
+
+/// However a shot comes out, it is told of the place it was struck from.
+#[test]
+fn a_goal_and_a_shots_verdict_are_told_of_where_it_was_struck() {
+    for (y, verdict) in [(1.0, Qualifier::OnTarget), (12.0, Qualifier::OffTarget)] {
+        let mut bench = Bench::new(Layout::Eleven, 0);
+        let struck = Vec2::new(40.0, y);
+        flight::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, struck);
+        roll(&mut bench, Vec3::new(54.0, y, 0.5), Vec3::new(20.0, 0.0, 0.0), LEFT_MAN);
+        let told: Vec<Event> =
+            bench.events.as_slice().iter().copied().filter(|it| it.qualifier == Some(verdict)).collect();
+        assert_eq!(told.len(), 1);
+        for event in told.into_iter().chain(bench.seen(EventKind::Goal)) {
+            assert_eq!(event.at.truncate(), struck, "{:?}", event.kind);
+            assert!((event.length_m - struck.distance(Vec2::new(55.0, 0.0))).abs() < 1e-4);
+        }
+        assert_eq!(bench.seen(EventKind::Goal).is_some(), verdict == Qualifier::OnTarget);
     }
 }

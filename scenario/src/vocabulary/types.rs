@@ -83,15 +83,15 @@ impl Unit {
         }
     }
 
-    /// What a number of this unit is multiplied by to become SI.
-    pub const fn factor(self) -> f64 {
+    /// A number of this unit in SI, rounded once: 3 steps are 0.3 s, as 0.3 s and 300 ms are.
+    pub const fn si(self, number: f64) -> f64 {
         match self {
-            Unit::KilometrePerHour => 1.0 / 3.6,
-            Unit::Degree => std::f64::consts::PI / 180.0,
-            Unit::Millisecond => 0.001,
-            Unit::Percent => 0.01,
-            Unit::Step => 0.1,
-            _ => 1.0,
+            Unit::KilometrePerHour => number / 3.6,
+            Unit::Degree => number * (std::f64::consts::PI / 180.0),
+            Unit::Millisecond => number / 1000.0,
+            Unit::Percent => number / 100.0,
+            Unit::Step => number / 10.0,
+            _ => number,
         }
     }
 }

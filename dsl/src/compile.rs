@@ -1,11 +1,9 @@
 //! The compiler's entry: a root file in, a scenario and everything that is wrong with it out.
 
+mod scripts;
 mod unused;
 
-use crate::ast::{
-    BehaviorBody, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, EndCondition, EndStmt, FieldValue, ItemKind,
-    RewardUseKind, ScenarioItem, ScenarioStmtKind, ScriptRef, ScriptSource, Span, TeamStmt, TeamStmtKind,
-};
+use crate::ast::{ItemKind, ScenarioItem, Span};
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
 use crate::lower::{World, behavior, ending, observation, param, record, reward, roster, start};
@@ -84,7 +82,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     let mut problems = Vec::new();
     let mut library = load(&root, loader, options.prelude, &mut problems);
     let mut scripts = Scripts::new(options.scripts);
-    load_scripts(&mut library, &mut scripts, loader);
+    scripts::load(&mut library, &mut scripts, loader);
 
     let mut chosen = None;
     let root_items: Vec<_> = library.files.first().map_or(&[][..], |file| &file.items).iter().collect();
@@ -322,84 +320,4 @@ fn told_by_child(world: &World<'_>, problem: Problem) -> Problem {
 /// The parameters that a match may still bind.
 fn free<'a, 'w>(world: &'a World<'w>) -> impl Iterator<Item = &'a param::ParamInfo<'w>> {
     world.params.iter().filter(|param| param.bound.is_none())
-}
-
-/// Loads every script that a file names, so that reports can show its text.
-fn load_scripts(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dyn SourceLoader) {
-    let mut named = Vec::new();
-    for file in &library.files {
-        for item in &file.items {
-            if let ItemKind::Formation(formation) = &item.kind {
-                team_scripts(&formation.body, &mut named);
-            }
-            if let ItemKind::Behavior(behavior) = &item.kind {
-                match &behavior.body {
-                    BehaviorBody::Block(body) => behavior_scripts(body, &mut named),
-                    BehaviorBody::Script(script) => named.push(script.clone()),
-                }
-            }
-            let ItemKind::Scenario(scenario) = &item.kind else { continue };
-            for stmt in &scenario.body {
-                match &stmt.kind {
-                    ScenarioStmtKind::Reward(used) => {
-                        if let RewardUseKind::Script(script) = &used.what {
-                            named.push(script.clone());
-                        }
-                    }
-                    ScenarioStmtKind::End(EndStmt::When { condition: Some(EndCondition::Script(script)), .. }) => {
-                        named.push(script.clone());
-                    }
-                    ScenarioStmtKind::Team { body, .. } => team_scripts(body, &mut named),
-                    _ => {}
-                }
-            }
-        }
-    }
-    for script in named {
-        let ScriptSource::File(path) = &script.source else { continue };
-        let from = path.span.file;
-        let from_name = library.sources.get(from).map_or(String::new(), |source| source.name.clone());
-        let (sources, inputs) = (&mut library.sources, &mut library.inputs);
-        let awaited = scripts.load(from, &from_name, &path.node, loader, &mut |source: Source| {
-            if !inputs.contains(&source.name) {
-                inputs.push(source.name.clone());
-            }
-            sources.add(source)
-        });
-        library.inputs.extend(awaited);
-    }
-}
-
-fn behavior_scripts(body: &[BehaviorStmt], named: &mut Vec<ScriptRef>) {
-    use BehaviorStmtKind as Kind;
-    for stmt in body {
-        match &stmt.kind {
-            Kind::Do(DoStmt { what: DoWhat::Script(script), .. }) => named.push(script.clone()),
-            Kind::Interrupt { body, .. } | Kind::Repeat { body, .. } => behavior_scripts(body, named),
-            Kind::Choose(chances) => chances.iter().for_each(|chance| behavior_scripts(&chance.body, named)),
-            Kind::If { arms, otherwise } => {
-                for (_, body) in arms {
-                    behavior_scripts(body, named);
-                }
-                behavior_scripts(otherwise, named);
-            }
-            _ => {}
-        }
-    }
-}
-
-fn team_scripts(body: &[TeamStmt], named: &mut Vec<ScriptRef>) {
-    for stmt in body {
-        let fields = match &stmt.kind {
-            TeamStmtKind::Player(player) => &player.fields,
-            TeamStmtKind::Override { change, .. } => &change.fields,
-            TeamStmtKind::Each { fields, .. } => fields,
-            _ => continue,
-        };
-        for field in fields {
-            if let FieldValue::Script(script) = &field.value {
-                named.push(script.clone());
-            }
-        }
-    }
 }

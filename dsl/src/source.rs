@@ -39,6 +39,16 @@ pub struct Source {
     pub text: Arc<str>,
 }
 
+impl Source {
+    /// Line and column of a byte, in characters and from 1.
+    pub fn line_column(&self, offset: u32) -> (u32, u32) {
+        let before = self.text.get(..offset as usize).unwrap_or(&self.text);
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        let column = before.get(line_start..).map_or(0, |line| line.chars().filter(|char| *char != '\u{FEFF}').count());
+        (before.matches('\n').count() as u32 + 1, column as u32 + 1)
+    }
+}
+
 /// Finds the sources that a file names; the compiler itself reads no file.
 pub trait SourceLoader {
     /// Loads what `path` names, seen from the file called `from`: an `import` (relative, or `std/…`) or a script.

@@ -33,9 +33,7 @@ const CLOSE: &str = "scenario s extends academy { ball at (0.6, 0) team left { C
 /// The step program of the first reward, one instruction a line.
 fn step(text: &str) -> String {
     let scenario = compiled(text);
-    let RewardBody::Program { init, step, terms } = &scenario.rewards.last().expect("a reward").body else {
-        panic!("a script");
-    };
+    let RewardBody { init, step, terms, .. } = &scenario.rewards.last().expect("a reward").body;
     let lines = |code: &[setpiece_scenario::Instr]| {
         code.iter().enumerate().map(|(i, instr)| format!("{i}: {instr:?}\n")).collect::<String>()
     };

@@ -275,7 +275,7 @@ impl Drawer {
             rules[setting.rule.index()] = self.value(setting.value);
         }
         let goals = |reg: Reg| self.value(reg) as u16;
-        let height_m = self.optional(start.ball.height) as f32 + BALL_RADIUS_M as f32;
+        let height_m = self.optional(start.ball.height).max(0.0) as f32 + BALL_RADIUS_M as f32;
         let difficulty = start.difficulty.map(|reg| self.share(reg));
         Drawn {
             seed,

@@ -36,7 +36,7 @@ use known::Known;
 use machine::Input;
 use observation::ObservationJudge;
 use script::{Scene, Scripts};
-use setpiece_scenario::{Endings, Reward, RewardBody, Scenario};
+use setpiece_scenario::{Endings, Reward, Scenario};
 use std::sync::Arc;
 
 /// The judge of one environment.
@@ -58,8 +58,8 @@ impl Judge {
     /// Prepares a judge that pays `rewards` to so many agents.
     pub fn new(scenario: &Scenario, rewards: Arc<[Reward]>, scripts: Scripts, n_agents: usize) -> Judge {
         let endings: Arc<Endings> = Arc::new(scenario.endings.clone());
-        let script_reward = |reward: &Reward| matches!(reward.body, setpiece_scenario::RewardBody::Script { .. });
-        let scripted = rewards.iter().any(script_reward) || endings.list.iter().any(|ending| ending.script.is_some());
+        let scripted = rewards.iter().any(|reward| !reward.body.hooks.is_empty())
+            || endings.list.iter().any(|ending| ending.script.is_some());
         Judge {
             endings: EndingJudge::new(endings),
             rewards: RewardJudge::new(rewards.clone(), &scripts, n_agents),
@@ -150,10 +150,7 @@ fn shown<'a>(known: &'a Known, scene: Option<&'a Arc<Scene>>) -> Option<(&'a Scr
 
 /// How much of a state must be kept for the next step's `prev`.
 fn memory(scenario: &Scenario, rewards: &[Reward]) -> Memory {
-    let of = |reward: &Reward| match &reward.body {
-        RewardBody::Program { step, .. } => Memory::of(step),
-        RewardBody::Script { .. } => Memory::All,
-    };
+    let of = |reward: &Reward| Memory::of(&reward.body.step);
     let programs = scenario.records.iter().map(|record| &record.program);
     let programs = programs.chain(scenario.observation.iter().map(|observation| &observation.program));
     let programs = programs.chain([&scenario.endings.program]);

@@ -156,7 +156,7 @@ mod tests {
             } else {
                 0.0
             };
-            let density = (0.5 * (peak * peak - z * z)).exp();
+            let density = libm::exp(0.5 * (peak * peak - z * z));
             mass += density;
             first += density * z;
             second += density * z * z;

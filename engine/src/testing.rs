@@ -200,10 +200,11 @@ pub(crate) fn scoring() -> Reward {
     Reward {
         name: "scoring".to_owned(),
         doc: String::new(),
-        body: RewardBody::Program {
+        body: RewardBody {
             init: Program::default(),
             step: code.program,
             terms: vec!["1".to_owned(), "2".to_owned()],
+            hooks: Vec::new(),
         },
     }
 }
@@ -257,10 +258,11 @@ pub(crate) fn checkpoints() -> Reward {
     Reward {
         name: "checkpoints".to_owned(),
         doc: String::new(),
-        body: RewardBody::Program {
+        body: RewardBody {
             init: Program { code: Vec::new(), cells: 1 },
             step: code.program,
             terms: vec!["region".to_owned(), "rest".to_owned()],
+            hooks: Vec::new(),
         },
     }
 }

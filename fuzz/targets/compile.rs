@@ -37,9 +37,16 @@ fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
     assert_eq!(formatted, again, "what was formatted is its own format");
     if let Some(scenario) = scenario {
         let other = setpiece::compile_text(&formatted, NAME).expect("what was formatted compiles as before");
-        assert_eq!(file::to_json(&scenario), file::to_json(&other.scenario), "what was formatted says the same");
+        assert_eq!(said(&scenario), said(&other.scenario), "what was formatted says the same");
     }
 });
+
+/// What a scenario says, but for the words that are quoted from its text.
+fn said(scenario: &Scenario) -> Result<String, impl std::fmt::Debug> {
+    let mut scenario = scenario.clone();
+    scenario.start.requires.iter_mut().for_each(|require| require.label.clear());
+    file::to_json(&scenario)
+}
 
 /// Problems point into their files, and can be told in both forms.
 fn report(problems: &[Problem], sources: &Sources) {

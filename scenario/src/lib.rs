@@ -24,7 +24,8 @@ pub use program::{
 };
 pub use scenario::{
     Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Observation, ObservedValue, Others, PlayerSlot,
-    PlayerStart, Record, Require, Reward, RewardBody, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
+    PlayerStart, Record, Require, Reward, RewardBody, RewardHook, RuleSetting, Scenario, Script, SideAgents, Start,
+    Switching,
 };
 pub use vocabulary::{
     Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team, Type, Verdict,

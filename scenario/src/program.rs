@@ -379,6 +379,34 @@ pub enum Distribution {
     Weighted(Vec<Reg>),
 }
 
+impl Program {
+    /// Which registers are the same in every step of an episode: what depends on parameters and `let`s alone.
+    pub fn fixed(&self) -> Vec<bool> {
+        let mut fixed = vec![false; self.code.len()];
+        let mut at = 0;
+        while let Some(instr) = self.code.get(at) {
+            let mut all = match instr {
+                Instr::Unary(op, _) => *op != UnaryOp::Exists,
+                Instr::Const(_)
+                | Instr::Param(_)
+                | Instr::Let(_)
+                | Instr::EpisodeIndex
+                | Instr::Binary(..)
+                | Instr::Select(..) => true,
+                _ => false,
+            };
+            instr.operands(&mut |reg| all &= fixed.get(reg.index()).copied().unwrap_or_default());
+            fixed[at] = all;
+            // What stands in a loop belongs to its elements.
+            at += match instr {
+                Instr::Each(each) => 1 + each.body as usize,
+                _ => 1,
+            };
+        }
+        fixed
+    }
+}
+
 impl Instr {
     /// Calls `f` with every register the instruction reads, but for those of an `Each`'s fold, which lie in its body.
     pub fn operands(&self, f: &mut dyn FnMut(Reg)) {

@@ -1,6 +1,6 @@
 //! The compiled scenario.
 
-use crate::behavior::Behavior;
+use crate::behavior::{Behavior, ScriptArg};
 use crate::params::Param;
 use crate::program::{Program, Reg};
 use crate::vocabulary::{Role, Rule, StartKind, Stat, Team, Verdict};
@@ -70,8 +70,15 @@ impl Scenario {
 pub struct Script {
     /// The path as written, for messages.
     pub name: String,
+    /// Line and column of the file at which the text begins, from 1.
+    #[serde(default = "at_the_top")]
+    pub at: (u32, u32),
     /// The text.
     pub source: String,
+}
+
+fn at_the_top() -> (u32, u32) {
+    (1, 1)
 }
 
 /// A player of the roster.
@@ -308,27 +315,32 @@ pub struct Reward {
     pub body: RewardBody,
 }
 
-/// What a reward does.
+/// What a reward does. The weight is already multiplied in.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RewardBody {
+    /// Run once at reset: assigns the `state` cells.
+    pub init: Program,
+    /// Run at every step; shares its cells with `init`.
+    pub step: Program,
+    /// The labels of the terms, in source order.
+    pub terms: Vec<String>,
+    /// Scripts whose values the step reads.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hooks: Vec<RewardHook>,
+}
+
+/// A script's `reward` hook: called before the reward's step, which finds its value in a cell.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum RewardBody {
-    /// Statements of the language. The weight is already multiplied in.
-    Program {
-        /// Run once at reset: assigns the `state` cells.
-        init: Program,
-        /// Run at every step; shares its cells with `init`.
-        step: Program,
-        /// The labels of the terms, in source order.
-        terms: Vec<String>,
-    },
-    /// A script's `reward` hook; its one term is called `script`.
-    Script {
-        /// Which script.
-        script: u32,
-        /// What its result is multiplied by.
-        weight: f64,
-    },
+pub struct RewardHook {
+    /// Which script.
+    pub script: u32,
+    /// The cell its value is written to.
+    pub cell: u32,
+    /// The reward's arguments, which are fixed for an episode: `ctx.params` bears them beside the scenario's parameters.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub args: Vec<ScriptArg>,
 }
 
 /// When an episode ends: one program, and its conditions in order.

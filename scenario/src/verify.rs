@@ -43,18 +43,20 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
         ending.script.map_or(Ok(()), |script| below("script", script, n_scripts))?;
     }
     for reward in scenario.rewards.iter().chain(&scenario.library) {
-        match &reward.body {
-            RewardBody::Program { init, step, terms } => {
-                check(&reward.name, init, Place::Init)?;
-                check(&reward.name, step, Place::Step { terms: terms.len() })?;
-                if init.cells != step.cells {
-                    return Err(format!("{}: init and step differ in memory", reward.name));
-                }
-            }
-            RewardBody::Script { script, weight } => {
-                below("script", *script, n_scripts)?;
-                if !weight.is_finite() {
-                    return Err(format!("{}: the weight is not finite", reward.name));
+        let RewardBody { init, step, terms, hooks } = &reward.body;
+        check(&reward.name, init, Place::Init)?;
+        check(&reward.name, step, Place::Step { terms: terms.len() })?;
+        if init.cells != step.cells {
+            return Err(format!("{}: init and step differ in memory", reward.name));
+        }
+        let fixed = step.fixed();
+        for hook in hooks {
+            below("script", hook.script, n_scripts)?;
+            below("cell", hook.cell, step.cells as usize)?;
+            for reg in hook.args.iter().flat_map(|arg| &arg.regs) {
+                visible(step, *reg)?;
+                if !fixed[reg.index()] {
+                    return Err(format!("{}: an argument of a script changes within an episode", reward.name));
                 }
             }
         }

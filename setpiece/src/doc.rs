@@ -4,7 +4,7 @@ use crate::load::Loaded;
 use setpiece_engine::start::Drawn;
 use setpiece_scenario::pitch::to_normalised;
 use setpiece_scenario::vocabulary::Rule;
-use setpiece_scenario::{Ai, Others, Param, Reward, RewardBody, Scenario, Team};
+use setpiece_scenario::{Ai, Others, Param, Reward, Scenario, Team};
 use std::fmt::Write as _;
 
 /// Describes a scenario: title, description, parameters, players of one start, rewards, endings, records, rules. `picture`
@@ -116,12 +116,7 @@ fn describe(page: &mut String, reward: &Reward) {
     if !reward.doc.trim().is_empty() {
         let _ = writeln!(page, "{}\n", reward.doc.trim());
     }
-    let terms: Vec<String> = match &reward.body {
-        RewardBody::Program { terms, .. } => {
-            terms.iter().map(|term| code(&format!("{}/{term}", reward.name))).collect()
-        }
-        RewardBody::Script { .. } => vec![code(&format!("{}/script", reward.name))],
-    };
+    let terms: Vec<String> = reward.body.terms.iter().map(|term| code(&format!("{}/{term}", reward.name))).collect();
     let _ = writeln!(page, "Terms: {}\n", terms.join(", "));
 }
 

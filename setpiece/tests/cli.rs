@@ -438,7 +438,7 @@ fn a_script_finds_the_parameters_by_their_names() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(!text(&output.stderr).contains("SP0213"), "{}", text(&output.stderr));
     let wrong = write(folder.path(), "wrong.pitch", scenario("paze"));
-    fails(&["check", &wrong], 1, &["SP0503", "no parameter `paze`", "did you mean `pace`?"]);
+    fails(&["check", &wrong], 1, &["SP0503", "no parameter is called `paze`", "did you mean `pace`?"]);
     // A behavior's parameters are read beside the scenario's.
     let script = "fn act(ctx, me, now) { if ctx.params.quick { \"sprint\" } else { \"idle\" } }";
     let behavior = format!("behavior runs(quick: bool = on) script rhai \"\"\"{script}\"\"\"\n{CLOSE}");
@@ -446,5 +446,5 @@ fn a_script_finds_the_parameters_by_their_names() {
     let output = setpiece(&["check", &write(folder.path(), "own.pitch", own.as_str())]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let wrong = write(folder.path(), "own_wrong.pitch", own.replace("params.quick", "params.quik"));
-    fails(&["check", &wrong], 1, &["SP0503", "no parameter `quik`", "did you mean `quick`?"]);
+    fails(&["check", &wrong], 1, &["SP0503", "no parameter is called `quik`", "did you mean `quick`?"]);
 }

@@ -115,3 +115,62 @@ fn a_record_reads_what_a_reward_remembers() {
     assert_eq!(of_first("first"), 3.0);
     assert!((last - (n + of_first("mine") + of_first("x"))).abs() < 1e-4, "{last}");
 }
+
+/// A script's value is paid like any other: weighed by a parameter, guarded, labelled, with the reward's arguments.
+#[test]
+fn a_script_pays_within_a_reward() {
+    let text = |rewards: &str| {
+        format!(
+            "reward speed(weight: number = 0.5, spot: point = (0.5, 0), limit: speed = 4m/s) {{
+                state n = 0
+                n = n + 1
+                give script rhai \"\"\"
+                    fn reward(ctx, now, prev, events) {{
+                        let p = ctx.params;
+                        if now.me.speed > p.limit {{ p.weight * distance(now.ball, p.spot) + ctx.random() }} else {{ 0 }}
+                    }}
+                \"\"\" when n > 3 as \"far\"
+                give weight * (if me.speed > limit then distance(ball, spot) / 1m else 0) when n > 3 as \"same\"
+            }}
+            scenario s {{
+                param heavy = 3
+                require heavy > 0
+                ball at (0.2, 0)
+                team left {{ GK at (-1, 0)  CF at (0.1, 0)  CM at (-0.1, 0.2) }}
+                team right {{ GK at (1, 0) }}
+                agents {{ left: 2 }}
+                {rewards}
+                end limit 60 steps
+            }}"
+        )
+    };
+    for (used, weight) in [
+        ("reward speed", 0.5),
+        ("reward speed(weight: 2)", 2.0),
+        ("reward speed * heavy", 1.5),
+        ("reward speed(weight: heavy, limit: 2m/s)", 3.0),
+    ] {
+        let mut environment = environment(&text(used));
+        let _ = paid(&mut environment, 40);
+        let names: Vec<&str> = environment.term_names().iter().map(String::as_str).collect();
+        assert_eq!(names, ["speed/far", "speed/same"]);
+        for agent in 0..2 {
+            let [far, same] = environment.term_sums(agent) else { panic!("two terms") };
+            // What `ctx.random()` adds is below 1 a step.
+            let scale = if used.ends_with("heavy") { 3.0 } else { 1.0 };
+            assert!(*same > 10.0 * weight, "{used}: agent {agent} never ran: {same}");
+            assert!(*far > *same && *far < *same + 37.0 * scale, "{used}: {far} beside {same}");
+        }
+    }
+}
+
+/// A reward that is a script may be weighed by a parameter.
+#[test]
+fn a_scripts_weight_may_be_computed() {
+    let text = "scenario s { param w = 0.5  ball at (0.2, 0)  team left { CM at (0.1, 0) }  agents { left: 1 }
+        reward script rhai \"\"\"fn reward(ctx, now, prev, events) { ctx.step }\"\"\" as \"own\" * (w + 1)
+        end limit 9 steps }";
+    let mut environment = environment(text);
+    assert_eq!(paid(&mut environment, 3), [1.5, 3.0, 4.5]);
+    assert_eq!(environment.term_names(), ["own/script"]);
+}

@@ -90,11 +90,20 @@ pub enum RewardStmtKind {
     Broken,
 }
 
+/// How much is given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GiveValue {
+    /// As an expression says.
+    Expr(Expr),
+    /// As a script's `reward` hook says.
+    Script(ScriptRef),
+}
+
 /// `give VALUE [per second] [once] [on EVENTS] [when C] [as "label"]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct GiveStmt {
     /// How much.
-    pub value: Expr,
+    pub value: GiveValue,
     /// `per second`
     pub per_second: bool,
     /// `once`

@@ -201,7 +201,7 @@ impl<'c, 'w> Writer<'c, 'w> {
             }
             BehaviorBody::Script(script) => {
                 self.lower.scope = scope;
-                let args = self.script_args(&item.params);
+                let args = self.lower.script_args(&item.params);
                 self.script(script, args);
             }
         }

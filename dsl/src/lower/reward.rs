@@ -5,14 +5,19 @@ mod writer;
 
 use super::value::{Frame, Scope};
 use super::{Lower, Stage, World};
-use crate::ast::{Arg, Expr, ItemKind, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, Span};
+use crate::ast::{
+    Arg, Expr, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
+};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use crate::resolve::reward_chain;
 use crate::source::FileId;
-use setpiece_scenario::{Reward, RewardBody};
+use setpiece_scenario::{Program, Reg, Reward, RewardBody};
 use state::{check_names, states};
 use writer::Writer;
+
+/// The label of a script's one term.
+const SCRIPT_TERM: &str = "script";
 
 /// A reward as it is written.
 pub(super) struct Written<'w> {
@@ -70,18 +75,7 @@ impl<'w> Written<'w> {
 /// Lowers a reward that a scenario uses.
 pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, span: Span) -> Option<Reward> {
     match &used.what {
-        RewardUseKind::Script(script) => {
-            let index = super::script::embed(world, script, "reward", &[])?;
-            let weight = match &used.weight {
-                Some(weight) => constant_weight(world, weight)?,
-                None => 1.0,
-            };
-            Some(Reward {
-                name: name.to_owned(),
-                doc: String::new(),
-                body: RewardBody::Script { script: index, weight },
-            })
-        }
+        RewardUseKind::Script(script) => Some(lower_script(world, name, script, used.weight.as_ref())),
         RewardUseKind::Inline { .. } | RewardUseKind::Named(_) => {
             let (written, doc) = written(world, used, span)?;
             Some(lower_written(world, name, doc, &written, used.weight.as_ref()))
@@ -130,18 +124,15 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
     });
 }
 
-fn constant_weight<'w>(world: &World<'w>, weight: &'w Expr) -> Option<f64> {
-    let mut lower = Lower::new(world, Stage::Constant, Scope::new(true, Frame::World));
-    let reg = lower.want_reg(weight, Ty::Number);
-    let found = lower.code.constant_of(reg);
-    if found.is_none() && !lower.code.is_unknown(reg) {
-        world.report(
-            Problem::new(Code::NotConstant, weight.span, "the weight of a script must be a number", "").help(
-                "multiply inside the script, which reads parameters as `ctx.params.NAME`, or write a plain number",
-            ),
-        );
-    }
-    found
+/// A reward that is a script: one term, `script`.
+fn lower_script<'w>(world: &World<'w>, name: &str, script: &'w ScriptRef, weight: Option<&'w Expr>) -> Reward {
+    let mut lower = Lower::new(world, Stage::Reward, Scope::new(true, Frame::World));
+    let weight = weight.map(|weight| lower.want_reg(weight, Ty::Number));
+    let hooks = Writer::script_alone(&mut lower, script, weight);
+    let (step, _) = lower.code.finish(&[]);
+    let init = Program { code: Vec::new(), cells: step.cells };
+    let body = RewardBody { init, step, terms: vec![SCRIPT_TERM.to_owned()], hooks };
+    Reward { name: name.to_owned(), doc: String::new(), body }
 }
 
 /// Every named reward in sight whose parameters all have defaults, for `--reward NAME`.
@@ -197,9 +188,21 @@ fn lower_written<'w>(
         let before = cells.iter().map(|&cell| lower.code.cell_before(cell)).collect();
         lower.bind_state(state, cells, before, first.ty);
     }
-    let terms = Writer::write(&mut lower, &statements, weight, true);
+    let params: Vec<&ParamDecl> = written.links.iter().flat_map(|(link, _)| &link.params).collect();
+    let writer::Written { terms, mut hooks } = Writer::write(&mut lower, &statements, weight, true, params);
     let (mut init, _) = init.code.finish(&[]);
-    let (step, _) = lower.code.finish(&[]);
+    let roots: Vec<Reg> = hooks.iter().flat_map(|hook| &hook.args).flat_map(|arg| &arg.regs).copied().collect();
+    let (step, layout) = lower.code.finish(&roots);
+    let fixed = step.fixed();
+    for arg in hooks.iter_mut().flat_map(|hook| &mut hook.args) {
+        arg.regs.iter_mut().for_each(|reg| *reg = layout.reg(*reg));
+        if arg.regs.iter().any(|reg| !fixed.get(reg.index()).copied().unwrap_or_default()) {
+            world.report(
+                Problem::new(Code::NotConstant, written.span, format!("`{}` changes within an episode", arg.name), "")
+                    .help("a script's parameter is fixed for an episode; what changes it reads from `now`"),
+            );
+        }
+    }
     init.cells = step.cells;
-    Reward { name: name.to_owned(), doc, body: RewardBody::Program { init, step, terms } }
+    Reward { name: name.to_owned(), doc, body: RewardBody { init, step, terms, hooks } }
 }

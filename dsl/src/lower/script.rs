@@ -1,10 +1,13 @@
-//! Rhai scripts: loaded, checked against the engine's hooks, embedded.
+//! Rhai scripts: loaded, checked against the engine's hooks, embedded with their arguments.
 
-use super::World;
-use crate::ast::{ScriptRef, ScriptSource, Span};
+use super::value::{Binding, Repr, Value};
+use super::{Lower, World};
+use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span};
+use crate::check::types::Ty;
 use crate::problem::{Code, Problem, ScriptApi};
 use crate::source::{FileId, LoadError, Source, SourceLoader};
-use setpiece_scenario::Script;
+use setpiece_scenario::vocabulary::Type;
+use setpiece_scenario::{Script, ScriptArg};
 
 /// A script that the loader was asked for.
 pub(crate) struct LoadedScript {
@@ -48,6 +51,47 @@ impl<'a> Scripts<'a> {
     }
 }
 
+impl<'w> Lower<'_, 'w> {
+    /// The parameters around a script, as its hook sees them.
+    pub(crate) fn script_args(&mut self, params: impl IntoIterator<Item = &'w ParamDecl>) -> Vec<ScriptArg> {
+        let mut args = Vec::new();
+        for decl in params {
+            let known = self.scope.find(&decl.name.node).cloned();
+            let Some(Binding::Expr { now: Some(value), .. } | Binding::Value(value)) = known else { continue };
+            self.world.mark_used(decl.name.span);
+            if value.is_error() {
+                continue;
+            }
+            match script_type(&value) {
+                Some(ty) => args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() }),
+                None => self.report(
+                    Problem::new(
+                        Code::WrongType,
+                        decl.name.span,
+                        format!("a script's parameter can't be {}", value.ty.noun()),
+                        "",
+                    )
+                    .help("it can be a number of any unit, a truth value, a player, a team or a point"),
+                ),
+            }
+        }
+        args
+    }
+}
+
+/// The type under which a script gets a value.
+fn script_type(value: &Value<'_>) -> Option<Type> {
+    match (&value.repr, value.ty) {
+        (Repr::One(_), Ty::Bool) => Some(Type::Bool),
+        (Repr::One(_), Ty::Int) => Some(Type::Int),
+        (Repr::One(_), Ty::Player) => Some(Type::Player),
+        (Repr::One(_), Ty::Team) => Some(Type::Team),
+        (Repr::One(_), ty) if ty.dim().is_some() => Some(Type::Number),
+        (Repr::Two(..), Ty::Point) => Some(Type::Point),
+        _ => None,
+    }
+}
+
 /// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names that its hook finds
 /// among the scenario's parameters.
 pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, own: &[&str]) -> Option<u32> {
@@ -84,7 +128,8 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, o
         world.mark_used(param.name.span);
     }
     let mut scripts = world.scripts.borrow_mut();
-    let embedded = Script { name, source: source.text.to_string() };
+    let at = world.library.sources.get(text_at.0).map_or((1, 1), |file| file.line_column(text_at.1));
+    let embedded = Script { name, at, source: source.text.to_string() };
     let known = scripts.iter().position(|script| *script == embedded);
     let index = known.unwrap_or_else(|| {
         scripts.push(embedded);

@@ -2,7 +2,7 @@
 
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
-use crate::ast::{Expr, ExprKind, GiveStmt, RewardStmt, RewardStmtKind};
+use crate::ast::{GiveStmt, GiveValue, RewardStmt, RewardStmtKind};
 use crate::problem::{Code, Problem};
 use crate::source::Span;
 use setpiece_grammar::Rule;
@@ -142,14 +142,9 @@ impl Reader<'_> {
         nodes.eat(Rule::kw_give);
         let value = nodes.next()?;
         let value = if value.as_rule() == Rule::script {
-            let span = self.span(&value);
-            self.push(
-                Problem::new(Code::NotYet, span, "a `give` of a script is not supported yet", "a script's value")
-                    .help("use the script as a reward of its own: `reward script \"file.rhai\"`"),
-            );
-            Expr { span, kind: ExprKind::Broken }
+            GiveValue::Script(self.script(value)?)
         } else {
-            self.expr(value)
+            GiveValue::Expr(self.expr(value))
         };
         let per_second = nodes.eat(Rule::per_second);
         let once = nodes.want(Rule::kw_once).map(|once| self.span(&once));

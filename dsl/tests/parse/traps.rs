@@ -2,7 +2,8 @@
 
 use super::{player, read, reward, scenario, team, told};
 use setpiece_dsl::ast::{
-    BinaryOp, Domain, Expr, ExprKind, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind, TeamStmtKind,
+    BinaryOp, Domain, Expr, ExprKind, GiveStmt, GiveValue, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind,
+    TeamStmtKind,
 };
 use setpiece_dsl::parse::MAX_BRACKETS;
 use setpiece_scenario::vocabulary::{Role, Unit};
@@ -96,7 +97,9 @@ fn p6_phrases_leave_their_words() {
 fn p7_a_sign_on_the_next_line_goes_on() {
     let body = reward("give a\n -1");
     match body.first().map(|statement| &statement.kind) {
-        Some(RewardStmtKind::Give(give)) => assert_eq!(operator(&give.value), Some(BinaryOp::Sub)),
+        Some(RewardStmtKind::Give(GiveStmt { value: GiveValue::Expr(value), .. })) => {
+            assert_eq!(operator(value), Some(BinaryOp::Sub));
+        }
         other => panic!("{other:?}"),
     }
     assert_eq!(body.len(), 1);

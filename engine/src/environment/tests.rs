@@ -1,7 +1,7 @@
 use super::*;
 use crate::testing::{scenario, scoring};
 use setpiece_scenario::vocabulary::{Role, Verdict};
-use setpiece_scenario::{Ending, Instr, Reg, RewardBody, Script};
+use setpiece_scenario::{BinaryOp, Ending, Instr, Program, Reg, RewardBody, RewardHook, Script};
 
 fn basic() -> Scenario {
     let mut scenario = scenario(&[
@@ -27,11 +27,24 @@ fn ending(scenario: &mut Scenario, label: &str, verdict: Option<Verdict>, when: 
 
 fn script_reward(source: &str) -> Scenario {
     let mut scenario = basic();
-    scenario.scripts.push(Script { name: "own.rhai".to_owned(), source: source.to_owned() });
+    scenario.scripts.push(Script { name: "own.rhai".to_owned(), at: (1, 1), source: source.to_owned() });
     scenario.rewards = vec![Reward {
         name: "own".to_owned(),
         doc: String::new(),
-        body: RewardBody::Script { script: 0, weight: 2.0 },
+        body: RewardBody {
+            init: Program { code: Vec::new(), cells: 1 },
+            step: Program {
+                code: vec![
+                    Instr::Cell(0),
+                    Instr::Const(2.0),
+                    Instr::Binary(BinaryOp::Mul, Reg(0), Reg(1)),
+                    Instr::Give { term: 0, value: Reg(2), guard: None },
+                ],
+                cells: 1,
+            },
+            terms: vec!["script".to_owned()],
+            hooks: vec![RewardHook { script: 0, cell: 0, args: Vec::new() }],
+        },
     }];
     scenario
 }
@@ -172,7 +185,7 @@ fn scripts_draw_from_the_episodes_seed() {
 fn a_done_hook_ends_with_its_label() {
     let mut scenario = basic();
     let source = "fn done(ctx, now, prev, events) { if ctx.step == 3 { \"tired\" } else { false } }";
-    scenario.scripts.push(Script { name: "own.rhai".to_owned(), source: source.to_owned() });
+    scenario.scripts.push(Script { name: "own.rhai".to_owned(), at: (1, 1), source: source.to_owned() });
     let (verdict, label) = (Some(Verdict::Failure), "script".to_owned());
     scenario.endings.list.push(Ending { verdict, label, when: None, script: Some(0) });
     let mut environment = environment(scenario);

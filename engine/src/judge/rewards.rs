@@ -1,24 +1,23 @@
 //! What a scenario pays: its rewards run for each agent, their terms kept apart.
 //!
 //! A reward lives once per agent: its memory and its terms are his. The agents of a team are judged together, each in a
-//! lane of [`Lanes`], so that what doesn't depend on `me` is computed once for all. A script that reads nothing of `me`
-//! is run once per team and its payment copied.
+//! lane of [`Lanes`], so that what doesn't depend on `me` is computed once for all. Scripts are called first and leave
+//! their values in cells; one that reads nothing of `me` is called once per team and its value copied.
 
 mod lanes;
 
 use crate::judge::machine::Input;
-use crate::judge::script::{Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
 use lanes::{Lanes, Pass};
 use setpiece_scenario::pitch::TEAM_MAX;
-use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::Team;
-use setpiece_scenario::{Reward, RewardBody};
+use setpiece_scenario::{Reward, RewardBody, RewardHook};
 use std::sync::Arc;
 
-/// The label of a script's one term.
-const SCRIPT_TERM: &str = "script";
+/// Most arguments of a script.
+const ARGUMENTS_MAX: usize = 32;
 
 /// The rewards of an environment, and what they have paid.
 #[derive(Clone, Debug)]
@@ -41,11 +40,17 @@ struct RewardState {
     /// Its first term's place among all.
     first_term: usize,
     n_terms: usize,
-    /// Of a program, team by team.
+    /// Team by team.
     lanes: [Option<Lanes>; 2],
-    /// Whether a script lives per team rather than per agent.
+    hooks: Vec<HookState>,
+}
+
+/// The memory of one script of a reward.
+#[derive(Clone, Debug)]
+struct HookState {
+    /// Whether it lives per team rather than per agent.
     shared: bool,
-    /// A script's memory, instance by instance.
+    /// Instance by instance.
     memories: Vec<Memory>,
 }
 
@@ -67,23 +72,17 @@ impl RewardJudge {
         let mut states = Vec::with_capacity(rewards.len());
         for reward in rewards.iter() {
             let first_term = names.len();
-            let (shared, n_memories) = match &reward.body {
-                RewardBody::Program { terms, .. } => {
-                    names.extend(terms.iter().map(|label| format!("{}/{label}", reward.name)));
-                    (false, 0)
-                }
-                RewardBody::Script { script, .. } => {
-                    names.push(format!("{}/{SCRIPT_TERM}", reward.name));
-                    let shared = !scripts.uses_me(*script);
-                    (shared, if shared { Team::ALL.len() } else { n_agents })
-                }
+            names.extend(reward.body.terms.iter().map(|label| format!("{}/{label}", reward.name)));
+            let hook = |hook: &RewardHook| {
+                let shared = !scripts.uses_me(hook.script);
+                let n_memories = if shared { Team::ALL.len() } else { n_agents };
+                HookState { shared, memories: vec![Memory::default(); n_memories] }
             };
             states.push(RewardState {
                 first_term,
                 n_terms: names.len() - first_term,
                 lanes: [None, None],
-                shared,
-                memories: vec![Memory::default(); n_memories],
+                hooks: reward.body.hooks.iter().map(hook).collect(),
             });
         }
         let n_terms = names.len();
@@ -134,8 +133,8 @@ impl RewardJudge {
         let rewards = self.rewards.clone();
         let squads = self.squads(game);
         for (state, reward) in self.states.iter_mut().zip(rewards.iter()) {
-            state.memories.fill(Memory::default());
-            let RewardBody::Program { init, step, .. } = &reward.body else { continue };
+            state.hooks.iter_mut().for_each(|hook| hook.memories.fill(Memory::default()));
+            let RewardBody { init, step, .. } = &reward.body;
             for ((lanes, squad), team) in state.lanes.iter_mut().zip(&squads).zip(Team::ALL) {
                 if squad.is_empty() {
                     *lanes = None;
@@ -168,20 +167,8 @@ impl RewardJudge {
         let rewards = self.rewards.clone();
         let squads = self.squads(game);
         for (which, reward) in rewards.iter().enumerate() {
-            match (&reward.body, scene) {
-                (RewardBody::Program { .. }, _) => {
-                    for (team, squad) in Team::ALL.iter().zip(&squads) {
-                        self.program(which, squad, &Input { us: *team, ..*input });
-                    }
-                }
-                (RewardBody::Script { script, weight }, Some((scripts, scene))) => {
-                    for squad in &squads {
-                        self.script(which, squad, |perspective, memory| {
-                            Ok(scripts.reward(*script, scene, perspective, memory)? * weight)
-                        })?;
-                    }
-                }
-                (RewardBody::Script { .. }, None) => {}
+            for (team, squad) in Team::ALL.iter().zip(&squads) {
+                self.run(which, &reward.body.hooks, squad, &Input { us: *team, ..*input }, scene)?;
             }
         }
         self.pay();
@@ -204,39 +191,27 @@ impl RewardJudge {
         squads
     }
 
-    /// Runs a program for a team's agents.
-    fn program(&mut self, which: usize, squad: &Squad, input: &Input<'_>) {
+    /// Runs a reward for a team's agents, its scripts first.
+    fn run(
+        &mut self,
+        which: usize,
+        hooks: &[RewardHook],
+        squad: &Squad,
+        input: &Input<'_>,
+        scene: Option<(&Scripts, &Arc<Scene>)>,
+    ) -> Result<(), ScriptError> {
         let n_all = self.names.len();
         let state = &mut self.states[which];
-        let Some(lanes) = &mut state.lanes[input.us.index()] else { return };
+        let Some(lanes) = &mut state.lanes[input.us.index()] else { return Ok(()) };
+        if let Some((scripts, scene)) = scene {
+            for (hook, state) in hooks.iter().zip(&mut state.hooks) {
+                state.call(hook, squad, lanes, scripts, scene)?;
+            }
+        }
         lanes.run(&players(squad), input, Pass::Step, &mut self.faults);
         for (lane, judged) in squad.iter().enumerate() {
             let at = judged.agent * n_all + state.first_term;
             lanes.paid(lane, &mut self.terms[at..at + state.n_terms]);
-        }
-    }
-
-    /// Runs a script for a team's agents: for each, or for the first and all.
-    fn script(
-        &mut self,
-        which: usize,
-        squad: &Squad,
-        mut hook: impl FnMut(Perspective, &mut Memory) -> Result<f64, ScriptError>,
-    ) -> Result<(), ScriptError> {
-        let state = &mut self.states[which];
-        let mut value = 0.0;
-        for (place, judged) in squad.iter().enumerate() {
-            if place == 0 || !state.shared {
-                let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
-                let instance = if state.shared { judged.team.index() } else { judged.agent };
-                let Some(memory) = state.memories.get_mut(instance) else { continue };
-                value = hook(perspective, memory)?;
-                if value.is_nan() || value.abs() > PAY_MAX {
-                    self.faults += 1;
-                    value = 0.0;
-                }
-            }
-            self.terms[judged.agent * self.names.len() + state.first_term] += value;
         }
         Ok(())
     }
@@ -250,6 +225,39 @@ impl RewardJudge {
             let total: f64 = self.terms[agent * n..(agent + 1) * n].iter().sum();
             *paid = total as f32;
         }
+    }
+}
+
+impl HookState {
+    /// Calls a script for a team's agents: for each, or for the first and all.
+    fn call(
+        &mut self,
+        hook: &RewardHook,
+        squad: &Squad,
+        lanes: &mut Lanes,
+        scripts: &Scripts,
+        scene: &Arc<Scene>,
+    ) -> Result<(), ScriptError> {
+        let arguments: ArrayVec<Argument<'_>, ARGUMENTS_MAX> = hook
+            .args
+            .iter()
+            .map(|arg| {
+                let value = |at: usize| arg.regs.get(at).map_or(0.0, |reg| lanes.fixed(*reg));
+                Argument { name: &arg.name, ty: arg.ty, values: [value(0), value(1)] }
+            })
+            .take(ARGUMENTS_MAX)
+            .collect();
+        let mut value = 0.0;
+        for (lane, judged) in squad.iter().enumerate() {
+            if lane == 0 || !self.shared {
+                let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
+                let instance = if self.shared { judged.team.index() } else { judged.agent };
+                let Some(memory) = self.memories.get_mut(instance) else { continue };
+                value = scripts.reward(hook.script, scene, perspective, &arguments, memory)?;
+            }
+            lanes.remember(hook.cell, lane, value);
+        }
+        Ok(())
     }
 }
 

@@ -21,7 +21,7 @@ pub use check::{ScriptFault, ScriptFaultKind, check_script};
 use api::{Sight, events_of};
 use call::Code;
 use place::hook_position;
-use rhai::{Array, Dynamic, EvalAltResult};
+use rhai::{Array, Dynamic, EvalAltResult, FuncArgs};
 use setpiece_scenario::vocabulary::{Action, Type};
 use setpiece_scenario::{Param, Scenario};
 use std::sync::Arc;
@@ -32,7 +32,7 @@ use std::sync::Arc;
 pub struct ScriptError {
     /// The script, as the scenario names it.
     pub script: String,
-    /// Line, from 1; the hook's own where the failure has no place.
+    /// Line of the file that the script stands in, from 1; the hook's own where the failure has no place.
     pub line: usize,
     /// Column, from 1.
     pub column: usize,
@@ -101,6 +101,8 @@ pub struct Scripts {
 #[derive(Debug)]
 struct Compiled {
     name: String,
+    /// Where its text begins in its file.
+    at: (u32, u32),
     source: String,
     code: Code,
     uses_me: bool,
@@ -132,6 +134,7 @@ impl Scripts {
             Ok(Compiled {
                 resets,
                 name: script.name.clone(),
+                at: script.at,
                 source: script.source.clone(),
                 uses_me: check::mentions_me(&ast),
                 reads_events: [REWARD, DONE].iter().any(|hook| check::mentions_events(&ast, hook)),
@@ -176,9 +179,10 @@ impl Scripts {
         script: u32,
         scene: &Arc<Scene>,
         perspective: Perspective,
+        arguments: &[Argument<'_>],
         memory: &mut Memory,
     ) -> Result<f64, ScriptError> {
-        let value = self.call(script, REWARD, scene, perspective, memory)?;
+        let value = self.call(script, REWARD, scene, (perspective, arguments), memory)?;
         match value.as_float() {
             Ok(number) => Ok(number),
             Err(_) => value
@@ -199,7 +203,7 @@ impl Scripts {
         perspective: Perspective,
         memory: &mut Memory,
     ) -> Result<Done, ScriptError> {
-        let value = self.call(script, DONE, scene, perspective, memory)?;
+        let value = self.call(script, DONE, scene, (perspective, &[]), memory)?;
         match value.as_bool() {
             Ok(true) => Ok(Done::Yes),
             Ok(false) => Ok(Done::No),
@@ -228,12 +232,11 @@ impl Scripts {
         let seen = own.as_ref().unwrap_or(scene);
         let now = Sight::now(seen, perspective);
         compiled.begin(&now, memory)?;
-        let called = compiled.code.call(HOOK, (now.ctx(), now.me(), now.clone()), &mut memory.this);
+        let called = compiled.call(HOOK, (now.ctx(), now.me(), now.clone()), memory, seen);
         if let Some(own) = &own {
             scene.take_random(own);
         }
-        let word = called
-            .map_err(|error| compiled.fault(HOOK, error, seen))?
+        let word = called?
             .into_string()
             .map_err(|found| self.wrong_type(script, HOOK, "the name of an action", found, seen))?;
         Action::from_name(&word).ok_or_else(|| {
@@ -248,15 +251,21 @@ impl Scripts {
         script: u32,
         hook: &str,
         scene: &Arc<Scene>,
-        perspective: Perspective,
+        (perspective, arguments): (Perspective, &[Argument<'_>]),
         memory: &mut Memory,
     ) -> Result<Dynamic, ScriptError> {
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Dynamic::UNIT) };
-        let now = Sight::now(scene, perspective);
+        let own = (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
+        let seen = own.as_ref().unwrap_or(scene);
+        let now = Sight::now(seen, perspective);
         compiled.begin(&now, memory)?;
         let events = if compiled.reads_events { events_of(&now) } else { Array::new() };
-        let arguments = (now.ctx(), now.clone(), Sight::prev(scene, perspective), events);
-        compiled.code.call(hook, arguments, &mut memory.this).map_err(|error| compiled.fault(hook, error, scene))
+        let arguments = (now.ctx(), now.clone(), Sight::prev(seen, perspective), events);
+        let called = compiled.call(hook, arguments, memory, seen);
+        if let Some(own) = &own {
+            scene.take_random(own);
+        }
+        called
     }
 
     fn wrong_type(&self, script: u32, hook: &str, expected: &str, found: &str, scene: &Scene) -> ScriptError {
@@ -283,10 +292,21 @@ impl Compiled {
         if std::mem::replace(&mut memory.begun, true) || !self.resets {
             return Ok(());
         }
-        self.code
-            .call(RESET, (now.ctx(),), &mut memory.this)
-            .map(drop)
-            .map_err(|error| self.fault(RESET, error, now.scene()))
+        self.call(RESET, (now.ctx(),), memory, now.scene()).map(drop)
+    }
+
+    /// Calls a hook; what it leaves in its memory must be within bounds.
+    fn call(
+        &self,
+        hook: &str,
+        arguments: impl FuncArgs,
+        memory: &mut Memory,
+        scene: &Scene,
+    ) -> Result<Dynamic, ScriptError> {
+        let value =
+            self.code.call(hook, arguments, &mut memory.this).map_err(|error| self.fault(hook, error, scene))?;
+        host::check_size(&memory.this).map_err(|message| self.error(hook, None, message, scene))?;
+        Ok(value)
     }
 
     fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &Scene) -> ScriptError {
@@ -296,6 +316,9 @@ impl Compiled {
 
     fn error(&self, hook: &str, position: Option<(usize, usize)>, message: String, scene: &Scene) -> ScriptError {
         let (line, column) = position.unwrap_or_else(|| hook_position(&self.source, hook));
+        let (first_line, first_column) = (self.at.0.max(1) as usize, self.at.1.max(1) as usize);
+        let column = if line == 1 { column + first_column - 1 } else { column };
+        let line = line + first_line - 1;
         ScriptError {
             script: self.name.clone(),
             line,

@@ -30,10 +30,11 @@ fn where_is_the_ball() -> Reward {
     let prev = code.push(Instr::Load { field: Field::BallX, of: None, when: When::Prev });
     code.push(Instr::Give { term: 0, value: now, guard: None });
     code.push(Instr::Give { term: 1, value: prev, guard: None });
-    let body = RewardBody::Program {
+    let body = RewardBody {
         init: setpiece_scenario::Program::default(),
         step: code.program,
         terms: vec!["now".to_owned(), "prev".to_owned()],
+        hooks: Vec::new(),
     };
     Reward { name: "ball".to_owned(), doc: String::new(), body }
 }
@@ -78,10 +79,11 @@ fn rewards_of_the_last_step_see_the_end() {
         code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 1, fold })));
         code.push(Instr::Give { term, value, guard: None });
     }
-    let body = RewardBody::Program {
+    let body = RewardBody {
         init: setpiece_scenario::Program::default(),
         step: code.program,
         terms: ["any", "success", "failure"].map(str::to_owned).to_vec(),
+        hooks: Vec::new(),
     };
     let on_end = Reward { name: "on_end".to_owned(), doc: String::new(), body };
     let (mut judge, mut game, mut events) = bench(vec![on_end], goal_ends);
@@ -104,7 +106,7 @@ fn rewards_of_the_last_step_see_the_end() {
 fn judging_and_observing_allocate_nothing() {
     let crowded = |reward: Reward| {
         // A loop over everybody, with a distance each.
-        let RewardBody::Program { init, mut step, terms } = reward.body else { return None };
+        let RewardBody { init, mut step, terms, hooks } = reward.body;
         let mut code = Code { program: std::mem::take(&mut step) };
         let everybody = code.number(-1.0);
         let at = code.program.code.len() as u32;
@@ -118,7 +120,7 @@ fn judging_and_observing_allocate_nothing() {
         let x = code.load_of(Field::PlayerX, each);
         code.binary(BinaryOp::Hypot, x, x);
         code.push(Instr::Give { term: 0, value: each, guard: None });
-        Some(Reward { body: RewardBody::Program { init, step: code.program, terms }, ..reward })
+        Some(Reward { body: RewardBody { init, step: code.program, terms, hooks }, ..reward })
     };
     let rewards = vec![scoring(), checkpoints(), crowded(where_is_the_ball()).unwrap()];
     let (mut judge, mut game, mut events) = bench(rewards, goal_ends);

@@ -1,12 +1,11 @@
 //! `do …`: primitives, calls of behaviours, scripts.
 
 use super::Writer;
-use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, ParamDecl, Span};
+use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
-use crate::lower::value::{Binding, Repr, Value};
 use crate::problem::{Code, Problem, signature};
-use setpiece_scenario::vocabulary::{Field, Primitive, Type};
-use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, ScriptArg, Then, UnaryOp, Watch, When};
+use setpiece_scenario::vocabulary::{Field, Primitive};
+use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, Then, UnaryOp, Watch, When};
 
 /// Steps of a second.
 const STEPS_PER_S: f64 = 10.0;
@@ -194,44 +193,5 @@ impl<'w> Writer<'_, 'w> {
         };
         let (passed, wanted) = (steps(code, passed), steps(code, seconds));
         code.binary(BinaryOp::Ge, passed, wanted)
-    }
-
-    /// The parameters of a behaviour that is a script, as its hook sees them.
-    pub(super) fn script_args(&mut self, params: &'w [ParamDecl]) -> Vec<ScriptArg> {
-        let mut args = Vec::new();
-        for decl in params {
-            let known = self.lower.scope.find(&decl.name.node).cloned();
-            let Some(Binding::Expr { now: Some(value), .. } | Binding::Value(value)) = known else { continue };
-            self.lower.world.mark_used(decl.name.span);
-            if value.is_error() {
-                continue;
-            }
-            match script_type(&value) {
-                Some(ty) => args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() }),
-                None => self.lower.report(
-                    Problem::new(
-                        Code::WrongType,
-                        decl.name.span,
-                        format!("a script's parameter can't be {}", value.ty.noun()),
-                        "",
-                    )
-                    .help("it can be a number of any unit, a truth value, a player, a team or a point"),
-                ),
-            }
-        }
-        args
-    }
-}
-
-/// The type under which a script gets a value.
-fn script_type(value: &Value<'_>) -> Option<Type> {
-    match (&value.repr, value.ty) {
-        (Repr::One(_), Ty::Bool) => Some(Type::Bool),
-        (Repr::One(_), Ty::Int) => Some(Type::Int),
-        (Repr::One(_), Ty::Player) => Some(Type::Player),
-        (Repr::One(_), Ty::Team) => Some(Type::Team),
-        (Repr::One(_), ty) if ty.dim().is_some() => Some(Type::Number),
-        (Repr::Two(..), Ty::Point) => Some(Type::Point),
-        _ => None,
     }
 }

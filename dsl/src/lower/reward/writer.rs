@@ -1,17 +1,31 @@
 //! The statements of a reward: conditions as guards, events as loops, payments and assignments as effects.
 
-use crate::ast::{Binding as Let, EventExpr, Expr, GiveStmt, Ident, RewardStmt, RewardStmtKind};
+use crate::ast::{
+    Binding as Let, EventExpr, Expr, GiveStmt, GiveValue, Ident, ParamDecl, RewardStmt, RewardStmtKind, ScriptRef,
+};
 use crate::check::types::Ty;
+use crate::lower::script::embed;
 use crate::lower::value::Binding;
 use crate::lower::{Lower, fold, param};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::program::PAY_MAX;
-use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, UnaryOp};
+use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, RewardHook, UnaryOp};
+
+/// What a step program pays into, and which scripts it asks.
+pub(super) struct Written {
+    /// The labels of the terms.
+    pub(super) terms: Vec<String>,
+    /// The scripts; their arguments in registers of the builder.
+    pub(super) hooks: Vec<RewardHook>,
+}
 
 /// Writes the step program.
 pub(super) struct Writer<'l, 'c, 'w> {
     lower: &'l mut Lower<'c, 'w>,
     terms: Vec<String>,
+    hooks: Vec<RewardHook>,
+    /// The reward's parameters, which its scripts see.
+    params: Vec<&'w ParamDecl>,
     /// What every payment is multiplied by.
     weight: Option<Reg>,
     /// Whether anything is paid; else only the states are kept.
@@ -21,14 +35,16 @@ pub(super) struct Writer<'l, 'c, 'w> {
 }
 
 impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
-    /// Writes the statements, for what their names are bound to in the present scope; gives the terms.
+    /// Writes the statements, for what their names are bound to in the present scope; gives what it pays into.
     pub(super) fn write(
         lower: &'l mut Lower<'c, 'w>,
         statements: &[&'w RewardStmt],
         weight: Option<Reg>,
         pays: bool,
-    ) -> Vec<String> {
-        let mut writer = Writer { lower, terms: Vec::new(), weight, pays, guard: None, unlabelled: 0 };
+        params: Vec<&'w ParamDecl>,
+    ) -> Written {
+        let (terms, hooks) = (Vec::new(), Vec::new());
+        let mut writer = Writer { lower, terms, hooks, params, weight, pays, guard: None, unlabelled: 0 };
         // The step's `let`s come first, top to bottom: they see no assignment of this step.
         for statement in statements {
             if let RewardStmtKind::Let(binding) = &statement.kind {
@@ -38,7 +54,21 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         for statement in statements {
             writer.statement(statement, true);
         }
-        writer.terms
+        Written { terms: writer.terms, hooks: writer.hooks }
+    }
+
+    /// Writes a reward that is a script: it pays into the first term.
+    pub(super) fn script_alone(
+        lower: &'l mut Lower<'c, 'w>,
+        script: &'w ScriptRef,
+        weight: Option<Reg>,
+    ) -> Vec<RewardHook> {
+        let (terms, hooks, params) = (Vec::new(), Vec::new(), Vec::new());
+        let mut writer = Writer { lower, terms, hooks, params, weight, pays: true, guard: None, unlabelled: 0 };
+        let value = writer.script(script);
+        let value = writer.weighted(value);
+        writer.lower.code.give(0, value, None);
+        writer.hooks
     }
 
     fn bind_let(&mut self, binding: &'w Let) {
@@ -200,18 +230,43 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     }
 
     fn amount(&mut self, give: &'w GiveStmt) -> Reg {
-        let value = self.lower.want(&give.value, Ty::Number);
-        let mut reg = self.lower.reg(&value);
-        self.check_payable(reg, &give.value);
-        self.check_pays(reg, &give.value);
+        let mut reg = match &give.value {
+            GiveValue::Script(script) => self.script(script),
+            GiveValue::Expr(value) => {
+                let reg = self.lower.want_reg(value, Ty::Number);
+                self.check_payable(reg, value);
+                self.check_pays(reg, value);
+                reg
+            }
+        };
         if give.per_second {
             let step = self.lower.code.constant(0.1);
             reg = self.lower.code.binary(BinaryOp::Mul, reg, step);
         }
+        self.weighted(reg)
+    }
+
+    fn weighted(&mut self, value: Reg) -> Reg {
         match self.weight {
-            Some(weight) => self.lower.code.binary(BinaryOp::Mul, reg, weight),
-            None => reg,
+            Some(weight) => self.lower.code.binary(BinaryOp::Mul, value, weight),
+            None => value,
         }
+    }
+
+    /// The value of a script: its hook is called before the step, once however often it is named.
+    pub(super) fn script(&mut self, script: &'w ScriptRef) -> Reg {
+        let args = self.lower.script_args(self.params.iter().copied());
+        let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
+        let Some(index) = embed(self.lower.world, script, "reward", &own) else {
+            return self.lower.code.unknown();
+        };
+        let known = self.hooks.iter().find(|hook| hook.script == index).map(|hook| hook.cell);
+        let cell = known.unwrap_or_else(|| {
+            let cell = self.lower.code.new_cell();
+            self.hooks.push(RewardHook { script: index, cell, args });
+            cell
+        });
+        self.lower.code.cell_before(cell)
     }
 
     /// Warns of a payment that never happens, in a reward that stands in its scenario: another's parameters may switch

@@ -93,10 +93,9 @@ impl Plan {
             open: Vec::new(),
             plan: Plan::default(),
         };
-        let mut fixed = vec![false; program.code.len()];
+        let fixed = program.fixed();
         let mut at = 0;
-        while let Some(instr) = program.code.get(at) {
-            fixed[at] = is_fixed(instr, &fixed);
+        while at < program.code.len() {
             let (step, next) = reader.step(at);
             let plan = &mut reader.plan;
             if fixed[at] { &mut plan.once } else { &mut plan.each_step }.push(step);
@@ -210,21 +209,6 @@ fn two(op: BinaryOp) -> Option<Op> {
         BinaryOp::Or => Op::Or,
         BinaryOp::Mod | BinaryOp::Pow | BinaryOp::Atan2 | BinaryOp::Ne => return None,
     })
-}
-
-fn is_fixed(instr: &Instr, fixed: &[bool]) -> bool {
-    let mut all = match instr {
-        Instr::Unary(op, _) => *op != UnaryOp::Exists,
-        Instr::Const(_)
-        | Instr::Param(_)
-        | Instr::Let(_)
-        | Instr::EpisodeIndex
-        | Instr::Binary(..)
-        | Instr::Select(..) => true,
-        _ => false,
-    };
-    instr.operands(&mut |reg| all &= fixed.get(reg.index()).copied().unwrap_or_default());
-    all
 }
 
 /// Calls `f` with what a loop reads before its first element.

@@ -3,7 +3,7 @@
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::view::player_number;
 use crate::state::PlayerId;
-use setpiece_scenario::Program;
+use setpiece_scenario::{Program, Reg};
 use std::array;
 
 /// Which program of a reward is run.
@@ -71,6 +71,24 @@ impl Lanes {
             Lanes::One(memory) => memory.run(players, input, pass, faults),
             Lanes::Four(memory) => memory.run(players, input, pass, faults),
             Lanes::Twelve(memory) => memory.run(players, input, pass, faults),
+        }
+    }
+
+    /// A value that is the same for all and for the whole episode.
+    pub(super) fn fixed(&self, reg: Reg) -> f64 {
+        match self {
+            Lanes::One(memory) => memory.step.first(reg),
+            Lanes::Four(memory) => memory.step.first(reg),
+            Lanes::Twelve(memory) => memory.step.first(reg),
+        }
+    }
+
+    /// Writes an agent's cell.
+    pub(super) fn remember(&mut self, cell: u32, lane: usize, value: f64) {
+        match self {
+            Lanes::One(memory) => memory.cells[cell as usize][lane] = value,
+            Lanes::Four(memory) => memory.cells[cell as usize][lane] = value,
+            Lanes::Twelve(memory) => memory.cells[cell as usize][lane] = value,
         }
     }
 

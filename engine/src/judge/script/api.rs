@@ -7,6 +7,7 @@ mod functions;
 mod getters;
 mod table;
 
+pub(super) use functions::function;
 pub use functions::functions;
 pub use table::{Member, Subject, members};
 

@@ -5,7 +5,10 @@ use rhai::packages::{
     ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage, BasicStringPackage,
     LogicPackage, MoreStringPackage, Package,
 };
-use rhai::{Dynamic, Engine, EvalAltResult, OptimizationLevel, ParseError, ParseErrorType, Position};
+use rhai::{
+    Array, Dynamic, Engine, EvalAltResult, ImmutableString, Map, OptimizationLevel, ParseError, ParseErrorType,
+    Position,
+};
 use std::sync::OnceLock;
 
 /// Most operations of one call of a hook, a few milliseconds.
@@ -90,6 +93,54 @@ fn register_maths(engine: &mut Engine) {
         };
         t * t * (3.0 - 2.0 * t)
     });
+}
+
+/// What a value holds, all in all.
+#[derive(Default)]
+struct Held {
+    elements: usize,
+    entries: usize,
+    bytes: usize,
+    levels: usize,
+}
+
+impl Held {
+    /// Adds a value; stops where it is too much already.
+    fn add(&mut self, value: &Dynamic, level: usize) -> Result<(), String> {
+        self.levels = self.levels.max(level);
+        if let Some(map) = value.read_lock::<Map>() {
+            self.entries += map.len();
+            self.within()?;
+            map.values().try_for_each(|value| self.add(value, level + 1))
+        } else if let Some(array) = value.read_lock::<Array>() {
+            self.elements += array.len();
+            self.within()?;
+            array.iter().try_for_each(|value| self.add(value, level + 1))
+        } else {
+            self.bytes += value.read_lock::<ImmutableString>().map_or(0, |text| text.len());
+            self.within()
+        }
+    }
+
+    fn within(&self) -> Result<(), String> {
+        for (found, max, noun) in [
+            (self.entries, MAP_MAX, "entries of maps"),
+            (self.elements, ARRAY_MAX, "elements of arrays"),
+            (self.bytes, STRING_MAX, "bytes of strings"),
+            (self.levels, EXPRESSION_DEPTH_MAX, "levels"),
+        ] {
+            if found > max {
+                return Err(format!("`this` holds more than {max} {noun}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a script's memory is within the bounds of any value: Rhai looks only at what is handed on, not at what grows
+/// where it lies.
+pub(super) fn check_size(memory: &Dynamic) -> Result<(), String> {
+    Held::default().add(memory, 0)
 }
 
 /// Line and column of a position, if it has any.

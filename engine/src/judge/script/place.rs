@@ -15,9 +15,12 @@ pub(super) fn offset(source: &str, line: usize, column: usize) -> usize {
     rest.char_indices().nth(column.saturating_sub(1)).map_or(source.len(), |(at, _)| start + at)
 }
 
-/// The word that begins at a byte, or the one character there.
+/// The word or string that begins at a byte, or the one character there.
 pub(super) fn word_at(source: &str, start: usize) -> Range<usize> {
     let rest = source.get(start..).unwrap_or_default();
+    if let Some(end) = rest.strip_prefix('"').and_then(|rest| rest.find(['"', '\n'])) {
+        return start..start + end + 2;
+    }
     let word = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
     let length = if word > 0 { word } else { rest.chars().next().map_or(0, char::len_utf8) };
     start..start + length

@@ -22,7 +22,7 @@ fn scene(events: &[Event]) -> Arc<Scene> {
 
 fn scripts(source: &str) -> Scripts {
     let mut scenario = scenario(&[]);
-    scenario.scripts.push(Script { name: "own.rhai".to_owned(), source: source.to_owned() });
+    scenario.scripts.push(Script { name: "own.rhai".to_owned(), at: (1, 1), source: source.to_owned() });
     Scripts::compile(&scenario).unwrap()
 }
 
@@ -30,7 +30,7 @@ fn pay_for(body: &str, us: Team, events: &[Event]) -> Result<f64, ScriptError> {
     let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
     let me = Some(if us == Team::Left { PlayerId(1) } else { PlayerId(12) });
     let perspective = Perspective { us, me, agent: 0 };
-    scripts(&source).reward(0, &scene(events), perspective, &mut Memory::default())
+    scripts(&source).reward(0, &scene(events), perspective, &[], &mut Memory::default())
 }
 
 fn pay(body: &str) -> f64 {
@@ -110,7 +110,7 @@ fn memory_lasts_and_random_numbers_are_seeded() {
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
     let run = || {
         let (mut memory, scene) = (Memory::default(), scene(&[]));
-        let mut pay = || scripts.reward(0, &scene, perspective, &mut memory).unwrap();
+        let mut pay = || scripts.reward(0, &scene, perspective, &[], &mut memory).unwrap();
         [pay(), pay(), pay()]
     };
     let paid = run();
@@ -127,7 +127,7 @@ fn reset_is_called_once_an_episode() {
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
     for _ in 0..2 {
         let (mut memory, scene) = (Memory::default(), scene(&[]));
-        let mut pay = || scripts.reward(0, &scene, perspective, &mut memory).unwrap();
+        let mut pay = || scripts.reward(0, &scene, perspective, &[], &mut memory).unwrap();
         assert_eq!([pay(), pay()], [11.0, 12.0]);
     }
 }
@@ -145,7 +145,7 @@ fn the_sandbox_holds() {
     }
     let recursion = "fn f(n) { f(n + 1) }\nfn reward(ctx, now, prev, events) { f(0) }";
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
-    let error = scripts(recursion).reward(0, &scene(&[]), perspective, &mut Memory::default()).unwrap_err();
+    let error = scripts(recursion).reward(0, &scene(&[]), perspective, &[], &mut Memory::default()).unwrap_err();
     assert!(error.message.contains("deeper"), "{error}");
     for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
         let faults = check_script(&format!("fn reward(ctx, now, prev, events) {{ {text} }}"), "reward", &[]);
@@ -210,7 +210,7 @@ fn bytecode_and_walker_agree() {
         let perspective = Perspective { us: Team::Left, me: Some(PlayerId(1)), agent: 0 };
         let run = |scripts: &Scripts| {
             let (mut memory, scene) = (Memory::default(), scene(&events));
-            let paid: Vec<_> = (0..3).map(|_| scripts.reward(0, &scene, perspective, &mut memory)).collect();
+            let paid: Vec<_> = (0..3).map(|_| scripts.reward(0, &scene, perspective, &[], &mut memory)).collect();
             (paid, memory.this.to_string(), scene.random())
         };
         assert_eq!(format!("{:?}", run(&own)), format!("{:?}", run(&walked)), "{body}");
@@ -224,7 +224,7 @@ fn scripts_on_one_thread_do_not_mix() {
     let double = scripts("fn f(x) { x * 2 }\nfn reward(ctx, now, prev, events) { f(3) }");
     let triple = scripts("fn f(x) { x * 3 }\nfn reward(ctx, now, prev, events) { f(3) }");
     let broken = scripts("fn f(x) { throw x }\nfn reward(ctx, now, prev, events) { f(3) }");
-    let pay = |scripts: &Scripts| scripts.reward(0, &scene(&[]), perspective, &mut Memory::default());
+    let pay = |scripts: &Scripts| scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default());
     for _ in 0..3 {
         assert_eq!(pay(&double), Ok(6.0));
         assert!(pay(&broken).is_err());
@@ -237,7 +237,7 @@ fn every_call_has_operations_of_its_own() {
     let scripts = scripts("fn reward(ctx, now, prev, events) { let n = 0; for i in 0..10000 { n += i; } n }");
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
     for _ in 0..40 {
-        assert_eq!(scripts.reward(0, &scene(&[]), perspective, &mut Memory::default()), Ok(49_995_000.0));
+        assert_eq!(scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default()), Ok(49_995_000.0));
     }
     for body in [
         "now.players.map(|p| { let n = 0; for i in 0..80000 { n += i; } n }).len",
@@ -245,6 +245,30 @@ fn every_call_has_operations_of_its_own() {
     ] {
         assert_eq!(fail(body).message, "more than 200000 operations in one call: a loop doesn't end");
     }
+}
+
+#[test]
+fn memory_is_bounded_and_a_failure_names_the_files_line() {
+    let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
+    for (grow, held) in [
+        ("this.m = #{}; for i in 0..100 { this[`${ctx.step}_${this.len()}`] = i; }", "512 entries of maps"),
+        ("if this.a == () { this.a = []; } for i in 0..500 { this.a.push(i); }", "4096 elements of arrays"),
+        ("this.s = (this.s ?? \"\") + \"0123456789\"; this.t = this.s; this.s += this.t;", "4096 bytes of strings"),
+        ("this.a = [this.a];", "48 levels"),
+    ] {
+        let scripts = scripts(&format!("fn reward(ctx, now, prev, events) {{ {grow} 1 }}"));
+        let (mut memory, scene) = (Memory::default(), scene(&[]));
+        let failed = (0..60).find_map(|_| scripts.reward(0, &scene, perspective, &[], &mut memory).err());
+        let failed = failed.unwrap_or_else(|| panic!("{grow}: never too much"));
+        let told = failed.message == format!("`this` holds more than {held}") || failed.message.contains("too large");
+        assert!(told, "{grow}: {failed}");
+    }
+    let mut scenario = scenario(&[]);
+    let source = "fn reward(ctx, now, prev, events) { throw 1 }\nfn f() { 1 }".to_owned();
+    scenario.scripts.push(Script { name: "inline in a.pitch".to_owned(), at: (9, 22), source });
+    let scripts = Scripts::compile(&scenario).unwrap();
+    let failed = scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default()).unwrap_err();
+    assert_eq!((failed.line, failed.column), (9, 21 + 37));
 }
 
 /// A hook that doesn't look at the events is not handed any; one that does gets them wherever it looks.
@@ -258,7 +282,7 @@ fn events_are_there_for_who_looks() {
         "fn reward(ctx, now, prev, events) { let f = || events.len; f.call() }",
         "fn reward(ctx, now, prev, events) { `${events.len}`.parse_int() }",
     ] {
-        let paid = scripts(source).reward(0, &scene(&events), perspective, &mut Memory::default());
+        let paid = scripts(source).reward(0, &scene(&events), perspective, &[], &mut Memory::default());
         assert_eq!(paid, Ok(1.0), "{source}");
     }
 }
@@ -306,6 +330,32 @@ fn wrong_names_are_found_with_their_place() {
     assert_eq!(several.len(), 3);
     // A player's property is none of the ball's.
     assert_eq!(faults("now.ball.fatigue")[0].1, "fatigue");
+}
+
+#[test]
+fn arguments_words_and_changes_are_checked() {
+    let fault = |word: &str, help: &str| (ScriptFaultKind::Name, word.to_owned(), Some(help.to_owned()));
+    let distance = "distance(a, b): metres along the ground, between players, points and the ball";
+    assert_eq!(faults("distance(now.ball)"), [fault("distance", distance)]);
+    assert_eq!(faults("now.ball.distance(now.me)"), []);
+    assert_eq!(faults("ctx.random() + ctx.random(2)")[0].1, "random");
+    assert_eq!(faults("if now.ball.x > 2.0 { count(events, \"pas\") }"), [fault("\"pas\"", "did you mean `pass`?")]);
+    assert_eq!(faults("count(events, \"pass\", \"left\")").len(), 1);
+    assert_eq!(faults("events.count(\"pass\", \"them\") + count(events, \"goal\")"), []);
+    assert_eq!(faults("now.ball.x = 3.0; 1")[0].1, "now");
+    assert_eq!(faults("let b = now.ball; b.x += 3.0; 1").len(), 1);
+    assert_eq!(
+        faults("let list = now.players; list[0] = (); let m = #{ x: 1 }; m.x = 2; this.x = now.ball.x; m.x"),
+        []
+    );
+    let of = |source: &str, hook: &str| -> Vec<String> {
+        check_script(source, hook, &[]).into_iter().map(|fault| fault.message).collect()
+    };
+    let own =
+        "fn h(a) { a }\nfn h(a, b) { b }\nfn reward(ctx, now, prev, events) { h(1) + h(1, 2) + 1.h(2) + h(1, 2, 3) }";
+    assert_eq!(of(own, "reward"), ["`h` takes 1 or 2 arguments, found 3"]);
+    let done = "fn done(ctx, now, prev, events) { now.me.x > 0.5 }";
+    assert_eq!(of(done, "done"), ["nobody is `me` where an episode's end is judged"]);
 }
 
 #[test]

@@ -6,21 +6,40 @@ use crate::state::PlayerId;
 use rhai::{Array, Dynamic, Engine, EvalAltResult};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 
-/// The interface's own functions, with their documentation.
-const OWN: &[(&str, &str)] = &[
-    ("random", "ctx.random(): a number in 0..1, from the episode's seed"),
-    ("distance", "distance(a, b): metres along the ground, between players, points and the ball"),
-    ("grf_distance", "grf_distance(a, b): in normalised units"),
-    ("angle", "angle(a, b): the heading from a to b in the reader's frame, radians"),
-    ("nearest", "nearest(players, to): the player nearest to a place, or ()"),
-    ("pressed", "pressed(player, within): an opponent is nearer than so many metres"),
-    ("speed", "speed(x): of a player or the ball, m/s"),
-    ("point", "now.point(x, y): a place from normalised coordinates of the reader's frame"),
-    ("count", "count(events, kind), count(events, kind, team): how many; team is \"us\" or \"them\""),
-    ("clamp", "clamp(x, low, high): x held between low and high"),
-    ("smoothstep", "smoothstep(low, high, x): 0 below low, 1 above high, smooth between"),
-    ("pow", "pow(x, y): x to the power y"),
+/// A function of the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Function {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// How many arguments it takes.
+    pub(crate) takes: &'static [usize],
+    /// How it is called, and what it gives.
+    pub(crate) about: &'static str,
+}
+
+const OWN: &[Function] = &[
+    own("random", &[1], "ctx.random(): a number in 0..1, from the episode's seed"),
+    own("distance", &[2], "distance(a, b): metres along the ground, between players, points and the ball"),
+    own("grf_distance", &[2], "grf_distance(a, b): in normalised units"),
+    own("angle", &[2], "angle(a, b): the heading from a to b in the reader's frame, radians"),
+    own("nearest", &[2], "nearest(players, to): the player nearest to a place, or ()"),
+    own("pressed", &[2], "pressed(player, within): an opponent is nearer than so many metres"),
+    own("speed", &[1], "speed(x): of a player or the ball, m/s"),
+    own("point", &[3], "now.point(x, y): a place from normalised coordinates of the reader's frame"),
+    own("count", &[2, 3], "count(events, kind), count(events, kind, team): how many; team is \"us\" or \"them\""),
+    own("clamp", &[3], "clamp(x, low, high): x held between low and high"),
+    own("smoothstep", &[3], "smoothstep(low, high, x): 0 below low, 1 above high, smooth between"),
+    own("pow", &[2], "pow(x, y): x to the power y"),
 ];
+
+const fn own(name: &'static str, takes: &'static [usize], about: &'static str) -> Function {
+    Function { name, takes, about }
+}
+
+/// A function of the interface, by its name.
+pub(crate) fn function(name: &str) -> Option<&'static Function> {
+    OWN.iter().find(|function| function.name == name)
+}
 
 /// What Rhai itself brings, of the packages that scripts have.
 const RHAI: &[&str] = &[
@@ -152,7 +171,7 @@ const RHAI: &[&str] = &[
 
 /// The names of every function that a script can call.
 pub fn functions() -> impl Iterator<Item = &'static str> {
-    OWN.iter().map(|(name, _)| *name).chain(RHAI.iter().copied())
+    OWN.iter().map(|function| function.name).chain(RHAI.iter().copied())
 }
 
 type Failable<T> = Result<T, Box<EvalAltResult>>;

@@ -13,8 +13,8 @@ const TARGETS: &[(&str, usize)] = &[("compile", 4096), ("script", 2048), ("load"
 const FLAGS: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
                      -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
                      --cfg fuzzing -Ccodegen-units=1";
-/// What a target's kept inputs may measure together, bytes.
-const KEPT_MAX: u64 = 240_000;
+/// What a target's kept inputs may measure together, bytes, and how many they may be.
+const KEPT_MAX: (u64, usize) = (240_000, 400);
 
 /// What is asked for.
 struct Options {
@@ -138,7 +138,7 @@ fn keep(bin: &Path, target: &str, max_len: usize) -> Result<(), String> {
     let (mut bytes, mut n) = (0, 0);
     for (len, path) in &inputs {
         bytes += len;
-        if bytes > KEPT_MAX {
+        if bytes > KEPT_MAX.0 || n == KEPT_MAX.1 {
             break;
         }
         if let Some(name) = path.file_name() {

@@ -42,10 +42,10 @@ fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
 });
 
 /// What a scenario says, but for the words that are quoted from its text.
-fn said(scenario: &Scenario) -> Result<String, impl std::fmt::Debug> {
+fn said(scenario: &Scenario) -> String {
     let mut scenario = scenario.clone();
     scenario.start.requires.iter_mut().for_each(|require| require.label.clear());
-    file::to_json(&scenario)
+    file::to_json(&scenario).expect("a compiled scenario can be written")
 }
 
 /// Problems point into their files, and can be told in both forms.

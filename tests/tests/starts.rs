@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::scenario::{Action, EventKind, GameMode, Qualifier, Team};
+use setpiece::scenario::{Action, EventKind, GameMode, Instr, Qualifier, Team};
 
 fn environment(start: &str) -> Environment {
     let text = format!(
@@ -132,4 +132,20 @@ fn a_formation_may_be_chosen_by_a_draw() {
         seen[which.unwrap_or_else(|| panic!("{found:?}"))] += 1;
     }
     assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
+}
+
+/// The compiler refuses such a height; a compiled file may hold it all the same.
+#[test]
+fn a_ball_never_begins_below_the_grass() {
+    let text = "scenario s { agents { left: 1 } ball at (0.5, 0) { height: 7m } team left { GK } end limit 9 steps }";
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let mut scenario = std::sync::Arc::unwrap_or_clone(loaded.scenario);
+    for instr in &mut scenario.start.program.code {
+        if *instr == Instr::Const(7.0) {
+            *instr = Instr::Const(-60.0);
+        }
+    }
+    let mut environment = Environment::new(scenario.into(), EnvironmentOptions::default()).unwrap();
+    environment.reset(Some(1), Some(0)).unwrap();
+    assert!((environment.state().ball.pos.z - 0.11).abs() < 1e-6);
 }

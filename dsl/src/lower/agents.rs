@@ -23,6 +23,7 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
         switching: Switching::Auto,
     };
     let mut at = [None, None];
+    let mut switching = None;
     for field in lower.world.flat.agents.clone() {
         if !options::is_known(lower, field, AGENTS, "`agents`") {
             continue;
@@ -36,8 +37,9 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
             }
             "switching" => {
                 let words = [("auto", Switching::Auto), ("fixed", Switching::Fixed)];
-                if let Some(switching) = word(lower, field, expr, &words) {
-                    agents.switching = switching;
+                if let Some(found) = word(lower, field, expr, &words) {
+                    agents.switching = found;
+                    switching = Some(expr.span);
                 }
             }
             side => {
@@ -50,6 +52,18 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
                 }
             }
         }
+    }
+    let listed = agents.sides.iter().any(|side| matches!(side, SideAgents::Players(_)));
+    let counted = agents.sides.iter().any(|side| match side {
+        SideAgents::Count(reg) => lower.code.constant_of(*reg) != Some(0.0),
+        SideAgents::All => true,
+        SideAgents::Players(_) => false,
+    });
+    if let Some(at) = switching.filter(|_| agents.switching == Switching::Auto && listed && !counted) {
+        lower.report(
+            Problem::new(Code::BadAgents, at, "an agent that is listed by name keeps his player", "")
+                .help("leave `switching` out, or ask for a number of agents: `left: 1`"),
+        );
     }
     for (team, at) in Team::ALL.iter().zip(at) {
         check_count(lower, &agents, *team, at, players);

@@ -135,6 +135,7 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     let places: Vec<(Reg, Reg)> = (0..n).map(|i| lower.place_of_rostered(i, roster_span(world, i))).collect();
     let headings: Vec<Option<Reg>> = (0..n).map(|i| lower.heading_of(i, roster_span(world, i))).collect();
     let ball = lower.ball();
+    lower.check_kickoff_ball(kind, ball.as_ref());
     let options: Vec<PlayerOptions> =
         world.roster.iter().map(|player| lower_player_options(&mut lower, player)).collect();
     let difficulty = [lower_difficulty(&mut lower, Team::Left), lower_difficulty(&mut lower, Team::Right)];

@@ -8,7 +8,7 @@ use crate::lower::value::{Frame, Scope};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M};
 use setpiece_scenario::vocabulary::{StartKind, Team};
-use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
+use setpiece_scenario::{BallStart, BinaryOp, Reg, UnaryOp};
 
 impl Lower<'_, '_> {
     /// The kind of start and the team that takes it; told once.
@@ -52,6 +52,13 @@ impl Lower<'_, '_> {
                     .help(format!("write `start {} for left`", kind.node)),
             );
         }
+        if let Some(team) = team.as_ref().filter(|_| found == StartKind::Open) {
+            self.report(
+                Problem::new(Code::WrongScope, team.span, "an open start belongs to no team", "")
+                    .label(kind.span, "play is on at once")
+                    .help("leave `for …` out; who has the ball says `ball … { owner: NAME }`"),
+            );
+        }
         self.check_ball_statement(found, kind, at.as_ref().map(|at| at.span));
         let scope = Scope::new(true, Frame::World);
         let team = team.as_ref().map(|team| {
@@ -93,6 +100,21 @@ impl Lower<'_, '_> {
                 }
             }
         }
+    }
+
+    /// At a kick-off the ball lies still on the centre spot.
+    pub(in crate::lower) fn check_kickoff_ball(&self, kind: StartKind, lies: Option<&BallStart>) {
+        let (Some((ball, span)), Some(lies)) = (self.world.flat.ball, lies) else { return };
+        let at_centre = [lies.x, lies.y].iter().all(|reg| self.code.constant_of(*reg) == Some(0.0));
+        if kind != StartKind::Kickoff || (at_centre && ball.fields.is_empty()) {
+            return;
+        }
+        let word = self.world.flat.start.map_or(self.world.flat.item.name.span, |stmt| stmt.span);
+        self.report(
+            Problem::new(Code::DuplicateOption, span, "a kick-off lays the ball on the centre spot", "")
+                .label(word, "the start is a kick-off")
+                .help("leave `ball …` out; an inherited one goes by `remove ball`"),
+        );
     }
 
     /// Where the ball lies where no `ball …` says so; `None` after a report.

@@ -188,6 +188,25 @@ impl Environment {
         Ok(StepResult { terminated, truncated })
     }
 
+    /// Goes on with another version of the scenario's scripts, at once and with the memory they have; false, and nothing
+    /// done, where anything else is another.
+    ///
+    /// # Errors
+    /// [`EnvironmentError`] for a script that is not Rhai.
+    pub fn adopt_scripts(&mut self, scenario: &Arc<Scenario>) -> Result<bool, EnvironmentError> {
+        if scenario.scripts.len() != self.scenario.scripts.len() {
+            return Ok(false);
+        }
+        let same = Scenario { scripts: self.scenario.scripts.clone(), ..Scenario::clone(scenario) } == *self.scenario;
+        if same {
+            let scripts = Scripts::compile(scenario)?;
+            self.actors.adopt(scripts.clone());
+            self.judge.adopt(scripts);
+            self.scenario = scenario.clone();
+        }
+        Ok(same)
+    }
+
     /// Binds the parameters anew, from the next reset on.
     ///
     /// # Errors

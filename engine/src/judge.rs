@@ -72,6 +72,12 @@ impl Judge {
         }
     }
 
+    /// Goes on with other scripts.
+    pub fn adopt(&mut self, scripts: Scripts) {
+        self.rewards.adopt(&scripts);
+        self.known.adopt(scripts);
+    }
+
     /// What has been measured.
     pub fn records(&self) -> &RecordJudge {
         &self.records

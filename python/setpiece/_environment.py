@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from operator import index
 from os import PathLike, fspath
-from typing import Any
+from typing import Any, Literal
 
 import gymnasium
 import numpy as np
@@ -43,7 +43,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
       scenario's digest.
 
     With `watch=True` every `reset` looks whether the scenario's file, an import or a script has changed, and begins the
-    episode under the new scenario; its `info` has `scenario`, the digest of what is played.
+    episode under the new scenario; its `info` has `scenario`, the digest of what is played. With `watch="now"` every
+    `step` looks too, and where nothing but scripts has changed it goes on with them at once, and with their memory.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 10}
@@ -66,14 +67,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         events: bool = False,
         copy: bool = True,
         render_mode: str | None = None,
-        watch: bool = False,
+        watch: bool | Literal["now"] = False,
         on_reload: Callable[[Reload], object] | None = None,
     ) -> None:
         """Makes an environment; the arguments are those of `setpiece.make`."""
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
         self.render_mode = render_mode
+        if watch not in (False, True, "now"):
+            raise ParameterError(f"`watch` is {watch!r}; it can be False, True or 'now'", name="watch")
         self._live: Live | None = None
+        self._at_once = watch == "now"
+        self._waiting: Scenario | None = None
         if isinstance(scenario, Scenario):
             if watch:
                 raise ParameterError("a `Scenario` has no file to watch: give its path", name="watch")
@@ -147,6 +152,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """
         if not self._playing:
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+        if self._at_once and self._live is not None:
+            self._follow_scripts(self._live)
         try:
             result = self._native.step(action)
         except ScriptError:
@@ -159,13 +166,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _follow(self, live: Live) -> None:
         """Takes over what has changed in the scenario's files since the last reset."""
-        try:
-            fresh = live.poll()
-        except SetpieceError as error:
-            self._tell(Reload("broken", None, error, "the scenario's files have errors"))
-            return
+        fresh = self._changed(live)
         if fresh is None:
             return
+        self._waiting = None
         try:
             scenario = fresh.with_params(**self._bound)
             native = _native.Environment(scenario, **self._options)
@@ -180,6 +184,30 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         else:
             self.scenario, self._native, self._digest = scenario, native, scenario.digest
             self._tell(Reload("applied", fresh, None, f"`{scenario.name}` is played from this episode on"))
+
+    def _follow_scripts(self, live: Live) -> None:
+        """Takes over changed scripts at once; any other change waits for the next reset."""
+        fresh = self._changed(live)
+        if fresh is None or fresh is self._waiting:
+            return
+        try:
+            scenario = fresh.with_params(**self._bound)
+            adopted = self._native.adopt_scripts(scenario)
+        except SetpieceError:
+            adopted = False
+        if adopted:
+            self.scenario, self._digest = scenario, scenario.digest
+            self._tell(Reload("applied", fresh, None, f"the scripts of `{scenario.name}` are run from this step on"))
+        else:
+            self._waiting = fresh
+
+    def _changed(self, live: Live) -> Scenario | None:
+        """The scenario of files that have changed, or one that is still waiting."""
+        try:
+            return live.poll() or self._waiting
+        except SetpieceError as error:
+            self._tell(Reload("broken", None, error, "the scenario's files have errors"))
+            return None
 
     def _tell(self, reload: Reload) -> None:
         self.last_reload = reload
@@ -211,7 +239,7 @@ def make(
     events: bool = False,
     copy: bool = True,
     render_mode: str | None = None,
-    watch: bool = False,
+    watch: bool | Literal["now"] = False,
     on_reload: Callable[[Reload], object] | None = None,
 ) -> FootballEnv:
     """Makes an environment of a scenario.
@@ -225,8 +253,9 @@ def make(
     - `events`: whether `info["events"]` lists what happened in each step.
     - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one.
     - `render_mode`: None or `"ansi"`.
-    - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; a broken file
-      leaves the last good scenario in place, and one that would change the spaces is held back.
+    - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; with `"now"`
+      every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one
+      that would change the spaces is held back.
     - `on_reload`: called with the `Reload` of every change; see also `env.unwrapped.last_reload`.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.

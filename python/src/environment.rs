@@ -93,6 +93,12 @@ impl Environment {
         (count(Team::Left), count(Team::Right))
     }
 
+    /// Goes on with another version of the scenario's scripts at once; False, and nothing done, where anything else is
+    /// another.
+    fn adopt_scripts(&mut self, py: Python<'_>, scenario: &Scenario) -> PyResult<bool> {
+        self.engine.adopt_scripts(scenario.inner()).map_err(|error| from_engine(py, error))
+    }
+
     /// Begins the episode of a seed and an index under parameters; returns observation and info.
     fn reset<'py>(
         &mut self,

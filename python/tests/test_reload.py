@@ -93,3 +93,48 @@ def test_only_files_can_be_watched() -> None:
         setpiece.make("academy_corner", watch=True)
     with pytest.raises(setpiece.ParameterError, match="give its path"):
         setpiece.make(setpiece.load("academy_corner"), watch=True)
+
+
+def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Path]) -> None:
+    def text(pay: str, limit: int = 400) -> str:
+        return f"""
+            scenario followed extends academy {{
+                ball at (0.5, 0)
+                team left {{ GK  CM at (0.4, 0) }}
+                reward script rhai \"\"\"
+                    fn reward(ctx, now, prev, events) {{ this.n = (this.n ?? 0) + 1; {pay} }}
+                \"\"\"
+                end limit {limit} steps
+            }}
+        """
+
+    def steps(done: Callable[[], bool]) -> float:
+        for _ in range(600):
+            reward = env.step(0)[1]
+            if done():
+                return float(reward)
+            time.sleep(0.01)
+        raise AssertionError("the change was never noticed")
+
+    path = pitch_file(text("1.0"))
+    env = setpiece.make(path, watch="now")
+    first = env.reset(seed=1)[1]["scenario"]
+    assert env.step(0)[1] == 1.0
+    # Only the script is another: it goes on with its memory, in this episode.
+    path.write_text(text("100.0 + this.n"))
+    assert steps(lambda: env.last_reload is not None) > 101.0
+    assert env.last_reload is not None and env.last_reload.state == "applied"
+    assert env.scenario.digest != first
+    # A broken script is told at once, and the last good one goes on.
+    path.write_text(text("100.0 +"))
+    assert steps(lambda: env.last_reload is not None and env.last_reload.state == "broken") > 101.0
+    # Anything else waits for the next episode.
+    path.write_text(text("5.0", limit=7))
+    for _ in range(30):
+        assert env.step(0)[1] > 101.0
+        time.sleep(0.01)
+    env.reset()
+    assert env.last_reload.state == "applied"
+    assert env.step(0)[1] == 5.0
+    with pytest.raises(setpiece.ParameterError, match="'soon'"):
+        setpiece.make(path, watch="soon")  # type: ignore[arg-type]

@@ -61,6 +61,11 @@ impl Actors {
         }
     }
 
+    /// Goes on with other scripts.
+    pub fn adopt(&mut self, scripts: Scripts) {
+        self.known.adopt(scripts);
+    }
+
     /// Values of this episode that were stopped because they were impossible.
     pub fn faults(&self) -> u32 {
         self.faults

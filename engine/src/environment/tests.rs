@@ -212,3 +212,27 @@ fn a_clone_goes_its_own_way() {
     assert_eq!(first.rewards(), second.rewards());
     assert_eq!(first.digest(), second.digest());
 }
+
+#[test]
+fn scripts_are_swapped_within_an_episode_and_nothing_else_is() {
+    let counting = |add: &str| {
+        script_reward(&format!("fn reward(ctx, now, prev, events) {{ this.n = (this.n ?? 0) + 1; this.n + {add} }}"))
+    };
+    let mut environment = environment(counting("0"));
+    let mut scratch = Scratch::default();
+    environment.reset(Some(1), None).unwrap();
+    let mut paid = |environment: &mut Environment| {
+        environment.step(&[Action::Idle], &mut scratch).unwrap();
+        environment.rewards()[0]
+    };
+    assert_eq!([paid(&mut environment), paid(&mut environment)], [2.0, 4.0]);
+    assert_eq!(environment.adopt_scripts(&Arc::new(counting("100"))), Ok(true));
+    assert_eq!(paid(&mut environment), 206.0, "its memory goes on");
+    let mut other = counting("0");
+    other.name = "another".to_owned();
+    assert_eq!(environment.adopt_scripts(&Arc::new(other)), Ok(false));
+    assert_eq!(paid(&mut environment), 208.0);
+    assert!(environment.adopt_scripts(&Arc::new(counting("(")),).is_err());
+    assert_eq!(environment.adopt_scripts(&Arc::new(counting("now.me.speed"))), Ok(true));
+    assert_eq!(paid(&mut environment), 2.0, "for each agent it begins anew");
+}

@@ -43,6 +43,11 @@ impl Known {
         });
     }
 
+    /// Goes on with other scripts.
+    pub fn adopt(&mut self, scripts: Scripts) {
+        self.scripts = scripts;
+    }
+
     /// The scripts.
     pub fn scripts(&self) -> &Scripts {
         &self.scripts

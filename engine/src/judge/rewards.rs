@@ -73,11 +73,7 @@ impl RewardJudge {
         for reward in rewards.iter() {
             let first_term = names.len();
             names.extend(reward.body.terms.iter().map(|label| format!("{}/{label}", reward.name)));
-            let hook = |hook: &RewardHook| {
-                let shared = !scripts.uses_me(hook.script);
-                let n_memories = if shared { Team::ALL.len() } else { n_agents };
-                HookState { shared, memories: vec![Memory::default(); n_memories] }
-            };
+            let hook = |hook: &RewardHook| HookState::new(!scripts.uses_me(hook.script), n_agents);
             states.push(RewardState {
                 first_term,
                 n_terms: names.len() - first_term,
@@ -95,6 +91,18 @@ impl RewardJudge {
             sums: vec![0.0; n_agents * n_terms],
             paid: vec![0.0; n_agents],
             faults: 0,
+        }
+    }
+
+    /// Goes on with other scripts; one that is now run for each agent, or no longer is, forgets.
+    pub fn adopt(&mut self, scripts: &Scripts) {
+        for (state, reward) in self.states.iter_mut().zip(self.rewards.iter()) {
+            for (state, hook) in state.hooks.iter_mut().zip(&reward.body.hooks) {
+                let shared = !scripts.uses_me(hook.script);
+                if shared != state.shared {
+                    *state = HookState::new(shared, self.n_agents);
+                }
+            }
         }
     }
 
@@ -229,6 +237,11 @@ impl RewardJudge {
 }
 
 impl HookState {
+    fn new(shared: bool, n_agents: usize) -> HookState {
+        let n_memories = if shared { Team::ALL.len() } else { n_agents };
+        HookState { shared, memories: vec![Memory::default(); n_memories] }
+    }
+
     /// Calls a script for a team's agents: for each, or for the first and all.
     fn call(
         &mut self,

@@ -1,4 +1,6 @@
-//! The compiled scenario's file format, `.pitchc`: JSON with a version and a checksum.
+//! The compiled scenario's file format, `.pitchc`: JSON with a version and a checksum, or the [`binary`] form of it.
+
+pub mod binary;
 
 use crate::scenario::Scenario;
 use crate::verify::verify;

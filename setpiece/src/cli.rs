@@ -68,6 +68,9 @@ enum Command {
         /// Where to write it
         #[arg(short, long, value_name = "OUT")]
         output: PathBuf,
+        /// How it is written; either is read alike
+        #[arg(long, value_enum, default_value_t = BuildFormat::Json)]
+        format: BuildFormat,
     },
     /// Lay files out in the one way: comments stay, meaning stays, broken files are left alone
     #[command(after_help = "Examples:
@@ -97,6 +100,15 @@ enum Command {
   setpiece run 11_vs_11_stochastic --set difficulty=0.95 --reward scoring --reward checkpoints
   setpiece run corner.pitch --watch")]
     Run(play::RunArgs),
+}
+
+/// How a compiled scenario is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BuildFormat {
+    /// As text
+    Json,
+    /// Compact, for machines
+    Bin,
 }
 
 /// How `check` prints problems.
@@ -129,7 +141,7 @@ fn run(args: Args) -> u8 {
         Command::Check { files, message_format, watch: false } => {
             Ok(check::check(&files, message_format, &out, &mut Vec::new()))
         }
-        Command::Build { source, output } => build(&source, &output, &out),
+        Command::Build { source, output, format } => build(&source, &output, format, &out),
         Command::Fmt(args) => Ok(fmt::fmt(&args, &out)),
         Command::Explain { code } => Ok(explain::explain(code.as_deref(), &out)),
         Command::Doc(args) => doc::doc(&args, &out),
@@ -158,13 +170,16 @@ fn list(out: &Out) -> u8 {
     FINE
 }
 
-fn build(source: &str, output: &std::path::Path, out: &Out) -> Result<u8, Error> {
+fn build(source: &str, output: &std::path::Path, format: BuildFormat, out: &Out) -> Result<u8, Error> {
     let loaded = crate::load(source)?;
     out.warnings(&loaded);
     crate::files::refuse_overwriting(output, &loaded.inputs)?;
-    let text = crate::scenario::file::to_json(&loaded.scenario)
-        .map_err(|why| Error::Format { path: output.to_owned(), why })?;
-    crate::files::write(output, &text)?;
-    out.line(&format!("{} → {} ({} bytes)", loaded.scenario.name, output.display(), text.len()));
+    let written = match format {
+        BuildFormat::Json => crate::scenario::file::to_json(&loaded.scenario).map(String::into_bytes),
+        BuildFormat::Bin => crate::scenario::file::binary::to_bytes(&loaded.scenario),
+    };
+    let bytes = written.map_err(|why| Error::Format { path: output.to_owned(), why })?;
+    crate::files::write(output, &bytes)?;
+    out.line(&format!("{} → {} ({} bytes)", loaded.scenario.name, output.display(), bytes.len()));
     Ok(FINE)
 }

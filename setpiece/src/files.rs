@@ -16,6 +16,14 @@ pub const COMPILED_MAX_BYTES: u64 = 64 << 20;
 /// # Errors
 /// [`Error::File`] where it is missing, a directory, too large, not UTF-8, or can't be read.
 pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
+    into_text(read_file(path, max)?, path)
+}
+
+/// Reads a file of at most `max` bytes.
+///
+/// # Errors
+/// [`Error::File`] where it is missing, too large, or can't be read.
+pub fn read_file(path: &Path, max: u64) -> Result<Vec<u8>, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     let io = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => fault(FileFault::Missing { similar: similar_file(path) }),
@@ -26,7 +34,7 @@ pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
     if meta.is_dir() {
         return Err(fault(FileFault::Directory));
     }
-    read(std::fs::File::open(path).map_err(io)?, path, max)
+    read_bytes(std::fs::File::open(path).map_err(io)?, path, max)
 }
 
 /// Reads a text of at most `max` bytes; `path` is how reports call it.
@@ -34,6 +42,10 @@ pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
 /// # Errors
 /// [`Error::File`] where it is too large, not UTF-8, or can't be read.
 pub fn read(from: impl Read, path: &Path, max: u64) -> Result<String, Error> {
+    into_text(read_bytes(from, path, max)?, path)
+}
+
+fn read_bytes(from: impl Read, path: &Path, max: u64) -> Result<Vec<u8>, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     let mut bytes = Vec::new();
     // One byte more than allowed: a pipe has no length to look at.
@@ -41,6 +53,15 @@ pub fn read(from: impl Read, path: &Path, max: u64) -> Result<String, Error> {
     if bytes.len() as u64 > max {
         return Err(fault(FileFault::TooLarge { max }));
     }
+    Ok(bytes)
+}
+
+/// The bytes of a file as text.
+///
+/// # Errors
+/// [`Error::File`] where they are not UTF-8.
+pub fn into_text(bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
+    let fault = |why| Error::File { path: path.to_owned(), why };
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].split(|&byte| byte == b'\n').count();
@@ -131,7 +152,8 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
 ///
 /// # Errors
 /// [`Error::File`] where it can't be written.
-pub fn write(path: &Path, text: &str) -> Result<(), Error> {
+pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
+    let content = content.as_ref();
     let fault = |error: std::io::Error| Error::File { path: path.to_owned(), why: FileFault::Write(error.to_string()) };
     if path.is_dir() {
         let why = FileFault::Write("it is a directory".to_owned());
@@ -142,13 +164,13 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     };
     // A device or pipe can't be renamed over.
     if path.exists() && !path.is_file() {
-        return std::fs::write(path, text).map_err(fault);
+        return std::fs::write(path, content).map_err(fault);
     }
     let mut temporary = name.to_owned();
     temporary.push(format!(".{}.tmp", std::process::id()));
     let temporary = path.with_file_name(temporary);
     let replace = || {
-        std::fs::write(&temporary, text)?;
+        std::fs::write(&temporary, content)?;
         // Who may read and write it stays as it was.
         if let Ok(meta) = std::fs::metadata(path) {
             std::fs::set_permissions(&temporary, meta.permissions())?;

@@ -1,12 +1,13 @@
 //! Loading: a name, a path, a text or a compiled file becomes a scenario.
 
 use crate::error::{Error, Failure, FileFault};
-use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, read_text};
+use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, into_text, read_file};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
 use setpiece_dsl::{CompileOptions, Origins, Prelude, compile};
+use setpiece_scenario::file::{self, binary};
 use setpiece_scenario::{Bindings, Scenario, Team};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -73,26 +74,34 @@ pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
     Err(Error::Unknown { name: name_or_path.to_owned(), similar: nearest(name_or_path, names).map(str::to_owned) })
 }
 
-/// Loads a `.pitch` or a compiled file; which it is, its first character tells.
+/// Loads a `.pitch` or a compiled file in either form; which it is, its beginning tells.
 ///
 /// # Errors
 /// As [`load`].
 pub fn load_file(path: &Path) -> Result<Loaded, Error> {
     let compiled = path.extension().is_some_and(|ending| ending == "pitchc");
-    let text = read_text(path, if compiled { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES })?;
+    let bytes = read_file(path, if compiled { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES })?;
+    let format = |why| Error::Format { path: path.to_owned(), why };
+    if bytes.starts_with(binary::MAGIC) {
+        return Ok(of_file(binary::from_bytes(&bytes).map_err(format)?, path));
+    }
+    let text = into_text(bytes, path)?;
     if compiled || text.starts_with("{\"format\"") {
-        let scenario =
-            setpiece_scenario::file::from_json(&text).map_err(|why| Error::Format { path: path.to_owned(), why })?;
-        return Ok(Loaded {
-            scenario: Arc::new(scenario),
-            warnings: Vec::new(),
-            sources: Sources::default(),
-            origin: None,
-            origins: Origins::default(),
-            inputs: vec![path.to_owned()],
-        });
+        return Ok(of_file(file::from_json(&text).map_err(format)?, path));
     }
     compile_source(Source { name: path.to_string_lossy().into_owned(), text: text.into() })
+}
+
+/// A scenario that a file holds compiled.
+fn of_file(scenario: Scenario, path: &Path) -> Loaded {
+    Loaded {
+        scenario: Arc::new(scenario),
+        warnings: Vec::new(),
+        sources: Sources::default(),
+        origin: None,
+        origins: Origins::default(),
+        inputs: vec![path.to_owned()],
+    }
 }
 
 /// Compiles a text; `name` is how reports call it.

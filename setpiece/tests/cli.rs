@@ -169,6 +169,38 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
 }
 
 #[test]
+fn the_compact_form_is_the_same_scenario_and_its_faults_are_told() {
+    let folder = folder();
+    let source = write(folder.path(), "close.pitch", CLOSE);
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (text, compact) = (at("text.pitchc"), at("compact.pitchc"));
+    assert!(setpiece(&["build", &source, "-o", &text]).status.success());
+    assert!(setpiece(&["build", &source, "-o", &compact, "--format", "bin"]).status.success());
+    let again = at("again.pitchc");
+    assert!(setpiece(&["build", &compact, "-o", &again]).status.success());
+    assert_eq!(std::fs::read(&text).unwrap(), std::fs::read(&again).unwrap(), "one form holds what the other does");
+    let whole = std::fs::read(&compact).unwrap();
+    assert!(whole.len() < std::fs::read(&text).unwrap().len() * 3 / 4, "{} bytes", whole.len());
+    let broken = |name: &str, change: &dyn Fn(&mut Vec<u8>)| {
+        let mut bytes = whole.clone();
+        change(&mut bytes);
+        std::fs::write(at(name), bytes).unwrap();
+        at(name)
+    };
+    let cases: [(&str, &dyn Fn(&mut Vec<u8>), &str); 6] = [
+        ("head", &|bytes| bytes.truncate(17), "cut off"),
+        ("half", &|bytes| bytes.truncate(bytes.len() / 2), "cut off"),
+        ("version", &|bytes| bytes[8] = 99, "version 99"),
+        ("changed", &|bytes| *bytes.last_mut().unwrap() ^= 1, "checksum"),
+        ("longer", &|bytes| bytes.push(0), "checksum"),
+        ("other.pitchc", &|bytes| bytes[0] = b'x', "SP000"),
+    ];
+    for (name, change, told) in cases {
+        fails(&["run", &broken(name, change)], 1, &[told]);
+    }
+}
+
+#[test]
 fn a_name_or_file_that_is_not_there_is_one_clear_error() {
     fails(&["run", "academy_3_vs_1_with_keper"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
     fails(&["run", "nothing/of/the/kind.pitch"], 1, &["SP0001"]);

@@ -11,7 +11,7 @@ const LINES_MAX: usize = 600;
 /// The room, and everything it may depend on.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("setpiece-grammar", &["pest", "pest_derive"]),
-    ("setpiece-scenario", &["schemars", "serde", "serde_json"]),
+    ("setpiece-scenario", &["ciborium", "schemars", "serde", "serde_json"]),
     (
         "setpiece-dsl",
         &["setpiece-grammar", "setpiece-scenario", "miette", "pest", "strsim", "thiserror", "serde", "serde_json"],
@@ -49,6 +49,12 @@ const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
     ("python/src", &["rapier3d", "rhai", "pest"], "the binding holds conversions only"),
 ];
 
+/// Where a word may stand all the same, and why.
+const MAY_SAY: &[(&str, &str)] = &[
+    // Rhai's machine and the operations left to a call: every call sets or reckons anew what its result hangs on.
+    ("engine/src/judge/script/call.rs", "thread_local!"),
+];
+
 /// Checks every rule and names each breach.
 pub(crate) fn tidy() -> Result<(), String> {
     let mut breaches = Vec::new();
@@ -58,7 +64,8 @@ pub(crate) fn tidy() -> Result<(), String> {
             let text = read(&file)?;
             // Tests at the end of a file may use what they like.
             let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-            for word in *words {
+            let allowed = |word: &str| MAY_SAY.iter().any(|(path, said)| *said == word && file.ends_with(path));
+            for word in words.iter().filter(|word| !allowed(word)) {
                 if let Some(line) =
                     code.lines().position(|line| line.contains(word) && !line.trim_start().starts_with("//"))
                 {

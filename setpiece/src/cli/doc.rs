@@ -44,7 +44,7 @@ pub(crate) fn doc(args: &DocArgs, out: &Out) -> Result<u8, Error> {
     drawn.map_err(|why| Error::Episode(Box::new(EpisodeError::Draw(why))))?;
     let start = environment.start();
     if let Some(path) = &args.picture {
-        write(path, &picture::svg(&loaded.scenario, start))?;
+        write(path, picture::svg(&loaded.scenario, start))?;
     }
     let link = args.picture.as_deref().map(|path| linked(path, args.output.as_deref()));
     let page = doc::markdown(&loaded, start, link.as_deref());

@@ -6,7 +6,7 @@ mod unused;
 use crate::ast::{ItemKind, ScenarioItem, Span};
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
-use crate::lower::{World, behavior, ending, observation, param, record, reward, roster, start};
+use crate::lower::{World, behavior, ending, hidden, observation, param, record, reward, roster, start};
 use crate::problem::{Code, Problem, ScriptApi, Severity};
 use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
@@ -54,8 +54,17 @@ pub struct Origins {
     pub rewards: Vec<Span>,
     /// Its endings, in order.
     pub endings: Vec<Span>,
-    /// Its written requirements, in order; implied ones come after them.
-    pub requires: Vec<Span>,
+    /// Its requirements, in order: the written ones, then the implied.
+    pub requires: Vec<RequireOrigin>,
+}
+
+/// Where a requirement of the draw comes from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RequireOrigin {
+    /// The statement, or the part that implies it, where it is one part.
+    pub span: Option<Span>,
+    /// What makes an implied one hold.
+    pub help: Option<String>,
 }
 
 /// The formations of a text that need no argument; `None` if it declares nothing at all.
@@ -184,7 +193,7 @@ fn follows_from_gaps(code: Code) -> bool {
 }
 
 fn not_yet(what: &str, span: Span) -> Problem {
-    Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), "")
+    Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), "").help("leave it out")
 }
 
 /// The scenario that comes out: the named one, else the last that is not abstract.
@@ -250,6 +259,8 @@ fn compile_one<'a>(
         roster: Vec::new(),
         whole_roster: false,
         agents: None,
+        rules_off: Vec::new(),
+        longest: None,
         scripts: RefCell::default(),
         scripts_loaded: scripts,
         problems: RefCell::default(),
@@ -259,9 +270,13 @@ fn compile_one<'a>(
     let told = world.problems.borrow().len();
     world.roster = roster::lower_roster(&world);
     world.whole_roster = world.problems.borrow().len() == told;
-    let start::LoweredStart { start, mut players, agents, side, lets, behaviors } = start::lower_start(&world);
+    let start::LoweredStart { start, mut players, agents, side, lets, behaviors, origins: requires } =
+        start::lower_start(&world);
     world.lets = lets;
     world.agents = side;
+    world.rules_off = start::rules_off(&start);
+    world.longest = start::longest(&start);
+    hidden::check_scenario(&world);
     let mut rewards = Vec::new();
     let mut reward_spans = Vec::new();
     for (name, used, stmt) in &flat.rewards {
@@ -283,7 +298,7 @@ fn compile_one<'a>(
         players: world.roster.iter().map(|player| player.span).collect(),
         rewards: reward_spans,
         endings: flat.ends.iter().map(|end| end.span).collect(),
-        requires: flat.requires.iter().map(|stmt| stmt.span).collect(),
+        requires,
     };
     let scenario = Scenario {
         name: item.name.node.clone(),
@@ -310,6 +325,16 @@ fn told_by_child(world: &World<'_>, problem: Problem) -> Problem {
     let Some(span) = place(&problem).filter(|span| world.flat.is_inherited(*span)) else { return problem };
     let text = world.library.sources.text(span);
     let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    // What a child hands in is what can't be drawn, not what the parent does with it.
+    let mut bound = world.params.iter().filter_map(|param| Some((param.name, param.bound?)));
+    if let Some((name, argument)) = bound.find(|(name, _)| words.contains(&name.node.as_str()))
+        && problem.code == Code::NotConstant
+    {
+        let message =
+            format!("`{}` can't be drawn: {}", name.node, problem.message.replace(" can't be drawn", " depends on it"));
+        let moved = Problem::new(problem.code, argument.span, message, "differs between episodes");
+        return moved.label(span, "used here").help("hand in a number or a parameter");
+    }
     let own = words.into_iter().filter_map(|word| world.declaration(word)).find(|at| world.flat.is_own(*at));
     match own {
         Some(at) => problem.label(at, "declared here"),

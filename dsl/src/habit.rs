@@ -4,11 +4,14 @@ mod table;
 
 use pest::Parser;
 use setpiece_grammar::{PitchParser, Rule};
-use setpiece_scenario::vocabulary::Role;
+use setpiece_scenario::vocabulary::{EventKind, Role};
 use table::HABITS;
 
 /// Tokens on either side of a place that are looked at.
 const WINDOW: usize = 64;
+
+/// A bracket that does not touch what stands before it.
+pub(crate) const BRACKET_APART: &str = " (";
 
 /// Where a habit is met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +40,7 @@ struct Habit {
     /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text begins.
     ///
     /// `_` is a name, `""` a string, `9` a number, `9a` a number with letters, `é` a word of other letters, `ROLE` a
-    /// role, `a¦b` one of two, `a*` what begins with `a`, `*` any token and `\*` that sign, `…` any number of them, `$` the end.
+    /// role, `EVENT` an event, `␣(` a bracket behind a blank, `a¦b` one of two, `a*` what begins with `a`, `*` any token and `\*` that sign, `…` any number of them, `$` the end.
     seen: &'static str,
     /// What to write; `{1}` is the first that was not spelt out in `seen`.
     write: &'static str,
@@ -135,13 +138,15 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
         "é" => letters && !token.is_ascii() && !token.starts_with('"'),
         "\"\"" => token.starts_with('"'),
         "ROLE" => Role::from_name(token).is_some(),
+        "EVENT" => EventKind::from_name(token).is_some(),
         literal if literal.starts_with(char::is_alphabetic) && literal.ends_with('*') => {
             let rest = token.strip_prefix(literal.trim_end_matches('*'));
             found.extend(rest);
             return rest.is_some() && matches(pattern, tokens, found);
         }
         literals if literals.contains('¦') => literals.split('¦').any(|literal| literal == *token),
-        literal => return literal.trim_start_matches('\\') == *token && matches(pattern, tokens, found),
+        "␣(" => return *token == BRACKET_APART && matches(pattern, tokens, found),
+        literal => return literal.trim_start_matches('\\') == token.trim_start() && matches(pattern, tokens, found),
     };
     if meant {
         found.push(token);
@@ -177,7 +182,7 @@ mod tests {
             assert!(!habit.write.is_empty() && !habit.seen.trim().is_empty());
             assert_eq!(habit.place == Place::Name, !habit.seen.contains('|'), "{}", habit.seen);
             let open = habit.seen.split_whitespace().filter(|token| {
-                ["_", "*", "9", "9a", "é", "\"\"", "ROLE"].contains(token)
+                ["_", "*", "9", "9a", "é", "\"\"", "ROLE", "EVENT"].contains(token)
                     || token.contains('¦')
                     || token.ends_with("_*")
             });

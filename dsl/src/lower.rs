@@ -9,6 +9,7 @@ pub(crate) mod builder;
 pub(crate) mod ending;
 pub(crate) mod expr;
 pub(crate) mod fold;
+pub(crate) mod hidden;
 pub(crate) mod interval;
 pub(crate) mod mirror;
 pub(crate) mod observation;
@@ -25,6 +26,7 @@ pub(crate) mod value;
 
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
+use crate::compile::RequireOrigin;
 use crate::problem::{Code, Problem};
 use crate::resolve::{Flat, Library};
 use builder::Builder;
@@ -32,7 +34,7 @@ use interval::Interval;
 use mirror::Mirror;
 use param::ParamInfo;
 use roster::Rostered;
-use setpiece_scenario::vocabulary::{EventKind, Team};
+use setpiece_scenario::vocabulary::{EventKind, Rule, Team};
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
 use start::{LetSlot, StartState};
 use std::cell::RefCell;
@@ -57,6 +59,10 @@ pub(crate) struct World<'w> {
     pub(crate) whole_roster: bool,
     /// The one team that has agents.
     pub(crate) agents: Option<Team>,
+    /// The rules that are off, whatever its parameters are.
+    pub(crate) rules_off: Vec<Rule>,
+    /// How long an episode lasts at most, seconds, if that is known.
+    pub(crate) longest: Option<f64>,
     /// Scripts that are embedded so far.
     pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
     /// Scripts as they were loaded.
@@ -93,6 +99,11 @@ impl World<'_> {
     pub(crate) fn declares(&self, name: &str) -> bool {
         self.declaration(name).is_some()
             || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
+    }
+
+    /// Whether something stands in the standard library.
+    pub(crate) fn is_library(&self, at: Span) -> bool {
+        self.library.sources.get(at.file).is_some_and(|file| file.name.starts_with("std/"))
     }
 
     /// The ranges of the parameters, in order.
@@ -230,13 +241,17 @@ impl<'c, 'w> Lower<'c, 'w> {
         if self.inlining.contains(&item) {
             self.report(
                 Problem::new(Code::Recursion, at, format!("`{text}` uses itself"), "closes the circle")
-                    .label(item, "declared here"),
+                    .label(item, "declared here")
+                    .help(start::NO_CIRCLE),
             );
             return None;
         }
         if self.inlined > INLINED_MAX {
             if self.inlined == INLINED_MAX + 1 {
-                self.report(Problem::new(Code::Impossible, at, format!("`{text}` makes the program too large"), ""));
+                self.report(
+                    Problem::new(Code::Impossible, at, format!("`{text}` makes the program too large"), "")
+                        .help("use it less often, or name its value with a `let`"),
+                );
             }
             return None;
         }
@@ -365,7 +380,7 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// Whether a condition never holds, whatever happens in the match.
     pub(crate) fn never_holds(&self, reg: Reg) -> bool {
-        interval::never_holds(&self.code, reg, &self.world.ranges())
+        interval::never_holds(&self.code, reg, &self.world.ranges(), self.world.longest)
     }
 
     /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`
@@ -386,7 +401,7 @@ impl<'c, 'w> Lower<'c, 'w> {
                 let above = self.code.binary(BinaryOp::Ge, reg, low);
                 let below = self.code.binary(BinaryOp::Le, reg, high);
                 let inside = self.code.binary(BinaryOp::And, above, below);
-                self.imply(inside, format!("{what} is {shown}"));
+                self.imply(inside, format!("{what} is {shown}"), Some(span), format!("keep the value in {shown}"));
             }
         }
         true
@@ -406,16 +421,21 @@ impl<'c, 'w> Lower<'c, 'w> {
         }
         let limit = self.code.constant(greatest);
         let slower = self.code.binary(BinaryOp::Le, speed, limit);
-        self.imply(slower, format!("{what} is not faster than {greatest} m/s"));
+        let label = format!("{what} is not faster than {greatest} m/s");
+        self.imply(slower, label, Some(span), "write a smaller velocity".to_owned());
     }
 
     /// Makes a condition a requirement of the draw, unless it is known to hold; outside the start there is none.
-    pub(crate) fn imply(&mut self, condition: Reg, label: String) {
+    ///
+    /// - `span`: the part that implies it, where it is one part;
+    /// - `help`: what makes it hold.
+    pub(crate) fn imply(&mut self, condition: Reg, label: String, span: Option<Span>, help: String) {
         let known = self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
         if self.stage == Stage::Start && !known {
             // The message puts the label into backticks.
             let label = label.replace('`', "");
-            self.start.implied.push(Require { condition, probability: None, label });
+            let require = Require { condition, probability: None, label };
+            self.start.implied.push((require, RequireOrigin { span, help: Some(help) }));
         }
     }
 

@@ -44,12 +44,14 @@ impl Problem {
     pub fn given_twice(what: &str, again: Span, first: Span) -> Problem {
         Problem::new(Code::DuplicateOption, again, format!("{what} is given twice"), "given again here")
             .label(first, "first given here")
+            .help("leave one of them out")
     }
 
     /// A name that means one thing was declared again; `what` is the name in backticks, with its kind before it.
     pub fn declared_twice(what: &str, again: Span, first: Span) -> Problem {
         Problem::new(Code::DuplicateName, again, format!("{what} is declared twice"), "declared again here")
             .label(first, "first declared here")
+            .help("choose another name for one of them")
     }
 
     /// Adds a further label.
@@ -74,6 +76,16 @@ impl Problem {
         match meant {
             Some(help) => self.help(help),
             None => self,
+        }
+    }
+
+    /// Says "did you mean", or what there is where nothing is near enough.
+    #[must_use]
+    pub fn one_of(self, found: &str, known: &[&str]) -> Problem {
+        let problem = self.did_you_mean(found, known.iter().copied());
+        match problem.help {
+            Some(_) => problem,
+            None => problem.help(format!("it can be `{}`", known.join("`, `"))),
         }
     }
 
@@ -174,6 +186,7 @@ codes! {
     Recursion = 216 Error "a definition uses itself";
     UnusedName = 213 Warning "a name is never used";
     LikelyTypo = 217 Warning "a name looks like another";
+    HidingName = 218 Warning "a name hides another";
     NoScenario = 214 Error "the file has no scenario to run";
     WrongScope = 215 Error "this can't be used here";
     // SP03xx: types and units.

@@ -148,7 +148,10 @@ fn three_mistakes_of_three_stages_are_three_problems() {
     )
     .problems;
     let told: Vec<_> = problems.iter().map(|problem| (problem.code.to_string(), problem.help.as_deref())).collect();
-    let wanted =
-        [("SP0203", Some("did you mean `CB`?")), ("SP0201", Some("did you mean `scoring`?")), ("SP0302", None)];
+    let wanted = [
+        ("SP0203", Some("did you mean `CB`?")),
+        ("SP0201", Some("did you mean `scoring`?")),
+        ("SP0302", Some("compare it with a duration, for example `2s` or `20 steps`")),
+    ];
     assert_eq!(told, wanted.map(|(code, help)| (code.to_owned(), help)));
 }

@@ -1,7 +1,9 @@
 //! The dry run: what can be found only by drawing starts and looking at them.
 
 use crate::load::Loaded;
+use setpiece_dsl::RequireOrigin;
 use setpiece_dsl::problem::{Code, Problem};
+use setpiece_dsl::source::Span;
 use setpiece_engine::draw::{Drawer, Roster};
 use setpiece_engine::environment::{Environment, EnvironmentOptions};
 use setpiece_scenario::{Bindings, Instr};
@@ -16,6 +18,9 @@ const SELDOM: f64 = 0.01;
 /// So many successes say that it is no less.
 const ENOUGH: u32 = (ATTEMPTS as f64 * SELDOM) as u32;
 
+/// What the engine requires of every value of a start.
+const NUMBERS: &str = "every place, velocity and heading is a number";
+
 /// The warnings of a scenario and what a dry run adds to them: requirements that (almost) no start meets, an episode
 /// that is over before its first step.
 ///
@@ -24,7 +29,9 @@ pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
     let mut problems = loaded.warnings.clone();
     let end = budget.map(|budget| Instant::now() + budget);
     let in_time = || end.is_none_or(|end| Instant::now() < end);
-    let Some(place) = loaded.origin else { return problems };
+    if loaded.origin.is_none() {
+        return problems;
+    }
     let scenario = &loaded.scenario;
     let name = &scenario.name;
     if let Some(seldom) = requirements(loaded, &in_time) {
@@ -43,12 +50,38 @@ pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
         environment.ends_at_start().map(str::to_owned)
     });
     if let Some(label) = over {
-        problems.push(
-            Problem::new(Code::EndsAtOnce, place, format!("`{name}` is over before its first step"), "here")
-                .help(format!("the ending `{label}` holds at the start")),
-        );
+        let which = scenario.endings.list.iter().position(|ending| ending.label == label);
+        let at = which.and_then(|which| loaded.origins.endings.get(which).copied());
+        let fault = Fault { code: Code::EndsAtOnce, at, label: "holds at the start" };
+        problems.extend(fault.problem(loaded, format!("`{name}` is over before its first step")).map(|problem| {
+            let elsewhere = "place the players and the ball where it doesn't hold";
+            problem.help(format!(
+                "the ending `{label}` holds at the start: {elsewhere}, or let it wait: `… and elapsed > 1s`"
+            ))
+        }));
     }
     problems
+}
+
+/// What a dry run finds, and where.
+struct Fault<'a> {
+    code: Code,
+    /// The part of the scenario that is at fault, where it is one part.
+    at: Option<Span>,
+    label: &'a str,
+}
+
+impl Fault<'_> {
+    /// Points at the part that is at fault, and at the scenario, first at what stands in the scenario's file.
+    fn problem(self, loaded: &Loaded, message: String) -> Option<Problem> {
+        let scenario = loaded.origin?;
+        let in_file = |at: &Span| at.file == scenario.file;
+        Some(match self.at {
+            Some(at) if in_file(&at) => Problem::new(self.code, at, message, self.label),
+            Some(at) => Problem::new(self.code, scenario, message, "").label(at, self.label),
+            None => Problem::new(self.code, scenario, message, self.label),
+        })
+    }
 }
 
 /// Whether one start differs from another.
@@ -59,7 +92,7 @@ fn varies(loaded: &Loaded) -> bool {
 
 /// What is to be said of how often an attempt at a start succeeds.
 fn requirements(loaded: &Loaded, in_time: &dyn Fn() -> bool) -> Option<Problem> {
-    let (scenario, place) = (&loaded.scenario, loaded.origin?);
+    let scenario = &loaded.scenario;
     let bindings = Bindings::defaults(&scenario.params);
     let roster = Roster::new(scenario, &bindings, None).ok()?;
     let mut drawer = Drawer::new(scenario);
@@ -75,27 +108,28 @@ fn requirements(loaded: &Loaded, in_time: &dyn Fn() -> bool) -> Option<Problem> 
     let name = &scenario.name;
     let (met, attempts) = (found.met, found.attempts);
     let hardest = found.hardest.as_deref()?;
-    if met == 0 {
-        return Some(
-            Problem::new(
-                Code::ImpossibleToDraw,
-                place,
-                format!("`{name}` can't be started"),
-                match attempts {
-                    1 => "its start doesn't meet its requirements".to_owned(),
-                    _ => format!("none of {attempts} starts meets its requirements"),
-                },
-            )
-            .help(format!("`{hardest}` fails most often: loosen it, or place the players so that it holds")),
-        );
-    }
-    (found.rate() < SELDOM).then(|| {
-        Problem::new(
-            Code::HardToDraw,
-            place,
-            format!("`{name}` is seldom drawn"),
-            format!("{met} of {attempts} starts meet its requirements"),
-        )
-        .help(format!("`{hardest}` fails most often: loosen it, or place the players so that it holds"))
-    })
+    let which = scenario.start.requires.iter().position(|require| require.label == hardest);
+    let origin = which.and_then(|which| loaded.origins.requires.get(which));
+    let help = match (origin, hardest) {
+        (Some(RequireOrigin { help: Some(help), .. }), _) => help,
+        (Some(_), _) => "loosen it, or place the players so that it holds",
+        (None, NUMBERS) => "look for a division by 0",
+        (None, _) => "place them further from the lines and from each other",
+    };
+    let at = origin.and_then(|origin| origin.span);
+    let share = match (met, attempts) {
+        (0, 1) => "its start doesn't meet the requirements".to_owned(),
+        (0, _) => format!("none of {attempts} starts meets the requirements"),
+        _ => format!("{met} of {attempts} starts meet the requirements"),
+    };
+    let label = if at.is_some() && attempts > 1 { format!("fails most often; {share}") } else { share };
+    let (code, message) = if met == 0 {
+        (Code::ImpossibleToDraw, format!("`{name}` can't be started"))
+    } else if found.rate() < SELDOM {
+        (Code::HardToDraw, format!("`{name}` is seldom drawn"))
+    } else {
+        return None;
+    };
+    let fault = Fault { code, at, label: &label };
+    Some(fault.problem(loaded, message)?.help(format!("`{hardest}` fails most often: {help}")))
 }

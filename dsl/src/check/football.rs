@@ -4,6 +4,7 @@
 
 use crate::ast::Span;
 use crate::lower::Lower;
+use crate::lower::roster::Rostered;
 use crate::lower::team::PlayerOptions;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
@@ -29,7 +30,8 @@ pub(crate) fn check_places(
         let (place, limit) = ((ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M));
         if check_on_pitch(lower, place, limit, "the ball", stmt.place.span) == Known::Later {
             let inside = within(lower, place, limit);
-            lower.imply(inside, "the ball lies on the pitch".to_owned());
+            let help = "place it where every draw lies between the lines".to_owned();
+            lower.imply(inside, "the ball lies on the pitch".to_owned(), Some(stmt.place.span), help);
         }
     }
     let mut on_pitch = Vec::new();
@@ -40,20 +42,29 @@ pub(crate) fn check_places(
             let Some(player) = lower.world.roster.get(index) else { continue };
             let (shown, span) = (player.shown(), player.place_span());
             if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == Known::Later {
-                on_pitch.push(within(lower, *place, (RIM_X_M, RIM_Y_M)));
+                on_pitch.push((within(lower, *place, (RIM_X_M, RIM_Y_M)), span));
             }
         }
         for a in 0..situation.len() {
             for b in a + 1..situation.len() {
                 if let Some(reg) = check_pair(lower, situation, (a, b), options, nth) {
-                    apart.push(reg);
+                    let span = lower.world.roster.get(b).map_or(lower.world.flat.item.name.span, Rostered::place_span);
+                    apart.push((reg, span));
                 }
             }
         }
     }
-    for (regs, label) in [(on_pitch, "everybody stands on the pitch"), (apart, "nobody stands on another's spot")] {
-        if let Some(all) = regs.into_iter().reduce(|a, b| lower.code.binary(BinaryOp::And, a, b)) {
-            lower.imply(all, label.to_owned());
+    let all = [
+        (on_pitch, "everybody stands on the pitch", "place the players where every draw lies between the lines"),
+        (apart, "nobody stands on another's spot", "give the players more room, or allow it: `{ overlap: allowed }`"),
+    ];
+    for (parts, label, help) in all {
+        let first = parts.first().map(|(_, span)| *span);
+        // Of several parts it can't be told here which one fails.
+        let span = first.filter(|first| parts.iter().all(|(_, span)| span == first));
+        let regs = parts.into_iter().map(|(reg, _)| reg);
+        if let Some(all) = regs.reduce(|a, b| lower.code.binary(BinaryOp::And, a, b)) {
+            lower.imply(all, label.to_owned(), span, help.to_owned());
         }
     }
 }

@@ -50,6 +50,9 @@ pub(crate) fn expression<'w>(lower: &Lower<'_, 'w>, field: &'w Field) -> Option<
         FieldValue::Fields(_, span) => *span,
         FieldValue::Script(script) => script.span,
     };
-    lower.report(Problem::new(Code::WrongType, span, format!("`{}` is one value", field.key.node), ""));
+    lower.report(
+        Problem::new(Code::WrongType, span, format!("`{}` is one value", field.key.node), "")
+            .help(format!("write `{}: …`", field.key.node)),
+    );
     None
 }

@@ -152,7 +152,10 @@ fn listed<'w>(
         return None;
     }
     if known.contains(&(index as u8)) {
-        lower.report(Problem::new(Code::BadAgents, name.span, format!("`{text}` is listed twice"), ""));
+        lower.report(
+            Problem::new(Code::BadAgents, name.span, format!("`{text}` is listed twice"), "")
+                .help("leave one of them out"),
+        );
         return None;
     }
     Some(index as u8)

@@ -103,6 +103,7 @@ fn check_unused(world: &World<'_>) {
         let mut scope = Scope::new(false, Frame::Own);
         for decl in &behavior.params {
             let value = writer.some_value(decl);
+            writer.lower.check_hides(&decl.name.node, decl.name.span, &scope);
             scope.bind(&decl.name.node, Binding::Value(value));
         }
         writer.body(behavior, scope);
@@ -140,6 +141,8 @@ struct Writer<'c, 'w> {
     nodes: Vec<Node>,
     watches: Vec<Watch>,
     states: Vec<State<'w>>,
+    /// The names around the block that is being written.
+    around: Scope<'w>,
     /// The behaviours under way: name, first node, and the nodes that leave it.
     calls: Vec<Call>,
     /// Behaviours written out so far.
@@ -159,7 +162,8 @@ impl<'c, 'w> Writer<'c, 'w> {
         let us = lower.code.us();
         lower.team = Some(us);
         let (nodes, watches, states, calls) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Writer { lower, nodes, watches, states, calls, written: 0, too_large: false }
+        let around = lower.scope.clone();
+        Writer { lower, nodes, watches, states, around, calls, written: 0, too_large: false }
     }
 
     /// Writes a behaviour out; its arguments are read in the present scope.
@@ -192,6 +196,7 @@ impl<'c, 'w> Writer<'c, 'w> {
 
     fn body(&mut self, item: &'w BehaviorItem, scope: Scope<'w>) {
         let (outer, states) = (self.lower.scope.clone(), std::mem::take(&mut self.states));
+        let around = std::mem::replace(&mut self.around, scope.clone());
         self.calls.push(Call { name: item.name.span, from: self.nodes.len(), finishes: Vec::new() });
         match &item.body {
             BehaviorBody::Block(statements) => {
@@ -213,6 +218,7 @@ impl<'c, 'w> Writer<'c, 'w> {
         }
         self.lower.scope = outer;
         self.states = states;
+        self.around = around;
     }
 
     /// Runs `f`; the draws in what it reads happen before what comes next.

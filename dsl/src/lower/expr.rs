@@ -83,7 +83,10 @@ impl<'w> Lower<'_, 'w> {
     fn number(&mut self, value: f64, is_int: bool, unit: Option<Unit>, span: Span) -> Value<'w> {
         let si = unit.map_or(value, |unit| unit.si(value));
         if !si.is_finite() {
-            return self.fail(Problem::new(Code::Impossible, span, "the number is too large", ""));
+            return self.fail(
+                Problem::new(Code::Impossible, span, "the number is too large", "")
+                    .help("the pitch is 110m by 72m: write less"),
+            );
         }
         let reg = self.code.constant(si);
         let ty = match unit {
@@ -198,12 +201,21 @@ impl<'w> Lower<'_, 'w> {
 
     /// A truth value.
     pub(crate) fn condition(&mut self, expr: &'w Expr) -> Reg {
+        self.condition_or(expr, |_, _| None)
+    }
+
+    /// A truth value; `help` knows a better form for some values that are none.
+    fn condition_or(&mut self, expr: &'w Expr, help: impl FnOnce(&Self, Ty) -> Option<String>) -> Reg {
         let value = self.expr(expr);
         if !value.is_error() && value.ty != Ty::Bool {
             let mut problem = self.mismatch(value.ty, Ty::Bool, expr.span);
-            problem.help = Some(match value.ty {
-                Ty::Team | Ty::Player => "compare it, as in `possession == left`, or write `… has ball`".to_owned(),
-                _ => "compare it with something: `… > 0`".to_owned(),
+            problem.help = help(self, value.ty).or_else(|| {
+                Some(match value.ty {
+                    Ty::Team | Ty::Player => "compare it, as in `possession == left`, or write `… has ball`".to_owned(),
+                    ty if ty.dim().is_some() => "compare it with something: `… > 0`".to_owned(),
+                    ty if ty.is_place() || ty == Ty::Region => "ask where something is: `ball in right.box`".to_owned(),
+                    _ => "write a condition, for example `us has ball`".to_owned(),
+                })
             });
             self.report(problem);
             return self.code.unknown();

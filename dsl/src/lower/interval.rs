@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use setpiece_scenario::vocabulary::Field;
-use setpiece_scenario::{BinaryOp, Distribution, Instr, Reg, UnaryOp};
+use setpiece_scenario::{BinaryOp, Distribution, FoldKind, Instr, Over, Reg, UnaryOp};
 use std::cell::Cell;
 
 /// A closed interval.
@@ -28,12 +28,14 @@ fn of_field(field: Field) -> Option<Interval> {
 
 /// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
 pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
-    Search { code, params, in_play: false, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
+    Search { code, params, in_play: false, longest: None, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
 }
 
 /// Whether a condition never holds, whatever happens in the match.
-pub(crate) fn never_holds(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> bool {
-    Search { code, params, in_play: true, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0) == Some(NEVER)
+///
+/// - `longest`: how long the match lasts, seconds, if that is known.
+pub(crate) fn never_holds(code: &Builder, reg: Reg, params: &[Option<Interval>], longest: Option<f64>) -> bool {
+    Search { code, params, in_play: true, longest, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0) == Some(NEVER)
 }
 
 /// Most registers that are looked at: what is shared is looked at again and again.
@@ -46,6 +48,8 @@ struct Search<'a> {
     params: &'a [Option<Interval>],
     /// Whether what the match can show counts.
     in_play: bool,
+    /// How long the match lasts, seconds, if that is known.
+    longest: Option<f64>,
     visits: Cell<u32>,
 }
 
@@ -64,7 +68,15 @@ impl Search<'_> {
             // One half that never holds is enough, whatever the other one is.
             Instr::Binary(BinaryOp::And, a, b) if of(*a) == Some(NEVER) || of(*b) == Some(NEVER) => NEVER,
             Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
+            Instr::Load { field: Field::Elapsed | Field::Remaining, .. } if self.in_play => (0.0, self.longest?),
             Instr::Load { field, .. } if self.in_play => of_field(*field)?,
+            Instr::Each(each) if self.in_play => match (each.fold.kind, &each.over) {
+                (FoldKind::Count, Over::Players { team, .. }) => {
+                    let both = self.code.constant_of(*team).is_some_and(|team| team < 0.0);
+                    (0.0, if both { 22.0 } else { 11.0 })
+                }
+                _ => return None,
+            },
             Instr::Select(_, a, b) => {
                 let (a, b) = (of(*a)?, of(*b)?);
                 (a.0.min(b.0), a.1.max(b.1))
@@ -108,6 +120,8 @@ fn binary(op: BinaryOp, a: Interval, b: Interval) -> Option<Interval> {
         BinaryOp::Div if b.0 > 0.0 || b.1 < 0.0 => corners(a, b, |x, y| x / y),
         BinaryOp::Min => (a.0.min(b.0), a.1.min(b.1)),
         BinaryOp::Max => (a.0.max(b.0), a.1.max(b.1)),
+        BinaryOp::Lt if reaches(b, a) => known(false),
+        BinaryOp::Gt if reaches(a, b) => known(false),
         BinaryOp::Lt | BinaryOp::Le => order(a, b),
         BinaryOp::Gt | BinaryOp::Ge => order(b, a),
         BinaryOp::Eq if apart(a, b) || apart(b, a) => known(false),
@@ -155,6 +169,11 @@ fn order(a: Interval, b: Interval) -> Interval {
     } else {
         (0.0, 1.0)
     }
+}
+
+/// Whether `a` goes up to `b` and no further, both by whole numbers, which nothing rounds.
+fn reaches(a: Interval, b: Interval) -> bool {
+    a.1 <= b.0 && a.1.fract() == 0.0 && b.0.fract() == 0.0
 }
 
 /// Whether `a` lies below `b` by more than what rounding does.

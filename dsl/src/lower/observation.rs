@@ -22,7 +22,10 @@ pub(crate) fn lower_observation(world: &World<'_>) -> Option<Observation> {
         let name = label.as_ref().map_or_else(|| world.text(expr.span), |label| label.node.clone());
         if let Some(label) = label.as_ref().filter(|label| values.iter().any(|(known, _)| *known == label.node)) {
             let message = format!("`{}` is observed twice", label.node);
-            world.report(Problem::new(Code::DuplicateName, label.span, message, "named again here"));
+            world.report(
+                Problem::new(Code::DuplicateName, label.span, message, "named again here")
+                    .help("choose another label: `… as \"label\"`"),
+            );
         }
         values.extend(lower.observed(expr, &name));
     }

@@ -134,7 +134,10 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
     }
     let Some(ty) = info.ty.param() else {
         let message = format!("a parameter can't be {}", value.ty.noun());
-        world.report(Problem::new(Code::WrongType, expr.span, message, ""));
+        world.report(
+            Problem::new(Code::WrongType, expr.span, message, "")
+                .help("a parameter is a number, a quantity, a condition, a team or a word; use `let` for others"),
+        );
         return info;
     };
     info.param.ty = ty;
@@ -143,7 +146,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         Repr::One(reg) => match lower.code.constant_of(*reg) {
             Some(default) => {
                 info.param.default = default;
-                domain(world, &mut info, expr.span, flat.domain);
+                domain(world, &mut info, expr.span, flat);
             }
             None => world.report(not_constant(world, expr)),
         },
@@ -159,6 +162,7 @@ fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
         format!("`{}` is not known before the start", world.text(expr.span)),
         "a default must be a constant",
     )
+    .help("use `let` for what is drawn or computed")
 }
 
 fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
@@ -200,7 +204,8 @@ fn constant<'w>(world: &World<'w>, expr: &'w Expr, ty: Ty) -> Option<f64> {
     }
 }
 
-fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, domain: Option<&'w Domain>) {
+fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: &FlatParam<'w>) {
+    let (domain, is_argument) = (flat.domain, flat.is_argument);
     match domain {
         None => return,
         Some(Domain::Range(low, high)) => {
@@ -241,7 +246,11 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, domain
                 Code::OutOfRange,
                 default,
                 format!("`{}` is outside `{allowed}`", world.text(default)),
-                format!("the default of `{}`", info.param.name),
+                if is_argument {
+                    format!("given to `{}`", info.param.name)
+                } else {
+                    format!("the default of `{}`", info.param.name)
+                },
             )
             .help(format!("write a value in `{allowed}`")),
         );

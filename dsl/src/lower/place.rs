@@ -217,9 +217,25 @@ impl<'w> Lower<'_, 'w> {
 
     fn place(&mut self, place: &'w Place) -> (Reg, Reg) {
         match &place.kind {
-            PlaceKind::At(point) => self.want_point(point),
+            PlaceKind::At(point) => {
+                let value = self.expr(point);
+                if value.ty == Ty::Region {
+                    let text = self.world.text(point.span);
+                    self.report(self.mismatch(value.ty, Ty::Point, point.span).help(format!("write `in {text}`")));
+                    return self.nowhere();
+                }
+                if value.ty.dim().is_some() {
+                    let help = "a point stands in brackets: `at (0.5, 0.1)`";
+                    self.report(self.mismatch(value.ty, Ty::Point, point.span).help(help));
+                    return self.nowhere();
+                }
+                let value = self.convert(value, Ty::Point, point);
+                self.pair(&value)
+            }
             PlaceKind::In(region) => {
+                let told = self.world.problems.borrow().len();
                 let drawn = self.region(region).and_then(|found| self.draw_in(&found, region.span));
+                self.mend_in(told, region);
                 drawn.unwrap_or_else(|| self.nowhere())
             }
             PlaceKind::Relative { direction, of, by } => {
@@ -273,6 +289,17 @@ impl<'w> Lower<'_, 'w> {
                 let way = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
                 self.moved(p, way, length)
             }
+        }
+    }
+
+    /// Says `at` where a point was named behind `in`.
+    fn mend_in(&self, told: usize, region: &Expr) {
+        let text = self.world.text(region.span);
+        let start = "expected a region, found";
+        let mut problems = self.world.problems.borrow_mut();
+        let places = [Ty::Point, Ty::Player, Ty::Ball].map(|ty| format!("{start} `{text}` ({})", ty.noun()));
+        for problem in problems.iter_mut().skip(told).filter(|problem| places.contains(&problem.message)) {
+            problem.help = Some(format!("write `at {text}`"));
         }
     }
 

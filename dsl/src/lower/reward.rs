@@ -1,12 +1,13 @@
 //! Rewards: a program at every step that pays into terms, and one at reset that sets the states.
 
+mod never;
 mod state;
 mod writer;
 
 use super::value::{Frame, Scope};
 use super::{Lower, Stage, World};
 use crate::ast::{
-    Arg, Expr, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
+    Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
 };
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -74,6 +75,9 @@ impl<'w> Written<'w> {
 
 /// Lowers a reward that a scenario uses.
 pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, span: Span) -> Option<Reward> {
+    if let Some(weight) = &used.weight {
+        check_weight(world, weight, name);
+    }
     match &used.what {
         RewardUseKind::Script(script) => Some(lower_script(world, name, script, used.weight.as_ref())),
         RewardUseKind::Inline { .. } | RewardUseKind::Named(_) => {
@@ -122,6 +126,16 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
     } else {
         problem.help(format!("declare it, `reward {name} {{ give … }}`, or use one of `{}`", known.join("`, `")))
     });
+}
+
+/// Warns of a weight that is 0, whatever the parameters are.
+fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
+    if matches!(weight.kind, ExprKind::Number { value: 0.0, .. }) {
+        world.report(
+            Problem::new(Code::NeverPays, weight.span, format!("reward `{name}` never pays"), "times 0")
+                .help("write another weight, or leave the reward out"),
+        );
+    }
 }
 
 /// A reward that is a script: one term, `script`.

@@ -144,6 +144,7 @@ fn from_layouts<'w>(
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
         world.report(
             Problem::new(Code::DuplicateOption, field.key.span, "the layouts of `kickoff` are the formation", "")
+                .help("leave it out")
                 .label(span, "given here"),
         );
     }
@@ -349,12 +350,10 @@ fn adjust<'w>(
         players.retain(|player| player.role != role.node);
         // A team is said to have no keeper by `GK absent`, whether a formation brings one or not.
         if before == players.len() && before > 0 && role.node != Role::GK {
-            world.report(Problem::new(
-                Code::NothingToRemove,
-                role.span,
-                format!("no `{}` is there to be absent", role.node),
-                "",
-            ));
+            world.report(
+                Problem::new(Code::NothingToRemove, role.span, format!("no `{}` is there to be absent", role.node), "")
+                    .help("leave it out"),
+            );
         }
     }
     for (who, change) in overrides {
@@ -439,12 +438,10 @@ fn apply_each<'w>(
             }
         }
         if !anyone && !players.is_empty() && is_own(who.span) {
-            world.report(Problem::new(
-                Code::UnknownRole,
-                who.span,
-                format!("the {team} team has no `{}`", who.node),
-                "",
-            ));
+            world.report(
+                Problem::new(Code::UnknownRole, who.span, format!("the {team} team has no `{}`", who.node), "")
+                    .help("leave it out, or write `each outfield`"),
+            );
         }
     }
     for (player, mut fields) in players.iter_mut().zip(defaults) {
@@ -488,7 +485,8 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
                     format!("two players are called `{}`", name.node),
                     "called so again here",
                 )
-                .label(first.span, "first called so here"),
+                .label(first.span, "first called so here")
+                .help("choose another name for one of them"),
             );
         }
         if let Some(value) = world.declaration(&name.node) {

@@ -15,11 +15,17 @@ use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::football;
 use crate::check::types::Ty;
+use crate::compile::RequireOrigin;
 use crate::problem::{Code, Problem};
 use remap::{map_agents, map_slot, map_start};
-use setpiece_scenario::vocabulary::{StartKind, Team};
-use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
+use setpiece_scenario::vocabulary::{Rule, StartKind, Team};
+use setpiece_scenario::{
+    Agents, BallStart, Instr, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
+};
 use std::collections::BTreeMap;
+
+/// What to do about what is defined by itself.
+pub(crate) const NO_CIRCLE: &str = "give one of the circle a value of its own";
 
 /// Seconds of a step.
 const STEP_S: f64 = 0.1;
@@ -41,7 +47,7 @@ pub(crate) struct StartState<'w> {
     /// The ball's place.
     pub(crate) ball: Found<(Reg, Reg)>,
     /// What must hold of values that are known at the draw only.
-    pub(crate) implied: Vec<Require>,
+    pub(crate) implied: Vec<(Require, RequireOrigin)>,
     /// The behaviour of the player whose options are read.
     pub(crate) ai: Option<BehaviorUse<'w>>,
     /// The behaviours that players use, by the players' ids.
@@ -107,6 +113,8 @@ pub(crate) struct LoweredStart<'w> {
     pub(crate) lets: Vec<LetSlot<'w>>,
     /// The behaviours that players use, by the players' ids.
     pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
+    /// Where its requirements come from.
+    pub(crate) origins: Vec<RequireOrigin>,
 }
 
 /// Lowers the start.
@@ -147,7 +155,13 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     let mut requires = lower.requires();
     football::check_places(&mut lower, &places, &options, ball.as_ref());
     let kickoff = lower.kickoff(&places);
-    requires.append(&mut lower.start.implied);
+    let written = world.flat.requires.iter().map(|stmt| match &stmt.kind {
+        ScenarioStmtKind::Require { condition, .. } => RequireOrigin { span: Some(condition.span), help: None },
+        _ => RequireOrigin::default(),
+    });
+    let (mut implied, of_implied): (Vec<_>, Vec<_>) = std::mem::take(&mut lower.start.implied).into_iter().unzip();
+    let origins = written.chain(of_implied).collect();
+    requires.append(&mut implied);
 
     let behaviors = std::mem::take(&mut lower.start.behaviors);
     let lets = lower.let_slots();
@@ -187,7 +201,29 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     start.program = program;
     let players = players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
     let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
-    LoweredStart { start, players, agents, side, lets: lets.0, behaviors }
+    LoweredStart { start, players, agents, side, lets: lets.0, behaviors, origins }
+}
+
+/// The rules that are off, whatever the parameters are.
+pub(crate) fn rules_off(start: &Start) -> Vec<Rule> {
+    let value = |rule: &Rule| match start.rules.iter().rfind(|setting| setting.rule == *rule) {
+        Some(setting) => constant(start, setting.value),
+        None => Some(rule.default_value()),
+    };
+    Rule::ALL.iter().copied().filter(|rule| value(rule) == Some(0.0)).collect()
+}
+
+/// How long an episode lasts at most, seconds, if it begins at 0 and has a limit that is known.
+pub(crate) fn longest(start: &Start) -> Option<f64> {
+    let limit = start.limit.filter(|_| start.elapsed.is_none())?;
+    constant(start, limit)
+}
+
+fn constant(start: &Start, reg: Reg) -> Option<f64> {
+    match start.program.code.get(reg.index())? {
+        Instr::Const(value) => Some(*value),
+        _ => None,
+    }
 }
 
 fn roster_span(world: &World<'_>, index: usize) -> Span {
@@ -243,12 +279,15 @@ impl<'w> Lower<'_, 'w> {
         match self.stage {
             Stage::Start => {}
             Stage::Constant => {
-                return self.fail(Problem::new(
-                    Code::NotConstant,
-                    asked,
-                    format!("`{name}` is computed at reset"),
-                    "a constant is known before",
-                ));
+                return self.fail(
+                    Problem::new(
+                        Code::NotConstant,
+                        asked,
+                        format!("`{name}` is computed at reset"),
+                        "a constant is known before",
+                    )
+                    .help("use `let` for what is drawn or computed"),
+                );
             }
             Stage::Init | Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior => {
                 return self.step_let(name);
@@ -257,12 +296,10 @@ impl<'w> Lower<'_, 'w> {
         match self.start.lets.get(name) {
             Some(Some(value)) => return value.clone(),
             Some(None) => {
-                return self.fail(Problem::new(
-                    Code::Recursion,
-                    asked,
-                    format!("`{name}` uses itself"),
-                    "closes the circle",
-                ));
+                return self.fail(
+                    Problem::new(Code::Recursion, asked, format!("`{name}` uses itself"), "closes the circle")
+                        .help(NO_CIRCLE),
+                );
             }
             None => {}
         }
@@ -394,8 +431,9 @@ impl<'w> Lower<'_, 'w> {
         let (expr, _) = self.world.flat.limit?;
         let reg = self.want_reg(expr, Ty::DURATION);
         self.check_not_drawn(reg, "the limit", expr.span);
-        self.check_range(reg, (STEP_S, LONGEST_S), "the limit", expr.span, "`1 step..1000000 steps`");
-        self.check_steps(reg, "the limit", expr.span);
+        if self.check_range(reg, (STEP_S, LONGEST_S), "the limit", expr.span, "`1 step..1000000 steps`") {
+            self.check_steps(reg, "the limit", expr.span);
+        }
         Some(reg)
     }
 
@@ -409,10 +447,12 @@ impl<'w> Lower<'_, 'w> {
             } else {
                 format!("{what} is `{text}`: {steps:.3} steps")
             };
-            self.report(
-                Problem::new(Code::OutOfRange, span, message, "not a whole number of steps")
-                    .help(format!("write `{} steps`; a step is 0.1 s", steps.round().max(1.0))),
-            );
+            self.report(Problem::new(Code::OutOfRange, span, message, "not a whole number of steps").help(
+                match steps.round() {
+                    steps if steps > 1.0 => format!("write `{steps} steps`; a step is 0.1 s"),
+                    _ => "write `1 step`; a step is 0.1 s".to_owned(),
+                },
+            ));
         }
     }
 

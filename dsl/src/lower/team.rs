@@ -211,7 +211,7 @@ fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOp
                 format!("no statistic is called `{}`", field.key.node),
                 "not known",
             )
-            .did_you_mean(&field.key.node, Stat::ALL.iter().map(|stat| stat.name())),
+            .one_of(&field.key.node, &Stat::ALL.iter().map(|stat| stat.name()).collect::<Vec<_>>()),
         );
         return;
     };

@@ -47,6 +47,11 @@ pub(crate) fn triangulate(corners: &[[f64; 2]]) -> Option<Vec<Triangle>> {
     Some(triangles)
 }
 
+/// Whether all corners lie on one line.
+pub(crate) fn is_flat(corners: &[[f64; 2]]) -> bool {
+    corners.iter().all(|&a| corners.iter().all(|&b| corners.iter().all(|&c| twice(a, b, c) == 0.0)))
+}
+
 fn push(triangles: &mut Vec<Triangle>, corners: [[f64; 2]; 3]) {
     let area = 0.5 * twice(corners[0], corners[1], corners[2]);
     // Corners on one line span nothing.

@@ -212,6 +212,16 @@ pub(crate) enum Binding<'w> {
     },
 }
 
+impl Binding<'_> {
+    /// Where it is declared, if that is known.
+    pub(crate) fn declared(&self) -> Option<Span> {
+        match self {
+            Binding::Value(_) => None,
+            Binding::Expr { at, .. } | Binding::State { at, .. } => Some(*at),
+        }
+    }
+}
+
 impl<'w> Scope<'w> {
     /// No locals.
     pub(crate) fn new(scenario: bool, frame: Frame) -> Scope<'w> {

@@ -203,7 +203,10 @@ impl Reader<'_> {
         let weight = node.clone().into_inner().count() as u32;
         if self.operators + weight > MAX_OPERATORS {
             let message = format!("an expression has more than {MAX_OPERATORS} operators");
-            self.push(Problem::new(Code::TooDeep, span, message, "too long"));
+            self.push(
+                Problem::new(Code::TooDeep, span, message, "too long")
+                    .help("give parts of it names with `let` or `fn`"),
+            );
             return broken(span);
         }
         self.operators += weight;
@@ -271,8 +274,12 @@ impl Reader<'_> {
         let text = number.as_str();
         let value = text.parse::<f64>().unwrap_or(f64::INFINITY);
         if !value.is_finite() {
-            let message = format!("`{}` is too large a number", text.get(..20).unwrap_or(text));
-            self.push(Problem::new(Code::OutOfRange, span, message, "above 1e308"));
+            let message =
+                format!("a number of {} digits is too large", text.bytes().filter(u8::is_ascii_digit).count());
+            self.push(
+                Problem::new(Code::OutOfRange, span, message, "above 1e308")
+                    .help("the pitch is 110m by 72m: write less"),
+            );
             return broken(span);
         }
         let unit = nodes.next().and_then(|unit| match unit.as_str() {

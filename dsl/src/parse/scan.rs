@@ -4,6 +4,7 @@
 
 mod chain;
 mod mend;
+mod unopened;
 
 use super::{MAX_BRACKETS, MAX_PROBLEMS, span};
 use crate::problem::{Code, Problem};
@@ -353,17 +354,7 @@ impl Scanner<'_> {
                     self.unchain(at, if byte == b'}' { Chain::default() } else { open.chain });
                 }
             }
-            _ => {
-                let closer = byte as char;
-                let (message, label) = (format!("nothing is open that this `{closer}` closes"), "no opening bracket");
-                self.problem(at, 1, Code::Syntax, &message, label, &format!("take the `{closer}` away"));
-                self.mends.insert(at, b' ');
-                if byte == b'}' {
-                    self.lost.push(self.chunk);
-                } else {
-                    self.scan.told.push(self.line_from..at + 1);
-                }
-            }
+            _ => self.unopened(at, byte),
         }
         at + 1
     }

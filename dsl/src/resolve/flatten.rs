@@ -311,7 +311,8 @@ impl<'a> Adding<'a, '_> {
                             format!("`{}` has another type in the parent", param.name.node),
                             "a child can change the default, not the type",
                         )
-                        .label(known.decl.span, "declared here"),
+                        .label(known.decl.span, "declared here")
+                        .help("leave the type out, or choose another name"),
                     );
                 }
             }
@@ -344,6 +345,7 @@ impl<'a> Adding<'a, '_> {
                 let message = format!("`{name}` is given twice");
                 self.problems.push(
                     Problem::new(Code::WrongArguments, arg.span, message, "given again here")
+                        .help("leave one of them out")
                         .label(*first, "first given here"),
                 );
                 continue;

@@ -79,12 +79,15 @@ pub(super) fn chain<'a, T>(
             let circle = chain.iter().skip(begin + 1).filter_map(|(_, reference)| *reference);
             let first = circle.map(|reference| &reference.name).chain([name]).min_by_key(|name| name.span);
             let name = first.unwrap_or(name);
-            problems.push(Problem::new(
-                Code::ExtendsCycle,
-                name.span,
-                format!("`{}` extends itself", name.node),
-                "closes the circle",
-            ));
+            problems.push(
+                Problem::new(
+                    Code::ExtendsCycle,
+                    name.span,
+                    format!("`{}` extends itself", name.node),
+                    "closes the circle",
+                )
+                .help("take one `extends` of the circle away"),
+            );
             break;
         }
         chain.push((parent, Some(parent_ref)));

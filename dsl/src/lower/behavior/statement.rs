@@ -15,7 +15,10 @@ impl<'w> Writer<'_, 'w> {
             let BehaviorStmtKind::State(state) = &statement.kind else { continue };
             if self.states.iter().any(|known| known.name == state.name.node) {
                 let message = format!("state `{}` is declared twice", state.name.node);
-                self.lower.report(Problem::new(Code::DuplicateName, state.name.span, message, "declared again here"));
+                self.lower.report(
+                    Problem::new(Code::DuplicateName, state.name.span, message, "declared again here")
+                        .help("choose another name for one of them"),
+                );
                 continue;
             }
             self.state(state);
@@ -40,6 +43,7 @@ impl<'w> Writer<'_, 'w> {
         let kept = if held { Value::of_regs(value.ty, &read) } else { Value::error() };
         let ty = kept.ty;
         self.nodes.push(Node::Let(cells.iter().copied().zip(regs).collect()));
+        self.lower.check_hides_local(&state.name.node, state.name.span, &self.around);
         self.lower.scope.bind(&state.name.node, Binding::Value(kept));
         self.states.push(State { name: &state.name.node, cells, ty });
     }
@@ -58,6 +62,9 @@ impl<'w> Writer<'_, 'w> {
     /// Writes a block: its statements, then what may interrupt them, the first written last.
     pub(super) fn block(&mut self, statements: &'w [BehaviorStmt], is_top: bool) {
         let scope = self.lower.scope.clone();
+        // The states at the top belong to the block itself.
+        let inner = if is_top { self.around.clone() } else { scope.clone() };
+        let around = std::mem::replace(&mut self.around, inner);
         let from = self.nodes.len() as u32;
         let count = statements.iter().filter(|s| matches!(s.kind, BehaviorStmtKind::Interrupt { .. })).count();
         let first = self.watches.len();
@@ -90,6 +97,7 @@ impl<'w> Writer<'_, 'w> {
             self.patch(skip, self.nodes.len() as u32);
         }
         self.lower.scope = scope;
+        self.around = around;
     }
 
     fn statement(&mut self, statement: &'w BehaviorStmt, is_top: bool) {
@@ -133,6 +141,10 @@ impl<'w> Writer<'_, 'w> {
         if !pairs.is_empty() {
             self.nodes.push(Node::Let(pairs));
         }
+        // A state may be hidden by what stands beside it, another `let` is bound anew.
+        let is_state = self.states.iter().any(|state| state.name == binding.name.node);
+        let around = if is_state { &self.lower.scope } else { &self.around };
+        self.lower.check_hides_local(&binding.name.node, binding.name.span, around);
         self.lower.scope.bind(&binding.name.node, Binding::Value(frozen));
     }
 

@@ -40,7 +40,8 @@ impl<'w> Lower<'_, 'w> {
         use ast::BinaryOp as Op;
         match op.node {
             Op::And | Op::Or => {
-                let (x, y) = (self.condition(a), self.condition(b));
+                let x = self.condition(a);
+                let y = self.condition_or(b, |lower, ty| lower.shared(op.node, a, b, ty));
                 let code = if op.node == Op::And { BinaryOp::And } else { BinaryOp::Or };
                 Value::one(Ty::Bool, self.code.binary(code, x, y))
             }
@@ -57,6 +58,30 @@ impl<'w> Lower<'_, 'w> {
                 Value { ty: Ty::Region, repr: Repr::Region(Rc::new(value)) }
             }
         }
+    }
+
+    /// How `A or b` is written where `b` is no condition, but goes on with the end of A: `goal by left or right`.
+    fn shared(&self, op: ast::BinaryOp, a: &Expr, b: &Expr, ty: Ty) -> Option<String> {
+        let last = match &a.kind {
+            ExprKind::Binary(inner, _, last) if matches!(inner.node, ast::BinaryOp::And | ast::BinaryOp::Or) => last,
+            _ => a,
+        };
+        let is_or = op == ast::BinaryOp::Or;
+        let (word, sign) = if is_or { ("or", '|') } else { ("and", '&') };
+        let part = match &last.kind {
+            ExprKind::Event(event) if matches!(ty, Ty::Team | Ty::Player) => event.by.as_ref()?.span,
+            ExprKind::Binary(op, _, region) if op.node == ast::BinaryOp::In && ty == Ty::Region => {
+                let (region, other) = (self.world.text(region.span), self.world.text(b.span));
+                return Some(format!("write `{region} {sign} {other}`"));
+            }
+            ExprKind::Binary(op, _, part) if matches!(op.node, ast::BinaryOp::Eq | ast::BinaryOp::Ne) => part.span,
+            _ => return None,
+        };
+        let to = |end: u32| Span { end, ..last.span };
+        let (whole, head) = (self.world.text(last.span), self.world.text(to(part.start)));
+        let tail = self.world.text(Span { start: part.end, ..last.span });
+        let again = format!("{head} {} {tail}", self.world.text(b.span));
+        Some(format!("write `{whole} {word} {}`", again.trim_end()))
     }
 
     fn sum(&mut self, is_add: bool, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
@@ -118,15 +143,39 @@ impl<'w> Lower<'_, 'w> {
             "add" => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be added"),
             _ => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be subtracted"),
         };
-        let problem = Problem::new(code, b.span, message, noun_b).label(a.span, noun_a);
+        let problem = Problem::new(code, b.span, message, noun_b).label(a.span, noun_a.clone());
         let lengths = (x.ty == Ty::LENGTH && y.ty.is_plain()) || (y.ty == Ty::LENGTH && x.ty.is_plain());
         self.fail(if lengths {
             problem
                 .help("write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one")
         } else {
-            match x.ty.example().filter(|_| y.ty.is_plain() && x.ty.dim().is_some()) {
-                Some(example) => problem.help(format!("write the number with its unit, for example `{example}`")),
-                None => problem,
+            let (of_x, of_y) = (x.ty.dim().is_some(), y.ty.dim().is_some());
+            let quoted = |value: &Value<'w>| matches!(&value.repr, Repr::Text(_));
+            match (x.ty, y.ty, x.ty.example()) {
+                (_, ty, Some(example)) if of_x && ty.is_plain() => {
+                    problem.help(format!("write the number with its unit, for example `{example}`"))
+                }
+                (_, _, Some(example)) if of_x && of_y => {
+                    let verb = if verb == "compare" { "compare it with" } else { "both must be" };
+                    problem.help(format!("{verb} {noun_a}, for example `{example}`"))
+                }
+                (Ty::Role | Ty::Mode, _, _) if quoted(y) => {
+                    problem.help(format!("write it without quotes: `{}`", text_b.trim_matches('"')))
+                }
+                (Ty::Player | Ty::Team | Ty::Set, _, _) if quoted(y) => {
+                    problem.help(format!("a name stands without quotes: `{}`", text_b.trim_matches('"')))
+                }
+                (Ty::Player, Ty::Team | Ty::Set, _) if verb == "compare" => {
+                    problem.help(format!("write `{text_a} in {text_b}`"))
+                }
+                (ty, Ty::Point | Ty::Player | Ty::Ball, _) if ty.is_place() && verb == "compare" => {
+                    problem.help(format!("write `distance({text_a}, {text_b}) < 1m`"))
+                }
+                (ty, Ty::Region, _) if ty.is_place() && verb == "compare" => {
+                    problem.help(format!("write `{text_a} in {text_b}`"))
+                }
+                _ if verb == "compare" => problem.help("both sides must be of one kind"),
+                _ => problem.help("numbers, vectors and regions can be added and subtracted, each with its like"),
             }
         })
     }
@@ -190,7 +239,10 @@ impl<'w> Lower<'_, 'w> {
         match self.interval(divisor) {
             Some((0.0, 0.0)) => {
                 let what = if text == "0" { String::new() } else { format!("`{text}` is 0, and ") };
-                self.report(Problem::new(Code::Impossible, span, format!("{what}nothing can be divided by 0"), ""));
+                self.report(
+                    Problem::new(Code::Impossible, span, format!("{what}nothing can be divided by 0"), "")
+                        .help("divide by something else"),
+                );
             }
             Some((low, high)) if low <= 0.0 && high >= 0.0 => self.report(
                 Problem::new(
@@ -322,12 +374,15 @@ impl<'w> Lower<'_, 'w> {
             ([r], true) if matches!(x.repr, Repr::One(_)) => Value::one(ty, *r),
             ([r, s], true) if matches!(x.repr, Repr::Two(..)) => Value::two(ty, (*r, *s)),
             ([r, s, t], true) if matches!(x.repr, Repr::Three(..)) => Value { ty, repr: Repr::Three(*r, *s, *t) },
-            _ => self.fail(Problem::new(
-                Code::NotYet,
-                a.span.to(b.span),
-                format!("a choice between values that are each {} is not supported yet", ty.noun()),
-                "",
-            )),
+            _ => self.fail(
+                Problem::new(
+                    Code::NotYet,
+                    a.span.to(b.span),
+                    format!("a choice between values that are each {} is not supported yet", ty.noun()),
+                    "",
+                )
+                .help("write the choice around what uses it: `if c then … else …`"),
+            ),
         }
     }
 
@@ -388,21 +443,22 @@ impl<'w> Lower<'_, 'w> {
     /// An expression a step ago; reports where there is none.
     pub(super) fn before(&mut self, expr: &'w Expr, span: Span) -> Option<Value<'w>> {
         if !self.stage.is_step() {
-            self.report(Problem::new(
-                Code::WrongScope,
-                span,
-                "there is no earlier step here",
-                "this is computed before the match begins",
-            ));
+            self.report(
+                Problem::new(
+                    Code::WrongScope,
+                    span,
+                    "there is no earlier step here",
+                    "this is computed before the match begins",
+                )
+                .help("use it in a reward, an ending or a record"),
+            );
             return None;
         }
         if self.when == When::Prev {
-            self.report(Problem::new(
-                Code::WrongScope,
-                span,
-                "only one step is remembered",
-                "inside a look at the step before",
-            ));
+            self.report(
+                Problem::new(Code::WrongScope, span, "only one step is remembered", "inside a look at the step before")
+                    .help("keep what is older in a `state`"),
+            );
             return None;
         }
         self.when = When::Prev;

@@ -4,7 +4,7 @@ use super::super::value::{Binding, Frame, Scope, Value};
 use super::super::{Lower, param};
 use crate::ast::{Arg, Expr, FnItem, Ident, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::{Code, Problem, signature};
 use crate::resolve::arg_name;
 use setpiece_scenario::vocabulary::Function;
 
@@ -131,6 +131,7 @@ impl<'w> Lower<'_, 'w> {
             return;
         };
         for (param, given) in params.iter().zip(given) {
+            self.check_hides(&param.name.node, param.name.span, scope);
             let declared = param.ty.as_ref().map(|ty| param::declared_type(self.world, ty));
             let (expr, home) = match (given, &param.default) {
                 (Some(expr), _) => (expr, self.scope.clone()),
@@ -212,12 +213,15 @@ impl<'w> Lower<'_, 'w> {
         let mut next = 0;
         for arg in args {
             if arg.binder.is_some() || arg.filter.is_some() {
-                self.report(Problem::new(
-                    Code::WrongArguments,
-                    arg.span,
-                    format!("`{callee}` goes through no players"),
-                    "`for` and `where` belong to `count`, `sum`, `min` and their like",
-                ));
+                self.report(
+                    Problem::new(
+                        Code::WrongArguments,
+                        arg.span,
+                        format!("`{callee}` goes through no players"),
+                        "`for` and `where` belong to `count`, `sum`, `min` and their like",
+                    )
+                    .help("count players first: `count(p in us where …)`"),
+                );
                 return None;
             }
             let at = match (&arg.key, arg_name(arg)) {
@@ -258,7 +262,8 @@ impl<'w> Lower<'_, 'w> {
                             format!("`{name}` is given twice"),
                             "given again here",
                         )
-                        .label(first, "first given here"),
+                        .label(first, "first given here")
+                        .help("leave one of them out"),
                     );
                     return None;
                 }
@@ -269,12 +274,15 @@ impl<'w> Lower<'_, 'w> {
                         1 => "one value".to_owned(),
                         n => format!("{n} values"),
                     };
-                    self.report(Problem::new(
-                        Code::WrongArguments,
-                        arg.span,
-                        format!("`{callee}` takes {takes}"),
-                        "too many",
-                    ));
+                    let help = match Function::from_name(callee) {
+                        Some(function) => format!("`{}`", signature(function.doc())),
+                        None if n == 0 => "leave it out".to_owned(),
+                        None => format!("write `{callee}({})`", names.join(", ")),
+                    };
+                    self.report(
+                        Problem::new(Code::WrongArguments, arg.span, format!("`{callee}` takes {takes}"), "too many")
+                            .help(help),
+                    );
                     return None;
                 }
             }

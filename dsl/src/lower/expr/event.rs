@@ -10,10 +10,12 @@ use setpiece_scenario::vocabulary::{EventField, EventKind, Landmark, Qualifier};
 use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
 
 /// A loop over the matching events that is being written.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct Matching {
     /// The loop.
     pub(crate) open: OpenLoop,
+    /// Which events match.
+    pub(crate) filter: EventFilter,
     /// What the place of the event must meet.
     pub(crate) guard: Option<Reg>,
     outer: Option<EventKind>,
@@ -45,14 +47,14 @@ impl<'w> Lower<'_, 'w> {
         let filter = self.event_filter(event)?;
         debug_assert!(self.event.is_none());
         let kind = filter.kind;
-        let open = self.code.open_loop(Over::Events(filter));
+        let open = self.code.open_loop(Over::Events(filter.clone()));
         let outer = self.event.replace(kind);
         let guard = event.from.as_deref().and_then(|region| {
             let region = self.region(region)?;
             let place = (self.code.event(EventField::X), self.code.event(EventField::Y));
             Some(self.inside(place, &region))
         });
-        Some(Matching { open, guard, outer })
+        Some(Matching { open, filter, guard, outer })
     }
 
     /// Closes the loop over events.
@@ -103,23 +105,26 @@ impl<'w> Lower<'_, 'w> {
         if !kind.has_actor()
             && let Some(by) = &event.by
         {
-            self.report(Problem::new(
-                Code::WrongArguments,
-                by.span,
-                format!("nobody does `{name}`"),
-                "`by` says nothing here",
-            ));
+            self.report(
+                Problem::new(Code::WrongArguments, by.span, format!("nobody does `{name}`"), "`by` says nothing here")
+                    .help(format!("write `{name}` alone")),
+            );
             return None;
         }
         if !kind.has_receiver()
             && let Some(to) = &event.to
         {
-            self.report(Problem::new(
-                Code::WrongArguments,
-                to.span,
-                format!("`{name}` reaches nobody"),
-                "`to` says nothing here",
-            ));
+            let receiving: Vec<&str> =
+                EventKind::ALL.iter().filter(|kind| kind.has_receiver()).map(|kind| kind.name()).collect();
+            self.report(
+                Problem::new(
+                    Code::WrongArguments,
+                    to.span,
+                    format!("`{name}` reaches nobody"),
+                    "`to` says nothing here",
+                )
+                .help(format!("leave it out; `to` belongs to `{}`", receiving.join("`, `"))),
+            );
             return None;
         }
         let by = event.by.as_deref().map(|who| self.who(who));

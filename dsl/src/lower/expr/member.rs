@@ -265,7 +265,7 @@ impl<'w> Lower<'_, 'w> {
         };
         if let Some(message) = nobody {
             let span = event.to(member.span);
-            return self.fail(Problem::new(Code::WrongArguments, span, message, "always nobody"));
+            return self.fail(Problem::new(Code::WrongArguments, span, message, "always nobody").help("leave it out"));
         }
         let (field, ty) = match name {
             "by" => (EventField::By, Ty::Player),
@@ -298,6 +298,21 @@ impl<'w> Lower<'_, 'w> {
             "not known",
         );
         let near = crate::problem::nearest(name, known.iter().copied()).is_some();
+        let elsewhere = match (ty, name) {
+            (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => {
+                Some(format!("write `{text} has ball`"))
+            }
+            (Ty::Player | Ty::Ball, "vx" | "vy" | "velocity.x" | "velocity.y") => {
+                Some(format!("write `{text}.velocity`, or `{text}.speed`"))
+            }
+            (Ty::Player | Ty::Ball, "position" | "pos") => {
+                Some(format!("write `{text}` for its place, or `{text}.x` and `{text}.y`"))
+            }
+            _ => None,
+        };
+        if let Some(help) = elsewhere {
+            return self.fail(problem.help(help));
+        }
         self.fail(if near || known.is_empty() {
             problem.did_you_mean(name, known.iter().copied())
         } else {

@@ -39,10 +39,35 @@ impl<'w> Lower<'_, 'w> {
         if matches!(self.stage, Stage::Reward | Stage::Ending) {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
-        self.fail(
-            Problem::new(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known")
-                .did_you_mean(name, candidates.iter().map(String::as_str)),
-        )
+        let problem = Problem::new(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known");
+        self.fail(match self.of_the_scenario(name) {
+            Some(help) => problem.help(help),
+            None => problem.did_you_mean(name, candidates.iter().map(String::as_str)),
+        })
+    }
+
+    /// How a name of the scenario reaches what stands outside of it.
+    fn of_the_scenario(&self, name: &str) -> Option<String> {
+        let is_player = self.player_named(name);
+        if self.scope.scenario || !(is_player || self.world.declaration(name).is_some()) {
+            return None;
+        }
+        let (noun, head) = match self.stage {
+            Stage::Behavior => ("a behavior", "behavior NAME"),
+            Stage::Reward | Stage::Init => ("a reward", "reward NAME"),
+            Stage::Ending => ("an ending", "ending NAME"),
+            _ => {
+                return Some(format!(
+                    "`{name}` is the scenario's, which nothing outside of it sees: hand it in as a parameter"
+                ));
+            }
+        };
+        let decl = if is_player { format!("{name}: player") } else { format!("{name}: …") };
+        Some(format!("{noun} doesn't see the scenario's names: hand it in, `{head}({decl})`"))
+    }
+
+    fn player_named(&self, name: &str) -> bool {
+        self.world.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
     }
 
     pub(crate) fn local(&mut self, name: &str, binding: Binding<'w>, span: Span) -> Value<'w> {

@@ -5,7 +5,7 @@ use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::{Code, Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
@@ -83,12 +83,15 @@ impl<'w> Lower<'_, 'w> {
             (F::Normal, &[mean, sd]) => (Distribution::Normal(mean, sd), None),
             (F::TruncatedNormal, &[mean, sd, a, b]) => (Distribution::TruncatedNormal(mean, sd, a, b), Some((a, b))),
             _ => {
-                return self.fail(Problem::new(
-                    Code::WrongArguments,
-                    span,
-                    format!("`{}` needs two ends or a region", function.name()),
-                    "",
-                ));
+                return self.fail(
+                    Problem::new(
+                        Code::WrongArguments,
+                        span,
+                        format!("`{}` needs two ends or a region", function.name()),
+                        "",
+                    )
+                    .help(format!("`{}`", signature(function.doc()))),
+                );
             }
         };
         if let Some((a, b)) = ends
@@ -119,7 +122,8 @@ impl<'w> Lower<'_, 'w> {
         }
         let ordered = self.code.binary(BinaryOp::Le, a, b);
         let text = self.world.text(span);
-        self.imply(ordered, format!("the lower end of `{text}` lies below the upper one"));
+        let label = format!("the lower end of `{text}` lies below the upper one");
+        self.imply(ordered, label, Some(span), "write the lower end first".to_owned());
         true
     }
 
@@ -147,7 +151,8 @@ impl<'w> Lower<'_, 'w> {
         let zero = self.code.constant(0.0);
         let any = self.code.binary(BinaryOp::Gt, sum, zero);
         let text = self.world.text(span);
-        self.imply(any, format!("a weight of `{text}` is above 0"));
+        let help = "give one of the choices a weight above 0".to_owned();
+        self.imply(any, format!("a weight of `{text}` is above 0"), Some(span), help);
     }
 
     /// `choice(a, b, c)`, `choice(a: 3, b: 1)`
@@ -156,7 +161,10 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         if args.is_empty() {
-            return self.fail(Problem::new(Code::WrongArguments, span, "`choice` has nothing to choose from", ""));
+            return self.fail(
+                Problem::new(Code::WrongArguments, span, "`choice` has nothing to choose from", "")
+                    .help("write, for example, `choice(-0.2, 0.2)`"),
+            );
         }
         let weighted = args.iter().any(|arg| arg.key.is_some());
         if let Some(bare) = args.iter().find(|arg| weighted && arg.key.is_none()) {

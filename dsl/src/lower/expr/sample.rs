@@ -8,7 +8,7 @@ use super::super::Lower;
 use super::super::value::RegionValue;
 use crate::ast::Span;
 use crate::lower::interval::Interval;
-use crate::lower::triangles::triangulate;
+use crate::lower::triangles::{is_flat, triangulate};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
@@ -50,7 +50,8 @@ impl Lower<'_, '_> {
             accepted = self.code.binary(BinaryOp::Or, accepted, also);
         }
         let text = self.world.text(span);
-        self.imply(accepted, format!("a point lies in {text}"));
+        let help = "draw from a region whose parts have more in common".to_owned();
+        self.imply(accepted, format!("a point lies in {text}"), Some(span), help);
         Some(place)
     }
 
@@ -234,10 +235,12 @@ impl Lower<'_, '_> {
             return Some(Candidate { place, accepted: Some(inside) });
         };
         let Some(triangles) = triangulate(&known) else {
-            self.report(
-                Problem::new(Code::Impossible, span, "nothing can be drawn in this polygon", "its edges cross")
-                    .help("list its corners in order, along its edge"),
-            );
+            let (why, help) = if is_flat(&known) {
+                ("its corners lie on one line", "move one of its corners off the line")
+            } else {
+                ("its edges cross", "list its corners in order, along its edge")
+            };
+            self.report(Problem::new(Code::Impossible, span, "nothing can be drawn in this polygon", why).help(help));
             return None;
         };
         let weights: Vec<Reg> = triangles.iter().map(|triangle| self.code.constant(triangle.area)).collect();

@@ -14,7 +14,7 @@ const LOOPS_MAX: usize = 4;
 /// `E for p in S where C`, taken apart.
 struct Comprehension<'w> {
     value: Option<&'w Expr>,
-    name: Option<&'w str>,
+    name: Option<(&'w str, Span)>,
     set: &'w Expr,
     filter: Option<&'w Expr>,
 }
@@ -54,7 +54,10 @@ impl<'w> Lower<'_, 'w> {
         }
         let Some(set) = self.want_set(set) else { return Value::error() };
         let Some(team) = self.code.constant_of(set.team) else {
-            return self.fail(Problem::new(Code::NotConstant, span, "whose gap is meant must be known", ""));
+            return self.fail(
+                Problem::new(Code::NotConstant, span, "whose gap is meant must be known", "")
+                    .help("write `min_gap(players)`, `min_gap(left)` or `min_gap(right)`"),
+            );
         };
         let world = self.world;
         let meant = |player: &crate::lower::roster::Rostered<'_>| team < 0.0 || player.team.index() as f64 == team;
@@ -128,7 +131,8 @@ impl<'w> Lower<'_, 'w> {
         let Some(set) = self.want_set(parts.set) else { return Value::error() };
         let open = self.code.open_loop(Over::Players { team: set.team, except: set.except });
         let outer = self.scope.clone();
-        if let Some(name) = parts.name {
+        if let Some((name, at)) = parts.name {
+            self.check_hides_local(name, at, &outer);
             self.scope.bind(name, Binding::Value(Value::one(Ty::Player, open.element())));
         }
         let filter = parts.filter.map(|filter| self.condition(filter));
@@ -160,7 +164,8 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             }
             let outer = self.scope.clone();
-            if let Some(name) = parts.name {
+            if let Some((name, at)) = parts.name {
+                self.check_hides_local(name, at, &outer);
                 self.scope.bind(name, Binding::Value(Value::one(Ty::Player, id)));
             }
             let filter = parts.filter.map(|filter| self.condition(filter));
@@ -177,12 +182,15 @@ impl<'w> Lower<'_, 'w> {
         let zero = self.code.constant(0.0);
         match (function, ty) {
             (_, Some(Ty::Error)) => Value::error(),
-            (Function::MinBy | Function::MaxBy, _) => self.fail(Problem::new(
-                Code::NotYet,
-                span,
-                format!("`{}` in the start is not supported yet", function.name()),
-                "",
-            )),
+            (Function::MinBy | Function::MaxBy, _) => self.fail(
+                Problem::new(
+                    Code::NotYet,
+                    span,
+                    format!("`{}` in the start is not supported yet", function.name()),
+                    "",
+                )
+                .help("name the player"),
+            ),
             (Function::Count, _) => {
                 let sum =
                     elements.into_iter().fold(zero, |sum, (counts, _)| self.code.binary(BinaryOp::Add, sum, counts));
@@ -313,7 +321,7 @@ fn take_apart(function: Function, arg: &Arg) -> Option<Comprehension<'_>> {
     if let Some((name, set)) = &arg.binder {
         return Some(Comprehension {
             value: Some(&arg.value),
-            name: Some(&name.node),
+            name: Some((&name.node, name.span)),
             set,
             filter: arg.filter.as_ref(),
         });
@@ -323,8 +331,8 @@ fn take_apart(function: Function, arg: &Arg) -> Option<Comprehension<'_>> {
     }
     match &arg.value.kind {
         ExprKind::Binary(op, name, set) if op.node == ast::BinaryOp::In => match &name.kind {
-            ExprKind::Name(name) => {
-                Some(Comprehension { value: None, name: Some(name), set, filter: arg.filter.as_ref() })
+            ExprKind::Name(word) => {
+                Some(Comprehension { value: None, name: Some((word, name.span)), set, filter: arg.filter.as_ref() })
             }
             _ => None,
         },

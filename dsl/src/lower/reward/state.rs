@@ -84,6 +84,7 @@ impl<'w> Lower<'_, 'w> {
     /// Makes a state known to the statements.
     pub(super) fn bind_state(&mut self, state: &'w Let, cells: Vec<u32>, before: Vec<Reg>, ty: Ty) {
         let binding = Binding::State { cells: cells.into(), before: before.into(), ty, at: state.name.span };
+        self.check_hides(&state.name.node, state.name.span, &self.scope);
         self.scope.bind(&state.name.node, binding);
     }
 

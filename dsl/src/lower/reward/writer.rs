@@ -31,6 +31,8 @@ pub(super) struct Writer<'l, 'c, 'w> {
     /// Whether anything is paid; else only the states are kept.
     pays: bool,
     guard: Option<Reg>,
+    /// Why the event around never happens.
+    never: Option<String>,
     unlabelled: usize,
 }
 
@@ -44,7 +46,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         params: Vec<&'w ParamDecl>,
     ) -> Written {
         let (terms, hooks) = (Vec::new(), Vec::new());
-        let mut writer = Writer { lower, terms, hooks, params, weight, pays, guard: None, unlabelled: 0 };
+        let mut writer = Writer { lower, terms, hooks, params, weight, pays, guard: None, never: None, unlabelled: 0 };
         // The step's `let`s come first, top to bottom: they see no assignment of this step.
         for statement in statements {
             if let RewardStmtKind::Let(binding) = &statement.kind {
@@ -64,7 +66,8 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         weight: Option<Reg>,
     ) -> Vec<RewardHook> {
         let (terms, hooks, params) = (Vec::new(), Vec::new(), Vec::new());
-        let mut writer = Writer { lower, terms, hooks, params, weight, pays: true, guard: None, unlabelled: 0 };
+        let mut writer =
+            Writer { lower, terms, hooks, params, weight, pays: true, guard: None, never: None, unlabelled: 0 };
         let value = writer.script(script);
         let value = writer.weighted(value);
         writer.lower.code.give(0, value, None);
@@ -80,6 +83,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             None => lower.expr(&binding.value),
         };
         let at = binding.name.span;
+        lower.check_hides(&binding.name.node, at, &lower.scope);
         // A `let` that takes a state's name has been told.
         if matches!(lower.scope.find(&binding.name.node), Some(Binding::State { .. })) {
             return;
@@ -144,6 +148,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         }
         let Some(matching) = self.lower.open_events(event) else { return };
         let scope = self.lower.scope.clone();
+        self.never = self.lower.never_happens(&matching.filter);
         let outer = self.guard;
         let guards = [matching.guard, when.map(|when| self.lower.condition(when))];
         for guard in guards.into_iter().flatten() {
@@ -154,6 +159,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         }
         f(self);
         self.guard = outer;
+        self.never = None;
         self.lower.scope = scope;
         self.lower.close_events(matching, Fold { kind: FoldKind::Nothing, value: None, guard: None });
     }
@@ -272,23 +278,26 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     /// Warns of a payment that never happens, in a reward that stands in its scenario: another's parameters may switch
     /// a part of it off.
     fn check_pays(&self, reg: Reg, value: &Expr) {
-        let never = self.guard.is_some_and(|guard| self.lower.never_holds(guard));
-        let nothing = self.lower.code.constant_of(reg) == Some(0.0);
-        if !self.lower.scope.scenario || !(never || nothing) {
+        if !self.lower.scope.scenario {
             return;
         }
-        let problem = Problem::new(Code::NeverPays, value.span, "this `give` never pays", "");
-        self.lower.report(if never {
-            problem.help("its condition can't hold: x lies between about -1 and 1, y between -0.42 and 0.42")
-        } else {
-            problem.help("it pays 0: write another value, or leave it out")
-        });
+        let nothing = self.lower.code.constant_of(reg) == Some(0.0);
+        let guard = self.guard.filter(|guard| self.lower.never_holds(*guard));
+        let why = match (&self.never, guard) {
+            (Some(why), _) => why.clone(),
+            (None, Some(guard)) => self.lower.why_never(guard),
+            (None, None) if nothing => "it pays 0: write another value, or leave it out".to_owned(),
+            (None, None) => return,
+        };
+        self.lower.report(Problem::new(Code::NeverPays, value.span, "this `give` never pays", "").help(why));
     }
 
     /// Reports a constant that is more than can be paid.
     fn check_payable(&self, reg: Reg, value: &Expr) {
         let code = &self.lower.code;
         let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
+            // A division by zero has been told.
+            Some(&Instr::Binary(BinaryOp::Div, _, b)) if code.constant_of(b) == Some(0.0) => None,
             Some(&Instr::Binary(op, a, b)) => fold::binary(op, code.constant_of(a)?, code.constant_of(b)?),
             _ => None,
         });

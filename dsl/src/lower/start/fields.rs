@@ -124,7 +124,7 @@ impl<'w> Lower<'_, 'w> {
                         format!("`rules` has no option `{}`", field.key.node),
                         "not known",
                     )
-                    .did_you_mean(&field.key.node, Rule::ALL.iter().map(|rule| rule.name())),
+                    .one_of(&field.key.node, &Rule::ALL.iter().map(|rule| rule.name()).collect::<Vec<_>>()),
                 );
                 continue;
             };

@@ -96,7 +96,7 @@ impl Lower<'_, '_> {
                 let moving = |key: &str| matches!(key, "velocity" | "height" | "spin" | "owner");
                 if let Some(field) = ball.fields.iter().find(|field| moving(&field.key.node)) {
                     let message = format!("the ball of a {spoken} lies still, at the taker's feet");
-                    self.report(Problem::new(Code::WrongScope, field.key.span, message, ""));
+                    self.report(Problem::new(Code::WrongScope, field.key.span, message, "").help("leave it out"));
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! What was expected, in the author's words.
 
 use super::{Context, Finding, Wrong, text};
-use crate::habit::{self, Begins};
+use crate::habit::{self, BRACKET_APART, Begins};
 use crate::parse::reader::{Reader, reserved, token};
 use crate::problem::{Code, Problem, nearest};
 use crate::source::Span;
@@ -33,12 +33,20 @@ impl Reader<'_> {
             .map(Finding::new)
             .or_else(|| if outside { None } else { self.role_or_keyword(&wrong, word) })
             .or_else(|| self.reserved_name(&wrong, word).map(Finding::new))
-            .unwrap_or_else(|| Finding::new(self.expected(&wrong)))
+            .unwrap_or_else(|| Finding::new(wrong.with_form(self.expected(&wrong))))
     }
 
     /// A habit of another language, at the place where nothing fits or at the junk's beginning.
     fn habit(&self, wrong: &mut Wrong<'_>) -> Option<Finding> {
-        let words: Vec<&str> = wrong.tokens.iter().map(|(_, word)| *word).collect();
+        let apart = |from: usize| text(self.text, 0..from).ends_with(char::is_whitespace);
+        let words: Vec<&str> = wrong
+            .tokens
+            .iter()
+            .map(|&(from, word)| match word {
+                "(" if apart(from) => BRACKET_APART,
+                _ => word,
+            })
+            .collect();
         let met = wrong.token_at();
         let (at, found) = habit::of_text(wrong.context.place(), &words, met, wrong.first)?;
         if let Some((from, word)) = wrong.tokens.get(at) {
@@ -176,6 +184,20 @@ impl Reader<'_> {
 }
 
 impl Wrong<'_> {
+    /// Shows how the statement under way is written.
+    fn with_form(&self, problem: Problem) -> Problem {
+        let word = |index: usize| self.tokens.get(index).map_or("", |(_, word)| *word);
+        let form = match (self.positives.as_slice(), word(0), word(1)) {
+            (wanted, ..) if wanted.contains(&Rule::kw_else) || wanted == [Rule::kw_then] => Some("if c then a else b"),
+            (_, "end", "limit") => Some("end limit 400 steps"),
+            (_, first, _) => self.context.form(first),
+        };
+        match form.filter(|_| problem.help.is_none()) {
+            Some(form) => problem.help(format!("write, for example, `{form}`")),
+            None => problem,
+        }
+    }
+
     /// A lone word could always have been an option's key or a state: the word is the news, not the missing sign.
     fn is_lone_word(&self) -> bool {
         let Some((from, first)) = self.tokens.get(self.first) else { return false };

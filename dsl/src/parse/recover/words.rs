@@ -113,6 +113,48 @@ impl Context {
         }
     }
 
+    /// How a statement that begins with a word is written.
+    pub(super) fn form(self, word: &str) -> Option<&'static str> {
+        Some(match (self, word) {
+            (Context::File, "import") => "import \"rewards.pitch\"",
+            (Context::File, "abstract") => "abstract scenario base { … }",
+            (Context::File, "scenario") => "scenario my_drill { … }",
+            (Context::File, "reward") => "reward scoring { give 1 on goal by us }",
+            (Context::File, "formation") => "formation pair { CM at (-0.3, 0) }",
+            (Context::File, "fn") => "fn twice(x: number) = x * 2",
+            (Context::File, "ending") => "ending late = elapsed > 20s",
+            (Context::File, "behavior") => "behavior waits { do hold }",
+            (Context::File | Context::Scenario, "const") => "const far = 12m",
+            (Context::File | Context::Scenario, "region") => "region strip = right.box",
+            (Context::Scenario, "param") => "param reach = 12m in 5m..20m",
+            (Context::Scenario, "let") => "let lane = uniform(-0.2, 0.2)",
+            (Context::Scenario, "rules") => "rules { offside: off }",
+            (Context::Scenario, "agents") => "agents { left: 1 }",
+            (Context::Scenario, "ball") => "ball at (0.6, 0)",
+            (Context::Scenario, "team") => "team left { CM at (0.5, 0) }",
+            (Context::Scenario, "start") => "start corner for left",
+            (Context::Scenario, "reward") => "reward mine { give 1 on goal by us }",
+            (Context::Scenario, "end") => "end success when goal by left",
+            (Context::Scenario, "require") => "require distance(anna, bert) > 5m",
+            (Context::Scenario, "record") => "record goals = count of goal by left",
+            (Context::Scenario, "remove") => "remove reward scoring",
+            (Context::Scenario, "mirror") => "mirror: flanks",
+            (Context::Team, "each") => "each outfield { difficulty: 0.6 }",
+            (Context::Team, "place") => "place anchor at (0, 0)",
+            (Context::Reward | Context::Behavior, "state") => "state n = 0",
+            (Context::Reward | Context::Behavior, "let") => "let near = 5m",
+            (Context::Reward, "give") => "give 1 on goal by us",
+            (Context::Reward, "on") => "on goal by us { give 1 }",
+            (Context::Reward, "when") => "when us has ball { give 0.1 per second }",
+            (Context::Behavior, "do") => "do move_to(ball) until me has ball",
+            (Context::Behavior, "interrupt") => "interrupt when me has ball { do shoot }",
+            (Context::Behavior, "repeat") => "repeat 3 times { … }",
+            (Context::Behavior, "choose") => "choose { 2: do shoot 1: do hold for 1s }",
+            (Context::Behavior, "if") => "if me has ball { do shoot } else { do press }",
+            _ => return None,
+        })
+    }
+
     /// The rule of the block that belongs to a keyword.
     pub(super) fn block_of(self, keyword: &str) -> Option<Rule> {
         Some(match (self, keyword) {

@@ -1,0 +1,77 @@
+//! Warns of a name of the author's that hides another one.
+
+use super::value::Scope;
+use super::{Lower, World};
+use crate::ast::{Ident, ItemKind, Span};
+use crate::problem::{Code, Problem};
+use crate::source::FileId;
+
+/// What a name meant before.
+struct Hidden {
+    /// With its article.
+    what: &'static str,
+    at: Option<Span>,
+}
+
+impl Lower<'_, '_> {
+    /// Warns of a local name that hides a value which `scope` sees, its own locals aside.
+    pub(crate) fn check_hides(&self, name: &str, at: Span, scope: &Scope<'_>) {
+        let of_scenario = || if scope.scenario { of_scenario(self.world, name) } else { None };
+        warn(self.world, name, at, || of_scenario().or_else(|| of_file(self.world, at.file, name)));
+    }
+
+    /// The same of a name in a block of its own, which may hide a local of the scope around it, too.
+    pub(crate) fn check_hides_local(&self, name: &str, at: Span, around: &Scope<'_>) {
+        let Some(known) = around.find(name) else { return self.check_hides(name, at, around) };
+        warn(self.world, name, at, || Some(Hidden { what: "the outer value", at: known.declared() }));
+    }
+}
+
+/// Warns of the scenario's own values and players that hide a value of its file.
+pub(crate) fn check_scenario(world: &World<'_>) {
+    let flat = world.flat;
+    let params = flat.params.iter().map(|param| &param.decl.name);
+    let bindings = flat.lets.iter().chain(&flat.consts).map(|binding| &binding.name);
+    let regions = flat.regions.iter().map(|region| &region.name);
+    let shuffled = flat.tuples.iter().flat_map(|(names, _)| *names);
+    let players = world.roster.iter().filter_map(|player| player.name);
+    let all: Vec<&Ident> = params.chain(bindings).chain(regions).chain(shuffled).chain(players).collect();
+    for name in all {
+        warn(world, &name.node, name.span, || of_file(world, name.span.file, &name.node));
+    }
+}
+
+fn of_scenario(world: &World<'_>, name: &str) -> Option<Hidden> {
+    if let Some(at) = world.declaration(name) {
+        return Some(Hidden { what: "the scenario's value", at: Some(at) });
+    }
+    let mut players = world.roster.iter().filter_map(|player| player.name);
+    players.find(|known| known.node == name).map(|known| Hidden { what: "the player", at: Some(known.span) })
+}
+
+/// A value that the author's files declare: what everybody may use without an import, nobody need know.
+fn of_file(world: &World<'_>, file: FileId, name: &str) -> Option<Hidden> {
+    let found = world.library.find(file, name)?;
+    let what = match &found.item.kind {
+        ItemKind::Const(_) => "the constant",
+        ItemKind::Region(region) if region.params.is_empty() => "the region",
+        ItemKind::Formation(_) => "the formation",
+        _ => return None,
+    };
+    (!world.is_library(found.name.span)).then_some(Hidden { what, at: Some(found.name.span) })
+}
+
+fn warn(world: &World<'_>, name: &str, at: Span, hidden: impl FnOnce() -> Option<Hidden>) {
+    // Another file's warnings are told where that file is checked.
+    if at.file != FileId(0) {
+        return;
+    }
+    let Some(Hidden { what, at: before }) = hidden().filter(|hidden| hidden.at != Some(at)) else { return };
+    let problem =
+        Problem::new(Code::HidingName, at, format!("`{name}` hides {what} of this name"), "hides it from here");
+    let problem = match before {
+        Some(before) => problem.label(before, "hidden here"),
+        None => problem,
+    };
+    world.report(problem.help(format!("choose another name, for example `my_{name}`")));
+}

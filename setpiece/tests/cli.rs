@@ -170,6 +170,7 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
 
 #[test]
 fn the_compact_form_is_the_same_scenario_and_its_faults_are_told() {
+    type Change<'a> = &'a dyn Fn(&mut Vec<u8>);
     let folder = folder();
     let source = write(folder.path(), "close.pitch", CLOSE);
     let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
@@ -181,13 +182,13 @@ fn the_compact_form_is_the_same_scenario_and_its_faults_are_told() {
     assert_eq!(std::fs::read(&text).unwrap(), std::fs::read(&again).unwrap(), "one form holds what the other does");
     let whole = std::fs::read(&compact).unwrap();
     assert!(whole.len() < std::fs::read(&text).unwrap().len() * 3 / 4, "{} bytes", whole.len());
-    let broken = |name: &str, change: &dyn Fn(&mut Vec<u8>)| {
+    let broken = |name: &str, change: Change<'_>| {
         let mut bytes = whole.clone();
         change(&mut bytes);
         std::fs::write(at(name), bytes).unwrap();
         at(name)
     };
-    let cases: [(&str, &dyn Fn(&mut Vec<u8>), &str); 6] = [
+    let cases: [(&str, Change<'_>, &str); 6] = [
         ("head", &|bytes| bytes.truncate(17), "cut off"),
         ("half", &|bytes| bytes.truncate(bytes.len() / 2), "cut off"),
         ("version", &|bytes| bytes[8] = 99, "version 99"),

@@ -5,6 +5,8 @@ use serde_json::{Number, Value};
 
 /// Most edits of one scenario.
 const EDITS_MAX: usize = 12;
+/// How many values a scenario may hold and still be edited.
+const VALUES_MAX: usize = 20_000;
 /// Numbers at which something may begin or end.
 const WHOLE: &[i64] = &[0, 1, -1, 2, 10, 11, 21, 22, 64, 255, 256, 100_000, 2_147_483_648, 4_294_967_295, i64::MAX];
 const FLOATS: &[f64] = &[0.0, -0.0, 0.5, -1.0, 1e-300, 1e9, 3.5e38, -1e300, f64::MAX, 55.0, -36.0];
@@ -16,6 +18,10 @@ pub fn edit(body: &mut Value, choices: &mut Choices<'_>) {
             return;
         }
         let n = count(body);
+        // A value may be put into itself, and again.
+        if n > VALUES_MAX {
+            return;
+        }
         let other = nth(body, usize::from(choices.word()) % n).cloned().unwrap_or_default();
         let Some(node) = nth(body, usize::from(choices.word()) % n) else { continue };
         change(node, other, choices);

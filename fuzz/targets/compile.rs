@@ -41,10 +41,11 @@ fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
     }
 });
 
-/// What a scenario says, but for the words that are quoted from its text.
+/// What a scenario says, but for what is quoted from its text and where a script stands in it.
 fn said(scenario: &Scenario) -> String {
     let mut scenario = scenario.clone();
     scenario.start.requires.iter_mut().for_each(|require| require.label.clear());
+    scenario.scripts.iter_mut().for_each(|script| script.at = (1, 1));
     file::to_json(&scenario).expect("a compiled scenario can be written")
 }
 

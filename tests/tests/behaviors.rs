@@ -597,3 +597,30 @@ fn a_script_that_names_no_action_ends_the_episode() {
     assert_eq!(failing("7"), "expected the name of an action, found a whole number");
     assert!(failing("throw \"lost\"").contains("lost"));
 }
+
+/// Whoever is scripted does what is written, whatever ball lies near him; whom an agent controls is drawn to it.
+#[test]
+fn a_scripted_player_is_not_drawn_to_the_ball_unless_an_agent_has_him() {
+    let walked = |agents: &str| {
+        let text = format!(
+            "behavior waits {{ do hold }}
+            scenario s {{
+                ball at (40m, 20m)
+                team left {{ GK at (-50m, 0m) {{ ai: hold }}  a: CF at (-40m, 30m) {{ ai: hold }} }}
+                team right {{ p: CB at (10m, 0m) {{ ai: waits }} }}
+                agents {{ {agents} }}
+                end limit 60 steps
+            }}"
+        );
+        let loaded = setpiece::compile_text(&text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+        let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+        environment.reset(Some(1), None).unwrap();
+        let mut scratch = Scratch::default();
+        while environment.is_running() {
+            environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+        }
+        environment.state().players[11].pos.distance(glam::Vec2::new(10.0, 0.0))
+    };
+    assert!(walked("left: [a]") < 0.5);
+    assert!(walked("left: 0, right: [p]") > 10.0);
+}

@@ -123,7 +123,8 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
     # Only the script is another: it goes on with its memory, in this episode.
     path.write_text(text("100.0 + this.n"))
     assert steps(lambda: env.last_reload is not None) > 101.0
-    assert env.last_reload is not None and env.last_reload.state == "applied"
+    assert env.last_reload is not None
+    assert env.last_reload.state == "applied"
     assert env.scenario.digest != first
     # A broken script is told at once, and the last good one goes on.
     path.write_text(text("100.0 +"))

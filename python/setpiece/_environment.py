@@ -13,7 +13,7 @@ from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import ParameterError, ScriptError, SetpieceError
+from setpiece._errors import InUseError, ParameterError, ScriptError, SetpieceError
 from setpiece._native import Live, Scenario, load
 from setpiece._reload import Reload
 from setpiece._spaces import action_space, check_observation, observation_space
@@ -134,7 +134,13 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._playing = False
         if self._live is not None:
             self._follow(self._live)
-        observation, info = self._native.reset(number, at, params)
+        try:
+            observation, info = self._native.reset(number, at, params)
+        except RuntimeError as error:
+            # The binding's word for a second thread.
+            if "borrowed" not in str(error):
+                raise
+            raise InUseError("another thread is using this environment: make one for each thread") from None
         if self._live is not None:
             info["scenario"] = self._digest
         # A reset that fails leaves no trace but that nothing is being played.
@@ -159,6 +165,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         except ScriptError:
             self._playing = False
             raise
+        except RuntimeError as error:
+            # The binding's word for a second thread.
+            if "borrowed" not in str(error):
+                raise
+            raise InUseError("another thread is using this environment: make one for each thread") from None
         self._playing = not (result[2] or result[3])
         if not self._playing:
             result[4]["setpiece"]["scenario"] = self._digest

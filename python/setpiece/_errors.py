@@ -134,3 +134,7 @@ class ScriptError(SetpieceError):
 
 class ActionError(SetpieceError, ValueError):
     """An action is of another type or shape, or out of range; the episode is untouched."""
+
+
+class InUseError(SetpieceError, RuntimeError):
+    """Two threads use one environment at the same time; each needs its own."""

@@ -494,3 +494,27 @@ def test_a_scenario_declares_its_own_observation() -> None:
     check_env(setpiece.make(setpiece.compile(MEASURED.replace("[one, two]", "1")), observation="vector"))
     with pytest.raises(setpiece.ParameterError, match="declares no observation"):
         setpiece.make(CLOSE, observation="vector")
+
+
+def test_two_threads_on_one_environment_are_told() -> None:
+    env = setpiece.make("11_vs_11_stochastic")
+    env.reset(seed=1)
+    told: list[Exception] = []
+
+    def play() -> None:
+        for _ in range(2000):
+            try:
+                env.step(19 - 1)
+            except Exception as error:
+                told.append(error)
+
+    threads = [threading.Thread(target=play) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert told
+    assert {type(error) for error in told} == {setpiece.InUseError}
+    assert "one for each thread" in str(told[0])
+    # It has come to no harm.
+    env.step(0)

@@ -6,7 +6,6 @@ use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
 use setpiece_scenario::{Reg, UnaryOp, When};
 
@@ -350,7 +349,6 @@ impl<'w> Lower<'_, 'w> {
     /// A player of the roster by his register, if it is constant.
     pub(crate) fn roster_index(&self, player: Reg) -> Option<usize> {
         let id = self.code.constant_of(player)?;
-        debug_assert!(id < 2.0 * TEAM_MAX as f64);
         self.world.roster.iter().position(|rostered| f64::from(rostered.id) == id)
     }
 }

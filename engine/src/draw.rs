@@ -15,7 +15,7 @@ use crate::random::Stream;
 use crate::start::{Drawn, DrawnAgent, DrawnPlayer};
 use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{BALL_RADIUS_M, PLAYERS_MAX, STEPS_PER_S};
+use setpiece_scenario::pitch::{BALL_RADIUS_M, PLAYERS_MAX, RIM_X_M, RIM_Y_M, STEPS_PER_S};
 use setpiece_scenario::vocabulary::{Rule, Team};
 use setpiece_scenario::{Bindings, Reg, Scenario};
 
@@ -252,6 +252,12 @@ impl Drawer {
         Vec2::new(self.value(x) as f32, self.value(y) as f32)
     }
 
+    /// Where a player stands: on the pitch or its rim, whatever a compiled file says.
+    fn place(&self, at: (Reg, Reg)) -> Vec2 {
+        let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
+        self.point(at).clamp(-rim, rim)
+    }
+
     fn vector(&self, vector: Option<(Reg, Reg, Reg)>) -> Vec3 {
         vector
             .map_or(Vec3::ZERO, |(x, y, z)| Vec3::new(self.value(x) as f32, self.value(y) as f32, self.value(z) as f32))
@@ -313,7 +319,7 @@ impl Drawer {
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team) {
                 // In roster order, as the places are.
-                let kickoff = place_of.next().map(|at| [self.point(at.kicking), self.point(at.receiving)]);
+                let kickoff = place_of.next().map(|at| [self.place(at.kicking), self.place(at.receiving)]);
                 if id >= PLAYERS_MAX || !roster.present[id] {
                     continue;
                 }
@@ -322,7 +328,7 @@ impl Drawer {
                     role: slot.role,
                     ai: slot.ai,
                     controllable: slot.controllable,
-                    pos: self.point((start.x, start.y)),
+                    pos: self.place((start.x, start.y)),
                     vel: start.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity)),
                     heading_rad: start.heading.map(|heading| self.value(heading) as f32),
                     fatigue: start.fatigue.map_or(0.0, |fatigue| self.share(fatigue)),

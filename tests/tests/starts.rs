@@ -134,18 +134,26 @@ fn a_formation_may_be_chosen_by_a_draw() {
     assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
 }
 
-/// The compiler refuses such a height; a compiled file may hold it all the same.
+/// The compiler refuses such places; a compiled file may hold them all the same.
 #[test]
-fn a_ball_never_begins_below_the_grass() {
-    let text = "scenario s { agents { left: 1 } ball at (0.5, 0) { height: 7m } team left { GK } end limit 9 steps }";
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let mut scenario = std::sync::Arc::unwrap_or_clone(loaded.scenario);
-    for instr in &mut scenario.start.program.code {
-        if *instr == Instr::Const(7.0) {
-            *instr = Instr::Const(-60.0);
-        }
-    }
-    let mut environment = Environment::new(scenario.into(), EnvironmentOptions::default()).unwrap();
-    environment.reset(Some(1), Some(0)).unwrap();
-    assert!((environment.state().ball.pos.z - 0.11).abs() < 1e-6);
+fn nobody_begins_beyond_the_rim_and_no_ball_below_the_grass() {
+    let changed = |text: &str, from: f64, to: f64| {
+        let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+        let mut scenario = std::sync::Arc::unwrap_or_clone(loaded.scenario);
+        let code = &mut scenario.start.program.code;
+        code.iter_mut().filter(|instr| **instr == Instr::Const(from)).for_each(|instr| *instr = Instr::Const(to));
+        let mut environment = Environment::new(scenario.into(), EnvironmentOptions::default()).unwrap();
+        environment.reset(Some(1), Some(0)).map(|()| environment)
+    };
+    let high = "scenario s { agents { left: 1 } ball at (0.5, 0) { height: 7m } team left { GK } end limit 9 steps }";
+    assert!((changed(high, 7.0, -60.0).unwrap().state().ball.pos.z - 0.11).abs() < 1e-6);
+    let far = "scenario s { agents { left: 1 } ball at (0.5, 0) team left { GK CM at (13m, 0m) } end limit 9 steps }";
+    assert!(changed(far, 13.0, 130.0).is_err_and(|error| error.requirement.contains("on the pitch")));
+    // Layouts for later kick-offs are no part of the start.
+    let layouts = "formation a { GK CM at (-13m, 0m) } formation b { GK CM at (-17m, 0m) }
+        scenario s { agents { left: 1 } kickoff left { kicking: a, receiving: b } end limit 9 steps }";
+    let environment = changed(layouts, -17.0, -170.0).unwrap();
+    let kickoffs = environment.state().players.iter().filter(|player| player.present).flat_map(|p| p.body.kickoff);
+    let furthest = kickoffs.map(|at| at.x.abs()).fold(0.0, f32::max);
+    assert!((59.0..=60.0).contains(&furthest), "{furthest}");
 }

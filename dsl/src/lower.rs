@@ -101,11 +101,6 @@ impl World<'_> {
             || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
     }
 
-    /// Whether something stands in the standard library.
-    pub(crate) fn is_library(&self, at: Span) -> bool {
-        self.library.sources.get(at.file).is_some_and(|file| file.name.starts_with("std/"))
-    }
-
     /// The ranges of the parameters, in order.
     pub(crate) fn ranges(&self) -> Vec<Option<Interval>> {
         self.params.iter().filter(|param| param.bound.is_none()).map(ParamInfo::interval).collect()

@@ -206,7 +206,7 @@ impl<'c, 'w> Writer<'c, 'w> {
             }
             BehaviorBody::Script(script) => {
                 self.lower.scope = scope;
-                let args = self.lower.script_args(&item.params);
+                let args = self.lower.script_args(&item.params, true);
                 self.script(script, args);
             }
         }

@@ -49,7 +49,7 @@ fn of_scenario(world: &World<'_>, name: &str) -> Option<Hidden> {
     players.find(|known| known.node == name).map(|known| Hidden { what: "the player", at: Some(known.span) })
 }
 
-/// A value that the author's files declare: what everybody may use without an import, nobody need know.
+/// A value that the same file declares: what is imported, nobody need know by heart.
 fn of_file(world: &World<'_>, file: FileId, name: &str) -> Option<Hidden> {
     let found = world.library.find(file, name)?;
     let what = match &found.item.kind {
@@ -58,7 +58,8 @@ fn of_file(world: &World<'_>, file: FileId, name: &str) -> Option<Hidden> {
         ItemKind::Formation(_) => "the formation",
         _ => return None,
     };
-    (!world.is_library(found.name.span)).then_some(Hidden { what, at: Some(found.name.span) })
+    // An own name hides an imported one, as it says.
+    (found.name.span.file == file).then_some(Hidden { what, at: Some(found.name.span) })
 }
 
 fn warn(world: &World<'_>, name: &str, at: Span, hidden: impl FnOnce() -> Option<Hidden>) {

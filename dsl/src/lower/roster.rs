@@ -196,9 +196,24 @@ fn from_layouts<'w>(
     kicking
 }
 
-/// Two layouts of one team have the same players.
+/// Two layouts of one team have the same players; the second says where they stand, and nothing else of them.
 fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], at: Span) {
     if one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.role == other.role) {
+        let more = |player: &&Rostered<'_>| {
+            player.facing.is_some() || player.jitter.is_some() || player.when.is_some() || !player.fields.is_empty()
+        };
+        if let Some(player) = other.iter().find(more) {
+            world.report(
+                Problem::new(
+                    Code::WrongRoster,
+                    at,
+                    "the second layout says more of a player than where he stands",
+                    "the first one says everything else",
+                )
+                .label(player.span, "said here")
+                .help("move `facing`, `jitter`, `when` and options into the first formation"),
+            );
+        }
         return;
     }
     let roles = |players: &[Rostered<'_>]| -> String {

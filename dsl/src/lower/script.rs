@@ -52,8 +52,12 @@ impl<'a> Scripts<'a> {
 }
 
 impl<'w> Lower<'_, 'w> {
-    /// The parameters around a script, as its hook sees them.
-    pub(crate) fn script_args(&mut self, params: impl IntoIterator<Item = &'w ParamDecl>) -> Vec<ScriptArg> {
+    /// The parameters around a script, as its hook sees them; `every` one must be such that it can.
+    pub(crate) fn script_args(
+        &mut self,
+        params: impl IntoIterator<Item = &'w ParamDecl>,
+        every: bool,
+    ) -> Vec<ScriptArg> {
         let mut args = Vec::new();
         for decl in params {
             let known = self.scope.find(&decl.name.node).cloned();
@@ -64,6 +68,7 @@ impl<'w> Lower<'_, 'w> {
             }
             match script_type(&value) {
                 Some(ty) => args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() }),
+                None if !every => {}
                 None => self.report(
                     Problem::new(
                         Code::WrongType,

@@ -520,7 +520,8 @@ fn players_of<const N: usize, const W: usize>(teams: &[f64; W]) -> std::ops::Ran
     }
 }
 
-fn is_kind(filter: &EventFilter, event: &Event) -> bool {
+/// Whether an event is of a filter's kind and qualifier.
+pub fn is_kind(filter: &EventFilter, event: &Event) -> bool {
     event.kind == filter.kind
         && match (filter.qualifier, filter.kind) {
             (Some(qualifier), _) => event.qualifier == Some(qualifier),

@@ -209,8 +209,8 @@ impl Scripts {
             Ok(false) => Ok(Done::No),
             Err(_) => value
                 .into_string()
-                .map(Done::Labelled)
-                .map_err(|found| self.wrong_type(script, DONE, "true, false or a label", found, scene)),
+                .map_err(|found| self.wrong_type(script, DONE, "true, false or a label", found, scene))
+                .map(|label| if label.trim().is_empty() { Done::No } else { Done::Labelled(label) }),
         }
     }
 

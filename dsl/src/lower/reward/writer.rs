@@ -261,7 +261,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
 
     /// The value of a script: its hook is called before the step, once however often it is named.
     pub(super) fn script(&mut self, script: &'w ScriptRef) -> Reg {
-        let args = self.lower.script_args(self.params.iter().copied());
+        let args = self.lower.script_args(self.params.iter().copied(), false);
         let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
         let Some(index) = embed(self.lower.world, script, "reward", &own) else {
             return self.lower.code.unknown();

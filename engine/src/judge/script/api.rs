@@ -172,7 +172,7 @@ impl Sight {
             Type::Bool => (value != 0.0).into(),
             Type::Int => Dynamic::from_int(value as i64),
             Type::Player => self.somebody(player_index(value).map(|index| PlayerId(index as u8))),
-            Type::Team => self.team_word(team_of_number(value)),
+            Type::Team => team_of_number(value).map_or("none", Team::name).into(),
             Type::Point => Dynamic::from(Point { metres: [value, other], side: self.side() }),
             _ => value.into(),
         }
@@ -192,6 +192,12 @@ impl Sight {
 
     fn point(&self, metres: [f32; 2]) -> Point {
         Point { metres: metres.map(f64::from), side: self.side() }
+    }
+
+    /// A place from normalised coordinates of the reader's frame.
+    fn normalised(&self, x: f64, y: f64) -> Point {
+        let side = self.side();
+        Point { metres: [side * x * X_SCALE_M, side * y * Y_SCALE_M], side }
     }
 
     /// A team as seen from the side judged.

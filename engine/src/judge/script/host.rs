@@ -74,25 +74,45 @@ fn register_maths(engine: &mut Engine) {
     engine.register_fn("pow", |x: i64, y: i64| libm::pow(x as f64, y as f64));
     engine.register_fn("pow", |x: i64, y: f64| libm::pow(x as f64, y));
     engine.register_fn("exp", |x: i64| libm::exp(x as f64)).register_fn("sqrt", |x: i64| libm::sqrt(x as f64));
-    engine.register_fn("clamp", |x: f64, low: f64, high: f64| {
-        if x < low {
-            low
-        } else if x > high {
-            high
-        } else {
-            x
-        }
+    // Whole numbers serve as well; Rhai asks the general form last.
+    engine.register_fn("clamp", clamp);
+    engine.register_fn("clamp", |x: Dynamic, low: Dynamic, high: Dynamic| -> Result<f64, Box<EvalAltResult>> {
+        Ok(clamp(number(&x)?, number(&low)?, number(&high)?))
     });
-    engine.register_fn("smoothstep", |low: f64, high: f64, x: f64| {
-        let t = if x <= low {
-            0.0
-        } else if x >= high {
-            1.0
-        } else {
-            (x - low) / (high - low)
-        };
-        t * t * (3.0 - 2.0 * t)
+    engine.register_fn("smoothstep", smoothstep);
+    engine.register_fn("smoothstep", |low: Dynamic, high: Dynamic, x: Dynamic| -> Result<f64, Box<EvalAltResult>> {
+        Ok(smoothstep(number(&low)?, number(&high)?, number(&x)?))
     });
+}
+
+fn clamp(x: f64, low: f64, high: f64) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
+fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
+    let t = if x <= low {
+        0.0
+    } else if x >= high {
+        1.0
+    } else {
+        (x - low) / (high - low)
+    };
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// A number, whole or not.
+pub(super) fn number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
+    match (value.as_float(), value.as_int()) {
+        (Ok(number), _) => Ok(number),
+        (_, Ok(whole)) => Ok(whole as f64),
+        _ => Err(format!("expected a number, found {}", type_words(value.type_name())).into()),
+    }
 }
 
 /// What a value holds, all in all.
@@ -174,6 +194,9 @@ fn runtime_message(error: EvalAltResult) -> String {
             format!("more than {OPERATIONS_MAX} operations in one call: a loop doesn't end")
         }
         EvalAltResult::ErrorStackOverflow(_) => format!("calls nest deeper than {CALL_LEVELS_MAX}"),
+        EvalAltResult::ErrorDataRace(..) => {
+            "a closure reads the variable that its chain begins with: put one of both into a `let` before".to_owned()
+        }
         EvalAltResult::ErrorDotExpr(message, _) if !message.is_empty() => lower_first(&message),
         EvalAltResult::ErrorRuntime(value, _) => format!("the script threw `{value}`"),
         EvalAltResult::ErrorPropertyNotFound(name, _) => format!("unknown property `{name}`"),

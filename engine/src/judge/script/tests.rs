@@ -5,7 +5,7 @@ use crate::random::{Purpose, Stream};
 use crate::state::PlayerId;
 use crate::testing::{event, scenario, view};
 use setpiece_scenario::Script;
-use setpiece_scenario::vocabulary::{EventKind, Team};
+use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
 
 fn scene(events: &[Event]) -> Arc<Scene> {
     let prev = view([0.0, 0.0], [20.0, 0.0], [0.0, 0.0, 0.11]);
@@ -92,6 +92,30 @@ fn helpers_measure() {
     near(pay("if pressed(now.me, 5.1) && !pressed(now.me, 4) { 1 } else { 0 }"), 1.0);
     near(pay("pow(2, 3) + sqrt(9) + clamp(5.0, 0.0, 1.0) + smoothstep(0.0, 1.0, 0.5)"), 12.5);
     assert!(fail("distance(now.me, prev.ball.owner)").message.contains("found nobody"));
+}
+
+#[test]
+fn whole_numbers_serve_where_numbers_do() {
+    near(pay("clamp(7, 0, 5) + clamp(now.ball.x, 0, 1) + clamp(0.5, 0.0, 1)"), 6.0);
+    near(pay("smoothstep(0, 1, now.ball.x) + smoothstep(0, 10, 5)"), 1.0);
+    near(pay("distance(now.point(1, 0), now.point(0.5, 0))"), 27.2);
+    assert!(fail("clamp(now.ball, 0, 1)").message.contains("expected a number, found `Ball`"));
+    let racing = fail("now.them.players.filter(|p| p.x > now.ball.x).len()");
+    assert!(racing.message.contains("a closure reads the variable"), "{racing}");
+    near(pay("let all = now.them.players; all.filter(|p| p.x > now.ball.x).len()"), 1.0);
+}
+
+#[test]
+fn a_kind_is_counted_as_in_the_language() {
+    let pass = |qualifier| Event { qualifier: Some(qualifier), ..event(EventKind::Pass, Some(Team::Left), Some(1)) };
+    let shot = event(EventKind::Shot, Some(Team::Left), Some(1));
+    let saved = Event { qualifier: Some(Qualifier::OnTarget), ..shot };
+    let events = [pass(Qualifier::Attempted), pass(Qualifier::Completed), pass(Qualifier::Attempted), shot, saved];
+    let pay = |body| pay_for(body, Team::Left, &events).unwrap();
+    near(pay("count(events, \"pass\") + 10 * count(events, \"pass completed\", \"us\")"), 12.0);
+    near(pay("count(events, \"shot\") + 10 * count(events, \"shot on_target\")"), 11.0);
+    near(pay("count(events, \"pass completed\", \"them\")"), 0.0);
+    assert_eq!(faults("count(events, \"pass completed\") + count(events, \"pass complete\")").len(), 1);
 }
 
 #[test]

@@ -1,10 +1,14 @@
 //! The functions of the interface, and every other function that a script can call.
 
+use super::super::host::number;
 use super::{Ball, Ctx, Happening, Player, Point, Side, Sight, Vector};
+use crate::judge::machine;
 use crate::judge::view::PlayerView;
 use crate::state::PlayerId;
 use rhai::{Array, Dynamic, Engine, EvalAltResult};
+use setpiece_scenario::EventFilter;
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
+use setpiece_scenario::vocabulary::{EventKind, Qualifier};
 
 /// A function of the interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +30,11 @@ const OWN: &[Function] = &[
     own("pressed", &[2], "pressed(player, within): an opponent is nearer than so many metres"),
     own("speed", &[1], "speed(x): of a player or the ball, m/s"),
     own("point", &[3], "now.point(x, y): a place from normalised coordinates of the reader's frame"),
-    own("count", &[2, 3], "count(events, kind), count(events, kind, team): how many; team is \"us\" or \"them\""),
+    own(
+        "count",
+        &[2, 3],
+        "count(events, kind), count(events, kind, team): how many, \"shot\" or \"pass completed\"; team is \"us\" or \"them\"",
+    ),
     own("clamp", &[3], "clamp(x, low, high): x held between low and high"),
     own("smoothstep", &[3], "smoothstep(low, high, x): 0 below low, 1 above high, smooth between"),
     own("pow", &[2], "pow(x, y): x to the power y"),
@@ -199,12 +207,12 @@ pub(super) fn register(engine: &mut Engine) {
         let [x, y, z] = ball.0.view().ball_vel.map(f64::from);
         libm::sqrt(x * x + y * y + z * z)
     });
-    engine.register_fn("point", |now: Sight, x: f64, y: f64| {
-        let side = now.side();
-        Point { metres: [side * x * X_SCALE_M, side * y * Y_SCALE_M], side }
+    engine.register_fn("point", |now: &mut Sight, x: f64, y: f64| now.normalised(x, y));
+    engine.register_fn("point", |now: &mut Sight, x: Dynamic, y: Dynamic| -> Failable<Point> {
+        Ok(now.normalised(number(&x)?, number(&y)?))
     });
-    engine.register_fn("count", |events: Array, kind: &str| count(&events, kind, None));
-    engine.register_fn("count", |events: Array, kind: &str, team: &str| count(&events, kind, Some(team)));
+    engine.register_fn("count", |events: Array, words: &str| count(&events, words, None));
+    engine.register_fn("count", |events: Array, words: &str, team: &str| count(&events, words, Some(team)));
     register_equality(engine);
 }
 
@@ -332,14 +340,22 @@ fn nearest(players: Array, to: Dynamic) -> Failable<Dynamic> {
     Ok(best.map_or(Dynamic::UNIT, |(_, _, player)| Dynamic::from(player)))
 }
 
-fn count(events: &Array, kind: &str, team: Option<&str>) -> i64 {
+/// How many events match: `words` are a kind and, perhaps, a qualifier; a kind alone means what it means in the language.
+fn count(events: &Array, words: &str, team: Option<&str>) -> i64 {
+    let (kind, qualifier) = words.split_once(' ').map_or((words, None), |(kind, word)| (kind, Some(word)));
+    let Some(kind) = EventKind::from_name(kind) else { return 0 };
+    let qualifier = qualifier.map(Qualifier::from_name);
+    if qualifier == Some(None) {
+        return 0;
+    }
+    let filter = EventFilter { kind, qualifier: qualifier.flatten(), by: None, to: None };
     let matching = events.iter().filter(|event| {
         event.read_lock::<Happening>().is_some_and(|event| {
             let of_team = |word: &str| match event.1.team {
                 None => false,
                 Some(team) => word == if team == event.0.perspective.us { "us" } else { "them" },
             };
-            event.1.kind.name() == kind && team.is_none_or(of_team)
+            machine::is_kind(&filter, &event.1) && team.is_none_or(of_team)
         })
     });
     matching.count() as i64

@@ -9,7 +9,7 @@ use super::super::api::{Subject, function, functions, members};
 use super::super::place::word_at;
 use super::{ScriptFault, ScriptFaultKind, hook_arguments, position_offset, suggest};
 use rhai::{AST, ASTFlags, ASTNode, Expr, FnCallExpr, Position, Stmt};
-use setpiece_scenario::vocabulary::EventKind;
+use setpiece_scenario::vocabulary::{EventKind, Qualifier};
 use std::collections::BTreeMap;
 
 /// The agent's own player, whom only rewards and behaviours have.
@@ -177,9 +177,14 @@ impl<'a> Names<'a> {
     fn check_words(&mut self, words: &[Expr]) {
         let events: Vec<&str> = EventKind::ALL.iter().map(|kind| kind.name()).collect();
         for (noun, word, known) in [("event", words.first(), &events[..]), ("team", words.get(1), &["us", "them"])] {
-            if let Some(Expr::StringConstant(word, position)) = word
-                && !known.contains(&word.as_str())
-            {
+            if let Some(Expr::StringConstant(word, position)) = word {
+                let (first, qualifier) = word.split_once(' ').map_or((word.as_str(), None), |(a, b)| (a, Some(b)));
+                if known.contains(&first)
+                    && (noun == "event" || qualifier.is_none())
+                    && qualifier.is_none_or(|word| Qualifier::from_name(word).is_some())
+                {
+                    continue;
+                }
                 let help = suggest(word, known.iter().copied());
                 self.push(*position, format!("no {noun} is called `{word}`"), help);
             }

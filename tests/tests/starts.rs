@@ -74,7 +74,8 @@ fn score_and_clock_begin_where_the_start_says() {
 #[test]
 fn a_set_piece_of_a_team_without_players_is_taken_by_the_others() {
     let text = "scenario s {
-        start throw_in for left at (0.5, -0.43)
+        param whose: team = left
+        start throw_in for whose at (0.5, -0.43)
         agents { left: 0, right: 0 }
         team right { GK at (1, 0)  CF at (0.2, 0.1)  CM at (0, 0) }
         end limit 600 steps

@@ -1,6 +1,6 @@
 //! What a scenario says in braces about its start: its kind, the ball, the rules.
 
-use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind};
+use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind, Span};
 use crate::check::options::{self, BALL, START};
 use crate::check::types::Ty;
 use crate::lower::Lower;
@@ -12,6 +12,8 @@ use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
 
 /// No kicked ball is faster; the hardest shots on record are slower by a fifth.
 const FASTEST_BALL_MPS: f64 = 70.0;
+/// Beyond this nobody has the ball, metres.
+const AT_HIS_FEET_M: f64 = 2.0;
 /// Radians per second; a hard free kick spins at about 60.
 const FASTEST_SPIN: f64 = 200.0;
 
@@ -86,9 +88,32 @@ impl<'w> Lower<'_, 'w> {
                     lower.check_range(reg, (0.0, 50.0), "the ball's height", expr.span, "`0m..50m`");
                     start.height = Some(reg);
                 }
-                "owner" => start.owner = Some(lower.want_reg(expr, Ty::Player)),
+                "owner" => {
+                    let owner = lower.want_reg(expr, Ty::Player);
+                    lower.check_owner(owner, (start.x, start.y), expr.span);
+                    start.owner = Some(owner);
+                }
                 _ => start.spin = lower.spin(expr),
             });
+        }
+    }
+
+    /// Whoever is too far from the ball doesn't have it.
+    fn check_owner(&mut self, owner: Reg, ball: (Reg, Reg), at: Span) {
+        let Some(index) = self.roster_index(owner) else { return };
+        let place = self.place_of_rostered(index, at);
+        let [Some(x), Some(y), Some(ball_x), Some(ball_y)] =
+            [place.0, place.1, ball.0, ball.1].map(|reg| self.code.constant_of(reg))
+        else {
+            return;
+        };
+        let apart = ((x - ball_x).powi(2) + (y - ball_y).powi(2)).sqrt();
+        if apart > AT_HIS_FEET_M {
+            let name = self.world.text(at);
+            self.report(
+                Problem::new(Code::OutOfRange, at, format!("`{name}` stands {apart:.1} m from the ball"), "")
+                    .help(format!("lay it at his feet: `ball ahead of {name} by 1m`")),
+            );
         }
     }
 

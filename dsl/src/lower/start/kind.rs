@@ -71,9 +71,27 @@ impl Lower<'_, '_> {
                         .help(format!("write `start {} for left`", kind.node)),
                 );
             }
+            self.check_taker(found, reg, team.span);
             reg
         });
         (found, team.or(first.filter(|_| found == StartKind::Kickoff)))
+    }
+
+    /// Somebody must be there to take it.
+    fn check_taker(&self, kind: StartKind, team: Reg, at: Span) {
+        let index = self.code.constant_of(team).filter(|index| *index >= 0.0);
+        let Some(team) = index.and_then(|index| Team::ALL.get(index as usize)) else { return };
+        if kind != StartKind::Open && self.world.roster.iter().all(|player| player.team != *team) {
+            self.report(
+                Problem::new(
+                    Code::OutOfRange,
+                    at,
+                    format!("the {team} team has nobody to take the {}", spoken(kind)),
+                    "",
+                )
+                .help(format!("give it a player: `team {team} {{ CM at own (-0.1, 0) }}`")),
+            );
+        }
     }
 
     /// A set piece lays the ball down itself.

@@ -2,9 +2,8 @@
 
 use super::sorted;
 use crate::problem::{Label, Problem, Severity};
-use crate::source::{FileId, Sources};
+use crate::source::Sources;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// A problem as plain data.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,13 +43,12 @@ pub struct DiagnosticLabel {
 
 /// Problems as plain data, sorted by file, place and code.
 pub fn diagnostics(problems: &[Problem], sources: &Sources) -> Vec<Diagnostic> {
-    let mut lines = Lines { sources, starts: BTreeMap::new() };
     let make = |problem: &&Problem| Diagnostic {
         code: problem.code.to_string(),
         severity: severity(problem.severity()).to_owned(),
         message: problem.message.clone(),
         help: problem.help.clone(),
-        labels: problem.labels.iter().map(|label| lines.label(label)).collect(),
+        labels: problem.labels.iter().map(|it| label(it, sources)).collect(),
     };
     sorted(problems).iter().map(make).collect()
 }
@@ -63,32 +61,20 @@ pub(super) fn severity(severity: Severity) -> &'static str {
     }
 }
 
-/// The beginnings of lines, per file.
-struct Lines<'s> {
-    sources: &'s Sources,
-    starts: BTreeMap<FileId, Vec<usize>>,
-}
-
-impl Lines<'_> {
-    fn label(&mut self, label: &Label) -> DiagnosticLabel {
-        let span = label.span;
-        let file = self.sources.get(span.file).map_or_else(|| "<unknown>".to_owned(), |source| source.name.clone());
-        let (line, column) = self.place(span.file, span.start as usize);
-        let (end_line, end_column) = self.place(span.file, span.end as usize);
-        let text = label.text.clone();
-        DiagnosticLabel { file, line, column, end_line, end_column, start: span.start, end: span.end, text }
-    }
-
-    /// Line and column of an offset, from 1.
-    fn place(&mut self, file: FileId, at: usize) -> (u32, u32) {
-        let text = self.sources.get(file).map_or("", |source| &source.text);
-        let starts = self.starts.entry(file).or_insert_with(|| {
-            let newlines = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i + 1);
-            std::iter::once(0).chain(newlines).collect()
-        });
-        let line = starts.partition_point(|start| *start <= at);
-        let start = starts.get(line.saturating_sub(1)).copied().unwrap_or_default();
-        let column = text.get(start..at).map_or(0, |before| before.chars().filter(|char| *char != '\u{FEFF}').count());
-        (line as u32, column as u32 + 1)
+fn label(label: &Label, sources: &Sources) -> DiagnosticLabel {
+    let span = label.span;
+    let source = sources.get(span.file);
+    let place = |at: u32| source.map_or((1, 1), |source| source.line_column(at));
+    let ((line, column), (end_line, end_column)) = (place(span.start), place(span.end));
+    let file = source.map_or_else(|| "<unknown>".to_owned(), |source| source.name.clone());
+    DiagnosticLabel {
+        file,
+        line,
+        column,
+        end_line,
+        end_column,
+        start: span.start,
+        end: span.end,
+        text: label.text.clone(),
     }
 }

@@ -113,14 +113,7 @@ impl<const W: usize> Registers<W> {
 }
 
 impl<const W: usize> Registers<W> {
-    /// The value of a register in the first lane.
-    pub fn first(&self, reg: Reg) -> f64 {
-        self.values[reg.index()][0]
-    }
-}
-
-impl Registers {
-    /// The value of a register.
+    /// The value of a register, in the first lane.
     pub fn value(&self, reg: Reg) -> f64 {
         self.values[reg.index()][0]
     }

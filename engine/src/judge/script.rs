@@ -1,6 +1,6 @@
 //! Rewards and endings by Rhai hooks: the way out for what the language can't say.
 //!
-//! One Rhai engine serves the process, one syntax tree each script of a scenario; both are shared by all matches and
+//! One Rhai engine serves the process, one compilation each script of a scenario; both are shared by all matches and
 //! threads. A hook sees the match through the language's own properties, in the frame of the side judged, and can do
 //! nothing else: no files, no clock, no modules, bounded operations, depth and sizes, random numbers from the episode's
 //! seed alone. `this` is the script's memory: a map that lives as long as the episode.

@@ -77,9 +77,9 @@ impl Lanes {
     /// A value that is the same for all and for the whole episode.
     pub(super) fn fixed(&self, reg: Reg) -> f64 {
         match self {
-            Lanes::One(memory) => memory.step.first(reg),
-            Lanes::Four(memory) => memory.step.first(reg),
-            Lanes::Twelve(memory) => memory.step.first(reg),
+            Lanes::One(memory) => memory.step.value(reg),
+            Lanes::Four(memory) => memory.step.value(reg),
+            Lanes::Twelve(memory) => memory.step.value(reg),
         }
     }
 

@@ -77,11 +77,11 @@ fn register_maths(engine: &mut Engine) {
     // Whole numbers serve as well; Rhai asks the general form last.
     engine.register_fn("clamp", clamp);
     engine.register_fn("clamp", |x: Dynamic, low: Dynamic, high: Dynamic| -> Result<f64, Box<EvalAltResult>> {
-        Ok(clamp(number(&x)?, number(&low)?, number(&high)?))
+        Ok(clamp(to_number(&x)?, to_number(&low)?, to_number(&high)?))
     });
     engine.register_fn("smoothstep", smoothstep);
     engine.register_fn("smoothstep", |low: Dynamic, high: Dynamic, x: Dynamic| -> Result<f64, Box<EvalAltResult>> {
-        Ok(smoothstep(number(&low)?, number(&high)?, number(&x)?))
+        Ok(smoothstep(to_number(&low)?, to_number(&high)?, to_number(&x)?))
     });
 }
 
@@ -107,7 +107,7 @@ fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
 }
 
 /// A number, whole or not.
-pub(super) fn number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
+pub(super) fn to_number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
     match (value.as_float(), value.as_int()) {
         (Ok(number), _) => Ok(number),
         (_, Ok(whole)) => Ok(whole as f64),

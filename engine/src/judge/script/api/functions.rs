@@ -1,6 +1,6 @@
 //! The functions of the interface, and every other function that a script can call.
 
-use super::super::host::number;
+use super::super::host::to_number;
 use super::{Ball, Ctx, Happening, Player, Point, Side, Sight, Vector};
 use crate::judge::machine;
 use crate::judge::view::PlayerView;
@@ -209,7 +209,7 @@ pub(super) fn register(engine: &mut Engine) {
     });
     engine.register_fn("point", |now: &mut Sight, x: f64, y: f64| now.normalised(x, y));
     engine.register_fn("point", |now: &mut Sight, x: Dynamic, y: Dynamic| -> Failable<Point> {
-        Ok(now.normalised(number(&x)?, number(&y)?))
+        Ok(now.normalised(to_number(&x)?, to_number(&y)?))
     });
     engine.register_fn("count", |events: Array, words: &str| count(&events, words, None));
     engine.register_fn("count", |events: Array, words: &str, team: &str| count(&events, words, Some(team)));

@@ -16,9 +16,6 @@ use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Reward, RewardBody, RewardHook};
 use std::sync::Arc;
 
-/// Most arguments of a script.
-const ARGUMENTS_MAX: usize = 32;
-
 /// The rewards of an environment, and what they have paid.
 #[derive(Clone, Debug)]
 pub struct RewardJudge {
@@ -251,14 +248,13 @@ impl HookState {
         scripts: &Scripts,
         scene: &Arc<Scene>,
     ) -> Result<(), ScriptError> {
-        let arguments: ArrayVec<Argument<'_>, ARGUMENTS_MAX> = hook
+        let arguments: Vec<Argument<'_>> = hook
             .args
             .iter()
             .map(|arg| {
                 let value = |at: usize| arg.regs.get(at).map_or(0.0, |reg| lanes.fixed(*reg));
                 Argument { name: &arg.name, ty: arg.ty, values: [value(0), value(1)] }
             })
-            .take(ARGUMENTS_MAX)
             .collect();
         let mut value = 0.0;
         for (lane, judged) in squad.iter().enumerate() {

@@ -73,6 +73,11 @@ fn cargo(args: &[&str]) -> Result<(), String> {
     run(Command::new("cargo").args(args))
 }
 
+/// Builds the lab with every optimisation and runs it.
+pub(crate) fn lab(args: &[String]) -> Result<(), String> {
+    run(Command::new("cargo").args(["run", "--release", "--package", "setpiece-lab", "--"]).args(args))
+}
+
 /// Says and runs a command, in the repository's root unless it names another folder.
 pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     let words: Vec<String> = std::iter::once(command.get_program())

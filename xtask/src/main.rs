@@ -15,11 +15,15 @@ fn main() -> ExitCode {
         "python" => ci::python(),
         "schema" => schema(),
         "tidy" => tidy::tidy(),
+        "calibrate" | "soak" => ci::lab(&std::env::args().skip(1).collect::<Vec<_>>()),
         "fuzz" => fuzz::fuzz(&std::env::args().skip(2).collect::<Vec<_>>()),
         _ => {
             println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
             println!("cargo xtask test    the Rust tests");
             println!("cargo xtask python  build the wheel and run the Python tests");
+            println!(
+                "cargo xtask calibrate  [--check] [--only SECTION] [--count N]: our figures beside those measured of GRF"
+            );
             println!("cargo xtask schema  write docs/pitchc.schema.json");
             println!("cargo xtask tidy    the rules of the house: who may use whom, file lengths");
             println!(

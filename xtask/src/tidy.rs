@@ -74,7 +74,9 @@ pub(crate) fn tidy() -> Result<(), String> {
             }
         }
     }
-    for folder in ["grammar/src", "scenario/src", "dsl/src", "engine/src", "setpiece/src", "python/src", "xtask/src"] {
+    for folder in
+        ["grammar/src", "scenario/src", "dsl/src", "engine/src", "setpiece/src", "python/src", "xtask/src", "lab/src"]
+    {
         for file in rust_files(&root().join(folder)) {
             let text = read(&file)?;
             let lines = text.split("#[cfg(test)]").next().unwrap_or_default().lines().count();

@@ -1,0 +1,301 @@
+//! The ball: what leaves the foot, how it flies, bounces and rolls, and what shots come to.
+
+use crate::figure::Section;
+use crate::pitch::{Failure, Trial, deviation, mean, text};
+use setpiece::scenario::vocabulary::{Action, EventKind};
+
+/// Seeds of every kick.
+const SEEDS: u64 = 64;
+/// Seeds of every shot at goal.
+const SHOTS: u64 = 400;
+
+/// Measures everything of the section.
+pub(crate) fn measure() -> Result<Section, Failure> {
+    let mut section = Section::new(
+        3,
+        "The ball",
+        format!(
+            "Kicks: means over {SEEDS} seeds, level speed from the ball's places at the steps' ends. Limits: ±8 % on \
+             speeds, ±25 % on the means of heights, ±1 step on times. Shots at goal: {SHOTS} seeds each, start jittered \
+             by ±0.03, a keeper of difficulty 0.6."
+        ),
+    );
+    kicks(&mut section)?;
+    motion(&mut section)?;
+    shots(&mut section)?;
+    Ok(section)
+}
+
+/// What a kick was.
+struct Kick {
+    /// Steps from the press to the ball's leaving.
+    leaves_after: f64,
+    /// Highest level speed of a step, m/s.
+    top_mps: f64,
+    /// Highest point of the ball, m.
+    peak_m: f64,
+    /// Angle off the mean direction, degrees.
+    aside_deg: f64,
+}
+
+/// How the kicker gets there.
+#[derive(Clone, Copy)]
+enum RunUp {
+    Stand,
+    Walk,
+    Sprint,
+}
+
+const KICKS: &str = "scenario kicks {
+    rules { offside: off }
+    agents { left: [runner] }
+    ball at (-0.36, 0)
+    team left { GK at (-1, 0) { ai: lazy }  runner: CB at (-0.37, 0) MATE }
+    team right { GK at (1, 0) { ai: lazy } }
+    end limit 400 steps
+}";
+
+/// Kicks once for every seed.
+fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, Failure> {
+    let mate = mate.map_or(String::new(), |ahead| format!("CM at ({}, 0) {{ ai: hold }}", -0.37 + ahead));
+    let mut trial = Trial::new(text(&KICKS.replace("MATE", &mate))?, 0)?;
+    let mut kicks = Vec::new();
+    for seed in 0..SEEDS {
+        trial.again(seed)?;
+        match run_up {
+            RunUp::Stand => trial.steps(Action::Idle, 12)?,
+            RunUp::Walk | RunUp::Sprint => {
+                trial.step(Action::Right)?;
+                trial.step(if matches!(run_up, RunUp::Sprint) { Action::Sprint } else { Action::Idle })?;
+                // Long enough for the gait; every other length, so that the ball isn't always at the same foot.
+                trial.steps(Action::Idle, 20 + (seed % 6) as usize)?;
+            }
+        }
+        let mut kick = Kick { leaves_after: f64::INFINITY, top_mps: 0.0, peak_m: 0.0, aside_deg: 0.0 };
+        let mut before = trial.ball();
+        for step in 0..30 {
+            let on = trial.step(if step == 0 { action } else { Action::Idle })?;
+            if !on || trial.events().iter().any(|e| e.kind == EventKind::OutOfPlay) {
+                // The restart has moved the ball.
+                break;
+            }
+            let struck = trial.events().iter().any(|e| matches!(e.kind, EventKind::Pass | EventKind::Shot));
+            let way = (trial.ball() - before).truncate();
+            let speed = f64::from(way.length()) * 10.0;
+            if struck && kick.leaves_after.is_infinite() {
+                kick.leaves_after = f64::from(step);
+            }
+            if kick.leaves_after.is_finite() && f64::from(step) > kick.leaves_after && kick.aside_deg == 0.0 {
+                kick.aside_deg = f64::from(way.y.atan2(way.x)).to_degrees();
+            }
+            // What the mate or the frame makes of it is no longer the kick's.
+            if trial.state().last_touch.is_some_and(|id| id.in_team() != 1) {
+                break;
+            }
+            if kick.leaves_after.is_finite() {
+                kick.top_mps = kick.top_mps.max(speed);
+                kick.peak_m = kick.peak_m.max(f64::from(trial.ball().z));
+            }
+            before = trial.ball();
+        }
+        kicks.push(kick);
+    }
+    Ok(kicks)
+}
+
+fn kicks(section: &mut Section) -> Result<(), Failure> {
+    use Action::{HighPass, LongPass, ShortPass, Shot};
+    let cases = [
+        ("shot, standing", Shot, None, RunUp::Stand, [3.0, 3.0], [26.0, 27.5], [0.7, 1.2], "0.9–2.6"),
+        ("shot, walking", Shot, None, RunUp::Walk, [2.0, 4.0], [29.4, 29.4], [0.44, 0.44], "1.5–1.8"),
+        ("shot, sprinting", Shot, None, RunUp::Sprint, [2.0, 4.0], [29.6, 29.6], [0.44, 0.44], "1.5–1.8"),
+        ("short pass, 0.2", ShortPass, Some(0.2), RunUp::Stand, [4.0; 2], [15.0; 2], [0.26; 2], "<0.1"),
+        ("short pass, 0.4", ShortPass, Some(0.4), RunUp::Stand, [4.0; 2], [23.8; 2], [0.83; 2], "<0.1"),
+        ("short pass, 0.8", ShortPass, Some(0.8), RunUp::Stand, [4.0; 2], [24.3; 2], [2.1; 2], "<0.1"),
+        ("long pass, 0.2", LongPass, Some(0.2), RunUp::Stand, [4.0; 2], [16.3; 2], [0.30; 2], "<0.1"),
+        ("long pass, 0.4", LongPass, Some(0.4), RunUp::Stand, [4.0; 2], [24.3; 2], [1.3; 2], "<0.1"),
+        ("long pass, 0.8", LongPass, Some(0.8), RunUp::Stand, [4.0; 2], [24.3; 2], [2.1; 2], "<0.1"),
+        ("high pass, 0.2", HighPass, Some(0.2), RunUp::Stand, [3.0; 2], [12.4; 2], [1.5; 2], "<0.1"),
+        ("high pass, 0.4", HighPass, Some(0.4), RunUp::Stand, [3.0; 2], [17.8; 2], [2.5; 2], "<0.1"),
+        ("high pass, 0.8", HighPass, Some(0.8), RunUp::Stand, [3.0; 2], [32.1; 2], [5.4; 2], "<0.1"),
+    ];
+    for (name, action, mate, run_up, leaves, speed, peak, aside) in cases {
+        let kicks = kick(action, mate, run_up)?;
+        let of = |what: fn(&Kick) -> f64| kicks.iter().map(what).collect::<Vec<_>>();
+        let (after, top, high) = (of(|k| k.leaves_after), of(|k| k.top_mps), of(|k| k.peak_m));
+        section.within(
+            format!("{name}: leaves after, steps"),
+            span(leaves),
+            [leaves[0] - 1.0, leaves[1] + 1.0],
+            mean(&after),
+        );
+        section.within(format!("{name}: top speed, m/s"), span(speed), [speed[0] * 0.92, speed[1] * 1.08], mean(&top));
+        section.within(format!("{name}: peak height, m"), span(peak), [peak[0] * 0.75, peak[1] * 1.25], mean(&high));
+        section.told.push(format!(
+            "Scatter, {name}: speed ±{:.2} m/s, direction ±{:.1}° (theirs {aside}°), height ±{:.2} m.",
+            deviation(&top),
+            deviation(&of(|k| k.aside_deg)),
+            deviation(&high)
+        ));
+    }
+    Ok(())
+}
+
+/// A span as told.
+fn span([low, high]: [f64; 2]) -> String {
+    use crate::figure::short;
+    if low == high { short(low) } else { format!("{}–{}", short(low), short(high)) }
+}
+
+const FREE: &str = "scenario free {
+    agents { left: [runner] }
+    ball at (X, 0) { velocity: (V, 0m/s)  height: Z }
+    team left { runner: CB at (-0.9, 0.35) { ai: hold } }
+    team right { GK at (0.9, 0.35) { ai: lazy } }
+    rules { assist: off }
+    end limit 200 steps
+}";
+
+/// A ball let go with a level speed from a height.
+fn let_go(x: f64, speed: f64, height: f64) -> Result<Trial, Failure> {
+    let source =
+        FREE.replace('X', &x.to_string()).replace('V', &format!("{speed}m/s")).replace('Z', &format!("{height}m"));
+    Trial::new(text(&source)?, 0)
+}
+
+/// Flight, bounce and roll of a ball that nobody touches.
+fn motion(section: &mut Section) -> Result<(), Failure> {
+    let level = |trial: &Trial| f64::from(trial.state().ball.vel.truncate().length());
+    for speed in [6.0, 12.0, 18.0, 24.0] {
+        let mut trial = let_go(-0.5, speed, 0.0)?;
+        let before = level(&trial);
+        trial.step(Action::Idle)?;
+        let after = level(&trial);
+        let at = (before + after) * 0.5;
+        let theirs = 1.7 + 0.060 * at * at;
+        section.near(format!("rolling at {speed:.0} m/s slows by, m/s²"), theirs, 0.08, (before - after) * 10.0);
+    }
+    for speed in [12.0, 20.0, 30.0] {
+        let mut trial = let_go(-0.5, speed, 9.0)?;
+        let before = level(&trial);
+        trial.step(Action::Idle)?;
+        let after = level(&trial);
+        let at = (before + after) * 0.5;
+        section.near(
+            format!("flying at {speed:.0} m/s slows by, m/s²"),
+            0.0155 * at * at,
+            0.08,
+            (before - after) * 10.0,
+        );
+    }
+    let mut trial = let_go(-0.5, 0.0, 2.0)?;
+    let mut rebound = 0.0;
+    for _ in 0..16 {
+        trial.step(Action::Idle)?;
+        let ball = trial.state().ball;
+        if ball.vel.z > 0.0 {
+            let height = f64::from(ball.pos.z - 0.11) + f64::from(ball.vel.z).powi(2) / (2.0 * 9.81);
+            rebound = f64::max(rebound, height);
+        }
+    }
+    section.near("height after a bounce over that before", 0.37, 0.25, rebound / 1.89);
+    let mut trial = let_go(-0.8, 15.0, 3.0)?;
+    let mut before = level(&trial);
+    let mut kept = f64::NAN;
+    for _ in 0..16 {
+        trial.step(Action::Idle)?;
+        if trial.state().ball.vel.z > 0.0 && kept.is_nan() {
+            kept = level(&trial) / before;
+        }
+        before = level(&trial);
+    }
+    section.near("level speed after a bounce over that before", 0.77, 0.08, kept);
+    section.near("height of the centre of a ball at rest, m", 0.11, 0.001, {
+        let mut trial = let_go(0.0, 0.0, 0.0)?;
+        trial.steps(Action::Idle, 10)?;
+        f64::from(trial.ball().z)
+    });
+    let falls = shot_fall()?;
+    section.near("a lifted kick falls with, m/s²", 7.4, 0.08, falls);
+    Ok(())
+}
+
+/// The vertical acceleration of a high pass in its first half second, m/s².
+fn shot_fall() -> Result<f64, Failure> {
+    let source = KICKS.replace("MATE", "CM at (0.43, 0) { ai: lazy }");
+    let mut trial = Trial::new(text(&source)?, 0)?;
+    trial.steps(Action::Idle, 12)?;
+    trial.step(Action::HighPass)?;
+    let mut rises = Vec::new();
+    for _ in 0..14 {
+        trial.step(Action::Idle)?;
+        let ball = trial.state().ball;
+        if ball.pos.z > 0.4 {
+            rises.push(f64::from(ball.vel.z));
+        }
+    }
+    let steps = rises.len().min(6);
+    if steps < 2 {
+        return Err("the high pass did not rise".to_owned());
+    }
+    Ok((rises[0] - rises[steps - 1]) / (steps as f64 - 1.0) * 10.0)
+}
+
+const GOAL: &str = "scenario shots {
+    let dx = uniform(-0.03, 0.03)
+    let dy = uniform(-0.03, 0.03)
+    rules { offside: off }
+    agents { left: [runner] }
+    ball at (X + dx, Y + dy)
+    team left { GK at (-1, 0) { ai: lazy }  runner: CF at (X - 0.01 + dx, Y + dy) }
+    team right { difficulty: 0.6  GK at (1, 0) AI }
+    end when goal or ball_dead
+    end limit 80 steps
+}";
+
+/// The share of standing shots that go in.
+fn scored(x: f64, y: f64, keeper: bool) -> Result<f64, Failure> {
+    let ai = if keeper { "" } else { "{ ai: lazy }" };
+    let place = if keeper { "(1, 0)" } else { "(-0.9, 0.4)" };
+    let source = GOAL
+        .replace("GK at (1, 0) AI", &format!("GK at {place} {ai}"))
+        .replace('X', &x.to_string())
+        .replace('Y', &y.to_string());
+    let mut trial = Trial::new(text(&source)?, 0)?;
+    let mut goals = 0;
+    for seed in 0..SHOTS {
+        trial.again(seed)?;
+        trial.steps(Action::Idle, 10)?;
+        trial.step(Action::Shot)?;
+        trial.steps(Action::Idle, 69)?;
+        goals += u32::from(trial.state().score[0]);
+    }
+    Ok(f64::from(goals) / SHOTS as f64)
+}
+
+fn shots(section: &mut Section) -> Result<(), Failure> {
+    let wanted = [
+        (0.95, "0.03", None),
+        (0.9, "0.10", Some([0.55, 0.85])),
+        (0.85, "0.47", None),
+        (0.8, "0.72", None),
+        (0.7, "0.10", None),
+        (0.6, "0.03", Some([0.0, 0.12])),
+        (0.5, "0.00", Some([0.0, 0.12])),
+    ];
+    let mut last = f64::INFINITY;
+    for (x, theirs, limits) in wanted {
+        let share = scored(x, 0.0, true)?;
+        // From 0.9 on it must fall with the distance, give or take what chance does to so many shots.
+        let range = limits.unwrap_or(if x > 0.9 { [0.5, 1.0] } else { [0.0, 1.0] });
+        let high: f64 = if x < 0.9 { f64::min(range[1], last + 0.05) } else { range[1] };
+        section.within(format!("goals of shots from x = {x}, keeper"), theirs, [range[0], high], share);
+        last = share;
+    }
+    section.within("goals of shots from x = 0.85, y = 0.25, keeper", "–", [0.0, 0.15], scored(0.85, 0.25, true)?);
+    for (x, theirs) in [(0.95, 1.0), (0.9, 1.0), (0.85, 1.0), (0.8, 0.97), (0.7, 0.95), (0.6, 1.0), (0.5, 0.97)] {
+        let share = scored(x, 0.0, false)?;
+        section.within(format!("goals of shots from x = {x}, no keeper"), theirs.to_string(), [0.95, 1.0], share);
+    }
+    Ok(())
+}

@@ -1,0 +1,118 @@
+//! A figure: ours beside the measured one, what it may be, and whether it is.
+
+use std::fmt::Write as _;
+
+/// A figure of ours beside theirs.
+#[derive(Clone, Debug)]
+pub(crate) struct Figure {
+    /// What is measured.
+    pub(crate) what: String,
+    /// Theirs, as measured.
+    pub(crate) theirs: String,
+    /// Lowest and highest that ours may be.
+    pub(crate) range: [f64; 2],
+    /// Ours.
+    pub(crate) ours: f64,
+}
+
+/// The figures of a section of what was measured.
+#[derive(Clone, Debug)]
+pub(crate) struct Section {
+    /// Its number there; figures count from a hundred times that.
+    pub(crate) number: u16,
+    /// Its name.
+    pub(crate) title: &'static str,
+    /// How ours were taken.
+    pub(crate) how: String,
+    /// The figures, in order.
+    pub(crate) figures: Vec<Figure>,
+    /// What is told without a verdict.
+    pub(crate) told: Vec<String>,
+}
+
+impl Section {
+    /// An empty section.
+    pub(crate) fn new(number: u16, title: &'static str, how: impl Into<String>) -> Section {
+        Section { number, title, how: how.into(), figures: Vec::new(), told: Vec::new() }
+    }
+
+    /// Adds a figure that must lie within a range.
+    pub(crate) fn within(&mut self, what: impl Into<String>, theirs: impl Into<String>, range: [f64; 2], ours: f64) {
+        self.figures.push(Figure { what: what.into(), theirs: theirs.into(), range, ours });
+    }
+
+    /// Adds a figure that must be theirs, give or take a share of it.
+    pub(crate) fn near(&mut self, what: impl Into<String>, theirs: f64, share: f64, ours: f64) {
+        let give = theirs.abs() * share;
+        self.within(what, short(theirs), [theirs - give, theirs + give], ours);
+    }
+
+    /// The number of its figure `index`.
+    pub(crate) fn id(&self, index: usize) -> u16 {
+        self.number * 100 + 1 + index as u16
+    }
+
+    /// Figures that lie outside, with their numbers.
+    pub(crate) fn outside(&self) -> impl Iterator<Item = (u16, &Figure)> {
+        self.figures.iter().enumerate().filter(|(_, figure)| !figure.is_inside()).map(|(i, f)| (self.id(i), f))
+    }
+
+    /// The section as Markdown; `explained`: why a figure may lie outside.
+    pub(crate) fn markdown(&self, explained: impl Fn(u16) -> Option<&'static str>) -> String {
+        let mut text = format!("## {}. {}\n\n{}\n\n", self.number, self.title, self.how);
+        text.push_str("| | figure | theirs | wanted | ours | |\n|---|---|---|---|---|---|\n");
+        for (i, figure) in self.figures.iter().enumerate() {
+            let id = self.id(i);
+            let verdict = match (figure.is_inside(), explained(id)) {
+                (true, _) => "✓".to_owned(),
+                (false, None) => "**outside**".to_owned(),
+                (false, Some(_)) => "outside [*](#explained)".to_owned(),
+            };
+            let _ = writeln!(
+                text,
+                "| C-{id} | {} | {} | {} | {} | {verdict} |",
+                figure.what,
+                figure.theirs,
+                figure.wanted(),
+                short(figure.ours)
+            );
+        }
+        for line in &self.told {
+            let _ = write!(text, "\n{line}\n");
+        }
+        text
+    }
+}
+
+impl Figure {
+    /// Whether ours is what it may be; what is no number never is.
+    pub(crate) fn is_inside(&self) -> bool {
+        // Rounding of a decimal limit is forgiven.
+        let slack = 1e-6;
+        self.ours >= self.range[0] - slack && self.ours <= self.range[1] + slack
+    }
+
+    /// What ours may be, in words.
+    pub(crate) fn wanted(&self) -> String {
+        match self.range {
+            [low, high] if low == f64::NEG_INFINITY => format!("≤ {}", short(high)),
+            [low, high] if high == f64::INFINITY => format!("≥ {}", short(low)),
+            [low, high] => format!("{} – {}", short(low), short(high)),
+        }
+    }
+}
+
+/// A number with three digits that count.
+pub(crate) fn short(value: f64) -> String {
+    if !value.is_finite() {
+        return "none".to_owned();
+    }
+    let digits = match value.abs() {
+        v if v >= 100.0 => 0,
+        v if v >= 10.0 => 1,
+        v if v >= 1.0 => 2,
+        _ => 3,
+    };
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

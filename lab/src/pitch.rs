@@ -1,0 +1,99 @@
+//! A scenario under measurement: compiled from a text or the library, stepped with actions.
+
+use glam::{Vec2, Vec3};
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::event::Event;
+use setpiece::engine::state::{Match, Player};
+use setpiece::scenario::vocabulary::Action;
+
+/// What went wrong, in words.
+pub(crate) type Failure = String;
+
+/// The environment of a library scenario with parameters.
+pub(crate) fn library(name: &str, params: &[(&str, String)]) -> Result<Environment, Failure> {
+    let loaded = setpiece::load(name).map_err(|why| format!("{name}: {why}"))?;
+    let pairs = params.iter().map(|(key, value)| (*key, value.as_str()));
+    let bindings = setpiece::bind(&loaded.scenario, pairs).map_err(|why| format!("{name}: {why}"))?;
+    let options = EnvironmentOptions { bindings: Some(bindings), ..EnvironmentOptions::default() };
+    Environment::new(loaded.scenario, options).map_err(|why| format!("{name}: {why}"))
+}
+
+/// The environment of a scenario's text.
+pub(crate) fn text(source: &str) -> Result<Environment, Failure> {
+    let loaded = setpiece::compile_text(source, "<lab>").map_err(|why| format!("{why}\n{source}"))?;
+    Environment::new(loaded.scenario, EnvironmentOptions::default()).map_err(|why| why.to_string())
+}
+
+/// An episode under way whose first agent is led by hand.
+pub(crate) struct Trial {
+    environment: Environment,
+    scratch: Scratch,
+}
+
+impl Trial {
+    /// Begins the first episode of a seed.
+    pub(crate) fn new(mut environment: Environment, seed: u64) -> Result<Trial, Failure> {
+        environment.reset(Some(seed), None).map_err(|why| why.to_string())?;
+        Ok(Trial { environment, scratch: Scratch::default() })
+    }
+
+    /// Begins the first episode of another seed.
+    pub(crate) fn again(&mut self, seed: u64) -> Result<(), Failure> {
+        self.environment.reset(Some(seed), None).map_err(|why| why.to_string())
+    }
+
+    /// Plays a step; false once the episode has ended.
+    pub(crate) fn step(&mut self, action: Action) -> Result<bool, Failure> {
+        if !self.environment.is_running() {
+            return Ok(false);
+        }
+        self.environment.step(&[action], &mut self.scratch).map_err(|why| why.to_string())?;
+        Ok(true)
+    }
+
+    /// Plays several steps of one action.
+    pub(crate) fn steps(&mut self, action: Action, count: usize) -> Result<(), Failure> {
+        for _ in 0..count {
+            self.step(action)?;
+        }
+        Ok(())
+    }
+
+    /// The match.
+    pub(crate) fn state(&self) -> &Match {
+        self.environment.state()
+    }
+
+    /// What happened in the last step.
+    pub(crate) fn events(&self) -> &[Event] {
+        self.environment.events()
+    }
+
+    /// The agent's player.
+    pub(crate) fn me(&self) -> Result<&Player, Failure> {
+        let game = self.state();
+        let id = game.agents.first().and_then(|slot| slot.player).ok_or("the agent has no player")?;
+        Ok(game.player(id))
+    }
+
+    /// Where the agent's player is.
+    pub(crate) fn place(&self) -> Result<Vec2, Failure> {
+        Ok(self.me()?.pos)
+    }
+
+    /// The ball.
+    pub(crate) fn ball(&self) -> Vec3 {
+        self.state().ball.pos
+    }
+}
+
+/// The mean of some figures.
+pub(crate) fn mean(of: &[f64]) -> f64 {
+    if of.is_empty() { f64::NAN } else { of.iter().sum::<f64>() / of.len() as f64 }
+}
+
+/// The standard deviation of some figures.
+pub(crate) fn deviation(of: &[f64]) -> f64 {
+    let middle = mean(of);
+    (of.iter().map(|value| (value - middle).powi(2)).sum::<f64>() / (of.len() as f64 - 1.0).max(1.0)).sqrt()
+}

@@ -16,7 +16,7 @@ pub mod switching;
 use crate::event::Events;
 use crate::football::{forecast, reach};
 use crate::state::{Match, PlayerId};
-use setpiece_scenario::pitch::PLAYERS_MAX;
+
 use setpiece_scenario::vocabulary::{Action, Rule};
 
 pub use bot::bot_action;
@@ -46,8 +46,11 @@ pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
             }
         }
     }
-    for slot in 0..slots {
+    for (team, slot) in game.teams().into_iter().flat_map(|team| (0..slots).map(move |slot| (team, slot))) {
         let agent = game.agents[slot];
+        if agent.team != team {
+            continue;
+        }
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
         if let Some(id) = agent.player.filter(|id| action != Action::BuiltinAi && game.player(*id).active) {
             game.play.acting[id.index()].played = Some(action);
@@ -61,7 +64,8 @@ pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
 
 /// Drives everyone for whom a behaviour has chosen an action and whom no agent drives.
 fn drive_scripted(game: &mut Match, events: &mut Events) {
-    for i in 0..PLAYERS_MAX {
+    for id in game.order() {
+        let i = id.index();
         let bit = 1 << i;
         let free = game.players[i].active && game.play.driven & bit == 0;
         let acting = &mut game.play.acting[i];
@@ -72,7 +76,7 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
         acting.sticky = sticky::next(acting.sticky, action);
         acting.played = Some(action);
         if action != Action::BuiltinAi {
-            let (id, held) = (PlayerId(i as u8), acting.sticky);
+            let held = acting.sticky;
             game.play.driven |= bit;
             let action = hurry(game, id, action);
             driver::drive(game, events, id, held, action);

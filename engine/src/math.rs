@@ -2,6 +2,17 @@
 
 pub use glam::{Vec2, Vec3};
 
+/// The sign of a number; `zero` where it is neither positive nor negative.
+pub fn sign_or(x: f32, zero: f32) -> f32 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        zero
+    }
+}
+
 /// Sine.
 pub fn sin(x: f32) -> f32 {
     libm::sinf(x)

@@ -104,6 +104,19 @@ impl Match {
             .map(move |(i, player)| (PlayerId((base + i) as u8), player))
     }
 
+    /// Everyone's id in the order of play: the team that leads, then the other.
+    ///
+    /// Whatever goes through both teams goes by it, so that a match turned by 180° is the turned match to the bit.
+    pub fn order(&self) -> impl Iterator<Item = PlayerId> + use<> {
+        let first = self.play.lead.index() * TEAM_MAX;
+        (0..PLAYERS_MAX).map(move |i| PlayerId(((first + i) % PLAYERS_MAX) as u8))
+    }
+
+    /// Both teams in the order of play.
+    pub fn teams(&self) -> [Team; 2] {
+        [self.play.lead, self.play.lead.other()]
+    }
+
     /// A player.
     pub fn player(&self, id: PlayerId) -> &Player {
         &self.players[id.index()]

@@ -3,6 +3,7 @@
 use crate::figure::{Section, short};
 use crate::pitch::{Failure, library};
 use setpiece::engine::control::agents::Agent;
+use setpiece::engine::environment::EnvironmentOptions;
 use setpiece::run::{RunOptions, Summary, run};
 
 /// Episodes of every agent on every scenario.
@@ -93,7 +94,7 @@ fn play(name: &str, agent: Agent, episodes: u64) -> Result<Summary, Failure> {
         seed: 0,
         agent,
         threads: crate::threads(),
-        environment: Default::default(),
+        environment: EnvironmentOptions::default(),
     };
     run(environment.scenario(), &options, |_| {}).map_err(|why| format!("{name}: {why}"))
 }

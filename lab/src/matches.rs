@@ -57,9 +57,8 @@ impl Tally {
         for event in events {
             self.count(event);
         }
-        match game.owner {
-            Some(id) => self.owned[id.team().index()] += 1.0,
-            None => {}
+        if let Some(id) = game.owner {
+            self.owned[id.team().index()] += 1.0;
         }
         if game.possession.is_some() && game.possession != self.possession {
             self.spells += 1.0;

@@ -18,7 +18,6 @@ use crate::football::body::{Intent, KickKind};
 use crate::football::touch;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Role, StickyAction, Team};
 use setpiece_scenario::{Ai, Others};
 
@@ -49,7 +48,7 @@ impl View {
     pub fn of(game: &Match, team: Team) -> View {
         let side = team.side() as f32;
         let owner = game.owner.or_else(|| touch::controller(game));
-        let share = if team == Team::Left { game.play.share } else { 1.0 - game.play.share };
+        let share = 0.5 + 0.5 * game.play.share * side;
         let bias = formation::bias(share, game.play.ball_mean.x * side);
         View {
             team,
@@ -81,13 +80,13 @@ pub fn think(game: &mut Match, events: &mut Events) {
         return;
     }
     let views = [View::of(game, Team::Left), View::of(game, Team::Right)];
-    for team in [Team::Left, Team::Right] {
+    for team in game.teams() {
         if game.step.is_multiple_of(STAGGER) {
             mark::assign(game, &views[team.index()]);
         }
     }
-    for i in 0..PLAYERS_MAX {
-        let id = PlayerId(i as u8);
+    for id in game.order() {
+        let i = id.index();
         let driven = game.play.driven & (1 << i) != 0;
         if !game.players[i].active || driven {
             continue;
@@ -135,7 +134,7 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         press::first(game, events, view, id);
         return;
     }
-    let due = (game.step + u32::from(id.0)).is_multiple_of(STAGGER);
+    let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
     if game.play.second[index] == Some(id) && !view.attacks(game) {
         press::second(game, view, id);
         return;

@@ -32,6 +32,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     game.play.ball_mean = drawn.ball_pos.truncate();
     let nearest = nearest_team(&game);
     game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
+    game.play.lead = drawn.owner.map_or(game.play.first_kickoff, PlayerId::team);
     let half_time = game.rules[Rule::HalfTime.index()];
     game.play.second_half = half_time > 0.0 && f64::from(drawn.elapsed_steps) >= half_time;
     game.possession = drawn.owner.map(PlayerId::team);

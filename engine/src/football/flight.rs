@@ -75,6 +75,7 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
 /// Notes the last toucher and who is offside from now on.
 pub fn note(game: &mut Match, by: PlayerId, exempt: bool) {
     game.last_touch = Some(by);
+    game.play.lead = by.team();
     game.players[by.index()].body.touched_at = game.tick as i32;
     game.play.kick_off = None;
     game.play.offside = if exempt { 0 } else { offside::positions(game, by) };

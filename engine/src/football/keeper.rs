@@ -27,7 +27,7 @@ pub fn use_hands(game: &mut Match, events: &mut Events) {
         hold(game, id);
         return;
     }
-    for team in [Team::Left, Team::Right] {
+    for team in game.teams() {
         let side = team.side() as f32;
         // Only a ball in his own end concerns him.
         if game.ball.pos.x * side > -20.0 {
@@ -161,7 +161,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     let side = id.team().side() as f32;
     let speed = game.ball.vel.length();
     let y = game.ball.pos.y;
-    let wide = if y.abs() < 0.2 { noise::bell(game).signum() } else { y.signum() };
+    let wide = if y.abs() < 0.2 { noise::bell(game).signum() * side } else { y.signum() };
     let out_wide = noise::roll(game) < 0.3 + 0.14 * y.abs();
     let way =
         if out_wide { Vec2::new(-0.6 * side, wide) } else { Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game))) };

@@ -7,7 +7,6 @@ use crate::football::body::{KickKind, KickPlan, NEVER};
 use crate::football::{flight, forecast, noise, pass_target, report, shot, touch};
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
 /// Ticks from the press to the contact: a pass on the ground, a lofted one, a shot.
@@ -31,9 +30,9 @@ pub fn swing(kind: KickKind) -> i32 {
 /// Kicks the ball for whoever has a kick ready and the ball in reach; at most one kick a tick.
 pub fn kick_ball(game: &mut Match, events: &mut Events) {
     let now = game.tick as i32;
-    for i in 0..PLAYERS_MAX {
+    for id in game.order() {
+        let i = id.index();
         let Some(plan) = game.players[i].body.kick else { continue };
-        let id = PlayerId(i as u8);
         if now > plan.until || !game.players[i].active {
             game.players[i].body.kick = None;
             continue;

@@ -38,10 +38,12 @@ pub struct Play {
     pub chaser: [Option<PlayerId>; 2],
     /// Second nearest.
     pub second: [Option<PlayerId>; 2],
-    /// Share of the ball that the left team had lately, 0..1.
+    /// Who had the ball lately: 1 the left team alone, -1 the right team.
     pub share: f32,
     /// The ball's place, averaged over about two seconds.
     pub ball_mean: Vec2,
+    /// The team that goes first in everything that both do: the last to touch the ball, else whose restart it was.
+    pub lead: Team,
     /// The team that has a kick-off and has not taken it yet.
     pub kick_off: Option<Team>,
     /// The team that kicked off first.
@@ -141,9 +143,10 @@ impl Play {
             offside: 0,
             chaser: [None; 2],
             second: [None; 2],
-            share: 0.5,
+            share: 0.0,
             ball_mean: Vec2::ZERO,
             last_owner: None,
+            lead: Team::Left,
             kick_off: None,
             first_kickoff: Team::Left,
             second_half: false,

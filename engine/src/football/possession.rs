@@ -3,7 +3,7 @@
 use crate::event::Events;
 use crate::football::report;
 use crate::state::{Match, PlayerId};
-use setpiece_scenario::vocabulary::{EventKind, Team};
+use setpiece_scenario::vocabulary::EventKind;
 
 /// Whether a player has the ball at his feet: near, low and about as fast as he.
 pub fn has_ball(game: &Match, id: PlayerId) -> bool {
@@ -47,12 +47,11 @@ fn won(game: &Match, events: &mut Events, owner: Option<PlayerId>) {
     events.push(loser.map_or(lost, |loser| lost.by(loser)));
 }
 
-/// Renews the share of the ball that the left team had lately.
+/// Renews the share of the ball that the teams had lately.
 pub fn remember(game: &mut Match) {
     let now = match game.possession {
-        Some(Team::Left) => 1.0,
-        Some(Team::Right) => 0.0,
-        None => 0.5,
+        Some(team) => team.side() as f32,
+        None => 0.0,
     };
     game.play.share += (now - game.play.share) * 0.06;
     let ball = game.ball.pos.truncate();

@@ -57,7 +57,7 @@ fn out(game: &mut Match, events: &mut Events, line: Line) {
     if let Some(shot) = game.play.shot.take() {
         events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OffTarget));
     }
-    let last = game.last_touch.map_or(Team::Left, PlayerId::team);
+    let last = game.last_touch.map_or(game.play.lead, PlayerId::team);
     let out = report::event(game, EventKind::OutOfPlay);
     events.push(match game.last_touch {
         Some(id) => out.by(id),

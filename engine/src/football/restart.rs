@@ -33,6 +33,7 @@ pub fn apply(game: &mut Match) {
 /// One that is awarded to a team without players is taken by the others; without anybody the ball just lies there.
 pub fn place(game: &mut Match, restart: Restart) {
     calm(game);
+    game.play.lead = restart.team;
     lay_ball(game, restart.spot);
     let others = Restart { team: restart.team.other(), ..restart };
     let takers = [restart, others].map(|restart| (restart, set_piece::taker(game, restart)));

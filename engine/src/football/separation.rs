@@ -1,7 +1,7 @@
 //! Bodies don't pass through each other: circles of 0.36 m are pushed apart.
 
 use crate::football::body::Pose;
-use crate::state::Match;
+use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
@@ -14,15 +14,18 @@ const PUSH_MAX_M: f32 = 0.08;
 /// Pushes overlapping bodies apart and keeps everyone within the rim.
 pub fn separate(game: &mut Match) {
     let mut places = [Vec2::splat(1.0e6); PLAYERS_MAX];
-    for (place, (i, player)) in places.iter_mut().zip(game.players.iter().enumerate()) {
+    let mut ids = [PlayerId(0); PLAYERS_MAX];
+    for (i, (id, (place, slot))) in game.order().zip(places.iter_mut().zip(&mut ids)).enumerate() {
+        let player = game.player(id);
         // Whoever is not there stands far away, each at a place of his own.
         *place = if player.active { player.pos } else { Vec2::new(1.0e6 + 10.0 * i as f32, 0.0) };
+        *slot = id;
     }
     for (i, here) in places.iter().enumerate() {
         for (j, there) in places.iter().enumerate().skip(i + 1) {
             let (dx, dy) = (there.x - here.x, there.y - here.y);
             if dx * dx + dy * dy < CONTACT_M * CONTACT_M {
-                part(game, i, j);
+                part(game, ids[i], ids[j]);
             }
         }
     }
@@ -33,29 +36,29 @@ pub fn separate(game: &mut Match) {
 }
 
 /// Pushes two bodies apart; the better balanced one yields less.
-fn part(game: &mut Match, i: usize, j: usize) {
-    let (a, b) = (game.players[i], game.players[j]);
+fn part(game: &mut Match, i: PlayerId, j: PlayerId) {
+    let (a, b) = (*game.player(i), *game.player(j));
     if a.body.pose == Pose::Down || b.body.pose == Pose::Down {
         return;
     }
     let between = b.pos - a.pos;
     let distance = between.length();
     let overlap = (CONTACT_M - distance).max(0.0);
-    // Exactly on one spot: they part sideways, the lower id to one side.
-    let away = if distance > 1e-4 { between / distance } else { Vec2::Y };
+    // Exactly on one spot: they part sideways, the first to his left.
+    let away = if distance > 1e-4 { between / distance } else { Vec2::new(0.0, i.team().side() as f32) };
     let mut share = 0.5 + 0.25 * (a.skill(Stat::Balance) - b.skill(Stat::Balance));
-    if game.owner.is_some_and(|id| id.index() == i) {
+    if game.owner == Some(i) {
         share += 0.15;
-    } else if game.owner.is_some_and(|id| id.index() == j) {
+    } else if game.owner == Some(j) {
         share -= 0.15;
     }
     let share = share.clamp(0.1, 0.9);
     let step = overlap.min(PUSH_MAX_M);
     let closing = (b.vel - a.vel).dot(away).min(0.0);
-    let first = &mut game.players[i];
+    let first = &mut game.players[i.index()];
     first.pos -= away * (step * (1.0 - share));
     first.vel += away * (closing * 0.5 * (1.0 - share));
-    let second = &mut game.players[j];
+    let second = &mut game.players[j.index()];
     second.pos += away * (step * share);
     second.vel -= away * (closing * 0.5 * share);
 }

@@ -34,7 +34,7 @@ pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
         let place = if player.role == Role::GK {
             Vec2::new(-53.9 * id.team().side() as f32, 0.0)
         } else {
-            place_of(restart, id.team(), own, player.body.mind.slot, i)
+            place_of(restart, id.team(), own, player.body.mind.slot, id.in_team())
         };
         game.players[i].pos = place;
     }
@@ -84,6 +84,7 @@ fn keep_distance(game: &mut Match, restart: Restart) {
         _ => CIRCLE_RADIUS_M as f32,
     };
     let line = (HALF_LENGTH_M - BOX_DEPTH_M) as f32;
+    let side = restart.team.side() as f32;
     for (i, player) in game.players.iter_mut().enumerate() {
         if !player.active || player.role == Role::GK {
             continue;
@@ -92,7 +93,7 @@ fn keep_distance(game: &mut Match, restart: Restart) {
         let least = if own { 2.5 } else { apart };
         let away = player.pos - restart.spot;
         if away.length() < least {
-            let inward = Vec2::new(-restart.spot.x, -restart.spot.y).normalize_or(Vec2::X);
+            let inward = Vec2::new(-restart.spot.x, -restart.spot.y).normalize_or(Vec2::new(-side, 0.0));
             player.pos = restart.spot + away.normalize_or(inward) * least;
             let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
             if player.pos.x.abs() > x || player.pos.y.abs() > y {

@@ -6,7 +6,6 @@ use crate::football::play::ticks_since;
 use crate::football::{foul, noise, report, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{EventKind, Stat};
 
 /// Ticks of a slide.
@@ -41,7 +40,8 @@ pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Ve
 
 /// Lets every sliding player meet the ball or a rival.
 pub fn resolve(game: &mut Match, events: &mut Events) {
-    for i in 0..PLAYERS_MAX {
+    for id in game.order() {
+        let i = id.index();
         let player = game.players[i];
         if !player.active || player.body.pose != Pose::Sliding || player.body.pose_ticks < SLIDE_TICKS - FORCE_TICKS {
             continue;
@@ -49,7 +49,6 @@ pub fn resolve(game: &mut Match, events: &mut Events) {
         if game.dead || game.play.hands.is_some() {
             return;
         }
-        let id = PlayerId(i as u8);
         let fresh = ticks_since(game.tick, player.body.touched_at) > 60;
         let foot = player.pos + player.body.facing * 0.5;
         let ball = game.ball.pos;

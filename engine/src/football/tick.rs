@@ -81,15 +81,16 @@ fn near_bodies(game: &Match) -> ArrayVec<Body, BODIES_MAX> {
         return bodies;
     }
     let flat = ball.pos.truncate();
-    for (i, player) in game.players.iter().enumerate() {
+    for id in game.order() {
+        let player = game.player(id);
         if !player.active || player.pos.distance_squared(flat) > 1.3 * 1.3 || bodies.is_full() {
             continue;
         }
         let lately = ticks_since(game.tick, player.body.touched_at) < 30;
-        let beaten = game.play.save[PlayerId(i as u8).team().index()].is_some_and(|save| !save.reaches)
+        let beaten = game.play.save[id.team().index()].is_some_and(|save| !save.reaches)
             && player.role == setpiece_scenario::vocabulary::Role::GK;
         if !lately && !beaten {
-            bodies.push(Body { id: i as u8, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
+            bodies.push(Body { id: id.0, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
         }
     }
     bodies

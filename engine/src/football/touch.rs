@@ -7,10 +7,10 @@ use crate::event::Events;
 use crate::football::body::{Intent, KickKind};
 use crate::football::play::ticks_since;
 use crate::football::{duel, flight, forecast, noise};
+use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{EventKind, Rule, Stat};
 
 /// How near his foot the ball must be for a dribbling touch, metres.
@@ -30,13 +30,12 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
     let ball = game.ball.pos;
     let flat = ball.truncate();
     let mut nearest: Option<(f32, PlayerId)> = None;
-    for i in 0..PLAYERS_MAX {
-        let player = &game.players[i];
+    for id in game.order() {
+        let player = game.player(id);
         let distance = player.pos.distance_squared(flat);
         if distance > 1.1 * 1.1 || !player.is_up() || ball.z > player.body.height_m + 0.35 {
             continue;
         }
-        let id = PlayerId(i as u8);
         if ball.z > CHEST_M && !heads(game, id) {
             continue;
         }
@@ -204,7 +203,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let aimed = match plan.map(|plan| plan.kind) {
         Some(KickKind::Shot) => Some((goal, 15.0)),
         Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
-        None if own_third => Some((player.pos + Vec2::new(side * 20.0, player.pos.y.signum() * 8.0), 13.0)),
+        None if own_third => Some((player.pos + Vec2::new(side * 20.0, math::sign_or(player.pos.y, side) * 8.0), 13.0)),
         None => None,
     };
     let (target, speed) = aimed.unwrap_or((player.pos + player.body.facing * 3.0, 3.5));

@@ -64,7 +64,8 @@ impl Scratch {
 
     fn carry(&mut self, ball: &mut Ball, bodies: &[Body]) -> Option<Touch> {
         let bodies = &bodies[..bodies.len().min(BODIES_MAX)];
-        let left_half = ball.pos.x < 0.0;
+        // On the halfway line its way decides.
+        let left_half = ball.pos.x < 0.0 || ball.pos.x == 0.0 && ball.vel.x < 0.0;
         let frame = |v: Vec3| if left_half { turned(v) } else { v };
         self.live.restore(&self.templates[bodies.len()]);
         let given_spin = frame(ball.spin).clamp_length_max(RIGID_SPIN_MAX);

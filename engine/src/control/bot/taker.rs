@@ -4,6 +4,7 @@ use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::kick;
 use crate::football::noise;
 use crate::football::play::SetPiece;
+use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::PLAYERS_MAX;
@@ -58,7 +59,7 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
             KickPlan { kind: KickKind::High, mate: near(point.x, point.y), point: Some(point * side), ..base }
         }
         GameMode::GoalKick if luck < 0.45 => KickPlan { kind: KickKind::High, mate: near(5.0, spread * 22.0), ..base },
-        GameMode::GoalKick => KickPlan { mate: near(-35.0, spread.signum() * 18.0), ..base },
+        GameMode::GoalKick => KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..base },
         GameMode::FreeKick if own.x > 29.0 && own.y.abs() < 16.0 => {
             KickPlan { kind: KickKind::Shot, point: Some(Vec2::new(55.0 * side, spread * 3.3)), power: 0.5, ..base }
         }

@@ -147,9 +147,6 @@ fn a_turned_match_is_the_turned_match() {
     for (seed, start) in starts(SCRAMBLE, 40).iter().enumerate() {
         play(start, seed as u64, 300, &mut seen);
     }
-    use EventKind::{
-        Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle, ThrowIn,
-    };
     for kind in [Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle, ThrowIn] {
         assert!(seen.contains(&kind), "no {kind} was played");
     }

@@ -3,7 +3,7 @@
 use crate::control::{assist, sticky};
 use crate::event::Events;
 use crate::football::body::{Intent, KickKind, KickPlan};
-use crate::football::movement::{DRIBBLE_MPS, RUN_MPS, SPRINT_MPS};
+use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
 use crate::football::{kick, slide, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -13,14 +13,14 @@ use setpiece_scenario::vocabulary::{Action, GameMode};
 pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: u16, action: Action) {
     let side = id.team().side() as f32;
     let direction = sticky::direction(held).map(|dir| dir * side);
-    let gait = if sticky::sprints(held) {
-        SPRINT_MPS
-    } else if sticky::dribbles(held) {
-        DRIBBLE_MPS
-    } else {
-        RUN_MPS
-    };
     let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
+    let gait = match (sticky::sprints(held), sticky::dribbles(held), has_ball) {
+        (true, ..) => SPRINT_MPS,
+        (_, true, true) => DRIBBLE_WITH_BALL_MPS,
+        (_, true, false) => DRIBBLE_MPS,
+        (_, _, true) => RUN_WITH_BALL_MPS,
+        _ => RUN_MPS,
+    };
     let wish = direction.unwrap_or(Vec2::ZERO) * gait;
     let fetch = has_ball || game.player(id).body.kick.is_some() || assist::ball_is_his(game, id);
     let body = &mut game.players[id.index()].body;

@@ -15,6 +15,8 @@ pub const SWING_TICKS: [i32; 3] = [33, 28, 25];
 pub const PATIENCE_TICKS: i32 = 200;
 /// How near the ball must be to be kicked, metres.
 const KICK_M: f32 = 0.85;
+/// Backspin of a shot, rad/s: in flight it falls with 7.4 m/s², as measured.
+const SHOT_BACKSPIN: f32 = 19.0;
 /// Highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
@@ -90,7 +92,8 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     match plan.kind {
         KickKind::Shot => {
             let velocity = shot::velocity(game, id, &plan, rough);
-            send(game, velocity, Vec3::ZERO);
+            let flat = velocity.truncate().normalize_or_zero();
+            send(game, velocity, Vec3::new(flat.y, -flat.x, 0.0) * SHOT_BACKSPIN);
         }
         KickKind::Clear => {
             let side = id.team().side() as f32;
@@ -160,13 +163,13 @@ fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, ro
     let distance = way.length().clamp(1.0, 60.0);
     let far = libm::powf(distance / 60.0, 1.4);
     let (level, rise) = if kind == KickKind::High {
-        let rise = 0.385 - 0.15 * distance / 60.0;
+        let rise = 0.39 - 0.07 * distance / 60.0;
         let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(36.0);
         (speed / libm::sqrtf(1.0 + rise * rise), rise)
     } else {
         let speed = (0.97 * 36.0 * (1.8 * far + 0.3)).min(25.4);
         let speed = if by_hand { speed.min(15.0) } else { speed };
-        (speed, 0.11 + 0.005 * (distance - 12.0).max(0.0))
+        (speed, 0.11 + 0.0055 * (distance - 12.0).clamp(0.0, 30.0))
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
     let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);

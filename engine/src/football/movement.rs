@@ -15,8 +15,12 @@ pub const DRIBBLE_MPS: f32 = 3.5;
 pub const RUN_MPS: f32 = 5.0;
 /// Speed asked for when sprinting, m/s: above everyone's top speed.
 pub const SPRINT_MPS: f32 = 8.0;
-/// Top speed with the ball against that without.
-pub const WITH_BALL: f32 = 0.94;
+/// Speed with the dribble key and the ball, m/s. Measured.
+pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
+/// Speed without sprint with the ball, m/s. Measured.
+pub const RUN_WITH_BALL_MPS: f32 = 5.12;
+/// Top speed with the ball against that without. Measured.
+pub const WITH_BALL: f32 = 0.955;
 
 /// Length of a tick, seconds.
 pub const DT: f32 = 0.01;
@@ -90,8 +94,14 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
         } else {
             to_ball * (0.4 / distance.max(0.4))
         };
+        if wish == Vec2::ZERO && distance < 0.8 && ball_vel.length_squared() < 2.0 * 2.0 {
+            return Vec2::ZERO;
+        }
         let catch_up = ball_vel + (to_ball - behind) * 3.5;
-        return catch_up.clamp_length_max(speed);
+        // With the ball before his feet he runs on as he wants to: the next touch comes before he overruns it.
+        let pace = wish.length().min(speed);
+        let ahead = wish.dot(to_ball) > 0.2 * pace && wish.dot(catch_up) > 0.9 * pace * catch_up.length();
+        return catch_up.clamp_length(if ahead { pace } else { 0.0 }, speed);
     }
     let to_meet = player.body.meet - player.pos;
     let meet_m = to_meet.length();
@@ -155,7 +165,8 @@ pub fn steer(player: &mut Player, want: Vec2, top: f32) {
                 let left = if sin < 0.0 { -angle } else { angle };
                 direction = Vec2::new(ahead.x - ahead.y * left, ahead.y + ahead.x * left).normalize_or_zero();
             }
-            next = (speed - BRAKE_MPS2 * 0.9 * (1.0 - cos).min(1.0) * DT).max(next.min(1.5)).min(next);
+            let sharp = if cos > 0.0 { (1.05 * sin.abs()).min(1.0) } else { 1.0 };
+            next = (speed - BRAKE_MPS2 * 0.9 * sharp * DT).max(next.min(1.5)).min(next);
         }
     }
     player.vel = direction * next.max(0.0);

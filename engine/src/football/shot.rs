@@ -43,14 +43,18 @@ pub fn velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> 
     let power = 0.55 + 0.45 * plan.power;
     let skill = player.skill(Stat::Shot);
     let strength = 0.8 + 0.2 * player.skill(Stat::ShotPower);
-    let speed = (28.3 + 2.4 * run_up + 8.0 * plan.power.max(0.0)) * strength * (1.0 - 0.3 * rough);
+    let speed = (28.3 + 4.4 * run_up + 8.0 * plan.power.max(0.0)) * strength * (1.0 - 0.3 * rough);
     // Squarely to the run is worst: a shot across the body.
     let across =
         if player.vel.length_squared() > 4.0 { 1.0 - player.vel.normalize_or_zero().dot(way).max(0.0) } else { 0.0 };
     let awkward = (rough + 0.5 * across).clamp(0.0, 1.0);
     let wild = (0.028 + 0.20 * awkward) * (1.45 - skill) * (0.6 + 0.4 * power);
     let aside = noise::bell(game) * wild;
-    let rise = 0.075 + noise::bell(game) * (0.018 + wild * 0.45) + 0.08 * awkward * noise::roll(game);
+    // Without a run-up the foot gets under the ball.
+    let under = 1.0 - run_up;
+    let rise = 0.067
+        + noise::bell(game) * (0.018 + 0.03 * under + wild * 0.45)
+        + (0.08 * awkward + 0.075 * under) * noise::roll(game);
     let flat = (way + Vec2::new(-way.y, way.x) * aside) * speed;
     flat.extend(speed * rise.clamp(0.0, 0.7))
 }

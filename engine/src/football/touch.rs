@@ -111,7 +111,7 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) {
     let to_ball = game.ball.pos.truncate() - player.pos;
     if speed < 0.3 {
         if (ball_vel - player.vel * 0.5).length_squared() > 0.8 * 0.8 {
-            let rest = player.vel * 0.35 + (player.body.facing * 0.35 - to_ball) * 1.2;
+            let rest = player.vel * 0.25 + (player.body.facing * 0.35 - to_ball) * 1.2;
             push(game, events, id, rest, 0.0);
         }
         return;

@@ -2,7 +2,7 @@
 //!
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
-//! [`movement`] and [`separation`] move bodies; [`reach`] says who is at the ball first; [`touch`], [`duel`],
+//! [`movement`], [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the ball first; [`touch`], [`duel`],
 //! [`slide`], [`kick`] and [`keeper`] play it; [`flight`] says what that means; [`referee`], [`offside`], [`foul`] stop
 //! play, [`advantage`] lets it run, and [`mod@restart`] goes on.
 
@@ -15,6 +15,7 @@ pub mod fatigue;
 pub mod flight;
 pub mod forecast;
 pub mod foul;
+pub mod frame;
 pub mod keeper;
 pub mod kick;
 pub mod movement;

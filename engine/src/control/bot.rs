@@ -136,7 +136,13 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     }
     let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
     if game.play.second[index] == Some(id) && !view.attacks(game) {
-        press::second(game, view, id);
+        // Where an agent leads the first man, the second goes for the ball as well.
+        let led = game.play.chaser[index].is_some_and(|first| game.play.driven & (1 << first.0) != 0);
+        if led {
+            press::first(game, events, view, id);
+        } else {
+            press::second(game, view, id);
+        }
         return;
     }
     let was_on_ball = matches!(game.player(id).body.intent, Intent::Ball(_));

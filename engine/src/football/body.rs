@@ -32,6 +32,8 @@ pub struct Body {
     pub pose: Pose,
     /// Ticks until the pose ends.
     pub pose_ticks: u8,
+    /// How much he has been pushed lately, metres, at most 0.1.
+    pub push_m: f32,
     /// Ticks spent on getting off a standstill.
     pub lag_ticks: u8,
     /// Tick of his last touch.
@@ -136,6 +138,7 @@ impl Body {
             kick: None,
             pose: Pose::Up,
             pose_ticks: 0,
+            push_m: 0.0,
             lag_ticks: 0,
             touched_at: NEVER,
             ready_at: NEVER,

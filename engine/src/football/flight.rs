@@ -5,8 +5,8 @@ use crate::football::play::Flight;
 use crate::football::{offside, report, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M};
-use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role};
+use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
+use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
 /// Records that a player touches the ball; false if that was an offence that stops play.
 pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) -> bool {
@@ -18,7 +18,7 @@ pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) 
         events.push(report::event(game, EventKind::Kickoff).by(by).qualified(Qualifier::Taken));
     }
     settle(game, events, by);
-    note(game, by, false);
+    note(game, by, Touch::Played);
     game.play.kicked_by = (kick && game.ball.pos.z < 1.2).then_some(by);
     true
 }
@@ -36,7 +36,7 @@ pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
         }
     }
     report::did(game, events, EventKind::Touch, by, None);
-    note(game, by, false);
+    note(game, by, Touch::Sprang);
     game.play.kicked_by = None;
 }
 
@@ -72,14 +72,34 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
     }
 }
 
+/// What a touch is to the offside rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Touch {
+    /// The ball was played: positions are judged anew.
+    Played,
+    /// The ball sprang off him or off his hands: that plays no opponent onside.
+    Sprang,
+    /// A throw-in, corner or goal kick: nobody is offside.
+    Exempt,
+}
+
 /// Notes the last toucher and who is offside from now on.
-pub fn note(game: &mut Match, by: PlayerId, exempt: bool) {
+pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
     game.last_touch = Some(by);
     game.play.lead = by.team();
     game.players[by.index()].body.touched_at = game.tick as i32;
     game.play.kick_off = None;
-    game.play.offside = if exempt { 0 } else { offside::positions(game, by) };
+    game.play.offside = match touch {
+        Touch::Exempt => 0,
+        Touch::Sprang if game.play.offside & team_bits(by.team().other()) != 0 => game.play.offside,
+        Touch::Sprang | Touch::Played => offside::positions(game, by),
+    };
     game.play.save = [None; 2];
+}
+
+/// A team's players, a bit each.
+fn team_bits(team: Team) -> u32 {
+    ((1 << TEAM_MAX) - 1) << (team.index() * TEAM_MAX)
 }
 
 /// A pass has been struck.

@@ -1,6 +1,7 @@
 //! Fouls and cards: what a trip or a hand costs.
 
 use crate::event::Events;
+use crate::football::body::Pose;
 use crate::football::play::Restart;
 use crate::football::{advantage, noise, referee, report};
 use crate::state::{Match, PlayerId};
@@ -10,13 +11,16 @@ use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Stat, Team}
 use std::ops::Range;
 
 /// Severity above which a foul earns a yellow card.
-const YELLOW: f32 = 1.4;
+const YELLOW: f32 = 1.5;
 /// Severity above which a foul earns a red card.
-const RED: f32 = 1.97;
+const RED: f32 = 1.93;
 /// At which heights a ball meets a player's arms, metres.
 const ARMS_M: Range<f32> = 0.6..1.5;
 /// How often it is one of them that the ball springs off there.
 const HANDBALL: f32 = 0.04;
+
+/// How often a push from behind brings a man down who runs fast.
+const SHOVE: f32 = 0.02;
 
 /// Whether a failed tackle brings the victim down.
 pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
@@ -24,6 +28,25 @@ pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
     let steady = 0.5 + 0.5 * game.player(rival).skill(Stat::Balance);
     let chance = 0.035 * clumsy / steady;
     noise::roll(game) < chance && game.rule(Rule::Stochastic)
+}
+
+/// A body runs into a rival on the ball from behind: rarely, he is brought down by it.
+///
+/// - `closing_mps`: how fast they came together.
+pub fn shove(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, closing_mps: f32) {
+    let player = *game.player(victim);
+    if game.owner != Some(victim) || !player.is_up() || game.play.hands.is_some() || game.play.set_piece.is_some() {
+        return;
+    }
+    let away = (player.pos - game.player(by).pos).normalize_or_zero();
+    let behind = player.body.facing.dot(away).max(0.0);
+    let unsteady = 1.5 - player.skill(Stat::Balance) + 5.0 * player.body.push_m;
+    let chance = SHOVE * behind * unsteady * (closing_mps - 1.0).min(4.0) * player.vel.length() / 8.0;
+    if noise::roll(game) >= chance || !game.rule(Rule::Stochastic) {
+        return;
+    }
+    game.players[victim.index()].body.strike_pose(Pose::Down, 45);
+    call_or_let_run(game, events, by, victim, 1.0 + 0.3 * behind);
 }
 
 /// Calls a foul of a severity: below 1 nothing, then a free kick or penalty, cards by severity.
@@ -61,6 +84,14 @@ pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool)
     }
     let restart = award(game, spot, by.team());
     referee::stop(game, events, restart.mode, restart.team, restart.spot);
+}
+
+/// A keeper has held the ball for longer than he may: a free kick from the edge of his box.
+pub fn held_too_long(game: &mut Match, events: &mut Events, by: PlayerId) {
+    let (team, pos) = (by.team().other(), game.player(by).pos);
+    let edge = (HALF_LENGTH_M - BOX_DEPTH_M) as f32 * team.side() as f32;
+    game.play.hands = None;
+    referee::stop(game, events, GameMode::FreeKick, team, Vec2::new(edge, pos.y));
 }
 
 /// Reports a foul and shows its card; what it is worth, if it is one.

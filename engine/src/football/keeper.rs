@@ -15,6 +15,8 @@ use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Role, Rule, 
 const HANDS_M: f32 = 2.55;
 /// How near a slow ball must be to be picked up, metres.
 const PICK_M: f32 = 1.0;
+/// How long he may hold the ball, ticks. Laws.
+const HOLD_TICKS: u32 = 600;
 /// No save for balls slower than this, m/s: they are picked up.
 const SHOT_MPS: f32 = 7.0;
 
@@ -23,8 +25,11 @@ pub fn use_hands(game: &mut Match, events: &mut Events) {
     if game.dead || game.play.set_piece.is_some() {
         return;
     }
-    if let Some((id, _)) = game.play.hands {
+    if let Some((id, since)) = game.play.hands {
         hold(game, id);
+        if game.tick.saturating_sub(since) >= HOLD_TICKS && game.rule(Rule::SixSeconds) {
+            foul::held_too_long(game, events, id);
+        }
         return;
     }
     for team in game.teams() {
@@ -155,9 +160,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
         return;
     }
     report::did(game, events, EventKind::Parry, id, shot.map(|shot| shot.by));
-    if !flight::touched(game, events, id, false) {
-        return;
-    }
+    flight::deflected(game, events, id);
     let side = id.team().side() as f32;
     let speed = game.ball.vel.length();
     let y = game.ball.pos.y;

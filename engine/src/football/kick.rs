@@ -91,7 +91,11 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     let mut receiver = None;
     match plan.kind {
         KickKind::Shot => {
-            let velocity = shot::velocity(game, id, &plan, rough);
+            let velocity = if mode == Some(GameMode::FreeKick) {
+                shot::over_wall(game, id, &plan)
+            } else {
+                shot::velocity(game, id, &plan, rough)
+            };
             let flat = velocity.truncate().normalize_or_zero();
             send(game, velocity, Vec3::new(flat.y, -flat.x, 0.0) * SHOT_BACKSPIN);
         }
@@ -109,7 +113,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             send(game, velocity, spin);
         }
     }
-    flight::note(game, id, exempt);
+    flight::note(game, id, if exempt { flight::Touch::Exempt } else { flight::Touch::Played });
     // The kicker does not meet his own ball again at once.
     game.players[id.index()].body.ready_at = game.tick as i32 + 30;
     game.mode = GameMode::Normal;
@@ -149,7 +153,8 @@ fn roughness(player: &Player, game: &Match) -> f32 {
         .filter(|rival| rival.active && rival.pos.distance_squared(player.pos) < 2.2 * 2.2)
         .count()
         .saturating_sub(1);
-    (((relative - 4.0) / 25.0).clamp(0.0, 0.7) + far * 0.5 + high * 0.4 + near as f32 * 0.16).clamp(0.0, 1.0)
+    let pushed = 3.0 * player.body.push_m;
+    (((relative - 4.0) / 25.0).clamp(0.0, 0.7) + far * 0.5 + high * 0.4 + near as f32 * 0.16 + pushed).clamp(0.0, 1.0)
 }
 
 /// The velocity of a pass to a point.

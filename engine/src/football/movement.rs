@@ -176,7 +176,8 @@ pub fn steer(player: &mut Player, want: Vec2, top: f32) {
 fn push(speed: f32, top: f32, player: &Player) -> f32 {
     let early = if speed < 2.0 { 18.0 } else { (9.4 - 1.8 * (speed - 2.4).max(0.0)).clamp(4.4, 9.4) };
     let stat = 0.9 + 0.13 * player.body.stats[Stat::Acceleration.index()];
-    early.min(3.0 * (top - speed) + 0.05) * stat
+    let pushed = (player.body.push_m * (10.0 - 5.0 * player.skill(Stat::Balance)) - 0.1).clamp(0.0, 0.3);
+    early.min(3.0 * (top - speed) + 0.05) * stat * (1.0 - pushed)
 }
 
 /// Braking of a body that slides or lies.

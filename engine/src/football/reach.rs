@@ -1,9 +1,10 @@
 //! Who can be at the ball first: time to the ball for everyone, and the player of each team who goes for it.
 
 use crate::football::forecast::Forecast;
+use crate::football::play::ticks_since;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Role, Team};
+use setpiece_scenario::vocabulary::{Role, Stat, Team};
 
 /// Highest ball that a player can play without his hands, metres.
 pub const PLAYABLE_M: f32 = 1.25;
@@ -30,10 +31,28 @@ pub fn meeting(player: &Player, forecast: &Forecast, tick: u32) -> (Vec2, f32) {
     (flat, time_s + ((flat.distance(from) - speed * time_s) / speed).max(0.0))
 }
 
+/// Ticks until a player sees what somebody else's touch has made of the ball: 80 - 40 · reaction ms, and a bot 100 ms
+/// more for all the difficulty it lacks (the fact sheet's delay).
+fn delay_ticks(player: &Player, driven: bool) -> i32 {
+    let slow = if driven { 0.0 } else { 10.0 * (1.0 - player.difficulty) };
+    (8.0 - 4.0 * player.body.stats[Stat::Reaction.index()] + slow) as i32
+}
+
+/// Ticks since the last touch, and whose it was.
+fn last_touch(game: &Match) -> (i32, Option<PlayerId>) {
+    let since = |id: PlayerId| ticks_since(game.tick, game.player(id).body.touched_at);
+    (game.last_touch.map_or(i32::MAX, since), game.last_touch)
+}
+
 /// Reckons everyone's meeting with the ball, and who goes for it.
 pub fn assess(game: &mut Match) {
-    let (forecast, tick) = (game.play.forecast, game.tick);
-    for player in game.players.iter_mut().filter(|p| p.active) {
+    let (forecast, tick, driven) = (game.play.forecast, game.tick, game.play.driven);
+    let (since, toucher) = last_touch(game);
+    for (i, player) in game.players.iter_mut().enumerate().filter(|(_, p)| p.active) {
+        let unseen = since < delay_ticks(player, driven & (1 << i) != 0);
+        if unseen && toucher.is_none_or(|id| id.index() != i) {
+            continue;
+        }
         let (meet, meet_s) = meeting(player, &forecast, tick);
         player.body.meet = meet;
         player.body.meet_s = meet_s;
@@ -45,9 +64,11 @@ pub fn assess(game: &mut Match) {
 
 /// Renews the meetings of those who are going for the ball.
 pub fn refresh(game: &mut Match) {
-    let (forecast, tick) = (game.play.forecast, game.tick);
-    for player in &mut game.players {
-        if player.active && matches!(player.body.intent, crate::football::body::Intent::Ball(_)) {
+    let (forecast, tick, driven) = (game.play.forecast, game.tick, game.play.driven);
+    let (since, toucher) = last_touch(game);
+    for (i, player) in game.players.iter_mut().enumerate() {
+        let unseen = since < delay_ticks(player, driven & (1 << i) != 0) && toucher.is_none_or(|id| id.index() != i);
+        if player.active && !unseen && matches!(player.body.intent, crate::football::body::Intent::Ball(_)) {
             let (meet, meet_s) = meeting(player, &forecast, tick);
             player.body.meet = meet;
             player.body.meet_s = meet_s;

@@ -1,6 +1,9 @@
-//! Bodies don't pass through each other: circles of 0.36 m are pushed apart.
+//! Bodies don't pass through each other: circles of 0.36 m are pushed apart. Who is pushed plays worse for a moment, and
+//! may fall.
 
+use crate::event::Events;
 use crate::football::body::Pose;
+use crate::football::{foul, frame};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
@@ -11,8 +14,16 @@ pub const CONTACT_M: f32 = 0.72;
 /// Most that one meeting moves a body in a tick, metres.
 const PUSH_MAX_M: f32 = 0.08;
 
-/// Pushes overlapping bodies apart and keeps everyone within the rim.
-pub fn separate(game: &mut Match) {
+/// The most that pushes add up to, metres. (The fact sheet's.)
+const SHOVE_MAX_M: f32 = 0.1;
+/// Share of a push that is left after two ticks: 0.95 a tick.
+const SHOVE_LEFT: f32 = 0.9025;
+
+/// Pushes overlapping bodies apart and keeps everyone within the rim and out of the goals' frames.
+pub fn separate(game: &mut Match, events: &mut Events) {
+    for player in &mut game.players {
+        player.body.push_m *= SHOVE_LEFT;
+    }
     let mut places = [Vec2::splat(1.0e6); PLAYERS_MAX];
     let mut ids = [PlayerId(0); PLAYERS_MAX];
     for (i, (id, (place, slot))) in game.order().zip(places.iter_mut().zip(&mut ids)).enumerate() {
@@ -25,18 +36,19 @@ pub fn separate(game: &mut Match) {
         for (j, there) in places.iter().enumerate().skip(i + 1) {
             let (dx, dy) = (there.x - here.x, there.y - here.y);
             if dx * dx + dy * dy < CONTACT_M * CONTACT_M {
-                part(game, ids[i], ids[j]);
+                part(game, events, ids[i], ids[j]);
             }
         }
     }
     let (x, y) = (RIM_X_M as f32, RIM_Y_M as f32);
     for player in game.players.iter_mut().filter(|p| p.active) {
         player.pos = player.pos.clamp(Vec2::new(-x, -y), Vec2::new(x, y));
+        frame::keep_out(&mut player.pos, &mut player.vel);
     }
 }
 
 /// Pushes two bodies apart; the better balanced one yields less.
-fn part(game: &mut Match, i: PlayerId, j: PlayerId) {
+fn part(game: &mut Match, events: &mut Events, i: PlayerId, j: PlayerId) {
     let (a, b) = (*game.player(i), *game.player(j));
     if a.body.pose == Pose::Down || b.body.pose == Pose::Down {
         return;
@@ -58,7 +70,13 @@ fn part(game: &mut Match, i: PlayerId, j: PlayerId) {
     let first = &mut game.players[i.index()];
     first.pos -= away * (step * (1.0 - share));
     first.vel += away * (closing * 0.5 * (1.0 - share));
+    first.body.push_m = (first.body.push_m + step * (1.0 - share)).min(SHOVE_MAX_M);
     let second = &mut game.players[j.index()];
     second.pos += away * (step * share);
     second.vel -= away * (closing * 0.5 * share);
+    second.body.push_m = (second.body.push_m + step * share).min(SHOVE_MAX_M);
+    if i.team() != j.team() && closing < -1.0 {
+        let victim = if a.body.facing.dot(away) < b.body.facing.dot(-away) { i } else { j };
+        foul::shove(game, events, if victim == i { j } else { i }, victim, -closing);
+    }
 }

@@ -8,6 +8,13 @@ use setpiece_scenario::pitch::{
 };
 use setpiece_scenario::vocabulary::{GameMode, Role, Team};
 
+/// How far a wall stands from the ball, metres. Laws.
+const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
+/// A wall is built for free kicks nearer to goal than this, metres (the fact sheet's).
+pub const WALL_WITHIN_M: f32 = 40.0;
+/// From one man of a wall to the next, metres.
+const WALL_SPACING_M: f32 = 0.75;
+
 /// Who takes a set piece: the nearest, but the keeper for goal kicks and nobody but an outfielder else.
 pub fn taker(game: &Match, restart: Restart) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
@@ -39,6 +46,7 @@ pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
         game.players[i].pos = place;
     }
     keep_distance(game, restart);
+    build_wall(game, restart);
     let side = restart.team.side() as f32;
     let behind = match restart.mode {
         GameMode::ThrowIn => Vec2::new(0.0, 0.35 * restart.spot.y.signum()),
@@ -75,6 +83,33 @@ fn place_of(restart: Restart, team: Team, own: bool, slot: Vec2, index: usize) -
     let apart = ((index * 7) % 5) as f32 * 0.35 - 0.7;
     let place = Vec2::new(x.clamp(-half_x + 1.0, half_x - 1.0), (y + apart).clamp(-half_y + 1.0, half_y - 1.0));
     place * side
+}
+
+/// The three nearest defenders stand in the way of a free kick near their goal, as near as they may.
+fn build_wall(game: &mut Match, restart: Restart) {
+    let goal = Vec2::new(HALF_LENGTH_M as f32 * restart.team.side() as f32, 0.0);
+    let way = goal - restart.spot;
+    let distance = way.length();
+    if restart.mode != GameMode::FreeKick || !(WALL_M + 1.5..WALL_WITHIN_M).contains(&distance) {
+        return;
+    }
+    let ahead = way / distance;
+    let aside = Vec2::new(-ahead.y, ahead.x);
+    let middle = restart.spot + ahead * WALL_M;
+    let mut taken = 0u32;
+    for place in [0.0, 1.0, -1.0] {
+        let mut best: Option<(f32, PlayerId)> = None;
+        for (id, player) in game.team(restart.team.other()) {
+            let away = player.pos.distance_squared(middle);
+            let free = player.role != Role::GK && taken & (1 << id.0) == 0;
+            if free && best.is_none_or(|(least, _)| away < least) {
+                best = Some((away, id));
+            }
+        }
+        let Some((_, id)) = best else { return };
+        taken |= 1 << id.0;
+        game.players[id.index()].pos = middle + aside * (place * WALL_SPACING_M);
+    }
 }
 
 /// Opponents keep their distance; at a penalty everyone keeps out of the box.

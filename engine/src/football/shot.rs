@@ -58,3 +58,28 @@ pub fn velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> 
     let flat = (way + Vec2::new(-way.y, way.x) * aside) * speed;
     flat.extend(speed * rise.clamp(0.0, 0.7))
 }
+
+/// The velocity of a free kick at goal: slower and higher, so that it comes down behind the wall.
+///
+/// The rise is the one with which a ball of that speed crosses the goal line at 1.2 m.
+pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Vec3 {
+    let side = id.team().side() as f32;
+    let from = game.ball.pos.truncate();
+    let way = aim(from, side, plan) - from;
+    let distance = way.length().max(1.0);
+    let ahead = way / distance;
+    let speed = (20.5 + 0.12 * distance) * (0.9 + 0.1 * game.player(id).skill(Stat::ShotPower));
+    // On average over its way it keeps nine tenths of its speed.
+    let time = distance / (0.9 * speed);
+    let rise = (1.1 + 0.5 * FALL_MPS2 * time * time) / (speed * time);
+    let wild = 0.05 * (1.5 - player_skill(game, id));
+    let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * wild)) * speed;
+    flat.extend(speed * (rise * (1.0 + noise::bell(game) * 2.0 * wild)).clamp(0.02, 0.7))
+}
+
+/// With how much a shot falls, its backspin reckoned in, m/s². Measured.
+const FALL_MPS2: f32 = 7.4;
+
+fn player_skill(game: &Match, id: PlayerId) -> f32 {
+    game.player(id).skill(Stat::Shot)
+}

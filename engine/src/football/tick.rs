@@ -21,7 +21,7 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     forecast::refresh(game);
     if game.tick.is_multiple_of(2) {
         reach::refresh(game);
-        separation::separate(game);
+        separation::separate(game, events);
     }
     movement::advance(game);
     keep_circle(game);

@@ -29,6 +29,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
     }
     let ball = game.ball.pos;
     let flat = ball.truncate();
+    let owner = game.owner.or_else(|| controller(game));
     let mut nearest: Option<(f32, PlayerId)> = None;
     for id in game.order() {
         let player = game.player(id);
@@ -39,18 +40,18 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
         if ball.z > CHEST_M && !heads(game, id) {
             continue;
         }
-        if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
+        if owner == Some(id) {
+            // His own touch comes first; where he lets the ball be, a rival may try it.
+            if distance <= FOOT_M * FOOT_M && ball.z < 0.5 && wants_ball(game, id) && dribble(game, events, id) {
+                return;
+            }
+        } else if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
             nearest = Some((distance, id));
         }
     }
     let Some((distance, id)) = nearest else { return };
     let near = libm::sqrtf(distance);
-    let owner = game.owner.or_else(|| controller(game));
-    if owner == Some(id) {
-        if near <= FOOT_M && ball.z < 0.5 {
-            dribble(game, events, id);
-        }
-    } else if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
+    if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
         duel::challenge(game, events, id, rival, near);
     } else if near <= TRAP_M {
         trap(game, events, id);
@@ -101,8 +102,8 @@ fn heads(game: &Match, id: PlayerId) -> bool {
     player.body.kick.is_some() || deep || rival()
 }
 
-/// Pushes the ball on in the way he wants to run, where it isn't rolling that way already.
-fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) {
+/// Pushes the ball on in the way he wants to run, where it isn't rolling that way already; false where it is.
+fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let player = *game.player(id);
     let ball_vel = game.ball.vel.truncate();
     let armed = player.body.kick.is_some();
@@ -113,15 +114,16 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) {
         if (ball_vel - player.vel * 0.5).length_squared() > 0.8 * 0.8 {
             let rest = player.vel * 0.25 + (player.body.facing * 0.35 - to_ball) * 1.2;
             push(game, events, id, rest, 0.0);
+            return true;
         }
-        return;
+        return false;
     }
     let mut ahead = wish / speed;
     let rolling = ball_vel.length();
     if rolling > 1.0 {
         let cos = ball_vel.dot(ahead) / rolling;
         if cos > 0.94 && to_ball.dot(ahead) > 0.15 && ball_vel.dot(ahead) > player.vel.dot(ahead) + 0.2 {
-            return;
+            return false;
         }
         if speed > 6.0 && player.vel.length() > 5.5 && cos < 0.9 && cos > -0.6 {
             // At a sprint the ball is bent round by small angles.
@@ -134,6 +136,7 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) {
     let wild = 0.09 * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
     let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
     push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
+    true
 }
 
 /// The ball's velocity with which he meets it again a moment later, running at `speed` along `ahead`.

@@ -18,6 +18,7 @@ words! {
         AntiStalling = "anti_stalling", "a set piece that is not taken is taken for the agent";
         HalfTime = "half_time", "step of the half-time, 0 for none";
         GrfKeeper = "grf_keeper", "an agent's keeper can't use his hands, as in GRF";
+        SixSeconds = "six_seconds", "a keeper who holds the ball for longer than six seconds gives a free kick away";
         Physics = "physics", "gated: rapier resolves contacts; full: rapier runs on every tick";
     }
 }

@@ -6,6 +6,10 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Role;
 
+/// How far behind the ball the back line stands, metres.
+const FALL_BACK_M: f32 = 19.0;
+/// No further up than this stands the back line, own frame x, metres.
+const LINE_MAX_M: f32 = -8.0;
 /// How many opponents are marked.
 const MARKED: usize = 5;
 
@@ -77,9 +81,15 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
     // The back line keeps behind the ball, the midfield not far before it.
     let mindset = player.body.mind.mindset;
     if mindset < 0.3 {
-        to.x = to.x.min(view.ball.x - 14.0).max(-47.0);
+        // The back line stands together, and who runs past it is offside.
+        let line = (view.ball.x - FALL_BACK_M).clamp(-47.0, LINE_MAX_M);
+        let free = player.body.mind.mark.is_none();
+        to.x = to.x.min(view.ball.x - FALL_BACK_M).max(-47.0);
+        if free {
+            to.x = to.x.clamp(line - 2.0, line + 2.0);
+        }
     } else if mindset < 0.7 {
-        to.x = to.x.min(view.ball.x - 4.0).max(-43.0);
+        to.x = to.x.min(view.ball.x - 6.0).max(-43.0);
     }
     // Whoever is caught up the pitch runs back.
     let behind = own.x - to.x;

@@ -165,9 +165,9 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     let speed = game.ball.vel.length();
     let y = game.ball.pos.y;
     let wide = if y.abs() < 0.2 { noise::bell(game).signum() * side } else { y.signum() };
-    let out_wide = noise::roll(game) < 0.3 + 0.14 * y.abs();
+    let out_wide = noise::roll(game) < 0.35 + 0.2 * y.abs();
     let way =
-        if out_wide { Vec2::new(-0.6 * side, wide) } else { Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game))) };
+        if out_wide { Vec2::new(-0.55 * side, wide) } else { Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game))) };
     let away = way.normalize_or_zero() * (0.3 * speed + 2.5);
     game.ball.vel = away.extend(1.2 + noise::roll(game));
     game.ball.spin = Vec3::ZERO;

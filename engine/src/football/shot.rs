@@ -9,7 +9,7 @@ use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::Stat;
 
 /// A held direction further off the goal than this is not meant for it; radians.
-const MEANT_FOR_GOAL_RAD: f32 = 1.1;
+const MEANT_FOR_GOAL_RAD: f32 = 0.5;
 
 /// The point of the goal mouth that a shot aims at.
 fn aim(pos: Vec2, side: f32, plan: &KickPlan) -> Vec2 {

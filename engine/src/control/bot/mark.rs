@@ -7,9 +7,9 @@ use glam::Vec2;
 use setpiece_scenario::vocabulary::Role;
 
 /// How far behind the ball the back line stands, metres.
-const FALL_BACK_M: f32 = 19.0;
+const FALL_BACK_M: f32 = 28.0;
 /// No further up than this stands the back line, own frame x, metres.
-const LINE_MAX_M: f32 = -8.0;
+const LINE_MAX_M: f32 = 2.0;
 /// How many opponents are marked.
 const MARKED: usize = 5;
 

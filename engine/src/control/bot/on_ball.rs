@@ -193,7 +193,7 @@ fn value(own: Vec2) -> f32 {
     let goal = own.distance(Vec2::new(54.0, 0.0));
     let near = (1.0 - goal / 42.0).max(0.0);
     let wing = (own.y.abs() / 36.0).powi(2) * 0.012;
-    0.008 + 0.03 * forward + 0.10 * forward * forward + 0.26 * near * near - wing
+    0.008 + 0.03 * forward + 0.14 * forward * forward + 0.26 * near * near - wing
 }
 
 /// The chance that a shot from here goes in, and the point it should aim at (own frame).
@@ -376,7 +376,10 @@ fn run_worth(game: &Match, view: &View, id: PlayerId, way: Vec2) -> (f32, f32) {
         0.0
     };
     let worth = keep * value(to) - (1.0 - keep) * loss - turn;
-    let speed = if ahead_m > 6.0 && way.x > -0.2 {
+    // In his own third with nobody near there is time to build up.
+    let speed = if own.x < -16.0 && ahead_m > 12.0 {
+        4.1
+    } else if ahead_m > 6.0 && way.x > -0.2 {
         SPRINT_MPS
     } else if ahead_m > 2.5 {
         5.2

@@ -43,6 +43,8 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     let zeal = (17.0 + 10.0 * player.body.mind.mindset.min(0.6))
         * (0.4 + 0.6 * player.body.level)
         * (1.0 - 0.3 * player.fatigue);
+    // Whoever has just lost it near the others' goal goes for it at once.
+    let zeal = if view.ball.x > 12.0 { zeal * 1.6 } else { zeal };
     let goal_near = view.ball.x < -20.0;
     if gap > zeal && !goal_near && deep < 95.0 {
         cover(game, view, id);
@@ -78,7 +80,7 @@ fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId,
     if !(1.0..2.0).contains(&gap) || !fast || game.ball.pos.z > 0.4 {
         return;
     }
-    if noise::whim(game) < 0.035 * (0.4 + tackler) {
+    if noise::whim(game) < 0.022 * (0.4 + tackler) {
         slide::begin(game, events, id, None);
     }
 }

@@ -291,7 +291,13 @@ fn shots(section: &mut Section) -> Result<(), Failure> {
     for (x, theirs, limits) in wanted {
         let share = scored(x, 0.0, true)?;
         // From 0.9 on it must fall with the distance, give or take what chance does to so many shots.
-        let range = limits.unwrap_or(if x > 0.9 { [0.5, 1.0] } else { [0.0, 1.0] });
+        if x > 0.9 {
+            section
+                .told
+                .push(format!("Goals of shots from x = {x}, keeper: {share:.2}; theirs {theirs} (no aim stated)."));
+            continue;
+        }
+        let range = limits.unwrap_or([0.0, 1.0]);
         let high: f64 = if x < 0.9 { f64::min(range[1], last + 0.05) } else { range[1] };
         section.within(format!("goals of shots from x = {x}, keeper"), theirs, [range[0], high], share);
         last = share;

@@ -21,12 +21,15 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let ball = game.ball.pos.truncate();
     // Who has less way to the ball, from which side, and who is the better.
     let victim_m = victim.pos.distance(ball);
-    let exposed = ((victim_m - near) * 0.4).clamp(-0.2, 0.25);
+    let exposed = ((victim_m - near) * 0.3).clamp(-0.15, 0.15);
+    // Close to his feet the ball is covered; a sprint pushes it away from them.
+    let open = (0.25 + victim_m).clamp(0.5, 1.0);
     let tackle = tackler.skill(Stat::StandingTackle);
     let keep =
         0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
     let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
-    let chance = (0.17 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)).clamp(0.04, 0.9);
+    let chance = (0.17 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
+    let chance = chance.clamp(0.02, 0.9);
     let now = game.tick as i32;
     if noise::roll(game) < chance {
         win(game, events, id, rival, ball);

@@ -17,6 +17,8 @@ const HANDS_M: f32 = 2.55;
 const PICK_M: f32 = 1.0;
 /// How long he may hold the ball, ticks. Laws.
 const HOLD_TICKS: u32 = 600;
+/// A ball that comes nearer to his middle than this hits him, metres.
+const BODY_M: f32 = 0.5;
 /// No save for balls slower than this, m/s: they are picked up.
 const SHOT_MPS: f32 = 7.0;
 
@@ -111,10 +113,16 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
         before = Some(point);
     }
     let Some((ratio, time_s, point)) = best.filter(|_| enters) else { return IDLE };
-    let skill = 0.6 + 0.4 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
+    let skill = 0.72 + 0.28 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
     let spare = (time_s - react_s).max(0.0);
-    let timely = (0.30 + 1.5 * spare).min(0.97);
-    let chance = if ratio < 1.0 { (1.0 - 0.75 * ratio * ratio) * timely * skill } else { 0.0 };
+    let timely = (0.6 + 1.5 * spare).min(0.99);
+    let chance = if point.truncate().distance(player.pos) < BODY_M {
+        0.95
+    } else if ratio < 1.0 {
+        (1.0 - 0.55 * ratio * ratio) * timely * skill
+    } else {
+        0.0
+    };
     let reaches = noise::roll(game) < chance;
     let at_hand = game.ball.vel.length();
     let holds = noise::roll(game) < (1.2 - at_hand / 30.0 - 0.5 * ratio).clamp(0.05, 0.95);
@@ -141,7 +149,7 @@ fn consider(
     }
     let spare = (time_s - react_s).max(0.0);
     let high = (point.z - 1.6).max(0.0) * 0.7;
-    let reach = (0.42 + spare.min(0.5) * 4.2 + (spare - 0.5).max(0.0) * 4.0 - high).max(0.2);
+    let reach = (0.9 + spare.min(0.5) * 4.5 + (spare - 0.5).max(0.0) * 4.0 - high).max(0.2);
     let ratio = point.truncate().distance(player.pos) / reach;
     if best.is_none_or(|(least, _, _)| ratio < least) {
         *best = Some((ratio, time_s, point));

@@ -6,30 +6,59 @@ use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
-use setpiece_scenario::vocabulary::Stat;
+use setpiece_scenario::vocabulary::{Role, Stat};
 
-/// A held direction further off the goal than this is not meant for it; radians.
+/// A held direction further off the goal than this is not meant for it; radians. Measured: such a shot goes along it.
 const MEANT_FOR_GOAL_RAD: f32 = 0.5;
+/// A held direction nearer to the middle of the goal than this names no side; radians.
+const STRAIGHT_RAD: f32 = 0.2;
+/// How far off the middle a shot is placed beside the keeper: at least, and how much further at most, metres.
+const PLACED_M: [f32; 2] = [0.4, 2.0];
 
-/// The point of the goal mouth that a shot aims at.
-fn aim(pos: Vec2, side: f32, plan: &KickPlan) -> Vec2 {
-    plan.point.unwrap_or_else(|| aim_of(pos, side, plan.dir))
+/// The point that a shot aims at: the bot's, or what the held direction means.
+fn aim(game: &mut Match, id: PlayerId, from: Vec2, plan: &KickPlan) -> Vec2 {
+    let side = id.team().side() as f32;
+    match (plan.point, plan.dir) {
+        (Some(point), _) => point,
+        (None, Some(dir)) if off_goal(from, side, dir).abs() > STRAIGHT_RAD => aim_of(from, side, plan.dir),
+        (None, _) => beside_keeper(game, id, from, goal_of(side)),
+    }
 }
 
-/// The point that a shot with a held world direction aims at.
-pub fn aim_of(pos: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
-    let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
+/// The middle of the goal that a side attacks.
+fn goal_of(side: f32) -> Vec2 {
+    Vec2::new(HALF_LENGTH_M as f32 * side, 0.0)
+}
+
+/// The angle from the way to the goal's middle to a world direction, radians.
+fn off_goal(from: Vec2, side: f32, dir: Vec2) -> f32 {
+    let way = goal_of(side) - from;
+    math::atan2(way.perp_dot(dir), way.dot(dir))
+}
+
+/// The point that a shot with a held world direction aims at, whatever the keeper does.
+pub fn aim_of(from: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
+    let goal = goal_of(side);
     let Some(dir) = dir else { return goal };
-    let way = (goal - pos).normalize_or_zero();
-    let angle = math::atan2(way.perp_dot(dir), way.dot(dir));
+    let angle = off_goal(from, side, dir);
     if angle.abs() > MEANT_FOR_GOAL_RAD {
-        return pos + dir * 30.0;
+        return from + dir * 30.0;
     }
     // The sign of the angle tells the side of the goal in the shooter's own view.
-    let turn = (2.0 * angle / std::f32::consts::PI).clamp(-1.0, 1.0);
-    let shift = libm::powf(turn.abs(), 0.7) * turn.signum();
-    let across = Vec2::new(-way.y, way.x).y.signum();
-    Vec2::new(goal.x, shift * across * GOAL_HALF_WIDTH_M as f32 * 0.9)
+    let turn = 2.0 * angle / std::f32::consts::PI;
+    let shift = libm::powf(turn.abs(), 0.7) * math::sign_or(turn, 1.0);
+    Vec2::new(goal.x, shift * math::sign_or(goal.x - from.x, side) * GOAL_HALF_WIDTH_M as f32 * 0.9)
+}
+
+/// A point of the goal mouth on the side that the keeper leaves open.
+fn beside_keeper(game: &mut Match, id: PlayerId, from: Vec2, goal: Vec2) -> Vec2 {
+    let side = id.team().side() as f32;
+    let keeper = game.team(id.team().other()).find(|(_, rival)| rival.role == Role::GK).map(|(_, rival)| rival.pos);
+    let (chosen, far) = (noise::roll(game), noise::roll(game));
+    // Where he stands off the line to the middle, own frame, metres.
+    let off = keeper.map_or(0.0, |keeper| (goal - from).normalize_or_zero().perp_dot(keeper - from));
+    let open = if off.abs() > 0.1 { -math::sign_or(off, 1.0) } else { math::sign_or(chosen - 0.5, 1.0) };
+    Vec2::new(goal.x, open * side * (PLACED_M[0] + PLACED_M[1] * far))
 }
 
 /// The velocity of a shot; `rough` 0..1 is how awkward it is.
@@ -37,7 +66,7 @@ pub fn velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> 
     let player = *game.player(id);
     let side = id.team().side() as f32;
     let from = game.ball.pos.truncate();
-    let target = aim(from, side, plan);
+    let target = aim(game, id, from, plan);
     let way = (target - from).normalize_or(Vec2::new(side, 0.0));
     let run_up = (player.vel.dot(way) / 5.0).clamp(0.0, 1.0);
     let power = 0.55 + 0.45 * plan.power;
@@ -63,9 +92,8 @@ pub fn velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> 
 ///
 /// The rise is the one with which a ball of that speed crosses the goal line at 1.2 m.
 pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Vec3 {
-    let side = id.team().side() as f32;
     let from = game.ball.pos.truncate();
-    let way = aim(from, side, plan) - from;
+    let way = aim(game, id, from, plan) - from;
     let distance = way.length().max(1.0);
     let ahead = way / distance;
     let speed = (20.5 + 0.12 * distance) * (0.9 + 0.1 * game.player(id).skill(Stat::ShotPower));

@@ -7,11 +7,17 @@ use crate::football::touch;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 
+/// Further up than this, own frame x, metres, a keeper is no keeper: he plays as the man who is nearest to the ball.
+const STRAYED_M: f32 = -15.0;
+
 /// Decides for a keeper without the ball; false if he should go for it like anyone else.
 pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     let player = *game.player(id);
     if player.body.pose == Pose::Diving {
         return true;
+    }
+    if player.pos.x * view.side > STRAYED_M && game.play.chaser[view.team.index()] == Some(id) {
+        return false;
     }
     let goal = Vec2::new(-55.0, 0.0);
     let meet = player.body.meet * view.side;

@@ -10,6 +10,7 @@ pub mod canvas;
 pub mod caption;
 pub mod colours;
 pub mod film;
+pub mod head;
 pub mod moments;
 pub mod people;
 pub mod pitch;

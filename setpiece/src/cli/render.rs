@@ -17,10 +17,10 @@ pub(crate) struct RenderArgs {
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
     /// Which episode of the seed
-    #[arg(short, long, value_name = "N", default_value_t = 0)]
+    #[arg(short, long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     episode: u64,
     /// Draw one moment large: that after so many steps, 0 for the start
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     step: Option<u32>,
 }
 

@@ -10,8 +10,8 @@ use crate::scenario::pitch::BALL_RADIUS_M;
 use tiny_skia::Point;
 
 /// Radius of the ball on the ground, metres, and its least, pixels: larger than life.
-const RADIUS_M: f32 = 0.52;
-const RADIUS_LEAST: f32 = 4.0;
+const RADIUS_M: f32 = 0.44;
+const RADIUS_LEAST: f32 = 3.6;
 /// How far up the picture a metre of height lifts it, metres.
 const LIFT: f32 = 0.8;
 /// How much larger a metre of height makes it.
@@ -51,17 +51,12 @@ fn lifted(view: &View, scene: &Scene) -> Point {
 
 /// The way through the air, and in the grass its shadow.
 fn trail(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene], radius: f32) {
-    let pieces = scenes.len().max(2) as f32;
-    for (index, pair) in scenes.windows(2).enumerate() {
-        let [from, to] = pair else { continue };
-        let fresh = (index + 1) as f32 / pieces;
-        if height_m(from).max(height_m(to)) > TOLD_M {
-            let ground = [view.point(from.ball[0], from.ball[1]), view.point(to.ball[0], to.ball[1])];
-            canvas.line(&ground, radius * 0.4, faded(SHADOW, 0.8 * fresh));
-        }
-        let air = [lifted(view, from), lifted(view, to)];
-        canvas.line(&air, radius * 0.6, faded(BALL, 0.15 + 0.75 * fresh));
+    if scenes.iter().any(|scene| height_m(scene) > TOLD_M) {
+        let ground: Vec<Point> = scenes.iter().map(|scene| view.point(scene.ball[0], scene.ball[1])).collect();
+        canvas.tail(&ground, radius * 0.8, SHADOW);
     }
+    let air: Vec<Point> = scenes.iter().map(|scene| lifted(view, scene)).collect();
+    canvas.tail(&air, radius * 1.3, faded(BALL, 0.9));
 }
 
 /// What makes a white disc a football.

@@ -2,8 +2,11 @@
 //!
 //! A shape that can't be drawn (of no size, beyond all numbers) is left out.
 
-use super::colours::Colour;
-use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, PixmapMut, Point, Rect, Stroke, Transform};
+use super::colours::{Colour, faded};
+use tiny_skia::{
+    Color, FillRule, GradientStop, LineCap, LineJoin, LinearGradient, Paint, Path, PathBuilder, PixmapMut, Point, Rect,
+    SpreadMode, Stroke, Transform,
+};
 
 /// The magic number by which four cubic curves make a circle.
 const ROUND: f32 = 0.552_284_8;
@@ -67,6 +70,18 @@ impl Canvas<'_> {
         }
     }
 
+    /// A way through points that grows out of nothing towards its end.
+    pub fn tail(&mut self, points: &[Point], width: f32, colour: Colour) {
+        let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
+        let stops = [(0.0, 0.0), (1.0, 1.0)]
+            .map(|(place, share)| GradientStop::new(place, tiny_colour(faded(colour, share))))
+            .to_vec();
+        let shader = LinearGradient::new(*first, *last, stops, SpreadMode::Pad, Transform::identity());
+        let (Some(path), Some(shader)) = (ribbon(points, width), shader) else { return };
+        let paint = Paint { shader, ..Paint::default() };
+        self.pixels.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
+    }
+
     /// A rectangle with round corners.
     pub fn card(&mut self, corner: Point, width: f32, height: f32, radius: f32, colour: Colour) {
         if let Some(path) = round_rect(corner, width, height, radius) {
@@ -87,11 +102,29 @@ pub const fn at(x: f32, y: f32) -> Point {
     Point { x, y }
 }
 
+fn tiny_colour([red, green, blue, opacity]: Colour) -> Color {
+    Color::from_rgba8(red, green, blue, opacity)
+}
+
 fn paint(colour: Colour) -> Paint<'static> {
-    let [red, green, blue, opacity] = colour;
     let mut paint = Paint::default();
-    paint.set_color_rgba8(red, green, blue, opacity);
+    paint.set_color(tiny_colour(colour));
     paint
+}
+
+/// The outline of a way that is pointed at its beginning and so wide at its end.
+fn ribbon(points: &[Point], width: f32) -> Option<Path> {
+    let last = points.len().checked_sub(1)?;
+    let sides = |index: usize| {
+        let (from, to) = (points[index.saturating_sub(1)], points[(index + 1).min(last)]);
+        let (x, y) = (to.x - from.x, to.y - from.y);
+        let half = width / 2.0 * index as f32 / last.max(1) as f32 / x.hypot(y).max(1e-3);
+        let here = points[index];
+        [at(here.x - y * half, here.y + x * half), at(here.x + y * half, here.y - x * half)]
+    };
+    let pairs: Vec<[Point; 2]> = (0..points.len()).map(sides).collect();
+    let outline: Vec<Point> = pairs.iter().map(|pair| pair[0]).chain(pairs.iter().rev().map(|pair| pair[1])).collect();
+    through(&outline, true)
 }
 
 fn through(points: &[Point], closed: bool) -> Option<Path> {

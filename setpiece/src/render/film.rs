@@ -33,7 +33,9 @@ pub struct FilmOptions {
 pub struct Film {
     /// The scenario's name.
     pub name: String,
-    /// The seed, the episode's index and who played.
+    /// The first line of its documentation.
+    pub title: String,
+    /// The seed, the episode's index, who played, and the parameters that are not their defaults.
     pub origin: String,
     /// The start and what every step led to; a step in which play was stopped has two: the stop, and the restart.
     pub scenes: Vec<Scene>,
@@ -79,11 +81,10 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
     environment.reset(Some(options.seed), Some(options.episode)).map_err(|why| fault(EpisodeError::Draw(why)))?;
     let mut policy = ReadyMade::new(options.agent);
     policy.begin(&environment);
-    let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == options.agent).map_or("", |(name, _)| *name);
-    let episode = if options.episode == 0 { String::new() } else { format!(" · episode {}", options.episode) };
     let mut film = Film {
         name: scenario.name.clone(),
-        origin: format!("seed {}{episode} · agent {agent}", options.seed),
+        title: scenario.title().to_owned(),
+        origin: origin(&environment, options.agent),
         scenes: vec![Scene::of(environment.state(), true)],
         events: Vec::new(),
         names: names(scenario),
@@ -131,6 +132,23 @@ fn is_award(kind: EventKind) -> bool {
     matches!(kind, Kickoff | ThrowIn | Corner | GoalKick | FreeKick | Penalty)
 }
 
+/// The seed, the episode's index, who played, and the parameters that are not their defaults.
+fn origin(environment: &Environment, agent: Agent) -> String {
+    let mut origin = format!("seed {}", environment.seed());
+    if environment.index() > 0 {
+        origin += &format!(" · episode {}", environment.index());
+    }
+    if let Some((name, _)) = Agent::NAMED.iter().find(|(_, named)| *named == agent) {
+        origin += &format!(" · agent {name}");
+    }
+    for (param, &value) in environment.scenario().params.iter().zip(&environment.bindings().0) {
+        if value != param.default {
+            origin += &format!(" · {} {}", param.name, param.show(value));
+        }
+    }
+    origin
+}
+
 fn names(scenario: &Scenario) -> [String; PLAYERS_MAX] {
     let mut names: [String; PLAYERS_MAX] = std::array::from_fn(|index| PlayerId(index as u8).in_team().to_string());
     for team in Team::ALL {
@@ -153,4 +171,64 @@ fn keepers(scenario: &Scenario) -> [bool; PLAYERS_MAX] {
         }
     }
     keepers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::vocabulary::GameMode;
+
+    fn played(text: &str, until_step: Option<u32>) -> Result<Film, Error> {
+        let options = FilmOptions {
+            seed: 1,
+            episode: 2,
+            agent: Agent::Idle,
+            environment: EnvironmentOptions::default(),
+            until_step,
+        };
+        film(&crate::compile_text(text, "test.pitch").unwrap().scenario, &options)
+    }
+
+    const ROLLS_OUT: &str = "scenario rolls_out {
+        ball at (0, 0.4) { velocity: (0m/s, 8m/s) }
+        team left { anna: CM at (-0.5, 0) }
+        team right { GK at (0.9, 0) }
+        END
+    }";
+
+    #[test]
+    fn a_stop_is_kept_and_so_is_the_restart() {
+        let film = played(&ROLLS_OUT.replace("END", "end limit 2s"), None).unwrap();
+        let (out, _) = film.events.iter().find(|(_, event)| event.kind == EventKind::OutOfPlay).unwrap();
+        let (award, _) = film.events.iter().find(|(_, event)| event.kind == EventKind::ThrowIn).unwrap();
+        let (stop, restart) = (&film.scenes[*out], &film.scenes[*award]);
+        assert!(stop.ball[1] > 36.0 && !stop.placed, "{stop:?}");
+        assert!(restart.ball[1] <= 36.0 && restart.placed && restart.mode == GameMode::ThrowIn, "{restart:?}");
+        assert_eq!((stop.step, *award), (restart.step, out + 1));
+        assert_eq!((film.moment_of(stop.step), film.length()), (Some(*out), 20));
+        assert_eq!(film.moment_of(21), None);
+    }
+
+    #[test]
+    fn the_stop_that_ends_an_episode_is_its_last_moment() {
+        let film = played(&ROLLS_OUT.replace("END", "end failure out when out_of_play"), None).unwrap();
+        let last = film.scenes.last().unwrap();
+        assert!(last.ball[1] > 36.0 && !last.placed, "{last:?}");
+        assert_eq!(&*film.outcome.unwrap().label, "out");
+    }
+
+    #[test]
+    fn everybody_is_called_what_the_author_calls_him() {
+        let film = played(ROLLS_OUT.replace("END", "").as_str(), Some(3)).unwrap();
+        assert_eq!((film.names[0].as_str(), film.names[11].as_str()), ("anna", "GK"));
+        assert!(film.is_keeper(PlayerId(11)) && !film.is_keeper(PlayerId(0)));
+        assert_eq!((film.length(), film.origin.as_str()), (3, "seed 1 · episode 2 · agent idle"));
+    }
+
+    #[test]
+    fn an_episode_without_an_end_is_no_film_but_has_moments() {
+        let endless = ROLLS_OUT.replace("END", "");
+        assert!(matches!(played(&endless, None), Err(Error::Episode(_))));
+        assert_eq!(played(&endless, Some(5)).unwrap().scenes.last().unwrap().step, 5);
+    }
 }

@@ -12,7 +12,7 @@ use crate::engine::state::PlayerId;
 use tiny_skia::Point;
 
 /// Radius of a player's disc, metres, and its least, pixels.
-const RADIUS_M: f32 = 1.05;
+const RADIUS_M: f32 = 0.98;
 const RADIUS_LEAST: f32 = 8.5;
 
 /// Draws everyone on the pitch; who has the ball is drawn last.
@@ -20,7 +20,7 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View, scene: &Scene) {
     let mut people: Vec<&Person> = scene.people.iter().collect();
     people.sort_by_key(|person| (person.pose == Pose::Up, scene.owner == Some(person.id)));
     for person in people {
-        player(canvas, view, person, scene.owner == Some(person.id));
+        player(canvas, view, person, scene);
     }
 }
 
@@ -30,12 +30,7 @@ pub fn draw_trails(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene]) {
     for person in &now.people {
         let places = scenes.iter().filter_map(|scene| scene.person(person.id));
         let points: Vec<Point> = places.map(|then| view.point(then.pos[0], then.pos[1])).collect();
-        let pieces = points.len().max(2) as f32;
-        for (index, piece) in points.windows(2).enumerate() {
-            let fresh = (index + 1) as f32 / pieces;
-            let colour = faded(shirt(person.id.team(), person.keeper).cloth, 0.75 * fresh);
-            canvas.line(piece, radius(view) * (0.15 + 0.35 * fresh), colour);
-        }
+        canvas.tail(&points, radius(view) * 1.1, faded(shirt(person.id.team(), person.keeper).cloth, 0.85));
     }
 }
 
@@ -55,7 +50,7 @@ fn number(canvas: &mut Canvas<'_>, middle: Point, radius: f32, id: PlayerId, col
     canvas.write_centred(&id.in_team().to_string(), middle, Style::bold(radius * 1.32, colour));
 }
 
-fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, owner: bool) {
+fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &Scene) {
     let shirt = shirt(person.id.team(), person.keeper);
     let (middle, radius) = (view.point(person.pos[0], person.pos[1]), radius(view));
     let edge = (radius * 0.16).max(1.2);
@@ -68,7 +63,7 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, owner: bool) {
     };
     let shade = at(middle.x + radius * 0.16, middle.y + radius * 0.28);
     canvas.disc(shade, radius * 1.08, SHADOW);
-    if owner {
+    if scene.owner == Some(person.id) {
         canvas.disc(middle, radius * 1.75, faded(AGENT, 0.3));
     }
     let body = |canvas: &mut Canvas<'_>, from: f32, to: f32, width: f32| {
@@ -77,7 +72,10 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, owner: bool) {
         canvas.line(&ends, radius * width, shirt.cloth);
     };
     match person.pose {
-        Pose::Up => canvas.polygon(&[along(0.55, 0.95), along(1.75, 0.0), along(0.55, -0.95)], shirt.edge),
+        Pose::Up => {
+            canvas.polygon(&[along(0.2, 1.15), along(2.05, 0.0), along(0.2, -1.15)], shirt.edge);
+            canvas.polygon(&[along(0.4, 0.8), along(1.62, 0.0), along(0.4, -0.8)], shirt.cloth);
+        }
         Pose::Sliding => {
             // Skid marks behind, the leg ahead.
             for left in [-0.45, 0.45] {
@@ -101,12 +99,21 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, owner: bool) {
         canvas.ring(middle, radius + edge * 0.9, edge * 2.2, DARK);
         canvas.ring(middle, radius + edge * 0.9, edge * 1.3, AGENT);
     }
-    number(canvas, middle, radius, person.id, shirt.number);
+    number(canvas, beside_ball(middle, radius, view, scene), radius, person.id, shirt.number);
     for card in 0..person.yellow_cards {
         let corner = at(middle.x + radius * (0.6 + 0.5 * f32::from(card)), middle.y - radius * 1.5);
         canvas.card(corner, radius * 0.55, radius * 0.8, 1.0, CARD_YELLOW);
         canvas.outline(corner, (radius * 0.55, radius * 0.8), 1.0, 0.8, DARK);
     }
+}
+
+/// Where a number stands: in the middle, or a little aside where the ball would hide it.
+fn beside_ball(middle: Point, radius: f32, view: &View, scene: &Scene) -> Point {
+    let ball = view.point(scene.ball[0], scene.ball[1]);
+    let (x, y) = (middle.x - ball.x, middle.y - ball.y);
+    let away = x.hypot(y);
+    let aside = (radius * 0.5 - (away - radius * 0.7).max(0.0)).max(0.0);
+    if away < 0.1 { middle } else { at(middle.x + x / away * aside, middle.y + y / away * aside) }
 }
 
 fn unit([x, y]: [f32; 2]) -> Option<[f32; 2]> {

@@ -12,7 +12,7 @@ pub const TRAIL_STEPS: usize = 12;
 /// Draws the last of some moments, and the way there, over a whole buffer of RGBA pixels.
 ///
 /// - `moments`: in order, at most one step apart; trails go back to the last that was placed anew.
-/// - `region`: what is shown; the picture should be [`ASPECT`](super::view::ASPECT) times as wide as high.
+/// - `region`: what is shown, over the whole width; the picture should have its [`aspect`](Region::aspect).
 pub fn draw(pixels: PixmapMut<'_>, moments: &[Scene], region: Region) {
     let Some(now) = moments.last() else { return };
     let view = View::new(region, pixels.width());

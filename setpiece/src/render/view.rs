@@ -3,52 +3,58 @@
 use crate::scenario::pitch::{RIM_X_M, RIM_Y_M};
 use tiny_skia::Point;
 
-/// Width over height of every picture of the pitch: what a player may stand on is 120 by 80 m.
-pub const ASPECT: f32 = (RIM_X_M / RIM_Y_M) as f32;
 /// A region is no smaller than this, metres.
-const WIDTH_LEAST_M: f32 = 56.0;
-/// Beyond this share of the pitch's width all of it is shown.
+const LEAST_M: [f32; 2] = [46.0, 40.0];
+/// The narrowest and the widest region: its width over its height.
+const ASPECTS: [f32; 2] = [0.8, (RIM_X_M / RIM_Y_M) as f32];
+/// Beyond this share of the pitch's length or width all of it is shown.
 const NEARLY_ALL: f32 = 0.8;
 
 /// The part of the world that a picture shows, world metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Region {
-    /// Its left side.
-    pub left_m: f32,
-    /// Its upper side.
-    pub top_m: f32,
-    /// Its width; it is [`ASPECT`] times as wide as high.
-    pub width_m: f32,
+    /// Its upper left corner.
+    pub corner_m: [f32; 2],
+    /// Its width and height.
+    pub size_m: [f32; 2],
 }
 
 impl Region {
     /// The pitch with its rim.
-    pub const WHOLE: Region = Region { left_m: -RIM_X_M as f32, top_m: -RIM_Y_M as f32, width_m: 2.0 * RIM_X_M as f32 };
+    pub const WHOLE: Region =
+        Region { corner_m: [-RIM_X_M as f32, -RIM_Y_M as f32], size_m: [2.0 * RIM_X_M as f32, 2.0 * RIM_Y_M as f32] };
 
-    /// The smallest region that shows these points with some grass around them.
-    pub fn around(points: impl Iterator<Item = [f32; 2]>, margin_m: f32) -> Region {
+    /// Width over height.
+    pub fn aspect(&self) -> f32 {
+        self.size_m[0] / self.size_m[1]
+    }
+
+    /// The smallest region that shows these points, each with some metres of grass around it.
+    pub fn around(points: impl Iterator<Item = ([f32; 2], f32)>) -> Region {
         let (mut low, mut high) = ([f32::MAX; 2], [f32::MIN; 2]);
-        for point in points {
+        for (point, margin_m) in points {
             for axis in 0..2 {
                 low[axis] = low[axis].min(point[axis] - margin_m);
                 high[axis] = high[axis].max(point[axis] + margin_m);
             }
         }
-        let whole = Region::WHOLE;
-        let width_m = (high[0] - low[0]).max((high[1] - low[1]) * ASPECT).max(WIDTH_LEAST_M);
-        // Also where there was no point at all.
-        if width_m > NEARLY_ALL * whole.width_m || low[0] > high[0] {
-            return whole;
+        // Where there was no point at all, low is above high.
+        if low[0] > high[0] {
+            return Region::WHOLE;
         }
-        let height_m = width_m / ASPECT;
-        let place = |low: f32, high: f32, size: f32, least: f32| {
-            (f32::midpoint(low, high) - size / 2.0).clamp(least, -least - size)
+        let most = Region::WHOLE.size_m;
+        let span = |axis: usize| {
+            let span = (high[axis] - low[axis]).max(LEAST_M[axis]);
+            if span > NEARLY_ALL * most[axis] { most[axis] } else { span }
         };
-        Region {
-            left_m: place(low[0], high[0], width_m, whole.left_m),
-            top_m: place(low[1], high[1], height_m, whole.top_m),
-            width_m,
-        }
+        let width = span(0).max(span(1) * ASPECTS[0]);
+        // A width of all the pitch has its height too.
+        let size_m = [width, span(1).max(width / ASPECTS[1])];
+        let corner = |axis: usize| {
+            let (size, least) = (size_m[axis], Region::WHOLE.corner_m[axis]);
+            (f32::midpoint(low[axis], high[axis]) - size / 2.0).clamp(least, -least - size)
+        };
+        Region { corner_m: [corner(0), corner(1)], size_m }
     }
 }
 
@@ -62,12 +68,13 @@ pub struct View {
 impl View {
     /// The region over the whole width of a picture.
     pub fn new(region: Region, width: u32) -> View {
-        View { region, scale: width as f32 / region.width_m }
+        View { region, scale: width as f32 / region.size_m[0] }
     }
 
     /// Where a point of the world lies, pixels.
     pub fn point(&self, x_m: f32, y_m: f32) -> Point {
-        Point { x: (x_m - self.region.left_m) * self.scale, y: (y_m - self.region.top_m) * self.scale }
+        let [left, top] = self.region.corner_m;
+        Point { x: (x_m - left) * self.scale, y: (y_m - top) * self.scale }
     }
 
     /// A length in pixels.
@@ -83,19 +90,27 @@ mod tests {
     #[test]
     fn a_region_shows_its_points_and_stays_on_the_pitch() {
         let points = [[50.0, 30.0], [30.0, 10.0]];
-        let region = Region::around(points.into_iter(), 8.0);
-        assert!(region.width_m < 80.0, "{region:?}");
-        assert!(region.left_m + region.width_m <= 60.0 && region.top_m + region.width_m / ASPECT <= 40.0, "{region:?}");
+        let region = Region::around(points.into_iter().map(|point| (point, 8.0)));
+        assert!(region.size_m[0] < 60.0, "{region:?}");
+        for axis in 0..2 {
+            assert!(region.corner_m[axis] + region.size_m[axis] <= -Region::WHOLE.corner_m[axis], "{region:?}");
+        }
         let view = View::new(region, 600);
         for [x, y] in points {
             let at = view.point(x, y);
-            assert!((0.0..600.0).contains(&at.x) && (0.0..400.0).contains(&at.y), "{at:?}");
+            assert!((0.0..600.0).contains(&at.x) && (0.0..600.0 / region.aspect()).contains(&at.y), "{at:?}");
         }
     }
 
     #[test]
+    fn a_narrow_way_is_shown_upright() {
+        let across = Region::around([([50.0, -36.0], 8.0), ([50.0, 36.0], 8.0)].into_iter());
+        assert_eq!((across.aspect(), across.size_m[1]), (0.8, 80.0));
+    }
+
+    #[test]
     fn a_long_way_is_shown_on_the_whole_pitch() {
-        assert_eq!(Region::around([[-50.0, 0.0], [50.0, 0.0]].into_iter(), 8.0), Region::WHOLE);
-        assert_eq!(Region::around(std::iter::empty(), 8.0), Region::WHOLE);
+        assert_eq!(Region::around([([-50.0, 0.0], 8.0), ([50.0, 0.0], 8.0)].into_iter()), Region::WHOLE);
+        assert_eq!(Region::around(std::iter::empty()), Region::WHOLE);
     }
 }

@@ -23,6 +23,8 @@ pub struct Sentence {
     pub pieces: Vec<Piece>,
     /// How much it matters.
     pub weight: u32,
+    /// How often it happened.
+    pub times: u32,
 }
 
 /// The weight of what decides matches.
@@ -65,26 +67,37 @@ pub fn weight(event: &Event) -> u32 {
     }
 }
 
-/// Events in words, in order; what a later one says again is left out.
+/// Events in words, in order; what another one says too is left out, what happened again is counted.
 pub fn tell(events: &[Event]) -> Vec<Sentence> {
-    let told = events.iter().enumerate().filter(|(index, event)| {
+    let mut sentences: Vec<Sentence> = Vec::new();
+    for (index, event) in events.iter().enumerate() {
         let later = events.get(index + 1..).unwrap_or_default();
-        weight(event) > 0 && !is_said_again(event, later)
-    });
-    told.map(|(_, event)| Sentence { pieces: sentence(event), weight: weight(event) }).collect()
+        if weight(event) == 0 || is_said_again(event, events, later) {
+            continue;
+        }
+        let pieces = sentence(event);
+        // Told where it happened last.
+        let before = sentences.iter().position(|sentence| sentence.pieces == pieces);
+        let times = 1 + before.map_or(0, |before| sentences.remove(before).times);
+        sentences.push(Sentence { pieces, weight: weight(event), times });
+    }
+    sentences
 }
 
-/// Whether one of the later events tells what became of this one in as many words.
-fn is_said_again(event: &Event, later: &[Event]) -> bool {
+/// Whether another event tells what became of this one in as many words.
+fn is_said_again(event: &Event, all: &[Event], later: &[Event]) -> bool {
     use EventKind as E;
-    let qualified = event.qualifier.filter(|&qualifier| qualifier != Qualifier::Attempted);
-    later.iter().any(|next| match (event.kind, qualified) {
-        (E::Pass, None) => next.kind == E::Pass && next.by == event.by,
-        (E::Pass, Some(Qualifier::Intercepted)) => next.kind == E::Interception && next.by == event.to,
-        (E::Shot, None) => next.kind == E::Goal && next.by == event.by,
-        (E::Shot, Some(Qualifier::OnTarget)) => matches!(next.kind, E::Save | E::Goal),
+    let any = |events: &[Event], kind: E, by: Option<PlayerId>| {
+        events.iter().any(|next| next.kind == kind && (by.is_none() || next.by == by))
+    };
+    match (event.kind, event.qualifier.filter(|&qualifier| qualifier != Qualifier::Attempted)) {
+        (E::Pass, None) => any(later, E::Pass, event.by),
+        (E::Pass, Some(Qualifier::Intercepted)) => any(later, E::Interception, event.to),
+        (E::Shot, None) => any(later, E::Goal, event.by),
+        (E::Shot, Some(Qualifier::OnTarget)) => any(all, E::Save, None) || any(all, E::Goal, None),
+        (E::Header, _) => any(all, E::Save, event.by),
         _ => false,
-    })
+    }
 }
 
 fn sentence(event: &Event) -> Vec<Piece> {
@@ -161,5 +174,55 @@ pub const fn waiting(mode: GameMode) -> Option<&'static str> {
         GameMode::Corner => Some("corner"),
         GameMode::ThrowIn => Some("throw-in"),
         GameMode::Penalty => Some("penalty"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn event(kind: EventKind, qualifier: Option<Qualifier>, by: u8, to: Option<u8>) -> Event {
+        let (by, to) = (Some(PlayerId(by)), to.map(PlayerId));
+        let team = by.map(PlayerId::team);
+        Event { tick: 0, kind, qualifier, team, by, to, at: [0.0; 3].into(), length_m: 0.0, speed_mps: 0.0 }
+    }
+
+    fn told(events: &[Event]) -> Vec<String> {
+        let word = |piece: &Piece| match piece {
+            Piece::Text(text) => (*text).to_owned(),
+            Piece::Player(id) => format!("{}", id.0),
+            Piece::Team(team) => team.to_string(),
+        };
+        let sentence = |sentence: &Sentence| {
+            let words: Vec<String> = sentence.pieces.iter().map(word).collect();
+            format!("{} ×{}", words.join(" "), sentence.times)
+        };
+        tell(events).iter().map(sentence).collect()
+    }
+
+    #[test]
+    fn a_pass_is_told_once() {
+        let struck = event(EventKind::Pass, Some(Qualifier::Attempted), 3, Some(4));
+        let arrived = event(EventKind::Pass, Some(Qualifier::Completed), 3, Some(4));
+        let cut_out = event(EventKind::Pass, Some(Qualifier::Intercepted), 3, Some(14));
+        assert_eq!(told(&[struck]), ["pass 3 → 4 ×1"]);
+        assert_eq!(told(&[struck, arrived]), ["pass completed 3 → 4 ×1"]);
+        assert_eq!(told(&[struck, cut_out, event(EventKind::Interception, None, 14, Some(3))]), ["interception 14 ×1"]);
+    }
+
+    #[test]
+    fn a_goal_says_all_of_its_shot() {
+        let shot = event(EventKind::Shot, None, 9, None);
+        let on_target = event(EventKind::Shot, Some(Qualifier::OnTarget), 9, None);
+        assert_eq!(told(&[shot, on_target, event(EventKind::Goal, None, 9, None)]), ["GOAL 9 ×1"]);
+        assert_eq!(told(&[shot, event(EventKind::Save, None, 11, None), on_target]), ["shot 9 ×1", "save 11 ×1"]);
+    }
+
+    #[test]
+    fn what_happens_again_is_counted_where_it_happened_last() {
+        let tackle = event(EventKind::Tackle, None, 3, Some(14));
+        let touch = event(EventKind::Touch, None, 3, None);
+        let slide = event(EventKind::Slide, None, 4, None);
+        assert_eq!(told(&[tackle, touch, slide, tackle]), ["slide 4 ×1", "tackle 3 on 14 ×2"]);
     }
 }

@@ -9,6 +9,7 @@ use super::stage::{self, TRAIL_STEPS};
 use super::view::Region;
 use super::{head, words};
 use crate::engine::event::Event;
+use crate::scenario::pitch::HALF_LENGTH_M;
 use tiny_skia::{Pixmap, PixmapMut, PixmapPaint, Transform};
 
 /// Width of a picture of one moment, pixels.
@@ -25,6 +26,9 @@ const AROUND_BALL_M: f32 = 10.0;
 /// Who comes as near to the ball as this is shown whole, with so much grass around him, metres.
 const NEAR_M: f32 = 18.0;
 const AROUND_PERSON_M: f32 = 3.5;
+/// The same of a goal.
+const NEAR_GOAL_M: f32 = 40.0;
+const AROUND_GOAL_M: f32 = 10.0;
 
 /// Draws an episode as a sheet of frames; none where a picture of its size can't be had.
 pub fn sheet(film: &Film) -> Option<Pixmap> {
@@ -65,13 +69,17 @@ pub fn frame(film: &Film, moment: usize) -> Option<Pixmap> {
     Some(page)
 }
 
-/// What of the pitch an episode needs: the ball's way, and those who come near it.
+/// What of the pitch an episode needs: the ball's way, those who come near it, a goal that is not far.
 fn region(film: &Film) -> Region {
+    let goal = [HALF_LENGTH_M as f32, 0.0];
     Region::around(film.scenes.iter().flat_map(|scene| {
-        let [x, y, _] = scene.ball;
-        let near = scene.people.iter().map(|person| person.pos);
-        let near = near.filter(move |pos| (pos[0] - x).hypot(pos[1] - y) < NEAR_M);
-        std::iter::once(([x, y], AROUND_BALL_M)).chain(near.map(|pos| (pos, AROUND_PERSON_M)))
+        let ball = [scene.ball[0], scene.ball[1]];
+        let within = move |place: [f32; 2], most_m: f32| (place[0] - ball[0]).hypot(place[1] - ball[1]) < most_m;
+        let people = scene.people.iter().map(|person| person.pos).filter(move |&pos| within(pos, NEAR_M));
+        let goals = [goal, [-goal[0], 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
+        std::iter::once((ball, AROUND_BALL_M))
+            .chain(people.map(|pos| (pos, AROUND_PERSON_M)))
+            .chain(goals.map(|goal| (goal, AROUND_GOAL_M)))
     }))
 }
 

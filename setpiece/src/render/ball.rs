@@ -45,8 +45,10 @@ fn height_m(scene: &Scene) -> f32 {
     (scene.ball[2] - BALL_RADIUS_M as f32).max(0.0)
 }
 
+/// Where it is drawn: above its shadow, but never beyond the picture's upper edge.
 fn lifted(view: &View, scene: &Scene) -> Point {
-    view.point(scene.ball[0], scene.ball[1] - LIFT * height_m(scene))
+    let middle = view.point(scene.ball[0], scene.ball[1] - LIFT * height_m(scene));
+    at(middle.x, middle.y.max(view.length(1.0)))
 }
 
 /// The way through the air, and in the grass its shadow.

@@ -161,6 +161,7 @@ codes! {
     UnknownReward = 9 Error "a reward is not in scope";
     UnknownCode = 10 Error "no report has this code";
     NoPicture = 11 Error "a picture can't be made";
+    NoStep = 12 Error "an episode has no such step";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

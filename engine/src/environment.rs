@@ -66,6 +66,10 @@ pub struct Environment {
     drawer: Drawer,
     drawn: Drawn,
     game: Match,
+    /// The match as the last stop of play left it, before the restart.
+    stopped: Box<Match>,
+    /// Play was stopped in the last step.
+    was_stopped: bool,
     judge: Judge,
     actors: Actors,
     events: Events,
@@ -96,9 +100,12 @@ impl Environment {
         let mut drawer = Drawer::new(&scenario);
         let mut drawn = drawer.draw_unchecked(&scenario, &bindings, &roster);
         apply_physics(&mut drawn, options.physics);
+        let game = football::begin(&drawn);
         Ok(Environment {
             ids: agent_ids(&scenario, &roster),
-            game: football::begin(&drawn),
+            stopped: Box::new(game.clone()),
+            was_stopped: false,
+            game,
             scenario,
             options,
             bindings,
@@ -135,6 +142,7 @@ impl Environment {
         self.seed = seed.unwrap_or(self.seed);
         self.begun = true;
         self.running = false;
+        self.was_stopped = false;
         self.outcome = None;
         self.events.clear();
         self.judged = 0;
@@ -177,7 +185,9 @@ impl Environment {
                 return Err(StepError::Script(Box::new(error)));
             }
         };
+        self.was_stopped = self.game.dead;
         if self.game.dead {
+            *self.stopped = self.game.clone();
             football::restart(&mut self.game, &mut self.events);
         }
         self.judge.settle(&self.game);
@@ -339,6 +349,11 @@ impl Environment {
     /// The match as it stands, after any restart.
     pub fn state(&self) -> &Match {
         &self.game
+    }
+
+    /// The match as the last step was judged: where play was stopped in it, as it lay before the restart.
+    pub fn judged_state(&self) -> &Match {
+        if self.was_stopped { &self.stopped } else { &self.game }
     }
 
     /// The start that was drawn.

@@ -70,7 +70,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
             }
             EpisodeError::Step(_) | EpisodeError::Endless(_) => "SetpieceError",
         },
-        Error::Threads(_) => "SetpieceError",
+        Error::Threads(_) | Error::NoStep { .. } => "SetpieceError",
         Error::Format { .. } | Error::Compile(_) => "FormatError",
     };
     Ok((class, error.to_string(), fields))

@@ -8,6 +8,9 @@ mod explain;
 mod fmt;
 mod out;
 mod play;
+mod playing;
+#[cfg(feature = "render")]
+mod render;
 mod summary;
 
 use crate::Error;
@@ -100,6 +103,13 @@ enum Command {
   setpiece run 11_vs_11_stochastic --set difficulty=0.95 --reward scoring --reward checkpoints
   setpiece run corner.pitch --watch")]
     Run(play::RunArgs),
+    /// Draw an episode as a sheet of frames, seen from above, or one moment of it large
+    #[cfg(feature = "render")]
+    #[command(after_help = "Examples:
+  setpiece render academy_corner -o corner.png
+  setpiece render corner.pitch --agent random --seed 7 -o sheet.png
+  setpiece render 11_vs_11_stochastic --step 120 -o frame.png")]
+    Render(render::RenderArgs),
 }
 
 /// How a compiled scenario is written.
@@ -146,6 +156,8 @@ fn run(args: Args) -> u8 {
         Command::Explain { code } => Ok(explain::explain(code.as_deref(), &out)),
         Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
+        #[cfg(feature = "render")]
+        Command::Render(args) => render::render(&args, &out),
     };
     match result {
         Ok(_) if out.failed() => {

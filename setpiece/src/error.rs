@@ -37,6 +37,13 @@ pub enum Error {
     Environment(EnvironmentError),
     /// An episode broke off: no start was found, a script's hook failed, or nothing ended it.
     Episode(Box<EpisodeError>),
+    /// An episode ended before the step that was asked for.
+    NoStep {
+        /// The step.
+        step: u32,
+        /// How many steps the episode has.
+        length: u32,
+    },
     /// Threads can't be had.
     Threads(String),
     /// A parameter can't be bound.
@@ -112,6 +119,7 @@ impl Error {
                 EpisodeError::Step(_) => Code::ScriptFailed,
                 EpisodeError::Endless(_) => Code::Endless,
             },
+            Error::NoStep { .. } => Code::NoStep,
             Error::Threads(_) => Code::NoThreads,
         }
     }
@@ -135,6 +143,7 @@ impl Error {
             Error::Environment(EnvironmentError::Reward { name, known }) => {
                 nearest(name, known.iter().map(String::as_str)).map(|name| format!("did you mean `{name}`?"))
             }
+            Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
             _ => None,
         }
     }
@@ -168,6 +177,8 @@ impl std::fmt::Display for Error {
             Error::Param { why, .. } => why.fmt(f),
             Error::Environment(why) => why.fmt(f),
             Error::Episode(why) => why.fmt(f),
+            Error::NoStep { step, length: 1 } => write!(f, "there is no step {step}: the episode has 1 step"),
+            Error::NoStep { step, length } => write!(f, "there is no step {step}: the episode has {length} steps"),
             Error::Threads(why) => f.write_str(why),
         }
     }

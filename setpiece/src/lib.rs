@@ -1,8 +1,8 @@
 //! Setpiece: football scenarios from text files, and the engine that runs them.
 //!
 //! The facade: what needs both the compiler and the engine. [`load`](mod@load) turns a name, path or text into a
-//! scenario, [`run`] plays episodes of it, [`watch`] recompiles it when its files change, [`probe`] looks for what only
-//! a dry run can find.
+//! scenario, [`run`] plays episodes of it, [`mod@render`] draws them, [`watch`] recompiles it when its files change, [`probe`] looks
+//! for what only a dry run can find.
 
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -16,6 +16,8 @@ pub mod live;
 pub mod load;
 pub mod picture;
 pub mod probe;
+#[cfg(feature = "render")]
+pub mod render;
 pub mod run;
 pub mod script_api;
 mod stdlib;

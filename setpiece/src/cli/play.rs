@@ -1,8 +1,7 @@
 //! `setpiece run`: episodes of a scenario, once or whenever its file changes.
 
-use super::{FAULT, FINE, out::Out, summary};
-use crate::engine::control::agents::Agent;
-use crate::engine::environment::{EnvironmentOptions, Physics};
+use super::{FAULT, FINE, out::Out, playing::Playing, summary};
+use crate::engine::environment::EnvironmentOptions;
 use crate::live::Live;
 use crate::run::{RunOptions, Summary, first_error, run};
 use crate::scenario::Scenario;
@@ -20,27 +19,14 @@ const TICK: Duration = Duration::from_millis(200);
 
 #[derive(Args, Debug)]
 pub(crate) struct RunArgs {
-    /// A scenario of the library, a .pitch file or a compiled .pitchc file
-    #[arg(value_name = "SCENARIO")]
-    scenario: String,
+    #[command(flatten)]
+    playing: Playing,
     /// How many episodes
     #[arg(short = 'n', long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
     episodes: u64,
-    /// Who plays for the agents
-    #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
-    agent: AgentName,
-    /// The seed: the same one gives the same episodes
-    #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
-    seed: u64,
-    /// Set a parameter of the scenario; may be repeated
-    #[arg(long, value_name = "PARAM=VALUE", value_parser = pair)]
-    set: Vec<(String, String)>,
     /// Pay this reward in place of the scenario's own; may be repeated, or several with commas between them
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     reward: Vec<String>,
-    /// How the ball's contacts are found [default: as the scenario says]
-    #[arg(long, value_enum)]
-    physics: Option<PhysicsName>,
     /// Threads; the results don't depend on them [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
     threads: Option<u16>,
@@ -53,27 +39,6 @@ pub(crate) struct RunArgs {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-#[value(rename_all = "snake_case")]
-enum AgentName {
-    /// The 19 actions at random
-    Random,
-    /// Nothing
-    Idle,
-    /// Sprints at goal, shoots from 16 m, chases the ball
-    RunAndShoot,
-    /// The built-in bot
-    Bot,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PhysicsName {
-    /// Rapier is asked where the ball comes near something hard
-    Gated,
-    /// Rapier runs on every tick
-    Full,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// A table
     Text,
@@ -81,19 +46,12 @@ pub(crate) enum Format {
     Json,
 }
 
-fn pair(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
-        _ => Err("write it as name=value".to_owned()),
-    }
-}
-
 /// Runs the command.
 pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     if args.watch {
         return watch(args, out);
     }
-    let loaded = crate::load(&args.scenario)?;
+    let loaded = crate::load(&args.playing.scenario)?;
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
     let summary = with_progress(&loaded, &options)?;
@@ -112,27 +70,15 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
 }
 
 fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
-    let pairs = args.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
-    let bindings = crate::bind(&loaded.scenario, pairs)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     Ok(RunOptions {
         episodes: 0..args.episodes,
-        seed: args.seed,
-        agent: match args.agent {
-            AgentName::Random => Agent::Random,
-            AgentName::Idle => Agent::Idle,
-            AgentName::RunAndShoot => Agent::RunAndShoot,
-            AgentName::Bot => Agent::Bot,
-        },
+        seed: args.playing.seed,
+        agent: args.playing.agent(),
         threads: args.threads.map_or(cores, usize::from),
         environment: EnvironmentOptions {
-            bindings: Some(bindings),
             rewards: (!args.reward.is_empty()).then(|| args.reward.clone()),
-            physics: args.physics.map(|physics| match physics {
-                PhysicsName::Gated => Physics::Gated,
-                PhysicsName::Full => Physics::Full,
-            }),
-            agents: None,
+            ..args.playing.environment(loaded)?
         },
     })
 }
@@ -157,10 +103,10 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 
 /// Runs episode by episode: a changed file takes effect at the next one, a broken one leaves the last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
-    let mut live = Live::open(&args.scenario)?;
+    let mut live = Live::open(&args.playing.scenario)?;
     out.warnings(live.loaded());
     if !live.is_watching() {
-        out.fault("SP0001", &format!("`{}` is no file: there is nothing to watch", args.scenario), None);
+        out.fault("SP0001", &format!("`{}` is no file: there is nothing to watch", args.playing.scenario), None);
         return Ok(FAULT);
     }
     let mut options = options(args, live.loaded())?;

@@ -1,0 +1,82 @@
+//! What commands that play episodes ask for alike: the scenario, its parameters, who plays, the seed, the physics.
+
+use crate::engine::control::agents::Agent;
+use crate::engine::environment::{EnvironmentOptions, Physics};
+use crate::{Error, Loaded};
+use clap::{Args, ValueEnum};
+
+#[derive(Args, Debug)]
+pub(crate) struct Playing {
+    /// A scenario of the library, a .pitch file or a compiled .pitchc file
+    #[arg(value_name = "SCENARIO")]
+    pub(crate) scenario: String,
+    /// Who plays for the agents
+    #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
+    agent: AgentName,
+    /// The seed: the same one gives the same episodes
+    #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    /// Set a parameter of the scenario; may be repeated
+    #[arg(long, value_name = "PARAM=VALUE", value_parser = pair)]
+    set: Vec<(String, String)>,
+    /// How the ball's contacts are found [default: as the scenario says]
+    #[arg(long, value_enum)]
+    physics: Option<PhysicsName>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+enum AgentName {
+    /// The 19 actions at random
+    Random,
+    /// Nothing
+    Idle,
+    /// Sprints at goal, shoots from 16 m, chases the ball
+    RunAndShoot,
+    /// The built-in bot
+    Bot,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PhysicsName {
+    /// Rapier is asked where the ball comes near something hard
+    Gated,
+    /// Rapier runs on every tick
+    Full,
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
+        _ => Err("write it as name=value".to_owned()),
+    }
+}
+
+impl Playing {
+    /// Who plays for the agents.
+    pub(crate) fn agent(&self) -> Agent {
+        match self.agent {
+            AgentName::Random => Agent::Random,
+            AgentName::Idle => Agent::Idle,
+            AgentName::RunAndShoot => Agent::RunAndShoot,
+            AgentName::Bot => Agent::Bot,
+        }
+    }
+
+    /// The parameters and the physics, with the scenario's own rewards.
+    ///
+    /// # Errors
+    /// [`Error::Param`] for a parameter that the scenario doesn't have, or a value that it doesn't allow.
+    pub(crate) fn environment(&self, loaded: &Loaded) -> Result<EnvironmentOptions, Error> {
+        let pairs = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+        Ok(EnvironmentOptions {
+            bindings: Some(crate::bind(&loaded.scenario, pairs)?),
+            rewards: None,
+            physics: self.physics.map(|physics| match physics {
+                PhysicsName::Gated => Physics::Gated,
+                PhysicsName::Full => Physics::Full,
+            }),
+            agents: None,
+        })
+    }
+}

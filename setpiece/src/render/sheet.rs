@@ -1,0 +1,129 @@
+//! Whole pictures: an episode as a sheet of frames, and one moment large.
+
+use super::canvas::{Canvas, at};
+use super::caption::{self, Caption};
+use super::colours::{CARD, PAGE};
+use super::film::Film;
+use super::moments::{Happening, choose};
+use super::stage::{self, TRAIL_STEPS};
+use super::view::Region;
+use super::{head, words};
+use crate::engine::event::Event;
+use crate::scenario::pitch::HALF_LENGTH_M;
+use tiny_skia::{Pixmap, PixmapMut, PixmapPaint, Transform};
+
+/// Width of a picture of one moment, pixels.
+const LARGE: u32 = 1680;
+/// Width of a sheet, pixels.
+const PAGE_WIDTH: u32 = 2580;
+/// Space around and between frames, pixels.
+const GAP: u32 = 20;
+/// Size of a caption's text in a sheet and under one large frame, pixels.
+const TEXT: f32 = 16.0;
+const LARGE_TEXT: f32 = 24.0;
+/// Grass around the ball's way, metres.
+const AROUND_BALL_M: f32 = 10.0;
+/// Who comes as near to the ball as this is shown whole, with so much grass around him, metres.
+const NEAR_M: f32 = 18.0;
+const AROUND_PERSON_M: f32 = 3.5;
+/// The same of a goal.
+const NEAR_GOAL_M: f32 = 40.0;
+const AROUND_GOAL_M: f32 = 10.0;
+
+/// Draws an episode as a sheet of frames; none where a picture of its size can't be had.
+pub fn sheet(film: &Film) -> Option<Pixmap> {
+    let happenings: Vec<Happening> =
+        film.events.iter().map(|(at, event)| Happening { at: *at, weight: words::weight(event) }).collect();
+    let region = region(film);
+    let columns = if region.aspect() < 1.2 { 5 } else { 4 };
+    let chosen = choose(film.scenes.len(), &happenings, columns as usize);
+    let before = std::iter::once(None).chain(chosen.iter().copied().map(Some));
+    let width = (PAGE_WIDTH - GAP) / columns - GAP;
+    let frames: Option<Vec<Frame<'_>>> = chosen
+        .iter()
+        .zip(before)
+        .map(|(&moment, before)| Frame::new(film, before, moment, region, (width, TEXT)))
+        .collect();
+    let frames = frames?;
+    let lines = frames.iter().map(|frame| frame.caption.lines()).max().unwrap_or_default();
+    let height = frames.first()?.picture.height() + caption::height(TEXT, lines).ceil() as u32;
+    let rows = (frames.len() as u32).div_ceil(columns);
+    let mut page = Pixmap::new(PAGE_WIDTH, head::HEIGHT + rows * (height + GAP))?;
+    let mut canvas = blank(&mut page);
+    head::draw(&mut canvas, film, GAP as f32);
+    for (place, frame) in frames.iter().enumerate() {
+        let (column, row) = (place as u32 % columns, place as u32 / columns);
+        frame.draw(&mut canvas, (GAP + column * (width + GAP), head::HEIGHT + row * (height + GAP)), height);
+    }
+    Some(page)
+}
+
+/// Draws one moment of a film large, with what happened on the way; none where there is no such moment.
+pub fn frame(film: &Film, moment: usize) -> Option<Pixmap> {
+    let frame = Frame::new(film, moment.checked_sub(TRAIL_STEPS), moment, Region::WHOLE, (LARGE, LARGE_TEXT))?;
+    let height = frame.picture.height() + caption::height(LARGE_TEXT, frame.caption.lines()).ceil() as u32;
+    let mut page = Pixmap::new(LARGE + 2 * GAP, head::HEIGHT + height + GAP)?;
+    let mut canvas = blank(&mut page);
+    head::draw(&mut canvas, film, GAP as f32);
+    frame.draw(&mut canvas, (GAP, head::HEIGHT), height);
+    Some(page)
+}
+
+/// What of the pitch an episode needs: the ball's way, those who come near it, a goal that is not far.
+fn region(film: &Film) -> Region {
+    let goal = [HALF_LENGTH_M as f32, 0.0];
+    Region::around(film.scenes.iter().flat_map(|scene| {
+        let ball = [scene.ball[0], scene.ball[1]];
+        let within = move |place: [f32; 2], most_m: f32| (place[0] - ball[0]).hypot(place[1] - ball[1]) < most_m;
+        let people = scene.people.iter().map(|person| person.pos).filter(move |&pos| within(pos, NEAR_M));
+        let goals = [goal, [-goal[0], 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
+        std::iter::once((ball, AROUND_BALL_M))
+            .chain(people.map(|pos| (pos, AROUND_PERSON_M)))
+            .chain(goals.map(|goal| (goal, AROUND_GOAL_M)))
+    }))
+}
+
+/// A page without anything on it.
+fn blank(page: &mut Pixmap) -> Canvas<'_> {
+    let [red, green, blue, opacity] = PAGE;
+    page.fill(tiny_skia::Color::from_rgba8(red, green, blue, opacity));
+    Canvas { pixels: page.as_mut() }
+}
+
+/// A frame: the picture, and its caption below.
+struct Frame<'a> {
+    picture: Pixmap,
+    caption: Caption<'a>,
+}
+
+impl<'a> Frame<'a> {
+    /// Draws a moment, and finds words for what happened since the one before.
+    fn new(
+        film: &'a Film,
+        before: Option<usize>,
+        moment: usize,
+        region: Region,
+        (width, size): (u32, f32),
+    ) -> Option<Frame<'a>> {
+        let mut picture = Pixmap::new(width, (width as f32 / region.aspect()).round() as u32)?;
+        let first = moment.saturating_sub(TRAIL_STEPS);
+        stage::draw(picture.as_mut(), film.scenes.get(first..=moment)?, region);
+        let since = film.events.iter().filter(|(at, _)| before.is_none_or(|before| *at > before) && *at <= moment);
+        let events: Vec<Event> = since.map(|(_, event)| *event).collect();
+        let caption = Caption::new(film, film.scenes.get(moment)?, size, width as f32, &events);
+        Some(Frame { picture, caption })
+    }
+
+    /// Lays it on a page.
+    fn draw(&self, canvas: &mut Canvas<'_>, (left, top): (u32, u32), height: u32) {
+        let corner = at(left as f32, top as f32);
+        canvas.card(corner, self.picture.width() as f32, height as f32, 8.0, CARD);
+        place(&mut canvas.pixels, &self.picture, left, top);
+        self.caption.draw(canvas, at(corner.x, corner.y + self.picture.height() as f32));
+    }
+}
+
+fn place(page: &mut PixmapMut<'_>, picture: &Pixmap, left: u32, top: u32) {
+    let paint = PixmapPaint::default();
+    page.draw_pixmap(left as i32, top as i32, picture.as_ref(), &paint, Transform::identity(), None);
+}

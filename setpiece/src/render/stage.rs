@@ -1,0 +1,32 @@
+//! A scene in a picture: the pitch, where everyone came from, everyone, the ball.
+
+use super::canvas::Canvas;
+use super::scene::Scene;
+use super::view::{Region, View};
+use super::{ball, people, pitch};
+use tiny_skia::PixmapMut;
+
+/// How many steps a trail goes back.
+pub const TRAIL_STEPS: usize = 12;
+
+/// Draws the last of some moments, and the way there, over a whole buffer of RGBA pixels.
+///
+/// - `moments`: in order, at most one step apart; trails go back to the last that was placed anew.
+/// - `region`: what is shown, over the whole width; the picture should have its [`aspect`](Region::aspect).
+pub fn draw(pixels: PixmapMut<'_>, moments: &[Scene], region: Region) {
+    let Some(now) = moments.last() else { return };
+    let view = View::new(region, pixels.width());
+    let mut canvas = Canvas { pixels };
+    pitch::draw(&mut canvas, &view);
+    let way = way(moments);
+    people::draw_trails(&mut canvas, &view, way);
+    people::draw(&mut canvas, &view, now);
+    ball::draw(&mut canvas, &view, way);
+}
+
+/// The moments that lead to the last one without a jump.
+fn way(moments: &[Scene]) -> &[Scene] {
+    let first = moments.iter().rposition(|scene| scene.placed).unwrap_or(0);
+    let first = first.max(moments.len().saturating_sub(TRAIL_STEPS + 1));
+    moments.get(first..).unwrap_or_default()
+}

@@ -1,0 +1,116 @@
+//! How the world lies in a picture.
+
+use crate::scenario::pitch::{RIM_X_M, RIM_Y_M};
+use tiny_skia::Point;
+
+/// A region is no smaller than this, metres.
+const LEAST_M: [f32; 2] = [46.0, 40.0];
+/// The narrowest and the widest region: its width over its height.
+const ASPECTS: [f32; 2] = [0.8, (RIM_X_M / RIM_Y_M) as f32];
+/// Beyond this share of the pitch's length or width all of it is shown.
+const NEARLY_ALL: f32 = 0.8;
+
+/// The part of the world that a picture shows, world metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// Its upper left corner.
+    pub corner_m: [f32; 2],
+    /// Its width and height.
+    pub size_m: [f32; 2],
+}
+
+impl Region {
+    /// The pitch with its rim.
+    pub const WHOLE: Region =
+        Region { corner_m: [-RIM_X_M as f32, -RIM_Y_M as f32], size_m: [2.0 * RIM_X_M as f32, 2.0 * RIM_Y_M as f32] };
+
+    /// Width over height.
+    pub fn aspect(&self) -> f32 {
+        self.size_m[0] / self.size_m[1]
+    }
+
+    /// The smallest region that shows these points, each with some metres of grass around it.
+    pub fn around(points: impl Iterator<Item = ([f32; 2], f32)>) -> Region {
+        let (mut low, mut high) = ([f32::MAX; 2], [f32::MIN; 2]);
+        for (point, margin_m) in points {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(point[axis] - margin_m);
+                high[axis] = high[axis].max(point[axis] + margin_m);
+            }
+        }
+        // Where there was no point at all, low is above high.
+        if low[0] > high[0] {
+            return Region::WHOLE;
+        }
+        let most = Region::WHOLE.size_m;
+        let span = |axis: usize| {
+            let span = (high[axis] - low[axis]).max(LEAST_M[axis]);
+            if span > NEARLY_ALL * most[axis] { most[axis] } else { span }
+        };
+        let width = span(0).max(span(1) * ASPECTS[0]);
+        // A width of all the pitch has its height too.
+        let size_m = [width, span(1).max(width / ASPECTS[1])];
+        let corner = |axis: usize| {
+            let (size, least) = (size_m[axis], Region::WHOLE.corner_m[axis]);
+            (f32::midpoint(low[axis], high[axis]) - size / 2.0).clamp(least, -least - size)
+        };
+        Region { corner_m: [corner(0), corner(1)], size_m }
+    }
+}
+
+/// A region laid over a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    region: Region,
+    scale: f32,
+}
+
+impl View {
+    /// The region over the whole width of a picture.
+    pub fn new(region: Region, width: u32) -> View {
+        View { region, scale: width as f32 / region.size_m[0] }
+    }
+
+    /// Where a point of the world lies, pixels.
+    pub fn point(&self, x_m: f32, y_m: f32) -> Point {
+        let [left, top] = self.region.corner_m;
+        Point { x: (x_m - left) * self.scale, y: (y_m - top) * self.scale }
+    }
+
+    /// A length in pixels.
+    pub fn length(&self, metres: f32) -> f32 {
+        metres * self.scale
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_region_shows_its_points_and_stays_on_the_pitch() {
+        let points = [[50.0, 30.0], [30.0, 10.0]];
+        let region = Region::around(points.into_iter().map(|point| (point, 8.0)));
+        assert!(region.size_m[0] < 60.0, "{region:?}");
+        for axis in 0..2 {
+            assert!(region.corner_m[axis] + region.size_m[axis] <= -Region::WHOLE.corner_m[axis], "{region:?}");
+        }
+        let view = View::new(region, 600);
+        for [x, y] in points {
+            let at = view.point(x, y);
+            assert!((0.0..600.0).contains(&at.x) && (0.0..600.0 / region.aspect()).contains(&at.y), "{at:?}");
+        }
+    }
+
+    #[test]
+    fn a_narrow_way_is_shown_upright() {
+        let across = Region::around([([50.0, -36.0], 8.0), ([50.0, 36.0], 8.0)].into_iter());
+        assert_eq!((across.aspect(), across.size_m[1]), (0.8, 80.0));
+    }
+
+    #[test]
+    fn a_long_way_is_shown_on_the_whole_pitch() {
+        assert_eq!(Region::around([([-50.0, 0.0], 8.0), ([50.0, 0.0], 8.0)].into_iter()), Region::WHOLE);
+        assert_eq!(Region::around(std::iter::empty()), Region::WHOLE);
+    }
+}

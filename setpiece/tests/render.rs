@@ -1,0 +1,212 @@
+//! `setpiece render`, by the real binary and by the library: what the pictures show.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use setpiece::engine::control::agents::Agent;
+use setpiece::engine::environment::EnvironmentOptions;
+use setpiece::engine::football::body::Pose;
+use setpiece::render::colours::{AGENT, Colour, shirt};
+use setpiece::render::view::View;
+use setpiece::render::{Film, FilmOptions, Region, Scene, draw, film, frame, sheet};
+use std::path::Path;
+use std::process::{Command, Output};
+use tiny_skia::{Pixmap, PixmapMut, Point};
+
+fn setpiece(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_setpiece")).args(args).current_dir(folder).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Runs it and reads the picture back.
+fn rendered(args: &[&str]) -> Pixmap {
+    let folder = tempfile::tempdir().unwrap();
+    let output = setpiece(folder.path(), &[&["render", "-o", "picture.png"], args].concat());
+    assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("picture.png"), "{}", text(&output.stdout));
+    Pixmap::load_png(folder.path().join("picture.png")).unwrap()
+}
+
+/// Runs it and expects one clear error, and no picture.
+fn fails(args: &[&str], code: i32, words: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let output = setpiece(folder.path(), &[&["render"], args].concat());
+    let told = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {told}");
+    for word in words {
+        assert!(told.contains(word), "{args:?}: no `{word}` in {told}");
+    }
+    assert!(!told.contains("panicked"), "{told}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{args:?}");
+}
+
+fn played(name: &str, agent: Agent) -> Film {
+    let options =
+        FilmOptions { seed: 0, episode: 0, agent, environment: EnvironmentOptions::default(), until_step: None };
+    film(&setpiece::load(name).unwrap().scenario, &options).unwrap()
+}
+
+/// A scene on the whole pitch, 10 pixels a metre.
+fn drawn(moments: &[Scene]) -> Pixmap {
+    let mut pixels = vec![0; 1200 * 800 * 4];
+    draw(PixmapMut::from_bytes(&mut pixels, 1200, 800).unwrap(), moments, Region::WHOLE);
+    let mut picture = Pixmap::new(1200, 800).unwrap();
+    picture.data_mut().copy_from_slice(&pixels);
+    picture
+}
+
+/// How many pixels of a colour lie within so many of a point.
+fn count(picture: &Pixmap, middle: Point, within: f32, [red, green, blue, _]: Colour) -> usize {
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let near = |index: usize| {
+        let (x, y) = ((index % width) as f32 - middle.x, (index / width) as f32 - middle.y);
+        x.hypot(y) <= within
+    };
+    let pixels = picture.pixels();
+    assert_eq!(pixels.len(), width * height);
+    let hit = |index: &usize| {
+        let pixel = pixels[*index].demultiply();
+        near(*index) && [pixel.red(), pixel.green(), pixel.blue()] == [red, green, blue]
+    };
+    (0..pixels.len()).filter(hit).count()
+}
+
+fn spot(x_m: f32, y_m: f32) -> Point {
+    View::new(Region::WHOLE, 1200).point(x_m, y_m)
+}
+
+#[test]
+fn a_sheet_is_a_picture_of_the_whole_episode() {
+    let picture = rendered(&["academy_3_vs_1_with_keeper", "--seed", "3", "--agent", "random"]);
+    assert_eq!(picture.width(), 2580);
+    assert!((1000..3500).contains(&picture.height()), "{}", picture.height());
+}
+
+#[test]
+fn a_step_is_one_large_frame() {
+    let start = rendered(&["academy_corner", "--step", "0"]);
+    let later = rendered(&["academy_corner", "--step", "10"]);
+    assert_eq!((start.width(), later.width()), (1720, 1720));
+    assert!(start.height() > 1200 && start.data() != later.data());
+}
+
+#[test]
+fn the_same_command_draws_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let draw = |name: &str, rest: &[&str]| {
+        let args = [&["render", "academy_counterattack_easy", "-o", name], rest].concat();
+        assert!(setpiece(folder.path(), &args).status.success());
+        std::fs::read(folder.path().join(name)).unwrap()
+    };
+    let first = draw("a.png", &[]);
+    assert_eq!(first, draw("b.png", &["--seed", "0", "--agent", "bot"]));
+    for other in [["--seed", "1"], ["--episode", "1"], ["--agent", "idle"], ["--set", "difficulty=0"]] {
+        assert_ne!(first, draw("c.png", &other), "{other:?}");
+    }
+}
+
+#[test]
+fn everybody_stands_in_his_colours_where_he_is() {
+    let film = played("academy_3_vs_1_with_keeper", Agent::Idle);
+    let start = &film.scenes[0];
+    let picture = drawn(&film.scenes[..1]);
+    assert_eq!(start.people.len(), 6);
+    for person in &start.people {
+        let (team, at) = (person.id.team(), spot(person.pos[0], person.pos[1]));
+        let cloth = shirt(team, person.keeper).cloth;
+        assert!(count(&picture, at, 12.0, cloth) > 80, "{person:?}");
+        let opposite = spot(-person.pos[0], person.pos[1] + 3.0);
+        assert_eq!(count(&picture, opposite, 5.0, cloth), 0, "{person:?}");
+        let ringed = count(&picture, at, 14.0, AGENT);
+        assert_eq!(person.agent, ringed > 60, "{person:?}: {ringed}");
+    }
+}
+
+#[test]
+fn poses_cards_and_the_way_a_player_faces_are_seen() {
+    let scene = &played("academy_3_vs_1_with_keeper", Agent::Idle).scenes[0];
+    let changed = |change: &dyn Fn(&mut setpiece::render::scene::Person)| {
+        let mut scene = scene.clone();
+        change(&mut scene.people[3]);
+        drawn(&[scene]).data().to_vec()
+    };
+    let mut pictures = vec![
+        changed(&|_| {}),
+        changed(&|person| person.facing = [0.0, 1.0]),
+        changed(&|person| person.yellow_cards = 1),
+        changed(&|person| person.agent = !person.agent),
+        changed(&|person| person.pose = Pose::Sliding),
+        changed(&|person| person.pose = Pose::Down),
+        changed(&|person| person.pose = Pose::Diving),
+    ];
+    let all = pictures.len();
+    pictures.sort();
+    pictures.dedup();
+    assert_eq!(pictures.len(), all);
+}
+
+#[test]
+fn the_height_of_the_ball_is_seen() {
+    let mut scene = played("academy_3_vs_1_with_keeper", Agent::Idle).scenes[0].clone();
+    scene.ball = [0.0, 20.0, 0.11];
+    let white = |scene: &Scene, y_m: f32| count(&drawn(std::slice::from_ref(scene)), spot(0.0, y_m), 4.0, AGENT);
+    assert!(white(&scene, 20.0) > 10);
+    scene.ball[2] = 5.0;
+    assert_eq!(white(&scene, 20.0), 0, "its shadow lies there");
+    assert!(white(&scene, 16.1) > 10, "it is drawn above it");
+}
+
+#[test]
+fn a_trail_leads_to_a_moment_but_never_over_a_restart() {
+    let film = played("academy_empty_goal", Agent::RunAndShoot);
+    let way = &film.scenes[..10];
+    assert_ne!(drawn(way).data(), drawn(&way[9..]).data());
+    let mut placed = way.to_vec();
+    placed[9].placed = true;
+    assert_eq!(drawn(&placed).data(), drawn(&way[9..]).data());
+}
+
+#[test]
+fn every_example_and_every_kind_of_agents_can_be_drawn() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(examples).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "pitch") {
+            let film = played(path.to_str().unwrap(), Agent::Random);
+            assert!(sheet(&film).is_some() && frame(&film, 0).is_some(), "{}", path.display());
+            seen += 1;
+        }
+    }
+    assert!(seen >= 19, "{seen}");
+    let match_of_all = played("11_vs_11_kaggle", Agent::Bot);
+    assert!((4000..=30_000_000).contains(&sheet(&match_of_all).unwrap().pixels().len()));
+}
+
+#[test]
+fn a_picture_that_cannot_be_made_is_one_clear_error() {
+    fails(&["academy_corner"], 2, &["--output"]);
+    for name in ["corner.jpg", "corner", "corner.svg"] {
+        fails(&["academy_corner", "-o", name], 1, &["SP0011", "name it `corner.png`"]);
+    }
+    fails(&["academy_corner", "-o", "no/such/folder/a.png"], 1, &["SP0001", "can't be written"]);
+    fails(&["academy_cornr", "-o", "a.png"], 1, &["SP0005", "did you mean `academy_corner`?"]);
+    fails(&["academy_corner", "-o", "a.png", "--set", "dificulty=1"], 1, &["SP0008", "did you mean `difficulty`?"]);
+    fails(&["academy_corner", "-o", "a.png", "--agent", "genius"], 2, &["--agent"]);
+    fails(&["academy_corner", "-o", "a.png", "--step", "-1"], 2, &["--step"]);
+    fails(&["academy_corner", "-o", "a.png", "--step", "9999"], 1, &["SP0012", "the episode has", "help: "]);
+}
+
+#[test]
+fn an_episode_without_an_end_is_drawn_up_to_a_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let endless = "scenario s { ball at centre  team left { CM at (-0.1, 0) } }";
+    std::fs::write(folder.path().join("endless.pitch"), endless).unwrap();
+    let output = setpiece(folder.path(), &["render", "endless.pitch", "-o", "a.png"]);
+    assert!(text(&output.stderr).contains("SP0703"), "{}", text(&output.stderr));
+    assert!(setpiece(folder.path(), &["render", "endless.pitch", "-o", "a.png", "--step", "30"]).status.success());
+    let output = setpiece(folder.path(), &["render", "endless.pitch", "-o", "endless.pitch"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(std::fs::read_to_string(folder.path().join("endless.pitch")).unwrap(), endless);
+}

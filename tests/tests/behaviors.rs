@@ -108,7 +108,7 @@ fn a_marker_stays_goal_side_of_his_man() {
             let goal = apart_m(marker.pos.x, marker.pos.y, 55.0, 0.0);
             let his = apart_m(man.pos.x, man.pos.y, 55.0, 0.0);
             let gap = apart_m(man.pos.x, man.pos.y, marker.pos.x, marker.pos.y);
-            assert!(gap < 5.0, "step {step}: {gap} m away");
+            assert!(gap < 6.0, "step {step}: {gap} m away");
             total += gap;
             seen += 1;
             goal_side += u32::from(goal < his + 0.5);
@@ -453,7 +453,9 @@ fn an_agent_wins_over_a_behavior() {
 
 #[test]
 fn the_presses_of_a_behavior_replayed_by_an_agent_give_the_same_match() {
-    let text = ARRIVE_AND_SHOOT.replace("CF at (0.3, 0) {", "anna: CF at (0.3, 0) {");
+    let text = ARRIVE_AND_SHOOT
+        .replace("offside: off", "offside: off, assist: off")
+        .replace("CF at (0.3, 0) {", "anna: CF at (0.3, 0) {");
     let mut scripted = environment(&text);
     let mut pressed = Vec::new();
     play(&mut scripted, 4, 200, |_, environment| pressed.push(environment.action_of(FIRST).unwrap()));

@@ -144,7 +144,7 @@ fn a_turned_match_is_the_turned_match() {
         Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle, ThrowIn,
     };
     let mut seen = Vec::new();
-    for (seed, start) in starts(SCRAMBLE, 40).iter().enumerate() {
+    for (seed, start) in starts(SCRAMBLE, 80).iter().enumerate() {
         play(start, seed as u64, 300, &mut seen);
     }
     for kind in [Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle, ThrowIn] {

@@ -248,7 +248,7 @@ fn a_ball_that_goes_out_after_a_foul_gives_the_free_kick_and_a_goal_counts() {
 
 #[test]
 fn a_card_or_a_penalty_is_not_let_run() {
-    for (spot, severity, mode) in [(10.0, 1.5, GameMode::FreeKick), (50.0, 1.2, GameMode::Penalty)] {
+    for (spot, severity, mode) in [(10.0, 1.6, GameMode::FreeKick), (50.0, 1.2, GameMode::Penalty)] {
         let mut bench = alone(&[], 0);
         bench.game.players[LEFT_MAN.index()].pos = Vec2::new(spot, 0.0);
         foul::call_or_let_run(&mut bench.game, &mut bench.events, RIGHT_MAN, LEFT_MAN, severity);

@@ -1,7 +1,9 @@
 //! The bench on which the game is measured.
 //!
 //! `lab calibrate [--check] [--only SECTION] [--count N]` sets our figures beside those measured of Google Research
-//! Football and writes them to `docs/calibration.md`; `cargo xtask calibrate` builds and calls it.
+//! Football and writes them to `docs/calibration.md`. `lab soak [--steps N] [--seed S]` holds scenarios made up at random
+//! to what must be true of any match and writes a line to `lab/soak.csv`. `cargo xtask calibrate` and `cargo xtask soak`
+//! build and call it.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod agents;
@@ -11,6 +13,7 @@ mod figure;
 mod matches;
 mod movement;
 mod pitch;
+mod soak;
 
 use std::process::ExitCode;
 
@@ -18,7 +21,8 @@ fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let result = match args.first().map(String::as_str) {
         Some("calibrate") => calibrate::calibrate(&args[1..]),
-        _ => Err("lab calibrate [--check] [--only SECTION] [--count N]".to_owned()),
+        Some("soak") => soak::soak(&args[1..]),
+        _ => Err("lab calibrate [--check] [--only SECTION] [--count N] | lab soak [--steps N] [--seed S]".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -24,6 +24,9 @@ fn main() -> ExitCode {
             println!(
                 "cargo xtask calibrate  [--check] [--only SECTION] [--count N]: our figures beside those measured of GRF"
             );
+            println!(
+                "cargo xtask soak    [--steps N] [--seed S]: long runs of scenarios made up at random; see lab/soak.csv"
+            );
             println!("cargo xtask schema  write docs/pitchc.schema.json");
             println!("cargo xtask tidy    the rules of the house: who may use whom, file lengths");
             println!(

@@ -48,13 +48,13 @@ pub fn advance(game: &mut Match) {
             Pose::Sliding => {
                 slow_down(player, 7.0);
                 pass_time(player, Pose::Down, 35);
-                player.pos += player.vel * DT;
+                go(player);
                 continue;
             }
             Pose::Down | Pose::Diving => {
                 slow_down(player, 12.0);
                 pass_time(player, Pose::Up, 0);
-                player.pos += player.vel * DT;
+                go(player);
                 continue;
             }
         }
@@ -71,9 +71,15 @@ pub fn advance(game: &mut Match) {
         let top = if has_ball { WITH_BALL * player.body.speed_top_mps } else { player.body.speed_top_mps };
         keep_inside(player.pos, &mut want);
         steer(player, want, top);
-        player.pos += player.vel * DT;
+        go(player);
         turn_body(player, ball);
     }
+}
+
+/// Carries a player along his velocity, no further than the rim.
+fn go(player: &mut Player) {
+    let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
+    player.pos = (player.pos + player.vel * DT).clamp(-rim, rim);
 }
 
 /// The velocity that brings a player to a point and stops him there.

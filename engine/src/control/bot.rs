@@ -61,6 +61,11 @@ impl View {
         }
     }
 
+    /// In how many seconds a team is at the ball.
+    fn soonest(game: &Match, team: Team) -> f32 {
+        game.play.chaser[team.index()].map_or(f32::MAX, |id| game.player(id).body.meet_s)
+    }
+
     /// Whether the team has the ball or is about to.
     pub fn attacks(&self, game: &Match) -> bool {
         if let Some(owner) = self.owner {
@@ -69,7 +74,11 @@ impl View {
         if let Some(pass) = game.play.pass {
             return pass.by.team() == self.team;
         }
-        game.possession == Some(self.team)
+        match game.possession {
+            Some(team) => team == self.team,
+            // Nobody has had it yet: whoever will be there first.
+            None => View::soonest(game, self.team) <= View::soonest(game, self.team.other()),
+        }
     }
 }
 

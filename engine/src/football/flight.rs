@@ -36,6 +36,8 @@ pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
         }
     }
     report::did(game, events, EventKind::Touch, by, None);
+    // A pass that springs off somebody is nobody's any more.
+    game.play.pass = game.play.pass.filter(|pass| pass.by == by);
     note(game, by, Touch::Sprang);
     game.play.kicked_by = None;
 }

@@ -2,6 +2,7 @@
 
 use crate::football::forecast::Forecast;
 use crate::football::play::ticks_since;
+use crate::physics::lines::{OUT_X, OUT_Y};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat, Team};
@@ -18,6 +19,10 @@ pub fn meeting(player: &Player, forecast: &Forecast, tick: u32) -> (Vec2, f32) {
     let mut last = (player.pos, 0.0);
     for (time_s, point) in forecast.from(tick) {
         let flat = point.truncate();
+        if flat.x.abs() > OUT_X || flat.y.abs() > OUT_Y {
+            // Off the pitch nobody follows it.
+            break;
+        }
         last = (flat, time_s);
         if point.z > PLAYABLE_M {
             continue;

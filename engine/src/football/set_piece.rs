@@ -12,6 +12,10 @@ use setpiece_scenario::vocabulary::{GameMode, Role, Team};
 const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
 /// A wall is built for free kicks nearer to goal than this, metres (the fact sheet's).
 pub const WALL_WITHIN_M: f32 = 40.0;
+/// How near two men stand at a set piece at the nearest, metres: about a body's breadth.
+const APART_M: f32 = 0.74;
+/// Times that a crowd is gone through until nobody stands in anybody.
+const SPREAD_PASSES: usize = 8;
 /// From one man of a wall to the next, metres.
 const WALL_SPACING_M: f32 = 0.75;
 
@@ -54,6 +58,34 @@ pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
         _ => Vec2::new(-0.7 * side, 0.0),
     };
     game.players[taker.index()].pos = restart.spot + behind;
+    spread_out(game, taker);
+}
+
+/// Moves those apart who would stand inside each other; the taker, keepers and a wall stay.
+fn spread_out(game: &mut Match, taker: PlayerId) {
+    for _ in 0..SPREAD_PASSES {
+        let mut moved = false;
+        for a in game.order() {
+            for b in game.order() {
+                let (first, second) = (game.player(a), game.player(b));
+                let stays = b == taker || second.role == Role::GK;
+                if a == b || stays || !first.active || !second.active {
+                    continue;
+                }
+                let between = second.pos - first.pos;
+                let distance = between.length();
+                if distance < APART_M {
+                    let away =
+                        if distance > 1e-3 { between / distance } else { Vec2::new(0.0, a.team().side() as f32) };
+                    game.players[b.index()].pos = first.pos + away * (APART_M + 0.01);
+                    moved = true;
+                }
+            }
+        }
+        if !moved {
+            return;
+        }
+    }
 }
 
 /// Where a player of a slot stands: his slot stretched over the part of the pitch that the set piece is about.
@@ -66,14 +98,14 @@ fn place_of(restart: Restart, team: Team, own: bool, slot: Vec2, index: usize) -
     let (back, front, width, pull_x, focus_x, pull_y) = match restart.mode {
         GameMode::GoalKick if own => (-0.62 * half_x, 0.15 * half_x, 0.85, 0.0, 0.0, 0.0),
         GameMode::GoalKick => (-0.45 * half_x, 0.40 * half_x, 0.7, 0.0, 0.0, 0.0),
-        GameMode::Corner if own => (0.05 * half_x, 0.88 * half_x, 0.45, 0.55, 0.84 * half_x, 0.1),
+        GameMode::Corner if own => (0.05 * half_x, 0.92 * half_x, 0.40, 0.65, 0.86 * half_x, 0.1),
         GameMode::Corner => (-0.95 * half_x, -0.55 * half_x, 0.42, 0.7, -0.88 * half_x, 0.1),
         GameMode::ThrowIn if own => (ball.x - 30.0, ball.x + 20.0, 0.8, 0.25, ball.x + 4.0, 0.45),
         GameMode::ThrowIn => (ball.x - 30.0, ball.x + 15.0, 0.8, 0.25, ball.x - 10.0, 0.4),
         GameMode::Penalty if own => (-0.2 * half_x, 0.65 * half_x, 0.7, 0.0, 0.0, 0.0),
         GameMode::Penalty => (-0.66 * half_x, 0.2 * half_x, 0.7, 0.0, 0.0, 0.0),
         _ if own => (ball.x - 32.0, ball.x + 22.0, 0.8, 0.1, ball.x + 8.0, 0.25),
-        _ => (ball.x - 34.0, ball.x + 12.0, 0.75, 0.2, ball.x - 14.0, 0.3),
+        _ => ((ball.x - 34.0).max(-46.0), (ball.x + 12.0).max(-30.0), 0.75, 0.2, (ball.x - 14.0).max(-42.0), 0.3),
     };
     let x = back + share * (front - back);
     let x = x + (focus_x - x) * pull_x;

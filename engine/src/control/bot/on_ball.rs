@@ -357,7 +357,7 @@ fn run_worth(game: &Match, view: &View, id: PlayerId, way: Vec2) -> (f32, f32) {
         }
         let cos = if distance > 0.1 { to_rival.dot(way) / distance } else { 1.0 };
         let threat = if cos > 0.0 {
-            (1.0 - distance / (2.5 + 5.0 * cos)).max(0.0)
+            (1.0 - distance / (2.5 + 7.0 * cos)).max(0.0)
         } else {
             (1.0 - distance / 2.5).max(0.0) * 0.5
         };

@@ -188,8 +188,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def restore(self, snapshot: bytes) -> tuple[Any, dict[str, Any]]:
         """Goes on where a snapshot was taken, by whichever environment of this scenario, rewards and agents.
 
-        Returns the observation and `info` of the step after which it was taken; every later step is that of the straight
-        run. Raises `SnapshotError` for anything else, and nothing has changed then.
+        Returns the observation and `info` of the step after which it was taken; every later step is that of the
+        straight run. Raises `SnapshotError` for anything else, and nothing has changed then.
         """
         snapshot = _check_snapshot(snapshot)
         with _one_thread():
@@ -216,7 +216,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return deepcopy(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Copies and pickles are made of the scenario and a snapshot."""
+        """Makes copies and pickles of the scenario and a snapshot."""
         kwargs = {**self._options, "scenario": self.scenario, "seed": self._first_seed, "render_mode": self.render_mode}
         snapshot = None if self._native.episode is None else self.snapshot()
         return _revived, (kwargs, snapshot, self.spec, self._np_random, self._np_random_seed)
@@ -348,7 +348,7 @@ def make(
 def _revived(
     kwargs: dict[str, Any], snapshot: bytes | None, spec: EnvSpec | None, random: Any, random_seed: int | None
 ) -> FootballEnv:
-    """The environment of a pickle."""
+    """Returns the environment of a copy or pickle."""
     env = FootballEnv(**kwargs)
     if snapshot is not None:
         env.restore(snapshot)

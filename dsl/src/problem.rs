@@ -162,6 +162,7 @@ codes! {
     UnknownCode = 10 Error "no report has this code";
     NoPicture = 11 Error "a picture can't be made";
     NoStep = 12 Error "an episode has no such step";
+    BadSnapshot = 13 Error "a snapshot can't be used";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

@@ -214,7 +214,7 @@ impl Batch {
         &self.environments
     }
 
-    /// The environments, to reset.
+    /// The environments, to reset or to restore.
     pub fn environments_mut(&mut self) -> &mut [Environment] {
         &mut self.environments
     }

@@ -2,13 +2,15 @@
 //!
 //! Decides the order within a step: the agents' actions and ten ticks of play, the judge on the state as it stands, then
 //! the restart that a stop calls for. What is observed afterwards therefore shows the restart; what was judged is the
-//! state before it. Holds what lives as long as an episode; a clone is a snapshot.
+//! state before it. Holds what lives as long as an episode; a clone goes on as the original does, and [`snapshot`] makes
+//! bytes of it.
 
 mod error;
+mod snapshot;
 
 pub use crate::draw::{AgentsChoice, SideChoice};
 pub use crate::physics::Scratch;
-pub use error::{EnvironmentError, StepError};
+pub use error::{EnvironmentError, ResetError, StepError};
 
 use crate::control::behavior::Actors;
 use crate::draw::{DrawError, Drawer, Roster};
@@ -17,6 +19,7 @@ use crate::football;
 use crate::judge::script::Scripts;
 use crate::judge::{Judge, Outcome, Recorded};
 use crate::observe::ObserveError;
+use crate::snapshot::begin_from;
 use crate::start::Drawn;
 use crate::state::{AgentSlot, Match, PlayerId};
 use crate::statistics::Statistics;
@@ -35,6 +38,8 @@ pub struct EnvironmentOptions {
     pub physics: Option<Physics>,
     /// Agents in place of the scenario's own.
     pub agents: Option<AgentsChoice>,
+    /// A [snapshot](Environment::snapshot) in whose state every episode begins, in place of the scenario's start.
+    pub from: Option<Arc<[u8]>>,
 }
 
 /// How the ball's contacts are found.
@@ -59,7 +64,10 @@ pub struct StepResult {
 #[derive(Clone, Debug)]
 pub struct Environment {
     scenario: Arc<Scenario>,
+    scenario_digest: u64,
     options: EnvironmentOptions,
+    /// The state that every episode begins in, where the options have one.
+    past: Option<Arc<Match>>,
     bindings: Bindings,
     roster: Roster,
     ids: Arc<[String]>,
@@ -78,7 +86,10 @@ pub struct Environment {
     statistics: Statistics,
     /// The episode can be stepped.
     running: bool,
+    /// A reset has been tried.
     begun: bool,
+    /// And has found a start.
+    started: bool,
     outcome: Option<Outcome>,
     seed: u64,
     index: u64,
@@ -89,7 +100,7 @@ impl Environment {
     ///
     /// # Errors
     /// [`EnvironmentError`] for a reward, parameter or number of agents that the scenario doesn't have, or a script
-    /// that is not Rhai.
+    /// that is not Rhai, and for a snapshot to begin from that is none or of other players or agents.
     pub fn new(scenario: Arc<Scenario>, options: EnvironmentOptions) -> Result<Environment, EnvironmentError> {
         let bindings = bound(&scenario, options.bindings.as_ref())?;
         let scripts = Scripts::compile(&scenario)?;
@@ -101,11 +112,13 @@ impl Environment {
         let mut drawn = drawer.draw_unchecked(&scenario, &bindings, &roster);
         apply_physics(&mut drawn, options.physics);
         let game = football::begin(&drawn);
-        Ok(Environment {
+        let mut environment = Environment {
             ids: agent_ids(&scenario, &roster),
             stopped: Box::new(game.clone()),
             was_stopped: false,
             game,
+            scenario_digest: digest_of(&scenario),
+            past: None,
             scenario,
             options,
             bindings,
@@ -119,10 +132,14 @@ impl Environment {
             statistics: Statistics::default(),
             running: false,
             begun: false,
+            started: false,
             outcome: None,
             seed: 0,
             index: 0,
-        })
+        };
+        let from = environment.options.from.clone();
+        environment.past = from.map(|from| environment.past(&from)).transpose()?.map(Arc::new);
+        Ok(environment)
     }
 
     /// Begins an episode.
@@ -133,6 +150,12 @@ impl Environment {
     /// # Errors
     /// [`DrawError`] where no start meets the scenario's requirements; the environment must be reset again then.
     pub fn reset(&mut self, seed: Option<u64>, index: Option<u64>) -> Result<(), DrawError> {
+        let past = self.past.clone();
+        self.begin(seed, index, past.as_deref())
+    }
+
+    /// Begins an episode at a start that the scenario draws, or in an old state.
+    fn begin(&mut self, seed: Option<u64>, index: Option<u64>, past: Option<&Match>) -> Result<(), DrawError> {
         self.index = match (seed, index) {
             (_, Some(index)) => index,
             (Some(_), None) => 0,
@@ -149,6 +172,10 @@ impl Environment {
         self.drawn = self.drawer.draw(&self.scenario, &self.bindings, &self.roster, self.seed, self.index)?;
         apply_physics(&mut self.drawn, self.options.physics);
         self.game = football::begin(&self.drawn);
+        if let Some(past) = past {
+            self.game = begin_from(past, &self.game);
+        }
+        self.started = true;
         self.judge.reset(&self.game, &self.drawn, &self.bindings.0);
         self.actors.reset(&self.game, &self.drawn, &self.bindings.0);
         self.statistics = Statistics::begin(&self.game);
@@ -213,6 +240,7 @@ impl Environment {
             self.actors.adopt(scripts.clone());
             self.judge.adopt(scripts);
             self.scenario = scenario.clone();
+            self.scenario_digest = digest_of(scenario);
         }
         Ok(same)
     }
@@ -341,6 +369,11 @@ impl Environment {
         self.judge.endings().holds_at_start()
     }
 
+    /// Whether an episode has been asked for.
+    pub fn has_begun(&self) -> bool {
+        self.begun
+    }
+
     /// Whether the episode can be stepped.
     pub fn is_running(&self) -> bool {
         self.running
@@ -395,6 +428,11 @@ impl Environment {
     pub fn digest(&self) -> u64 {
         crate::digest::of_match(&self.game)
     }
+}
+
+/// The scenario's digest; one that no file could hold has none.
+fn digest_of(scenario: &Scenario) -> u64 {
+    setpiece_scenario::file::digest(scenario).unwrap_or_default()
 }
 
 fn bound(scenario: &Scenario, bindings: Option<&Bindings>) -> Result<Bindings, EnvironmentError> {

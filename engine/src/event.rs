@@ -8,7 +8,7 @@ use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
 pub const EVENTS_MAX: usize = 128;
 
 /// Something that happened.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Event {
     /// Ticks since the episode's start.
     pub tick: u32,
@@ -31,7 +31,7 @@ pub struct Event {
 }
 
 /// The events of a step: a buffer that is reused.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, serde::Serialize, serde::Deserialize)]
 pub struct Events {
     list: Vec<Event>,
     dropped: u32,

@@ -30,6 +30,7 @@ pub use view::{Memory, Sight, View};
 
 use crate::event::Events;
 use crate::random::Purpose;
+use crate::snapshot::{Archive, SnapshotError};
 use crate::start::Drawn;
 use crate::state::Match;
 use known::Known;
@@ -118,6 +119,21 @@ impl Judge {
         self.endings.reset(&input);
         self.rewards.reset(game, &input);
         self.records.reset(game, &input);
+    }
+
+    /// Writes or reads an episode's memory; on the way in [`Self::reset`] has come before.
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        archive.value("prev", &mut self.prev)?;
+        archive.value("before", &mut self.before)?;
+        self.known.pass(archive)?;
+        archive.part("endings", |archive| self.endings.pass(archive))?;
+        archive.part("rewards", |archive| self.rewards.pass(archive))?;
+        archive.part("records", |archive| self.records.pass(archive))
+    }
+
+    /// The parameters of the episode; none before the first.
+    pub(crate) fn params(&self) -> &[f64] {
+        self.known.params()
     }
 
     /// Judges a step: `game` stands before any restart. Where the episode ends, the event `end` is added.

@@ -5,6 +5,7 @@
 //! - [`judge`]: rewards and endings, from the state and its events.
 //! - [`observe`]: the state written into the caller's buffers.
 //! - [`environment`]: one match and its judge, as an agent meets them; [`batch`]: many.
+//! - [`snapshot`]: an episode as bytes, and back.
 //! - [`statistics`], [`digest`]: what a match was like, and a fingerprint of its state.
 
 pub mod batch;
@@ -19,6 +20,7 @@ pub mod math;
 pub mod observe;
 pub mod physics;
 pub mod random;
+pub mod snapshot;
 pub mod start;
 pub mod state;
 pub mod statistics;

@@ -27,7 +27,7 @@ pub enum Purpose {
 const ATTEMPTS_MAX: usize = 1000;
 
 /// A stream of random numbers.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Stream(Pcg32);
 
 impl Stream {

@@ -7,7 +7,7 @@ use setpiece_scenario::vocabulary::{Role, Rule, StartKind, Stat, Team};
 use setpiece_scenario::{Ai, Others};
 
 /// One concrete start.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Drawn {
     /// The seed the match's own streams are keyed by.
     pub seed: u64,
@@ -48,7 +48,7 @@ pub struct Drawn {
 }
 
 /// A player of a concrete start.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct DrawnPlayer {
     /// His role.
     pub role: Role,
@@ -75,7 +75,7 @@ pub struct DrawnPlayer {
 }
 
 /// An agent of a concrete start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct DrawnAgent {
     /// Its team.
     pub team: Team,

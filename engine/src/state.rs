@@ -12,7 +12,16 @@ use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// A player: `team * 11 + index`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "u8")]
 pub struct PlayerId(pub u8);
+
+impl TryFrom<u8> for PlayerId {
+    type Error = &'static str;
+
+    fn try_from(id: u8) -> Result<PlayerId, &'static str> {
+        if usize::from(id) < PLAYERS_MAX { Ok(PlayerId(id)) } else { Err("a player's id is below 22") }
+    }
+}
 
 impl PlayerId {
     /// The id of a team's player.
@@ -37,7 +46,7 @@ impl PlayerId {
 }
 
 /// The ball: world metres, m/s, rad/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ball {
     /// Its centre.
     pub pos: Vec3,
@@ -48,7 +57,7 @@ pub struct Ball {
 }
 
 /// One simulation: no heap but the agent list's inline storage, no engine handle; `clone` is a copy.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Match {
     /// Ticks of 10 ms since the start, dead time not counted.
     pub tick: u32,
@@ -124,7 +133,7 @@ impl Match {
 }
 
 /// A player: what everyone may see of him. What `football` needs beside it stands in his `body`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Player {
     /// Belongs to the roster of this episode.
     pub present: bool,
@@ -153,7 +162,7 @@ pub struct Player {
 }
 
 /// An agent's slot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct AgentSlot {
     /// Its team.
     pub team: Team,

@@ -13,7 +13,7 @@ const CROWD_M: f32 = 8.0;
 const RUN_MAX_M: f32 = 1.5;
 
 /// Figures of one team.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TeamStatistics {
     /// Passes struck.
     pub passes_attempted: u32,
@@ -54,7 +54,7 @@ pub struct TeamStatistics {
 }
 
 /// Figures of a match, counted as it is played.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Statistics {
     teams: [TeamStatistics; 2],
     steps: u32,

@@ -26,6 +26,7 @@ from setpiece._errors import (
     RewardError,
     ScriptError,
     SetpieceError,
+    SnapshotError,
     UnknownScenarioError,
 )
 from setpiece._library import Entry, list, register_envs
@@ -54,6 +55,7 @@ __all__ = [
     "Scenario",
     "ScriptError",
     "SetpieceError",
+    "SnapshotError",
     "UnknownScenarioError",
     "__version__",
     "compile",

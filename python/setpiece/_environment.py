@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from copy import deepcopy
 from operator import index
 from os import PathLike, fspath
 from typing import Any, Literal
@@ -21,7 +23,7 @@ from setpiece._spaces import action_space, check_observation, observation_space
 ParamValue = bool | int | float | str
 """A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
 
-RESET_OPTIONS = ("episode", "params")
+RESET_OPTIONS = ("episode", "params", "snapshot")
 NUMBER_MAX = 2**64 - 1
 
 
@@ -115,12 +117,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         - `seed`: 0..2**64-1; begins a new series of episodes at index 0. Without it the index counts on. The start and
           the play are a function of seed, index, parameters and actions.
         - `options`: `{"params": {…}}` binds parameters for this and the following episodes, until other `params` are
-          given; `{"episode": n}` sets the index.
+          given; `{"episode": n}` sets the index; `{"snapshot": bytes}` begins this episode in the state that a snapshot
+          was taken in, of this scenario or of another with the same players and agents: places, ball, whatever goes on,
+          score, cards, fatigue and clock are the snapshot's, rules, difficulty and limit the scenario's; rewards,
+          records and random numbers begin anew.
 
-        Raises `ParameterError` for options or parameters that are not there, `DrawError` where no start meets the
-        scenario's requirements.
+        Raises `ParameterError` for options or parameters that are not there, `SnapshotError` for a snapshot that does
+        not fit, `DrawError` where no start meets the scenario's requirements.
         """
-        episode, params = _read_options(options)
+        episode, params, snapshot = _read_options(options)
         if seed is None and self._seed is None:
             seed = self._first_seed
         if seed is not None:
@@ -134,13 +139,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._playing = False
         if self._live is not None:
             self._follow(self._live)
-        try:
-            observation, info = self._native.reset(number, at, params)
-        except RuntimeError as error:
-            # The binding's word for a second thread.
-            if "borrowed" not in str(error):
-                raise
-            raise InUseError("another thread is using this environment: make one for each thread") from None
+        with _one_thread():
+            observation, info = self._native.reset(number, at, params, snapshot)
         if self._live is not None:
             info["scenario"] = self._digest
         # A reset that fails leaves no trace but that nothing is being played.
@@ -174,6 +174,52 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if not self._playing:
             result[4]["setpiece"]["scenario"] = self._digest
         return result
+
+    def snapshot(self) -> bytes:
+        """Returns the whole episode as it stands, in some kilobytes: see `restore`.
+
+        The bytes hold the match in the middle of whatever goes on, rewards, records, scripts' memory and the streams of
+        random numbers; they are the same on every machine, and good for this version of the scenario. Raises
+        `SnapshotError` where a script keeps a function in its memory.
+        """
+        with _one_thread():
+            return self._native.snapshot()
+
+    def restore(self, snapshot: bytes) -> tuple[Any, dict[str, Any]]:
+        """Goes on where a snapshot was taken, by whichever environment of this scenario, rewards and agents.
+
+        Returns the observation and `info` of the step after which it was taken; every later step is that of the
+        straight run. Raises `SnapshotError` for anything else, and nothing has changed then.
+        """
+        snapshot = _check_snapshot(snapshot)
+        with _one_thread():
+            observation, info = self._native.restore(snapshot)
+        episode = self._native.episode
+        if episode is not None:
+            self._seed, self._index = episode[0], (episode[1] + 1) & NUMBER_MAX
+            self._params = self._native.params
+        self._playing = self._native.running
+        if "setpiece" in info:
+            info["setpiece"]["scenario"] = self._digest
+        return observation, info
+
+    def clone(self) -> FootballEnv:
+        """Returns an independent environment in the same state; it watches no files.
+
+        >>> import setpiece
+        >>> env = setpiece.make("academy_corner")
+        >>> _ = env.reset(seed=1)
+        >>> other = env.clone()
+        >>> env.step(setpiece.Action.SHOT)[1] == other.step(setpiece.Action.SHOT)[1]
+        True
+        """
+        return deepcopy(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Makes copies and pickles of the scenario and a snapshot."""
+        kwargs = {**self._options, "scenario": self.scenario, "seed": self._first_seed, "render_mode": self.render_mode}
+        snapshot = None if self._native.episode is None else self.snapshot()
+        return _revived, (kwargs, snapshot, self.spec, self._np_random, self._np_random_seed)
 
     def _follow(self, live: Live) -> None:
         """Takes over what has changed in the scenario's files since the last reset."""
@@ -299,6 +345,29 @@ def make(
     return env
 
 
+def _revived(
+    kwargs: dict[str, Any], snapshot: bytes | None, spec: EnvSpec | None, random: Any, random_seed: int | None
+) -> FootballEnv:
+    """Returns the environment of a copy or pickle."""
+    env = FootballEnv(**kwargs)
+    if snapshot is not None:
+        env.restore(snapshot)
+    env.spec = spec
+    env._np_random, env._np_random_seed = random, random_seed
+    return env
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    try:
+        yield
+    except RuntimeError as error:
+        # The binding's word for a second thread.
+        if "borrowed" not in str(error):
+            raise
+        raise InUseError("another thread is using this environment: make one for each thread") from None
+
+
 def _agents(native: _native.Environment) -> tuple[str, ...]:
     return tuple(agent.id for agent in native.agents)
 
@@ -324,7 +393,15 @@ def _check_number(name: str, value: object) -> int:
     return number
 
 
-def _read_options(options: Mapping[str, Any] | None) -> tuple[int | None, dict[str, ParamValue] | None]:
+def _check_snapshot(snapshot: object) -> bytes:
+    if isinstance(snapshot, bytes | bytearray | memoryview):
+        return bytes(snapshot)
+    raise ParameterError(f"expected a snapshot as bytes, found `{type(snapshot).__name__}`", name="snapshot")
+
+
+def _read_options(
+    options: Mapping[str, Any] | None,
+) -> tuple[int | None, dict[str, ParamValue] | None, bytes | None]:
     options = {} if options is None else options
     if not isinstance(options, Mapping):
         raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
@@ -337,4 +414,7 @@ def _read_options(options: Mapping[str, Any] | None) -> tuple[int | None, dict[s
     episode = options.get("episode")
     if episode is not None:
         episode = _check_number("episode", episode)
-    return episode, None if params is None else dict(params)
+    snapshot = options.get("snapshot")
+    if snapshot is not None:
+        snapshot = _check_snapshot(snapshot)
+    return episode, None if params is None else dict(params), snapshot

@@ -132,6 +132,10 @@ class ScriptError(SetpieceError):
         self.hook, self.seed, self.episode, self.step = hook, seed, episode, step
 
 
+class SnapshotError(SetpieceError, ValueError):
+    """Bytes are no snapshot, damaged, of another scenario, or of other players; the environment is untouched."""
+
+
 class ActionError(SetpieceError, ValueError):
     """An action is of another type or shape, or out of range; the episode is untouched."""
 

@@ -2,15 +2,16 @@
 
 use crate::info::InfoWriter;
 use crate::observation::{Kind, Observer};
-use crate::params::bind;
+use crate::params::{bind, to_python};
 use crate::scenario::Scenario;
 use crate::{actions, errors};
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 use setpiece::Error;
 use setpiece::engine::batch::EpisodeError;
-use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, Scratch};
+use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, ResetError, Scratch};
+use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::pitch::TEAM_MAX;
 use setpiece::scenario::{Action, Team};
@@ -99,19 +100,64 @@ impl Environment {
         self.engine.adopt_scripts(scenario.inner()).map_err(|error| from_engine(py, error))
     }
 
-    /// Begins the episode of a seed and an index under parameters; returns observation and info.
+    /// Begins the episode of a seed and an index under parameters, in the state of a snapshot where there is one;
+    /// returns observation and info.
+    #[pyo3(signature = (seed, episode, params, snapshot = None))]
     fn reset<'py>(
         &mut self,
         py: Python<'py>,
         seed: u64,
         episode: u64,
         params: &Bound<'py, PyDict>,
+        snapshot: Option<&[u8]>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         let bindings = bind(py, &self.engine.scenario().params, params)?;
         self.engine.set_bindings(&bindings).map_err(|error| from_engine(py, error))?;
         let engine = &mut self.engine;
-        py.detach(|| engine.reset(Some(seed), Some(episode))).map_err(|why| from_episode(py, why.into()))?;
-        Ok((self.observer.observe(py, &mut self.engine)?, self.info.write(py, &self.engine)?))
+        py.detach(|| match snapshot {
+            Some(snapshot) => engine.reset_from(snapshot, Some(seed), Some(episode)),
+            None => Ok(engine.reset(Some(seed), Some(episode))?),
+        })
+        .map_err(|why| match why {
+            ResetError::Snapshot(why) => from_snapshot(py, why),
+            ResetError::Draw(why) => from_episode(py, why.into()),
+        })?;
+        self.seen(py)
+    }
+
+    /// The episode as bytes.
+    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = py.detach(|| self.engine.snapshot()).map_err(|why| from_snapshot(py, why))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// Goes on where a snapshot was taken; returns the observation and info of its step.
+    fn restore<'py>(&mut self, py: Python<'py>, snapshot: &[u8]) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
+        let engine = &mut self.engine;
+        py.detach(|| engine.restore(snapshot)).map_err(|why| from_snapshot(py, why))?;
+        self.seen(py)
+    }
+
+    /// Seed and index of the episode; None before the first.
+    #[getter]
+    fn episode(&self) -> Option<(u64, u64)> {
+        self.engine.has_begun().then(|| (self.engine.seed(), self.engine.index()))
+    }
+
+    /// Whether it can be stepped.
+    #[getter]
+    fn running(&self) -> bool {
+        self.engine.is_running()
+    }
+
+    /// The parameters' values, by name.
+    #[getter]
+    fn params<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let params = PyDict::new(py);
+        for (param, &value) in self.engine.scenario().params.iter().zip(&self.engine.bindings().0) {
+            params.set_item(&param.name, to_python(py, param, value)?)?;
+        }
+        Ok(params)
     }
 
     /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the interpreter meanwhile.
@@ -137,6 +183,17 @@ impl Environment {
     fn drawing(&self) -> String {
         setpiece::drawing::draw(self.engine.state())
     }
+}
+
+impl Environment {
+    /// What is observed, and the info.
+    fn seen<'py>(&mut self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
+        Ok((self.observer.observe(py, &mut self.engine)?, self.info.write(py, &self.engine)?))
+    }
+}
+
+fn from_snapshot(py: Python<'_>, why: SnapshotError) -> PyErr {
+    errors::from_facade(py, &Error::Snapshot(why))
 }
 
 fn from_engine(py: Python<'_>, error: EnvironmentError) -> PyErr {

@@ -56,6 +56,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
             fields.set_item("name", param_name(why))?;
             "ParameterError"
         }
+        Error::Snapshot(_) => "SnapshotError",
         Error::Environment(why) => {
             if let EnvironmentError::Param(why) = why {
                 fields.set_item("name", param_name(why))?;
@@ -80,6 +81,7 @@ fn environment_class(why: &EnvironmentError) -> &'static str {
     match why {
         EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => "RewardError",
         EnvironmentError::Param(_) | EnvironmentError::Bindings { .. } | EnvironmentError::Roster => "ParameterError",
+        EnvironmentError::Snapshot(_) => "SnapshotError",
         EnvironmentError::Agents(_) | EnvironmentError::Script(_) => "SetpieceError",
     }
 }

@@ -11,6 +11,7 @@ mod play;
 mod playing;
 #[cfg(feature = "render")]
 mod render;
+mod snapshot;
 mod summary;
 
 use crate::Error;
@@ -101,7 +102,8 @@ enum Command {
   setpiece run academy_3_vs_1_with_keeper
   setpiece run corner.pitch --agent run_and_shoot --episodes 100 --seed 1
   setpiece run 11_vs_11_stochastic --set difficulty=0.95 --reward scoring --reward checkpoints
-  setpiece run corner.pitch --watch")]
+  setpiece run corner.pitch --watch
+  setpiece run 11_vs_11_stochastic --from half_time.pitchs")]
     Run(play::RunArgs),
     /// Draw an episode as a sheet of frames, seen from above, or one moment of it large
     #[cfg(feature = "render")]
@@ -110,6 +112,11 @@ enum Command {
   setpiece render corner.pitch --agent random --seed 7 -o sheet.png
   setpiece render 11_vs_11_stochastic --step 120 -o frame.png")]
     Render(render::RenderArgs),
+    /// Play into an episode and write the state it is in: what `run --from` begins from
+    #[command(after_help = "Examples:
+  setpiece snapshot 11_vs_11_stochastic --step 1500 -o half_time.pitchs
+  setpiece snapshot corner.pitch --agent run_and_shoot --seed 3 --step 12 -o shot.pitchs")]
+    Snapshot(snapshot::SnapshotArgs),
 }
 
 /// How a compiled scenario is written.
@@ -158,6 +165,7 @@ fn run(args: Args) -> u8 {
         Command::Run(args) => play::run_command(&args, &out),
         #[cfg(feature = "render")]
         Command::Render(args) => render::render(&args, &out),
+        Command::Snapshot(args) => snapshot::snapshot(&args, &out),
     };
     match result {
         Ok(_) if out.failed() => {

@@ -4,6 +4,7 @@ use setpiece_dsl::problem::{Code, Problem, nearest};
 use setpiece_dsl::source::Sources;
 use setpiece_engine::batch::EpisodeError;
 use setpiece_engine::environment::EnvironmentError;
+use setpiece_engine::snapshot::SnapshotError;
 use setpiece_scenario::{FormatError, ParamError};
 use std::path::PathBuf;
 
@@ -33,6 +34,8 @@ pub enum Error {
         /// Why.
         why: FormatError,
     },
+    /// A snapshot can't be taken, restored or begun from.
+    Snapshot(SnapshotError),
     /// An environment can't be made of the scenario.
     Environment(EnvironmentError),
     /// An episode broke off: no start was found, a script's hook failed, or nothing ended it.
@@ -113,7 +116,9 @@ impl Error {
                 }
                 EnvironmentError::Agents(_) => Code::BadAgents,
                 EnvironmentError::Script(_) => Code::ScriptSyntax,
+                EnvironmentError::Snapshot(_) => Code::BadSnapshot,
             },
+            Error::Snapshot(_) => Code::BadSnapshot,
             Error::Episode(why) => match **why {
                 EpisodeError::Draw(_) => Code::DrawFailed,
                 EpisodeError::Step(_) => Code::ScriptFailed,
@@ -144,9 +149,23 @@ impl Error {
                 nearest(name, known.iter().map(String::as_str)).map(|name| format!("did you mean `{name}`?"))
             }
             Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
+            Error::Snapshot(why) | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
             _ => None,
         }
     }
+}
+
+fn snapshot_help(why: &SnapshotError) -> Option<String> {
+    let help = match why {
+        SnapshotError::NotASnapshot => "`setpiece snapshot` and `env.unwrapped.snapshot()` take one",
+        SnapshotError::Scenario { .. } => "a new episode may begin in its state: `reset(options={\"snapshot\": …})`",
+        SnapshotError::Roster { .. } => {
+            "an episode begins from a snapshot of as many players and agents, in the same places"
+        }
+        SnapshotError::NotBegun => "reset the environment before it is taken",
+        _ => return None,
+    };
+    Some(help.to_owned())
 }
 
 impl std::fmt::Display for Error {
@@ -175,6 +194,7 @@ impl std::fmt::Display for Error {
             }
             Error::Format { path, why } => write!(f, "`{}`: {why}", path.display()),
             Error::Param { why, .. } => why.fmt(f),
+            Error::Snapshot(why) => why.fmt(f),
             Error::Environment(why) => why.fmt(f),
             Error::Episode(why) => why.fmt(f),
             Error::NoStep { step, length: 1 } => write!(f, "there is no step {step}: the episode has 1 step"),

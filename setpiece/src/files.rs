@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
 /// Largest compiled scenario, bytes.
 pub const COMPILED_MAX_BYTES: u64 = 64 << 20;
+/// Largest snapshot, bytes; most take some kilobytes, records of long episodes more.
+pub const SNAPSHOT_MAX_BYTES: u64 = 64 << 20;
 
 /// Reads a text file of at most `max` bytes.
 ///
@@ -131,13 +133,15 @@ fn beside(from: &str, path: &str) -> PathBuf {
     full
 }
 
-/// Refuses an output for a compiled scenario that is one of its inputs, or would pass for a source.
+/// Refuses an output that is one of its inputs, or would pass for a source.
 ///
 /// # Errors
 /// [`Error::File`] where it is.
 pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
     if output.extension().is_some_and(|ending| ending == "pitch" || ending == "rhai") {
-        let why = FileFault::Write("a compiled scenario ends in .pitchc".to_owned());
+        let why = FileFault::Write(
+            "that is how a source ends; a compiled scenario ends in .pitchc, a snapshot in .pitchs".to_owned(),
+        );
         return Err(Error::File { path: output.to_owned(), why });
     }
     let same = |input: &PathBuf| matches!((input.canonicalize(), output.canonicalize()), (Ok(a), Ok(b)) if a == b);

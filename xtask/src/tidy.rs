@@ -23,6 +23,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "arrayvec",
             "glam",
             "libm",
+            "postcard",
             "rand_core",
             "rand_pcg",
             "rapier3d",

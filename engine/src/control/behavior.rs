@@ -16,6 +16,7 @@ use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::script::{ScriptError, Scripts};
 use crate::judge::view::{Sight, View};
 use crate::random::Purpose;
+use crate::snapshot::{Archive, SnapshotError};
 use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
 use actor::{Actor, Mind};
@@ -82,6 +83,17 @@ impl Actors {
         for actor in &mut self.list {
             actor.reset(&self.plans[actor.plan]);
         }
+    }
+
+    /// Writes or reads what they remember; on the way in [`Self::reset`] has come before.
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        if self.list.is_empty() {
+            return Ok(());
+        }
+        self.known.pass(archive)?;
+        archive.value("prev", &mut self.prev)?;
+        archive.value("faults", &mut self.faults)?;
+        self.list.iter_mut().try_for_each(|actor| actor.pass(archive))
     }
 
     /// Chooses every scripted player's action: writes [`Acting::chosen`](crate::football::play::Acting) of the match.

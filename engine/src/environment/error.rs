@@ -1,8 +1,9 @@
 //! What can go wrong with an environment.
 
-use crate::draw::RosterError;
+use crate::draw::{DrawError, RosterError};
 use crate::judge::ScriptError;
 use crate::judge::script::ScriptLoadError;
+use crate::snapshot::SnapshotError;
 use setpiece_scenario::ParamError;
 
 /// Why an environment can't be made.
@@ -36,9 +37,23 @@ pub enum EnvironmentError {
     /// A script is not Rhai.
     #[error(transparent)]
     Script(#[from] ScriptLoadError),
+    /// No episode can begin from the snapshot.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
     /// New parameters would change who takes part.
     #[error("these parameters change the players or the agents: make a new environment")]
     Roster,
+}
+
+/// Why no episode begins in the state of a snapshot.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ResetError {
+    /// The snapshot can't be begun from; nothing has changed.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+    /// No start was found for what the scenario itself says.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
 }
 
 /// Why a step was not played to its end.

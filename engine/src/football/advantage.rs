@@ -15,7 +15,7 @@ const WAIT_TICKS: u32 = 60;
 const OVER_TICKS: u32 = 300;
 
 /// A foul that was let run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Advantage {
     /// Who committed it.
     pub by: PlayerId,

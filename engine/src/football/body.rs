@@ -8,7 +8,7 @@ use setpiece_scenario::vocabulary::Stat;
 pub const NEVER: i32 = -100_000;
 
 /// A player's inner state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
     /// Raw statistics by [`Stat::index`], 0..1.
     pub stats: [f32; Stat::ALL.len()],
@@ -49,7 +49,7 @@ pub struct Body {
 }
 
 /// Where a player wants to go.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Intent {
     /// Brakes to a stand.
     Stand,
@@ -62,7 +62,7 @@ pub enum Intent {
 }
 
 /// What a body does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Pose {
     /// On his feet.
     Up,
@@ -75,7 +75,7 @@ pub enum Pose {
 }
 
 /// A kind of kick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum KickKind {
     /// On the ground, to a mate's feet.
     Short,
@@ -90,7 +90,7 @@ pub enum KickKind {
 }
 
 /// A kick that waits for the ball and for the swing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct KickPlan {
     /// What kind.
     pub kind: KickKind,
@@ -109,7 +109,7 @@ pub struct KickPlan {
 }
 
 /// What the bot has in mind for a player.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Mind {
     /// His slot in the team's block, own frame: x -1 (back) to 1 (front), y -1..1 (+ is down the picture).
     pub slot: Vec2,

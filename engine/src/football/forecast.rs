@@ -12,8 +12,9 @@ pub const POINTS: usize = 64;
 pub const SPACING_TICKS: u32 = 5;
 
 /// The ball's path.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Forecast {
+    #[serde(with = "crate::snapshot::array")]
     points: [Vec3; POINTS],
     from_tick: u32,
 }

@@ -10,7 +10,7 @@ use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, GameMode, Team};
 
 /// The game's own memory of a match.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Play {
     /// Where the ball will be.
     pub forecast: Forecast,
@@ -63,7 +63,7 @@ pub struct Play {
 }
 
 /// The actions of a player who is played by actions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Acting {
     /// What his behaviour has chosen for the step to come.
     pub chosen: Option<Action>,
@@ -74,7 +74,7 @@ pub struct Acting {
 }
 
 /// A set piece that waits to be taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SetPiece {
     /// Which.
     pub mode: GameMode,
@@ -89,7 +89,7 @@ pub struct SetPiece {
 }
 
 /// A restart that a stop of play calls for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Restart {
     /// Which.
     pub mode: GameMode,
@@ -100,7 +100,7 @@ pub struct Restart {
 }
 
 /// A kick under way.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Flight {
     /// Who kicked.
     pub by: PlayerId,
@@ -113,7 +113,7 @@ pub struct Flight {
 }
 
 /// A keeper's plan against a ball on its way.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Save {
     /// The tick at which the ball meets his hands.
     pub at_tick: u32,

@@ -3,6 +3,7 @@
 use crate::event::{Event, Events};
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
 use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
 use setpiece_scenario::{Ending, Endings};
@@ -60,6 +61,22 @@ impl EndingJudge {
         self.machine(&input).run();
         let holds = |ending: &Ending| ending.when.is_some_and(|when| truth(self.regs.value(when)));
         self.at_start = self.endings.list.iter().position(holds);
+    }
+
+    /// Writes or reads what it remembers; on the way in [`Self::reset`] has come before.
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        archive.slots("cells", &mut self.cells)?;
+        for memory in &mut self.memories {
+            memory.pass("this", archive)?;
+        }
+        archive.value("faults", &mut self.faults)?;
+        let mut at_start = self.at_start.map(|which| which as u32);
+        archive.value("at_start", &mut at_start)?;
+        self.at_start = at_start.map(|which| which as usize);
+        if self.at_start.is_some_and(|which| which >= self.labels.len()) {
+            return Err(SnapshotError::damaged("at_start", "is an ending that is not there"));
+        }
+        Ok(())
     }
 
     /// The first ending that held in the start state: such an episode is over before its first step.

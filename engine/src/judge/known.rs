@@ -2,9 +2,10 @@
 
 use crate::event::Event;
 use crate::judge::machine::Input;
-use crate::judge::script::{Scene, Scripts};
+use crate::judge::script::{Scene, Scripts, Shelf};
 use crate::judge::view::{Sight, View};
 use crate::random::{Purpose, Stream};
+use crate::snapshot::{Archive, SnapshotError};
 use crate::start::Drawn;
 use setpiece_scenario::vocabulary::Team;
 use std::sync::Arc;
@@ -41,6 +42,20 @@ impl Known {
             let random = Stream::new(drawn.seed, drawn.index, self.purpose);
             Arc::new(Scene::new(View::EMPTY, View::EMPTY, &[], self.scripts.params(params), random, self.key()))
         });
+    }
+
+    /// Writes or reads what scripts are shown; the rest is known since the episode began.
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        Shelf::pass("scene", &mut self.scene, archive)?;
+        if self.scene.is_some() == self.scripted {
+            return Ok(());
+        }
+        Err(SnapshotError::damaged("scene", "is not what the scenario's scripts need"))
+    }
+
+    /// The parameters of the episode; none before the first.
+    pub(crate) fn params(&self) -> &[f64] {
+        &self.params
     }
 
     /// Goes on with other scripts.

@@ -4,6 +4,7 @@
 //! `me`. Its registers hold the metric so far; a series keeps them all.
 
 use crate::judge::machine::{Crew, Input, Machine, Registers};
+use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 use setpiece_scenario::Record;
 use std::sync::Arc;
@@ -71,6 +72,16 @@ impl RecordJudge {
             state.kept.iter_mut().for_each(Vec::clear);
         }
         self.run(game, &Input { silent: true, ..*input });
+    }
+
+    /// Writes or reads what was measured; on the way in [`Self::reset`] has come before.
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        for state in &mut self.states {
+            archive.slots("cells", &mut state.cells)?;
+            archive.slots("last", &mut state.last)?;
+            archive.slots("kept", &mut state.kept)?;
+        }
+        archive.value("faults", &mut self.faults)
     }
 
     /// Measures a step.

@@ -8,6 +8,7 @@ mod lanes;
 
 use crate::judge::machine::Input;
 use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
 use lanes::{Lanes, Pass};
@@ -103,6 +104,11 @@ impl RewardJudge {
         }
     }
 
+    /// The rewards, in their order.
+    pub fn list(&self) -> &[Reward] {
+        &self.rewards
+    }
+
     /// What each agent was paid in this step.
     pub fn paid(&self) -> &[f32] {
         &self.paid
@@ -156,6 +162,22 @@ impl RewardJudge {
             }
         }
         self.clear_step();
+    }
+
+    /// Writes or reads what was paid and what is remembered; on the way in [`Self::reset`] has come before.
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        for state in &mut self.states {
+            for lanes in state.lanes.iter_mut().flatten() {
+                lanes.pass(archive)?;
+            }
+            for memory in state.hooks.iter_mut().flat_map(|hook| &mut hook.memories) {
+                memory.pass("this", archive)?;
+            }
+        }
+        archive.slots("terms", &mut self.terms)?;
+        archive.slots("sums", &mut self.sums)?;
+        archive.slots("paid", &mut self.paid)?;
+        archive.value("faults", &mut self.faults)
     }
 
     /// Judges a step; `scene` shows it to scripts.

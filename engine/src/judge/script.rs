@@ -15,6 +15,7 @@ mod check;
 mod host;
 mod place;
 
+pub(crate) use api::Shelf;
 pub use api::{Argument, Member, Perspective, Scene, Subject, functions, members};
 pub use check::{ScriptFault, ScriptFaultKind, check_script};
 

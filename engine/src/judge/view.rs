@@ -7,7 +7,7 @@ use setpiece_scenario::{Instr, Program, When};
 use std::ops::Range;
 
 /// What may be read of a player; world frame, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PlayerView {
     /// Metres.
     pub pos: [f32; 2],
@@ -30,7 +30,7 @@ pub struct PlayerView {
 }
 
 /// What may be read of a match; world frame, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct View {
     /// The ball's centre, metres.
     pub ball: [f32; 3],

@@ -2,8 +2,11 @@
 
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{EnvironmentOptions, Physics};
+use crate::files::{SNAPSHOT_MAX_BYTES, read_file};
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use std::sync::Arc;
 
 #[derive(Args, Debug)]
 pub(crate) struct Playing {
@@ -22,6 +25,9 @@ pub(crate) struct Playing {
     /// How the ball's contacts are found [default: as the scenario says]
     #[arg(long, value_enum)]
     physics: Option<PhysicsName>,
+    /// Begin every episode in the state of a snapshot, not at the scenario's start
+    #[arg(long, value_name = "FILE")]
+    from: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -63,10 +69,11 @@ impl Playing {
         }
     }
 
-    /// The parameters and the physics, with the scenario's own rewards.
+    /// The parameters, the physics and the snapshot to begin from, with the scenario's own rewards.
     ///
     /// # Errors
-    /// [`Error::Param`] for a parameter that the scenario doesn't have, or a value that it doesn't allow.
+    /// [`Error::Param`] for a parameter that the scenario doesn't have, or a value that it doesn't allow;
+    /// [`Error::File`] where the snapshot can't be read.
     pub(crate) fn environment(&self, loaded: &Loaded) -> Result<EnvironmentOptions, Error> {
         let pairs = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
         Ok(EnvironmentOptions {
@@ -77,6 +84,7 @@ impl Playing {
                 PhysicsName::Full => Physics::Full,
             }),
             agents: None,
+            from: self.from.as_ref().map(|path| read_file(path, SNAPSHOT_MAX_BYTES)).transpose()?.map(Arc::from),
         })
     }
 }

@@ -4,6 +4,7 @@ use super::perform::{Step, Wish, perform};
 use crate::judge::machine::{DrawKey, Machine, truth};
 use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::judge::view::player_index;
+use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::STEPS_PER_S;
@@ -43,7 +44,7 @@ pub struct Thread {
 }
 
 /// A node and how far it is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Frame {
     /// The node.
     pub node: u32,
@@ -93,6 +94,17 @@ impl Actor {
         self.thread.steps = 0;
         self.thread.turned.fill(0);
         self.thread.memories.iter_mut().for_each(|(_, memory)| *memory = Memory::default());
+    }
+
+    /// Writes or reads what he remembers.
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        let Thread { player: _, at, interrupted, steps, turned, memories } = &mut self.thread;
+        archive.slots("cells", &mut self.cells)?;
+        archive.value("at", at)?;
+        archive.value("interrupted", interrupted)?;
+        archive.value("steps", steps)?;
+        archive.slots("turned", turned)?;
+        memories.iter_mut().try_for_each(|(_, memory)| memory.pass("this", archive))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::view::player_number;
+use crate::snapshot::{Archive, SnapshotError};
 use crate::state::PlayerId;
 use setpiece_scenario::{Program, Reg};
 use std::array;
@@ -62,6 +63,15 @@ impl Lanes {
             Lanes::One(memory) => memory.cells.fill([0.0; 1]),
             Lanes::Four(memory) => memory.cells.fill([0.0; 4]),
             Lanes::Twelve(memory) => memory.cells.fill([0.0; 12]),
+        }
+    }
+
+    /// Writes or reads what is remembered.
+    pub(super) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        match self {
+            Lanes::One(memory) => archive.slots("cells", &mut memory.cells),
+            Lanes::Four(memory) => archive.slots("cells", &mut memory.cells),
+            Lanes::Twelve(memory) => archive.slots("cells", &mut memory.cells),
         }
     }
 

@@ -5,10 +5,12 @@
 
 mod functions;
 mod getters;
+mod kept;
 mod table;
 
 pub(super) use functions::function;
 pub use functions::functions;
+pub(crate) use kept::Shelf;
 pub use table::{Member, Subject, members};
 
 use crate::event::Event;

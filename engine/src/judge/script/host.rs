@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 /// Most operations of one call of a hook, a few milliseconds.
 pub(super) const OPERATIONS_MAX: u64 = 200_000;
 const CALL_LEVELS_MAX: usize = 24;
-const EXPRESSION_DEPTH_MAX: usize = 48;
+pub(super) const EXPRESSION_DEPTH_MAX: usize = 48;
 const STRING_MAX: usize = 4_096;
 const ARRAY_MAX: usize = 4_096;
 const MAP_MAX: usize = 512;

@@ -1,0 +1,142 @@
+//! Snapshots of an environment, and episodes that begin from one.
+
+use super::{Environment, ResetError, bound};
+use crate::draw::Roster;
+use crate::judge::Outcome;
+use crate::snapshot::{About, Archive, Opened, SnapshotError, fits, write};
+use crate::state::Match;
+use setpiece_scenario::Bindings;
+use setpiece_scenario::vocabulary::Verdict;
+
+impl Environment {
+    /// The episode as bytes, as it stands between two steps: everything that a later step or its infos depend on, the
+    /// streams of random numbers and the memory of rewards, records and scripts included.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unkept`] where a script's memory holds a function.
+    ///
+    /// # Determinism
+    /// Equal states give equal bytes.
+    pub fn snapshot(&self) -> Result<Vec<u8>, SnapshotError> {
+        // What is written is handed over as what is read would be.
+        let mut copy = self.clone();
+        let mut about = self.about();
+        let mut game = copy.game.clone();
+        write(&mut about, &mut game, |archive| copy.pass(archive))
+    }
+
+    /// Goes on where a snapshot was taken, whoever took it: an environment of the same scenario, rewards and agents.
+    /// The parameters of the next episodes are the snapshot's too.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for bytes that are no snapshot, or one of something else; nothing has changed then.
+    pub fn restore(&mut self, snapshot: &[u8]) -> Result<(), SnapshotError> {
+        let opened = Opened::of(snapshot)?;
+        let (mine, its) = (self.about(), &opened.about);
+        if its.digest != mine.digest {
+            return Err(SnapshotError::Scenario { found: its.scenario.clone(), expected: mine.scenario });
+        }
+        if its.rewards != mine.rewards {
+            return Err(SnapshotError::Rewards { found: its.rewards.clone(), expected: mine.rewards });
+        }
+        fits(&opened.game, &self.roster)?;
+        let mut restored = self.clone();
+        restored.idle(&opened);
+        opened.pass(|archive| restored.pass(archive))?;
+        *self = restored;
+        Ok(())
+    }
+
+    /// Begins a new episode in the state of a snapshot: places, ball, whatever goes on, score, cards, fatigue and the
+    /// clock are the snapshot's; rules, difficulty, limit and who plays whom are the scenario's, which need not be the
+    /// snapshot's own. Rewards, records, steps and random numbers begin anew, as at a [reset](Self::reset).
+    ///
+    /// # Errors
+    /// [`ResetError`] for bytes that are no snapshot or one of other players or agents (nothing has changed then), and
+    /// as [`reset`](Self::reset).
+    pub fn reset_from(&mut self, snapshot: &[u8], seed: Option<u64>, index: Option<u64>) -> Result<(), ResetError> {
+        let past = self.past(snapshot)?;
+        Ok(self.begin(seed, index, Some(&past))?)
+    }
+
+    /// The match of a snapshot that an episode can begin from.
+    pub(super) fn past(&self, snapshot: &[u8]) -> Result<Match, SnapshotError> {
+        let Opened { about, game, .. } = Opened::of(snapshot)?;
+        fits(&game, &self.roster)?;
+        if about.started { Ok(game) } else { Err(SnapshotError::NotBegun) }
+    }
+
+    /// What a snapshot is of.
+    fn about(&self) -> About {
+        About {
+            digest: self.scenario_digest,
+            scenario: self.scenario.name.clone(),
+            rewards: self.judge.rewards().list().iter().map(|reward| reward.name.clone()).collect(),
+            started: self.started,
+            begun: self.begun,
+            seed: self.seed,
+            index: self.index,
+        }
+    }
+
+    /// What a snapshot says without an episode around its match.
+    fn idle(&mut self, opened: &Opened<'_>) {
+        self.game = opened.game.clone();
+        let about = &opened.about;
+        (self.started, self.begun, self.seed, self.index) = (about.started, about.begun, about.seed, about.index);
+        self.running = false;
+        self.was_stopped = false;
+        self.outcome = None;
+        self.events.clear();
+        self.judged = 0;
+    }
+
+    /// Writes or reads the episode around the match.
+    fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        let (mut params, mut bindings) = (self.judge.params().to_vec(), self.bindings.clone());
+        archive.value("params", &mut params)?;
+        archive.value("bindings", &mut bindings.0)?;
+        archive.value("start", &mut self.drawn)?;
+        if archive.is_reading() {
+            self.admit("params", &params)?;
+            self.admit("bindings", &bindings.0)?;
+            self.bindings = bindings;
+            self.judge.reset(&self.game, &self.drawn, &params);
+            self.actors.reset(&self.game, &self.drawn, &params);
+        }
+        self.judge.pass(archive)?;
+        archive.part("actors", |archive| self.actors.pass(archive))?;
+        archive.value("events", &mut self.events)?;
+        let mut judged = self.judged as u32;
+        archive.value("judged", &mut judged)?;
+        self.judged = judged as usize;
+        archive.value("statistics", &mut self.statistics)?;
+        archive.value("running", &mut self.running)?;
+        archive.value("was_stopped", &mut self.was_stopped)?;
+        if self.was_stopped {
+            archive.value("stopped", &mut *self.stopped)?;
+            fits(&self.stopped, &self.roster)?;
+        }
+        let said = |outcome: &Outcome| (outcome.label.to_string(), outcome.verdict, outcome.truncated);
+        let mut outcome: Option<(String, Option<Verdict>, bool)> = self.outcome.as_ref().map(said);
+        archive.value("outcome", &mut outcome)?;
+        self.outcome = outcome.map(|(label, verdict, truncated)| Outcome { label: label.into(), verdict, truncated });
+        Ok(())
+    }
+
+    /// Checks parameters that were read: they are allowed, and the same players and agents take part.
+    fn admit(&self, name: &str, values: &[f64]) -> Result<(), SnapshotError> {
+        if values == self.bindings.0 {
+            return Ok(());
+        }
+        let wrong = |why: String| SnapshotError::damaged(name, format!("can't be bound: {why}"));
+        let bindings = bound(&self.scenario, Some(&Bindings(values.to_vec()))).map_err(|why| wrong(why.to_string()))?;
+        match Roster::new(&self.scenario, &bindings, self.options.agents.as_ref()) {
+            Ok(roster) if roster == self.roster => Ok(()),
+            _ => Err(wrong("other players or agents would take part".to_owned())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,312 @@
+//! What a script keeps in its memory, as plain data: a snapshot of it.
+//!
+//! A value becomes a flat list of nodes, parts before wholes, so that no list however wild is read by recursion. What a
+//! hook was shown (`this.last = now`) leads to its scene; scenes stand on a [`Shelf`] of their own, each once, so that
+//! what was one is one again.
+
+use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
+use super::{Perspective, Scene};
+use crate::event::Event;
+use crate::judge::script::{Memory, host};
+use crate::judge::view::View;
+use crate::random::Stream;
+use crate::snapshot::{Archive, SnapshotError};
+use crate::state::PlayerId;
+use rhai::{Array, Dynamic, FnPtr, ImmutableString, Map};
+use serde::{Deserialize, Serialize};
+use setpiece_scenario::vocabulary::Team;
+use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
+
+/// The scenes that memories lead to, each behind those that its own parameters lead to.
+#[derive(Debug, Default)]
+pub(crate) struct Shelf {
+    scenes: Vec<Arc<Scene>>,
+    kept: Vec<KeptScene>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct KeptScene {
+    now: View,
+    prev: View,
+    events: Vec<Event>,
+    params: Vec<Node>,
+    random: Stream,
+    seed: u64,
+    index: u64,
+}
+
+/// A value, or a whole of the values before it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum Node {
+    Nothing,
+    Truth(bool),
+    Whole(i64),
+    Number(f64),
+    Letter(char),
+    Text(String),
+    /// Of so many values.
+    List(u32),
+    /// Of as many values as it has names.
+    Table(Vec<String>),
+    Range(i64, i64),
+    RangeThrough(i64, i64),
+    Point([f64; 2], f64),
+    Vector([f64; 2]),
+    Shown(Shown, Eye),
+}
+
+/// What a hook is shown.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum Shown {
+    State,
+    Ctx,
+    Ball,
+    Player(PlayerId),
+    Side(Team),
+    Score,
+    Event(Event),
+}
+
+/// Through whose eyes, and in which scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Eye {
+    scene: u32,
+    us: Team,
+    me: Option<PlayerId>,
+    agent: u32,
+    past: bool,
+}
+
+/// What can't be kept.
+struct Unkept {
+    place: String,
+    what: String,
+}
+
+impl Memory {
+    /// Writes or reads a script's memory.
+    pub(crate) fn pass(&mut self, name: &str, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        let mut nodes = Vec::new();
+        if !archive.is_reading() {
+            archive.shelf.write(&self.this, &mut nodes).map_err(Unkept::within_this)?;
+        }
+        archive.value("begun", &mut self.begun)?;
+        archive.value(name, &mut nodes)?;
+        if archive.is_reading() {
+            self.this = archive.shelf.read(nodes).map_err(|why| SnapshotError::damaged(name, why))?;
+            host::check_size(&self.this).map_err(|why| SnapshotError::damaged(name, why))?;
+        }
+        Ok(())
+    }
+}
+
+impl Shelf {
+    /// Writes or reads where a scene stands.
+    pub(crate) fn pass(
+        name: &str,
+        scene: &mut Option<Arc<Scene>>,
+        archive: &mut Archive<'_>,
+    ) -> Result<(), SnapshotError> {
+        let shelf = &mut archive.shelf;
+        let mut at = scene.as_ref().map(|scene| shelf.place(scene)).transpose().map_err(Unkept::within_this)?;
+        archive.value(name, &mut at)?;
+        if archive.is_reading() {
+            let found = |at| archive.shelf.scene(at).map_err(|why| SnapshotError::damaged(name, why));
+            *scene = at.map(found).transpose()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the scenes themselves, or reads them: before the memories that lead to them.
+    pub(crate) fn pass_scenes(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        archive.value("scenes", &mut self.kept)?;
+        if archive.is_reading() {
+            for (at, kept) in std::mem::take(&mut self.kept).into_iter().enumerate() {
+                let scene = self.stage(kept).map_err(|why| SnapshotError::damaged(format!("scenes[{at}]"), why))?;
+                self.scenes.push(Arc::new(scene));
+            }
+        }
+        Ok(())
+    }
+
+    fn stage(&self, kept: KeptScene) -> Result<Scene, String> {
+        let params = self.read(kept.params)?.try_cast::<Map>().ok_or("has no parameters")?;
+        let key = (kept.seed, kept.index);
+        Ok(Scene::new(kept.now, kept.prev, &kept.events, Arc::new(params), kept.random, key))
+    }
+
+    /// Where a scene stands, once it does.
+    fn place(&mut self, scene: &Arc<Scene>) -> Result<u32, Unkept> {
+        if let Some(at) = self.scenes.iter().position(|known| Arc::ptr_eq(known, scene)) {
+            return Ok(at as u32);
+        }
+        let mut params = Vec::new();
+        self.write_map(&scene.params, &mut params)?;
+        self.kept.push(KeptScene {
+            now: scene.now,
+            prev: scene.prev,
+            events: scene.events.clone(),
+            params,
+            random: scene.random(),
+            seed: scene.seed,
+            index: scene.index,
+        });
+        self.scenes.push(scene.clone());
+        Ok(self.scenes.len() as u32 - 1)
+    }
+
+    fn scene(&self, at: u32) -> Result<Arc<Scene>, String> {
+        self.scenes.get(at as usize).cloned().ok_or_else(|| format!("leads to scene {at}, which is not there"))
+    }
+
+    /// A value as nodes.
+    fn write(&mut self, value: &Dynamic, nodes: &mut Vec<Node>) -> Result<(), Unkept> {
+        if let Some(map) = value.read_lock::<Map>() {
+            return self.write_map(&map, nodes);
+        }
+        if let Some(list) = value.read_lock::<Array>() {
+            for (at, part) in list.iter().enumerate() {
+                self.write(part, nodes).map_err(|unkept| unkept.at(&format!("[{at}]")))?;
+            }
+            nodes.push(Node::List(list.len() as u32));
+            return Ok(());
+        }
+        let node = plain(value).map_or_else(|| self.shown(value), Ok)?;
+        nodes.push(node);
+        Ok(())
+    }
+
+    fn write_map(&mut self, map: &Map, nodes: &mut Vec<Node>) -> Result<(), Unkept> {
+        for (name, part) in map {
+            self.write(part, nodes).map_err(|unkept| unkept.at(&format!(".{name}")))?;
+        }
+        nodes.push(Node::Table(map.keys().map(ToString::to_string).collect()));
+        Ok(())
+    }
+
+    /// What a hook was shown.
+    fn shown(&mut self, value: &Dynamic) -> Result<Node, Unkept> {
+        let (shown, sight) = if let Some(sight) = value.read_lock::<Sight>() {
+            (Shown::State, sight.clone())
+        } else if let Some(ctx) = value.read_lock::<Ctx>() {
+            (Shown::Ctx, ctx.0.clone())
+        } else if let Some(ball) = value.read_lock::<Ball>() {
+            (Shown::Ball, ball.0.clone())
+        } else if let Some(player) = value.read_lock::<Player>() {
+            (Shown::Player(player.1), player.0.clone())
+        } else if let Some(side) = value.read_lock::<Side>() {
+            (Shown::Side(side.1), side.0.clone())
+        } else if let Some(score) = value.read_lock::<Score>() {
+            (Shown::Score, score.0.clone())
+        } else if let Some(happening) = value.read_lock::<Happening>() {
+            (Shown::Event(happening.1), happening.0.clone())
+        } else {
+            let function = value.is::<FnPtr>();
+            let what = if function { "a function".to_owned() } else { host::type_words(value.type_name()) };
+            return Err(Unkept { place: String::new(), what });
+        };
+        let Perspective { us, me, agent } = sight.perspective;
+        let scene = self.place(&sight.scene)?;
+        Ok(Node::Shown(shown, Eye { scene, us, me, agent: agent as u32, past: sight.past }))
+    }
+
+    /// The value of some nodes.
+    fn read(&self, nodes: Vec<Node>) -> Result<Dynamic, String> {
+        // Every value with how deep it goes.
+        let mut open: Vec<(Dynamic, usize)> = Vec::new();
+        for node in nodes {
+            let n_parts = match &node {
+                Node::List(n) => *n as usize,
+                Node::Table(names) => names.len(),
+                _ => 0,
+            };
+            let first = open.len().checked_sub(n_parts).ok_or("lacks parts of a list or map")?;
+            let parts = open.split_off(first);
+            let depth = parts.iter().map(|(_, depth)| depth + 1).max().unwrap_or_default();
+            if depth > host::EXPRESSION_DEPTH_MAX {
+                return Err("is nested too deeply".to_owned());
+            }
+            let mut parts = parts.into_iter().map(|(part, _)| part);
+            let value = match node {
+                Node::List(_) => Dynamic::from_array(parts.collect()),
+                Node::Table(names) => Dynamic::from_map(
+                    names.into_iter().zip(&mut parts).map(|(name, part)| (name.into(), part)).collect(),
+                ),
+                Node::Nothing => Dynamic::UNIT,
+                Node::Truth(truth) => truth.into(),
+                Node::Whole(whole) => Dynamic::from_int(whole),
+                Node::Number(number) => number.into(),
+                Node::Letter(letter) => letter.into(),
+                Node::Text(text) => text.into(),
+                Node::Range(from, to) => Dynamic::from(from..to),
+                Node::RangeThrough(from, to) => Dynamic::from(from..=to),
+                Node::Point(metres, side) => Dynamic::from(Point { metres, side }),
+                Node::Vector(own) => Dynamic::from(Vector { own }),
+                Node::Shown(shown, eye) => self.show(shown, &eye)?,
+            };
+            open.push((value, depth));
+        }
+        match (open.pop(), open.is_empty()) {
+            (Some((value, _)), true) => Ok(value),
+            _ => Err("is not one value".to_owned()),
+        }
+    }
+
+    fn show(&self, shown: Shown, eye: &Eye) -> Result<Dynamic, String> {
+        let perspective = Perspective { us: eye.us, me: eye.me, agent: eye.agent as usize };
+        let sight = Sight { scene: self.scene(eye.scene)?, perspective, past: eye.past };
+        Ok(match shown {
+            Shown::State => Dynamic::from(sight),
+            Shown::Ctx => Dynamic::from(Ctx(sight)),
+            Shown::Ball => Dynamic::from(Ball(sight)),
+            Shown::Player(player) => Dynamic::from(Player(sight, player)),
+            Shown::Side(team) => Dynamic::from(Side(sight, team)),
+            Shown::Score => Dynamic::from(Score(sight)),
+            Shown::Event(event) => Dynamic::from(Happening(sight, event)),
+        })
+    }
+}
+
+impl Unkept {
+    fn at(mut self, step: &str) -> Unkept {
+        self.place.insert_str(0, step);
+        self
+    }
+
+    fn within_this(self) -> SnapshotError {
+        SnapshotError::Unkept { place: format!("this{}", self.place), what: self.what }
+    }
+}
+
+/// A value that stands for itself.
+fn plain(value: &Dynamic) -> Option<Node> {
+    if value.is_unit() {
+        return Some(Node::Nothing);
+    }
+    if let Ok(truth) = value.as_bool() {
+        return Some(Node::Truth(truth));
+    }
+    if let Ok(whole) = value.as_int() {
+        return Some(Node::Whole(whole));
+    }
+    if let Ok(number) = value.as_float() {
+        return Some(Node::Number(number));
+    }
+    if let Ok(letter) = value.as_char() {
+        return Some(Node::Letter(letter));
+    }
+    if let Some(text) = value.read_lock::<ImmutableString>() {
+        return Some(Node::Text(text.to_string()));
+    }
+    if let Some(range) = value.read_lock::<Range<i64>>() {
+        return Some(Node::Range(range.start, range.end));
+    }
+    if let Some(range) = value.read_lock::<RangeInclusive<i64>>() {
+        return Some(Node::RangeThrough(*range.start(), *range.end()));
+    }
+    if let Some(point) = value.read_lock::<Point>() {
+        return Some(Node::Point(point.metres, point.side));
+    }
+    value.read_lock::<Vector>().map(|vector| Node::Vector(vector.own))
+}

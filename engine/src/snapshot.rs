@@ -1,0 +1,115 @@
+//! Snapshots: a whole match as bytes, in the middle of whatever goes on, and back.
+//!
+//! A snapshot holds the match with its streams of random numbers, and what its judge and its scripted players remember:
+//! everything a later step depends on. It begins with a head (version, checksum), says what it is of (the scenario's
+//! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
+//! last the episode around it, which only the same scenario can go on with.
+//!
+//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible.
+//! - [`file`]: the head. [`check`]: whether a match fits an environment.
+//! - [`hindsight`]: a new episode in an old state.
+//!
+//! What a snapshot may be asked for stands with [`Environment`](crate::environment::Environment).
+
+mod archive;
+pub(crate) mod array;
+mod check;
+mod error;
+mod file;
+mod hindsight;
+mod walk;
+
+pub use error::{SNAPSHOT_VERSION, SnapshotError};
+
+pub(crate) use archive::Archive;
+pub(crate) use check::fits;
+pub(crate) use hindsight::begin_from;
+
+use crate::state::Match;
+use serde::{Deserialize, Serialize};
+
+/// What a snapshot is of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct About {
+    /// The digest of its scenario.
+    pub(crate) digest: u64,
+    /// The name of its scenario.
+    pub(crate) scenario: String,
+    /// The rewards that are paid.
+    pub(crate) rewards: Vec<String>,
+    /// Whether there is an episode around the match.
+    pub(crate) started: bool,
+    /// Whether one was asked for, and the key of the last.
+    pub(crate) begun: bool,
+    pub(crate) seed: u64,
+    pub(crate) index: u64,
+}
+
+/// Writes a snapshot; `pass` hands over the episode around the match.
+pub(crate) fn write(
+    about: &mut About,
+    game: &mut Match,
+    pass: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
+) -> Result<Vec<u8>, SnapshotError> {
+    let mut episode = Archive::writing();
+    if about.started {
+        pass(&mut episode)?;
+    }
+    // What scripts have kept leads to scenes: these come before.
+    let mut shelf = std::mem::take(&mut episode.shelf);
+    let mut body = Archive::writing();
+    body.value("about", about)?;
+    body.value("match", game)?;
+    shelf.pass_scenes(&mut body)?;
+    let mut body = body.into_bytes();
+    body.extend(episode.into_bytes());
+    Ok(file::wrap(&body))
+}
+
+/// A snapshot that is being read: up to its match it has been.
+pub(crate) struct Opened<'a> {
+    /// What it is of.
+    pub(crate) about: About,
+    /// The match.
+    pub(crate) game: Match,
+    archive: Archive<'a>,
+}
+
+impl<'a> Opened<'a> {
+    /// Reads a snapshot up to its match.
+    pub(crate) fn of(bytes: &'a [u8]) -> Result<Opened<'a>, SnapshotError> {
+        let mut archive = Archive::reading(file::unwrap(bytes)?);
+        let (about, game) = (archive.read("about")?, archive.read("match")?);
+        Ok(Opened { about, game, archive })
+    }
+
+    /// Reads the episode around it, to the end of the bytes.
+    pub(crate) fn pass(
+        mut self,
+        pass: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
+    ) -> Result<(), SnapshotError> {
+        let mut shelf = std::mem::take(&mut self.archive.shelf);
+        shelf.pass_scenes(&mut self.archive)?;
+        self.archive.shelf = shelf;
+        if self.about.started {
+            pass(&mut self.archive)?;
+        }
+        match self.archive.rest().len() {
+            0 => Ok(()),
+            n => Err(SnapshotError::damaged("end", format!("is followed by {n} more bytes"))),
+        }
+    }
+}
+
+/// A match alone as a snapshot holds it.
+///
+/// # Errors
+/// None for a match that is played.
+pub fn match_bytes(game: &Match) -> Result<Vec<u8>, SnapshotError> {
+    let mut archive = Archive::writing();
+    archive.value("match", &mut game.clone())?;
+    Ok(archive.into_bytes())
+}
+
+#[cfg(test)]
+mod tests;

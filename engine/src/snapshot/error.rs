@@ -1,0 +1,87 @@
+//! What can be wrong with a snapshot.
+
+/// The version of snapshots that this build takes and restores.
+pub const SNAPSHOT_VERSION: u32 = 1;
+
+/// Why a snapshot can't be taken, restored or begun from.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SnapshotError {
+    /// It is something else.
+    #[error("not a snapshot: it doesn't begin as one")]
+    NotASnapshot,
+    /// It was taken by another version.
+    #[error("the snapshot has version {0}; this build reads version {SNAPSHOT_VERSION}: take it again")]
+    Version(u32),
+    /// It ends before it should.
+    #[error("the snapshot is cut off: its end is missing")]
+    Truncated,
+    /// It is not what was written.
+    #[error("the snapshot was changed after it was taken: its checksum differs")]
+    Checksum,
+    /// It is well-formed but holds something impossible.
+    #[error("the snapshot is damaged: `{place}` {why}")]
+    Damaged {
+        /// Where: `match.players[3].pos.x`.
+        place: String,
+        /// What is wrong there.
+        why: String,
+    },
+    /// It is of another scenario.
+    #[error("{}", other_scenario(found, expected))]
+    Scenario {
+        /// The name of its scenario.
+        found: String,
+        /// The name of this one.
+        expected: String,
+    },
+    /// Its environment paid other rewards.
+    #[error("the snapshot's rewards are {}, this environment's {}", list(found), list(expected))]
+    Rewards {
+        /// Its rewards.
+        found: Vec<String>,
+        /// This environment's.
+        expected: Vec<String>,
+    },
+    /// Other players or agents take part.
+    #[error("the {what} differ: the snapshot has {found}, this environment {expected}")]
+    Roster {
+        /// Who: `left players`, `agents`.
+        what: String,
+        /// What the snapshot has.
+        found: String,
+        /// What this environment has.
+        expected: String,
+    },
+    /// It shows a match before its start.
+    #[error("the snapshot was taken before an episode had begun")]
+    NotBegun,
+    /// A script's memory holds what bytes can't.
+    #[error(
+        "a script keeps {what} in `{place}`: a snapshot holds numbers, words, lists, maps and what a hook is shown"
+    )]
+    Unkept {
+        /// Where: `this.last[2]`.
+        place: String,
+        /// What it is.
+        what: String,
+    },
+}
+
+impl SnapshotError {
+    /// Damage at a place.
+    pub(crate) fn damaged(place: impl Into<String>, why: impl Into<String>) -> SnapshotError {
+        SnapshotError::Damaged { place: place.into(), why: why.into() }
+    }
+}
+
+fn other_scenario(found: &str, expected: &str) -> String {
+    if found == expected {
+        format!("the snapshot is of another version of `{expected}`: the scenario has changed since")
+    } else {
+        format!("the snapshot is of scenario `{found}`, this environment's is `{expected}`")
+    }
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { format!("`{}`", names.join("`, `")) }
+}

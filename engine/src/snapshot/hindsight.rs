@@ -1,0 +1,36 @@
+//! A new episode in an old state: what has happened is the snapshot's, what the scenario says is its own.
+
+use crate::event::Events;
+use crate::football;
+use crate::state::Match;
+
+/// The match of a new episode that begins where `past` stands.
+///
+/// - Of `past`: places, ball, whatever goes on (kicks, flights, a set piece), score, cards, fatigue, the clock.
+/// - Of `fresh`, the start that the scenario draws: rules, limit, difficulty, who plays whom, the random streams.
+///
+/// Steps are counted anew; ticks go on, as everything under way is timed by them.
+pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
+    let mut game = past.clone();
+    game.elapsed_at_start = past.elapsed_at_start.saturating_add(past.step);
+    game.step = 0;
+    game.limit_steps = fresh.limit_steps;
+    game.rules = fresh.rules;
+    game.difficulty = fresh.difficulty;
+    game.play_random = fresh.play_random.clone();
+    game.bot_random = fresh.bot_random.clone();
+    game.play.others = fresh.play.others;
+    for (player, fresh) in game.players.iter_mut().zip(&fresh.players) {
+        player.ai = fresh.ai;
+        player.controllable = fresh.controllable;
+        player.difficulty = fresh.difficulty;
+        player.body.level = fresh.body.level;
+        let mind = &mut player.body.mind;
+        mind.run_until_step = mind.run_until_step.saturating_sub(past.step);
+        mind.decide_at_step = mind.decide_at_step.saturating_sub(past.step);
+    }
+    if game.dead {
+        football::restart(&mut game, &mut Events::new());
+    }
+    game
+}

@@ -1,0 +1,76 @@
+use crate::football::body::{Intent, KickKind, KickPlan};
+use crate::football::play::{Flight, Restart, Save, SetPiece};
+use crate::football::{advantage::Advantage, begin};
+use crate::judge::View;
+use crate::snapshot::SNAPSHOT_VERSION;
+use crate::state::{Match, PlayerId};
+use crate::statistics::Statistics;
+use crate::testing::event;
+use glam::Vec2;
+use serde_json::Value;
+use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Team};
+use std::collections::BTreeSet;
+
+/// A match with everything under way that can be.
+fn busy() -> Match {
+    let mut environment = crate::environment::Environment::new(
+        std::sync::Arc::new(crate::testing::scenario(&[(
+            Team::Left,
+            setpiece_scenario::vocabulary::Role::CF,
+            0.0,
+            0.0,
+        )])),
+        crate::environment::EnvironmentOptions::default(),
+    )
+    .unwrap();
+    environment.reset(Some(1), None).unwrap();
+    let mut game = begin::begin(environment.start());
+    let (id, spot, mode, team) = (PlayerId(0), Vec2::ZERO, GameMode::FreeKick, Team::Left);
+    let restart = Restart { mode, team, spot };
+    let flight = Some(Flight { by: id, to: Some(id), from: spot, tick: 0 });
+    game.play.set_piece = Some(SetPiece { mode, team, taker: id, spot, waited_steps: 0 });
+    game.play.pending = Some(restart);
+    game.play.advantage = Some(Advantage { by: id, victim: id, restart, tick: 0 });
+    (game.play.pass, game.play.shot) = (flight, flight);
+    game.play.save[0] = Some(Save { at_tick: 0, from_tick: 0, point: spot, reaches: true, holds: true });
+    game.play.acting[0].played = Some(Action::Idle);
+    let body = &mut game.players[0].body;
+    body.intent = Intent::Go(spot, 1.0);
+    let kind = KickKind::Shot;
+    body.kick =
+        Some(KickPlan { kind, dir: Some(spot), mate: Some(id), point: Some(spot), power: 0.0, ready_at: 0, until: 0 });
+    game
+}
+
+/// Every name in a value, with the kind of what stands there.
+fn names(value: &Value, path: &str, found: &mut BTreeSet<String>) {
+    let kind = match value {
+        Value::Object(fields) => {
+            return fields.iter().for_each(|(name, value)| names(value, &format!("{path}.{name}"), found));
+        }
+        Value::Array(parts) => return parts.iter().for_each(|part| names(part, &format!("{path}[]"), found)),
+        Value::Null => return,
+        Value::Bool(_) => "bool",
+        Value::Number(number) if number.is_f64() => "float",
+        Value::Number(_) => "whole",
+        Value::String(_) => "word",
+    };
+    found.insert(format!("{path} {kind}"));
+}
+
+/// Where this fails the bytes of a match are others: raise [`SNAPSHOT_VERSION`] with it.
+#[test]
+fn the_layout_is_that_of_the_version() {
+    let game = busy();
+    let mut found = BTreeSet::new();
+    for (name, value) in [
+        ("match", serde_json::to_value(&game).unwrap()),
+        ("view", serde_json::to_value(View::of(&game)).unwrap()),
+        ("statistics", serde_json::to_value(Statistics::begin(&game)).unwrap()),
+        ("event", serde_json::to_value(event(EventKind::Goal, Some(Team::Left), Some(0))).unwrap()),
+    ] {
+        names(&value, name, &mut found);
+    }
+    let found: Vec<String> = found.into_iter().collect();
+    insta::assert_snapshot!("layout", format!("version {SNAPSHOT_VERSION}\n{}", found.join("\n")));
+}

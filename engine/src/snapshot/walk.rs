@@ -1,0 +1,261 @@
+//! A walk over everything in a value that was read: no number in it may be one that play can't go on from.
+//!
+//! A serializer that writes nothing. Floats of 32 bits, of which matches are made, are finite and within what a pitch
+//! can need; counts leave room to count on. Numbers of 64 bits are free: they are sums, parameters and keys, or what
+//! programs reckon with, where infinity and NaN are values like others.
+
+use serde::Serialize;
+use serde::ser::{self, Error as _, Impossible, Serializer};
+use std::fmt::{self, Display};
+
+/// Greatest size of a float of a match: metres, m/s, rad/s, seconds.
+const FLOAT_MAX: f32 = 1.0e4;
+/// Greatest count: of ticks that is a third of a year of play.
+const COUNT_MAX: u32 = 1 << 30;
+/// Counts that may be `u32::MAX`: never, or nowhere.
+const NEVER: &[&str] = &["limit_steps", "at_tick", "from_tick", "node"];
+
+/// Says where a value holds an impossible number, and why.
+pub(super) fn walk(value: &impl Serialize) -> Result<(), Fault> {
+    value.serialize(Walk { never: false })
+}
+
+/// An impossible number.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// Its place within the value: `.players[3].pos[0]`.
+    pub(super) place: String,
+    /// What is wrong with it.
+    pub(super) why: String,
+}
+
+impl Fault {
+    fn at(mut self, step: impl Display) -> Fault {
+        self.place.insert_str(0, &step.to_string());
+        self
+    }
+}
+
+impl Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.place, self.why)
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl ser::Error for Fault {
+    fn custom<T: Display>(message: T) -> Fault {
+        Fault { place: String::new(), why: message.to_string() }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Walk {
+    never: bool,
+}
+
+/// The parts of a value in their order.
+struct Parts(usize);
+
+impl Parts {
+    fn next<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+        let at = self.0;
+        self.0 += 1;
+        value.serialize(Walk { never: false }).map_err(|fault| fault.at(format_args!("[{at}]")))
+    }
+}
+
+fn named<T: Serialize + ?Sized>(key: &'static str, value: &T) -> Result<(), Fault> {
+    value.serialize(Walk { never: NEVER.contains(&key) }).map_err(|fault| fault.at(format_args!(".{key}")))
+}
+
+macro_rules! free {
+    ($($method:ident: $type:ty),+ $(,)?) => {
+        $(fn $method(self, _: $type) -> Result<(), Fault> { Ok(()) })+
+    };
+}
+
+impl Serializer for Walk {
+    type Ok = ();
+    type Error = Fault;
+    type SerializeSeq = Parts;
+    type SerializeTuple = Parts;
+    type SerializeTupleStruct = Parts;
+    type SerializeTupleVariant = Parts;
+    type SerializeMap = Impossible<(), Fault>;
+    type SerializeStruct = Parts;
+    type SerializeStructVariant = Parts;
+
+    free! {
+        serialize_bool: bool, serialize_i8: i8, serialize_i16: i16, serialize_i64: i64, serialize_u8: u8,
+        serialize_u16: u16, serialize_u64: u64, serialize_f64: f64, serialize_char: char, serialize_str: &str,
+        serialize_bytes: &[u8], serialize_unit_struct: &'static str,
+    }
+
+    fn serialize_i32(self, value: i32) -> Result<(), Fault> {
+        self.serialize_u32(value.unsigned_abs())
+    }
+
+    fn serialize_u32(self, value: u32) -> Result<(), Fault> {
+        if value <= COUNT_MAX || (self.never && value == u32::MAX) {
+            Ok(())
+        } else {
+            Err(Fault::custom(format_args!("is {value}")))
+        }
+    }
+
+    fn serialize_f32(self, value: f32) -> Result<(), Fault> {
+        // What is no number is not within either.
+        if value.abs() <= FLOAT_MAX { Ok(()) } else { Err(Fault::custom(format_args!("is {value}"))) }
+    }
+
+    fn serialize_none(self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<(), Fault> {
+        value.serialize(self)
+    }
+
+    fn serialize_unit(self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _: &'static str, value: &T) -> Result<(), Fault> {
+        value.serialize(self)
+    }
+
+    fn serialize_newtype_variant<T: Serialize + ?Sized>(
+        self,
+        _: &'static str,
+        _: u32,
+        _: &'static str,
+        value: &T,
+    ) -> Result<(), Fault> {
+        value.serialize(self)
+    }
+
+    fn serialize_seq(self, _: Option<usize>) -> Result<Parts, Fault> {
+        Ok(Parts(0))
+    }
+
+    fn serialize_tuple(self, _: usize) -> Result<Parts, Fault> {
+        Ok(Parts(0))
+    }
+
+    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Parts, Fault> {
+        Ok(Parts(0))
+    }
+
+    fn serialize_tuple_variant(self, _: &'static str, _: u32, _: &'static str, _: usize) -> Result<Parts, Fault> {
+        Ok(Parts(0))
+    }
+
+    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, Fault> {
+        Err(Fault::custom("is a map"))
+    }
+
+    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Parts, Fault> {
+        Ok(Parts(0))
+    }
+
+    fn serialize_struct_variant(self, _: &'static str, _: u32, _: &'static str, _: usize) -> Result<Parts, Fault> {
+        Ok(Parts(0))
+    }
+}
+
+impl ser::SerializeSeq for Parts {
+    type Ok = ();
+    type Error = Fault;
+
+    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+        self.next(value)
+    }
+
+    fn end(self) -> Result<(), Fault> {
+        Ok(())
+    }
+}
+
+impl ser::SerializeTuple for Parts {
+    type Ok = ();
+    type Error = Fault;
+
+    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+        self.next(value)
+    }
+
+    fn end(self) -> Result<(), Fault> {
+        Ok(())
+    }
+}
+
+macro_rules! fields {
+    ($($kind:ident)+) => {$(
+        impl ser::$kind for Parts {
+            type Ok = ();
+            type Error = Fault;
+
+            fn serialize_field<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+                self.next(value)
+            }
+
+            fn end(self) -> Result<(), Fault> {
+                Ok(())
+            }
+        }
+    )+};
+}
+
+fields!(SerializeTupleStruct SerializeTupleVariant);
+
+macro_rules! named_fields {
+    ($($kind:ident)+) => {$(
+        impl ser::$kind for Parts {
+            type Ok = ();
+            type Error = Fault;
+
+            fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), Fault> {
+                named(key, value)
+            }
+
+            fn end(self) -> Result<(), Fault> {
+                Ok(())
+            }
+        }
+    )+};
+}
+
+named_fields!(SerializeStruct SerializeStructVariant);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Serialize)]
+    struct Sample {
+        pos: [f32; 2],
+        tick: u32,
+        limit_steps: Option<u32>,
+        sum: f64,
+    }
+
+    const SOUND: Sample = Sample { pos: [1.0, -50.0], tick: 7, limit_steps: Some(u32::MAX), sum: f64::INFINITY };
+
+    fn fault(sample: &Sample) -> String {
+        walk(&[sample]).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn an_impossible_number_is_found_at_its_place() {
+        assert!(walk(&SOUND).is_ok());
+        assert_eq!(fault(&Sample { pos: [0.0, f32::NAN], ..SOUND }), "[0].pos[1] is NaN");
+        assert_eq!(fault(&Sample { pos: [2.0e4, 0.0], ..SOUND }), "[0].pos[0] is 20000");
+        assert_eq!(fault(&Sample { tick: u32::MAX, ..SOUND }), "[0].tick is 4294967295");
+    }
+}

@@ -1,0 +1,61 @@
+//! `setpiece snapshot`: the state of an episode after some steps, as a file.
+
+use super::{FINE, out::Out, playing::Playing};
+use crate::Error;
+use crate::engine::batch::{EpisodeError, Policy, ReadyMade};
+use crate::engine::control::agents::Agent;
+use crate::engine::environment::{Environment, Scratch};
+use crate::files::{refuse_overwriting, write};
+use crate::scenario::Action;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args, Debug)]
+pub(crate) struct SnapshotArgs {
+    #[command(flatten)]
+    playing: Playing,
+    /// Where to write it
+    #[arg(short, long, value_name = "OUT.pitchs")]
+    output: PathBuf,
+    /// Which episode of the seed
+    #[arg(short, long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    episode: u64,
+    /// After how many steps of 0.1 s
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    step: u32,
+}
+
+/// Plays to the step and writes the snapshot.
+pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
+    let loaded = crate::load(&args.playing.scenario)?;
+    out.warnings(&loaded);
+    refuse_overwriting(&args.output, &loaded.inputs)?;
+    let options = args.playing.environment(&loaded)?;
+    let mut environment = Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
+    let broken = |why: EpisodeError| Error::Episode(Box::new(why));
+    environment.reset(Some(args.playing.seed), Some(args.episode)).map_err(|why| broken(why.into()))?;
+    play(&mut environment, args.playing.agent(), args.step).map_err(broken)?;
+    if environment.steps() < args.step {
+        return Err(Error::NoStep { step: args.step, length: environment.steps() });
+    }
+    let bytes = environment.snapshot().map_err(Error::Snapshot)?;
+    write(&args.output, &bytes)?;
+    let [left, right] = environment.score();
+    let at = format!("{} at step {}, {left} : {right}", loaded.scenario.name, environment.steps());
+    out.line(&format!("{at} → {} ({} bytes)", args.output.display(), bytes.len()));
+    Ok(FINE)
+}
+
+/// Plays to a step, or to the end of the episode.
+fn play(environment: &mut Environment, agent: Agent, step: u32) -> Result<(), EpisodeError> {
+    let (mut policy, mut scratch) = (ReadyMade::new(agent), Scratch::default());
+    policy.begin(environment);
+    let mut actions = vec![Action::Idle; environment.n_agents()];
+    while environment.is_running() && environment.steps() < step {
+        for (agent, action) in actions.iter_mut().enumerate() {
+            *action = policy.act(environment, agent);
+        }
+        environment.step(&actions, &mut scratch)?;
+    }
+    Ok(())
+}

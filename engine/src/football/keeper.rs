@@ -240,7 +240,8 @@ fn hold(game: &mut Match, id: PlayerId) {
     // He keeps to his box, and looks up the pitch.
     let line = HALF_LENGTH_M as f32;
     let x = (player.pos.x * side).clamp(-line + 0.6, -line + 15.5) * side;
-    player.pos = Vec2::new(x, player.pos.y.clamp(-19.0, 19.0));
+    let inside = Vec2::new(x, player.pos.y.clamp(-19.0, 19.0));
+    player.pos += (inside - player.pos).clamp_length_max(0.08);
     player.body.facing = Vec2::new(side, 0.0);
     if player.body.pose == Pose::Diving {
         player.body.strike_pose(Pose::Down, 30);

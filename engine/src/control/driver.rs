@@ -23,7 +23,12 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: u16, act
     };
     let wish = direction.unwrap_or(Vec2::ZERO) * gait;
     let fetch = has_ball || game.player(id).body.kick.is_some() || assist::ball_is_his(game, id);
+    let near = game.player(id).pos.distance_squared(game.ball.pos.truncate()) < kick::KICK_M * kick::KICK_M;
     let body = &mut game.players[id.index()].body;
+    if let Some(plan) = body.kick.as_mut().filter(|_| !near) {
+        // Until his foot swings the direction is open.
+        plan.dir = direction;
+    }
     body.dribble = wish;
     body.intent = if fetch {
         Intent::Ball(if has_ball { gait.max(if direction.is_some() { 0.0 } else { RUN_MPS }) } else { SPRINT_MPS })

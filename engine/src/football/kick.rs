@@ -15,7 +15,7 @@ pub const SWING_TICKS: [i32; 3] = [33, 28, 25];
 /// Ticks that a kick waits for the ball.
 pub const PATIENCE_TICKS: i32 = 200;
 /// How near the ball must be to be kicked, metres.
-const KICK_M: f32 = 0.85;
+pub const KICK_M: f32 = 0.85;
 /// Backspin of a shot, rad/s: in flight it falls with 7.4 m/s², as measured.
 const SHOT_BACKSPIN: f32 = 19.0;
 /// Highest ball that can be volleyed, metres.

@@ -8,8 +8,9 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::{Role, Stat};
 
-/// A held direction further off the goal than this is not meant for it; radians. Measured: such a shot goes along it.
-const MEANT_FOR_GOAL_RAD: f32 = 0.5;
+/// A held direction further off the goal than this, about half of what is between two directions, is not meant for it;
+/// radians. Measured: such a shot goes along it.
+const MEANT_FOR_GOAL_RAD: f32 = 0.4;
 /// A held direction nearer to the middle of the goal than this names no side; radians.
 const STRAIGHT_RAD: f32 = 0.2;
 /// How far off the middle a shot is placed beside the keeper: at least, and how much further at most, metres.

@@ -168,7 +168,7 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     let taken_from_rival = game.play.pass.is_some_and(|pass| pass.by.team() != id.team());
     if taken_from_rival || game.play.shot.is_some() {
         // A ball struck by the others: the faster, the harder to read.
-        let chance = (1.25 - 0.022 * meeting) * (0.5 + 0.5 * player.skill(Stat::Reaction));
+        let chance = (1.25 - 0.028 * meeting) * (0.5 + 0.5 * player.skill(Stat::Reaction));
         if noise::roll(game) > chance {
             game.players[id.index()].body.ready_at = game.tick as i32 + 40;
             return;

@@ -28,7 +28,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let keep =
         0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
     let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
-    let chance = (0.12 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
+    let chance = (0.11 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
     let chance = chance.clamp(0.02, 0.9);
     let now = game.tick as i32;
     if noise::roll(game) < chance {

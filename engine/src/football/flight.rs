@@ -8,6 +8,9 @@ use glam::Vec2;
 use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
+/// Ticks until a player whom the ball has hit can play it.
+const STUNNED_TICKS: i32 = 35;
+
 /// Records that a player touches the ball; false if that was an offence that stops play.
 pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) -> bool {
     if offside::caught(game, events, by) {
@@ -39,6 +42,9 @@ pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
     // A pass that springs off somebody is nobody's any more.
     game.play.pass = game.play.pass.filter(|pass| pass.by == by);
     note(game, by, Touch::Sprang);
+    // He has not seen it coming.
+    let body = &mut game.players[by.index()].body;
+    body.ready_at = body.ready_at.max(game.tick as i32 + STUNNED_TICKS);
     game.play.kicked_by = None;
 }
 

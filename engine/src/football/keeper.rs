@@ -113,13 +113,13 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
         before = Some(point);
     }
     let Some((ratio, time_s, point)) = best.filter(|_| enters) else { return IDLE };
-    let skill = 0.72 + 0.28 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
+    let skill = 0.81 + 0.19 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
     let spare = (time_s - react_s).max(0.0);
     let timely = (0.66 + 1.4 * spare).min(0.99);
     let chance = if point.truncate().distance(player.pos) < BODY_M {
         0.95
     } else if ratio < 1.0 {
-        (1.0 - 0.45 * ratio * ratio) * timely * skill
+        (1.0 - 0.3 * ratio * ratio) * timely * skill
     } else {
         0.0
     };

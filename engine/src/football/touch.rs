@@ -11,6 +11,7 @@ use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
+use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, Role, Rule, Stat};
 
 /// How near his foot the ball must be for a dribbling touch, metres.
@@ -19,6 +20,8 @@ const FOOT_M: f32 = 0.65;
 const TRAP_M: f32 = 0.75;
 /// A higher ball is headed, or left to come down, metres.
 const CHEST_M: f32 = 1.25;
+/// How near to a line a dribbler will push the ball, metres.
+const LINE_CARE_M: f32 = 0.3;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 
@@ -146,12 +149,28 @@ fn touch_ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, pressed:
     let shy = if pressed { 0.8 } else { 1.0 };
     let time = (0.25 + 0.5 * gait * gait) * shy;
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
-    let place = ahead * (mean * time + 0.42 + 0.03 * speed);
+    let free = ahead * (mean * time + 0.42 + 0.03 * speed);
+    let cut = within_lines(player.pos, free);
+    let place = cut.unwrap_or(free);
     let way = place - to_ball;
     let distance = way.length();
     let average = distance / time;
-    let start = average + 0.5 * (1.7 + 0.06 * average * average) * time;
+    // By a line it must stop there; else it rolls on until he meets it.
+    let start = if cut.is_none() {
+        average + 0.5 * (1.7 + 0.06 * average * average) * time
+    } else {
+        libm::sqrtf(2.0 * 1.7 * distance)
+    };
     if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
+}
+
+/// The way of a touch, cut; none where it doesn't take the ball off the pitch, or only into a goal.
+fn within_lines(pos: Vec2, way: Vec2) -> Option<Vec2> {
+    let (x, y) = (HALF_LENGTH_M as f32 - LINE_CARE_M, HALF_WIDTH_M as f32 - LINE_CARE_M);
+    let to = pos + way;
+    let x = if to.y.abs() < GOAL_HALF_WIDTH_M as f32 { x + 3.0 } else { x };
+    let cut = to.clamp(Vec2::new(-x, -y), Vec2::new(x, y));
+    (cut != to).then(|| cut - pos)
 }
 
 /// Whether an opponent is about to get at him.
@@ -168,7 +187,8 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     let taken_from_rival = game.play.pass.is_some_and(|pass| pass.by.team() != id.team());
     if taken_from_rival || game.play.shot.is_some() {
         // A ball struck by the others: the faster, the harder to read.
-        let chance = (1.25 - 0.028 * meeting) * (0.5 + 0.5 * player.skill(Stat::Reaction));
+        let reaction = player.skill(Stat::Reaction);
+        let chance = (1.25 - 0.028 * meeting) * (0.5 + 0.5 * reaction) * (1.0 - 0.95 * surprise(game, reaction));
         if noise::roll(game) > chance {
             game.players[id.index()].body.ready_at = game.tick as i32 + 40;
             return;
@@ -199,6 +219,14 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
 pub fn hurried(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     player.pos.x * (id.team().side() as f32) < -43.0 && player.role != Role::GK && pressed(game, id)
+}
+
+/// How much a ball just struck takes a player by surprise, 0..1: the fact sheet's recency of the other's touch, over
+/// 1000 - 500 · reaction ms.
+fn surprise(game: &Match, reaction: f32) -> f32 {
+    let since = game.last_touch.map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let window = 100.0 - 50.0 * reaction;
+    libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6)
 }
 
 /// Heads a high ball: on towards what he had in mind, else down in front of him.

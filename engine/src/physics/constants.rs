@@ -65,8 +65,9 @@ pub const NET_BOUNCE: f32 = 0.1;
 pub const NET_FRICTION: f32 = 0.6;
 /// Radius of the upright capsule that a player's body is, m: half the breadth of hips and shoulders.
 pub const BODY_RADIUS: f32 = 0.25;
-/// Share of the speed that a body gives back. Chosen: soft.
-pub const BODY_BOUNCE: f32 = 0.3;
+/// Share of the speed that a body gives back. GRF: 6 m/s and 0.6 of the speed along the normal, times 0.7; about this
+/// for shots and passes.
+pub const BODY_BOUNCE: f32 = 0.55;
 /// Friction of a body on leather. Chosen: cloth.
 pub const BODY_FRICTION: f32 = 0.5;
 /// Length of a body's capsule, m; it ends below the ground, so that one length does for players of every height.

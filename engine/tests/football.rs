@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
-#[path = "../examples/matchlab/layouts.rs"]
-#[allow(dead_code, reason = "the bench uses more of it")]
+#[path = "football/layouts.rs"]
+#[allow(dead_code, reason = "not every layout is played by every test")]
 mod layouts;
 
 #[path = "football/movement.rs"]
@@ -12,6 +12,8 @@ mod movement;
 mod play;
 #[path = "football/referee.rs"]
 mod referee;
+#[path = "football/rules.rs"]
+mod rules;
 #[path = "football/scenarios.rs"]
 mod scenarios;
 

@@ -9,7 +9,7 @@ use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
 /// Ticks until a player whom the ball has hit can play it.
-const STUNNED_TICKS: i32 = 35;
+const STUNNED_TICKS: i32 = 30;
 
 /// Records that a player touches the ball; false if that was an offence that stops play.
 pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) -> bool {

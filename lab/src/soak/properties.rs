@@ -43,6 +43,7 @@ impl Witness {
 
     /// Looks at a step: the state in which it was judged, the state after a restart, and its events.
     pub(super) fn see(&mut self, judged: &Match, after: &Match, events: &[Event]) -> Result<Seen, Failure> {
+        use EventKind::{Corner, FreeKick, GoalKick, Kickoff, Penalty, RedCard, ThrowIn, YellowCard};
         let before = &self.before;
         sound(judged)?;
         sound(after)?;
@@ -55,7 +56,6 @@ impl Witness {
         let of = |kinds: &[EventKind]| {
             events.iter().filter(|event| kinds.contains(&event.kind) && event.qualifier.is_none()).count() as u64
         };
-        use EventKind::{Corner, FreeKick, GoalKick, Kickoff, Penalty, RedCard, ThrowIn, YellowCard};
         let seen = Seen {
             goals,
             set_pieces: of(&[Corner, FreeKick, GoalKick, Kickoff, Penalty, ThrowIn]),

@@ -1,0 +1,207 @@
+//! What the laws and bodies ask for beyond the referee's first cases: walls, hands, deflections, crowds, challenges.
+
+use crate::Bench;
+use crate::layouts::{Layout, drawn};
+use glam::{Vec2, Vec3};
+use setpiece_engine::football::play::Restart;
+use setpiece_engine::football::restart::place;
+use setpiece_engine::football::{flight, foul, keeper, offside};
+use setpiece_engine::state::{Ball, PlayerId};
+use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Role, Rule, Team};
+
+/// A match of eleven against eleven with some rules changed.
+fn bench(rules: &[(Rule, f64)], seed: u64) -> Bench {
+    let mut start = drawn(Layout::Eleven, seed);
+    for (rule, value) in rules {
+        start.rules[rule.index()] = *value;
+    }
+    Bench::of(&start)
+}
+
+#[test]
+fn a_wall_stands_in_the_way_of_a_free_kick_near_goal() {
+    for (spot, wall) in [(Vec2::new(30.0, 8.0), 3), (Vec2::new(5.0, 0.0), 0)] {
+        let mut bench = bench(&[], 0);
+        place(&mut bench.game, Restart { mode: GameMode::FreeKick, team: Team::Left, spot });
+        let ahead = (Vec2::new(55.0, 0.0) - spot).normalize();
+        let in_way = |pos: Vec2| {
+            let away = pos - spot;
+            (away.dot(ahead) - 9.15).abs() < 0.2 && ahead.perp_dot(away).abs() < 1.0
+        };
+        let men = bench.game.team(Team::Right).filter(|(_, player)| in_way(player.pos)).count();
+        assert_eq!(men, wall, "at {spot}");
+        for (_, rival) in bench.game.team(Team::Right).filter(|(_, player)| player.role != Role::GK) {
+            assert!(rival.pos.distance(spot) > 9.0, "{} is too near", rival.pos);
+        }
+    }
+}
+
+#[test]
+fn nobody_stands_in_anybody_at_a_restart() {
+    for mode in [GameMode::GoalKick, GameMode::FreeKick, GameMode::Corner, GameMode::ThrowIn, GameMode::Penalty] {
+        for (i, team) in [Team::Left, Team::Right].into_iter().cycle().take(20).enumerate() {
+            let side = team.side() as f32;
+            let (x, y) = (i as f32 * 5.0 - 50.0, i as f32 * 3.2 - 32.0);
+            let spot = match mode {
+                GameMode::GoalKick => Vec2::new(-50.6 * side, 0.0),
+                GameMode::Corner => Vec2::new(55.0 * side, 36.0),
+                GameMode::ThrowIn => Vec2::new(x, 36.0),
+                GameMode::Penalty => Vec2::new(44.0 * side, 0.0),
+                _ => Vec2::new(x, y),
+            };
+            let mut bench = bench(&[], i as u64);
+            place(&mut bench.game, Restart { mode, team, spot });
+            let places: Vec<Vec2> = bench.game.players.iter().map(|player| player.pos).collect();
+            for (a, one) in places.iter().enumerate() {
+                for (b, two) in places.iter().enumerate().skip(a + 1) {
+                    assert!(one.distance(*two) > 0.7, "{mode} at {spot}: {a} and {b} at {one} and {two}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_keeper_lets_go_within_six_seconds_or_gives_a_free_kick_away() {
+    for (rule, given) in [(1.0, true), (0.0, false)] {
+        let mut start = drawn(Layout::Eleven, 0);
+        start.rules[Rule::SixSeconds.index()] = rule;
+        start.agents[0].fixed = Some(PlayerId(0));
+        let mut bench = Bench::of(&start);
+        bench.game.ball.pos = Vec3::new(-50.0, 0.0, 1.0);
+        bench.game.players[0].pos = Vec2::new(-50.4, 0.0);
+        keeper::take(&mut bench.game, &mut bench.events, PlayerId(0));
+        let mut after = None;
+        for step in 1..=80 {
+            bench.step(Action::Idle);
+            if bench.seen(EventKind::FreeKick).is_some() {
+                after = Some(step);
+                break;
+            }
+        }
+        assert_eq!(after.is_some(), given);
+        if let Some(step) = after {
+            assert!((60..=61).contains(&step), "{step}");
+            assert_eq!(bench.seen(EventKind::FreeKick).unwrap().team, Some(Team::Right));
+            bench.restart();
+            assert!((-38.6..-38.4).contains(&bench.game.ball.pos.x), "from the edge of the box");
+        }
+    }
+}
+
+#[test]
+fn a_deflection_plays_nobody_onside_and_a_played_ball_does() {
+    let (passer, runner, defender) = (PlayerId(2), PlayerId(1), PlayerId(13));
+    let set_up = || {
+        let mut bench = bench(&[], 0);
+        for player in &mut bench.game.players[11..] {
+            player.pos.x = 20.0;
+        }
+        bench.game.players[11].pos = Vec2::new(54.0, 0.0);
+        bench.game.players[passer.index()].pos = Vec2::new(10.0, 0.0);
+        bench.game.players[runner.index()].pos = Vec2::new(35.0, 10.0);
+        bench.game.ball = Ball { pos: Vec3::new(20.0, 5.0, 0.11), vel: Vec3::new(15.0, 5.0, 0.0), spin: Vec3::ZERO };
+        flight::note(&mut bench.game, passer, flight::Touch::Played);
+        assert_ne!(offside::positions(&bench.game, passer) & (1 << runner.0), 0);
+        bench
+    };
+    let mut sprang = set_up();
+    flight::deflected(&mut sprang.game, &mut sprang.events, defender);
+    assert!(offside::caught(&mut sprang.game, &mut sprang.events, runner));
+    let mut played = set_up();
+    assert!(flight::touched(&mut played.game, &mut played.events, defender, false));
+    assert!(!offside::caught(&mut played.game, &mut played.events, runner));
+}
+
+#[test]
+fn a_man_who_stands_on_the_ball_is_challenged() {
+    let mut won = 0;
+    for seed in 0..20 {
+        let mut bench = bench(&[(Rule::Assist, 0.0)], seed);
+        let carrier = bench.game.agents[0].player.unwrap();
+        let pos = Vec2::new(-20.0, 10.0);
+        bench.game.players[carrier.index()].pos = pos;
+        bench.game.ball = Ball { pos: (pos + Vec2::new(0.4, 0.0)).extend(0.11), vel: Vec3::ZERO, spin: Vec3::ZERO };
+        (bench.game.last_touch, bench.game.owner) = (Some(carrier), Some(carrier));
+        for _ in 0..200 {
+            bench.step(Action::Idle);
+            if bench.seen(EventKind::BallWon).is_some() || bench.game.dead {
+                won += 1;
+                break;
+            }
+        }
+    }
+    assert!(won >= 18, "in {won} of 20 matches somebody went for the ball");
+}
+
+#[test]
+fn pushes_tell_and_fade_and_bring_some_men_down() {
+    let (by, victim) = (PlayerId(13), PlayerId(2));
+    let mut falls = 0;
+    for seed in 0..300 {
+        let mut bench = bench(&[], seed);
+        let man = &mut bench.game.players[victim.index()];
+        (man.pos, man.vel, man.body.facing) = (Vec2::new(0.0, 25.0), Vec2::new(6.0, 0.0), Vec2::X);
+        man.body.push_m = 0.08;
+        bench.game.players[by.index()].pos = Vec2::new(-0.6, 25.0);
+        bench.game.owner = Some(victim);
+        for _ in 0..10 {
+            foul::shove(&mut bench.game, &mut bench.events, by, victim, 3.0);
+        }
+        falls += usize::from(bench.seen(EventKind::Foul).is_some());
+    }
+    assert!((3..200).contains(&falls), "{falls} of 300");
+    let mut bench = bench(&[], 0);
+    bench.game.players[victim.index()].pos = Vec2::new(0.0, 30.0);
+    bench.game.players[by.index()].pos = Vec2::new(0.3, 30.0);
+    bench.step(Action::Idle);
+    assert!(bench.game.player(victim).body.push_m > 0.005);
+    bench.game.players[by.index()].pos = Vec2::new(30.0, 30.0);
+    for _ in 0..10 {
+        bench.step(Action::Idle);
+    }
+    assert!(bench.game.player(victim).body.push_m < 0.005);
+}
+
+#[test]
+fn a_shot_at_the_keepers_chest_does_not_go_through_him() {
+    let mut goals = 0;
+    for seed in 0..200 {
+        let mut bench = bench(&[], seed);
+        for player in &mut bench.game.players {
+            player.pos = Vec2::new(-10.0, 30.0);
+        }
+        bench.game.players[11].pos = Vec2::new(53.5, 0.0);
+        let man = PlayerId(2);
+        bench.game.players[man.index()].pos = Vec2::new(43.0, 0.0);
+        bench.game.ball = Ball { pos: Vec3::new(44.0, 0.0, 0.5), vel: Vec3::new(25.0, 0.0, 1.5), spin: Vec3::ZERO };
+        flight::note(&mut bench.game, man, flight::Touch::Played);
+        for _ in 0..8 {
+            bench.step(Action::BuiltinAi);
+            if bench.game.dead {
+                break;
+            }
+        }
+        goals += u32::from(bench.game.score[0]);
+    }
+    assert!(goals < 30, "{goals} of 200 went through him");
+}
+
+#[test]
+fn an_agents_keeper_has_hands_unless_the_rule_takes_them() {
+    for (rule, caught) in [(0.0, true), (1.0, false)] {
+        let mut start = drawn(Layout::Eleven, 0);
+        start.rules[Rule::GrfKeeper.index()] = rule;
+        start.agents[0].fixed = Some(PlayerId(0));
+        let mut bench = Bench::of(&start);
+        bench.game.play.driven = 1;
+        bench.game.players[0].pos = Vec2::new(-50.0, 0.0);
+        bench.game.ball = Ball { pos: Vec3::new(-49.6, 0.0, 0.11), vel: Vec3::new(-1.0, 0.0, 0.0), spin: Vec3::ZERO };
+        bench.game.last_touch = Some(PlayerId(13));
+        for _ in 0..50 {
+            keeper::use_hands(&mut bench.game, &mut bench.events);
+            bench.game.tick += 1;
+        }
+        assert_eq!(bench.game.play.hands.is_some(), caught);
+    }
+}

@@ -82,7 +82,7 @@ pub fn velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> 
     let aside = noise::bell(game) * wild;
     // Without a run-up the foot gets under the ball.
     let under = 1.0 - run_up;
-    let rise = 0.067
+    let rise = 0.062
         + noise::bell(game) * (0.018 + 0.03 * under + wild * 0.45)
         + (0.08 * awkward + 0.075 * under) * noise::roll(game);
     let flat = (way + Vec2::new(-way.y, way.x) * aside) * speed;

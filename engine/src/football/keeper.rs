@@ -242,6 +242,8 @@ fn hold(game: &mut Match, id: PlayerId) {
     let x = (player.pos.x * side).clamp(-line + 0.6, -line + 15.5) * side;
     let inside = Vec2::new(x, player.pos.y.clamp(-19.0, 19.0));
     player.pos += (inside - player.pos).clamp_length_max(0.08);
+    // What he has caught before it was over the line he does not carry over it.
+    player.pos.x = (player.pos.x * side).max(-line) * side;
     player.body.facing = Vec2::new(side, 0.0);
     if player.body.pose == Pose::Diving {
         player.body.strike_pose(Pose::Down, 30);

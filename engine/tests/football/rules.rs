@@ -205,3 +205,16 @@ fn an_agents_keeper_has_hands_unless_the_rule_takes_them() {
         assert_eq!(bench.game.play.hands.is_some(), caught);
     }
 }
+
+#[test]
+fn what_a_keeper_has_caught_he_does_not_carry_over_his_line() {
+    let mut bench = bench(&[], 0);
+    bench.game.players[0].pos = Vec2::new(-55.6, 1.0);
+    bench.game.ball.pos = Vec3::new(-55.0, 1.0, 1.0);
+    keeper::take(&mut bench.game, &mut bench.events, PlayerId(0));
+    for _ in 0..5 {
+        bench.step(Action::BuiltinAi);
+        assert!(bench.game.ball.pos.x > -55.1, "{}", bench.game.ball.pos);
+        assert!(bench.seen(EventKind::OutOfPlay).is_none() && bench.game.score == [0, 0]);
+    }
+}

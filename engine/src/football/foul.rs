@@ -152,7 +152,10 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
         // The first mate left goes in goal.
         let heir = game.team(by.team()).map(|(id, _)| id).next();
         if let Some(heir) = heir {
-            game.players[heir.index()].role = Role::GK;
+            let (kickoff, slot) = (game.players[by.index()].body.kickoff, game.players[by.index()].body.mind.slot);
+            let player = &mut game.players[heir.index()];
+            player.role = Role::GK;
+            (player.body.kickoff, player.body.mind.slot) = (kickoff, slot);
         }
     }
     if game.owner == Some(by) {

@@ -46,6 +46,8 @@ pub struct Play {
     pub lead: Team,
     /// The team that has a kick-off and has not taken it yet.
     pub kick_off: Option<Team>,
+    /// When that was awarded, ticks.
+    pub kick_off_tick: u32,
     /// The team that kicked off first.
     pub first_kickoff: Team,
     /// Whether half-time has been.
@@ -148,6 +150,7 @@ impl Play {
             last_owner: None,
             lead: Team::Left,
             kick_off: None,
+            kick_off_tick: 0,
             first_kickoff: Team::Left,
             second_half: false,
             led: [false; 2],

@@ -68,6 +68,7 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     game.possession = Some(team);
     game.last_touch = None;
     game.play.kick_off = Some(team);
+    game.play.kick_off_tick = game.tick;
     if game.rule(Rule::KickoffCircle) {
         let side = team.other().side() as f32;
         for (i, player) in game.players.iter_mut().enumerate() {

@@ -13,6 +13,8 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, PLAYERS_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Rule};
 
+/// How long the circle is kept for a kick-off that is not taken, ticks: as long as a set piece waits for an agent.
+const KICK_OFF_TICKS: u32 = 200;
 /// Most bodies that a tick shows to the ball.
 const BODIES_MAX: usize = 8;
 
@@ -99,6 +101,12 @@ fn near_bodies(game: &Match) -> ArrayVec<Body, BODIES_MAX> {
 /// Keeps opponents out of the centre circle until the kick-off has been taken.
 fn keep_circle(game: &mut Match) {
     let Some(team) = game.play.kick_off.filter(|_| game.rule(Rule::KickoffCircle)) else { return };
+    let waited = game.tick.saturating_sub(game.play.kick_off_tick);
+    if game.rule(Rule::AntiStalling) && waited > KICK_OFF_TICKS {
+        // Whoever does not take it gives it up.
+        game.play.kick_off = None;
+        return;
+    }
     let radius = CIRCLE_RADIUS_M as f32;
     for (i, player) in game.players.iter_mut().enumerate() {
         if !player.active || PlayerId(i as u8).team() == team {

@@ -288,7 +288,7 @@ pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2,
     forecast::renew(game);
 }
 
-/// What the rules and statistics say of a keeper's hands.
+/// Whether a keeper may use his hands: not where an agent has him under `grf_keeper`, and not if he is lazy.
 pub fn may_handle(game: &Match, id: PlayerId) -> bool {
     let driven = game.play.driven & (1 << id.0) != 0;
     let player = game.player(id);

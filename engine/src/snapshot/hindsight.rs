@@ -3,6 +3,7 @@
 use crate::event::Events;
 use crate::football;
 use crate::state::Match;
+use setpiece_scenario::vocabulary::Rule;
 
 /// The match of a new episode that begins where `past` stands.
 ///
@@ -20,6 +21,8 @@ pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
     game.play_random = fresh.play_random.clone();
     game.bot_random = fresh.bot_random.clone();
     game.play.others = fresh.play.others;
+    let half_time = game.rules[Rule::HalfTime.index()];
+    game.play.second_half = half_time > 0.0 && f64::from(game.elapsed_at_start) >= half_time;
     for (player, fresh) in game.players.iter_mut().zip(&fresh.players) {
         player.ai = fresh.ai;
         player.controllable = fresh.controllable;

@@ -218,3 +218,19 @@ fn what_a_keeper_has_caught_he_does_not_carry_over_his_line() {
         assert!(bench.seen(EventKind::OutOfPlay).is_none() && bench.game.score == [0, 0]);
     }
 }
+
+#[test]
+fn a_kick_off_that_nobody_takes_is_given_up() {
+    for (rule, taken) in [(1.0, true), (0.0, false)] {
+        let mut bench = bench(&[(Rule::AntiStalling, rule), (Rule::Assist, 0.0)], 0);
+        for player in &mut bench.game.players[..11] {
+            player.ai = setpiece_scenario::Ai::Lazy;
+        }
+        place(&mut bench.game, Restart { mode: GameMode::KickOff, team: Team::Left, spot: Vec2::ZERO });
+        let touched = (0..60).any(|_| {
+            bench.step(Action::Idle);
+            bench.seen(EventKind::Touch).is_some()
+        });
+        assert_eq!(touched, taken);
+    }
+}

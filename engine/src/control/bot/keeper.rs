@@ -19,6 +19,11 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     if player.pos.x * view.side > STRAYED_M && game.play.chaser[view.team.index()] == Some(id) {
         return false;
     }
+    let rival_s = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    let lone = game.team(view.team).count() == 1;
+    if lone && touch::controller(game).is_none() && player.body.meet_s < rival_s + 0.05 {
+        return false;
+    }
     let goal = Vec2::new(-55.0, 0.0);
     let meet = player.body.meet * view.side;
     let rivals = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);

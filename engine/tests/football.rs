@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
 #[path = "football/layouts.rs"]
-#[allow(dead_code, reason = "not every layout is played by every test")]
 mod layouts;
 
 #[path = "football/movement.rs"]

@@ -42,12 +42,12 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     game.players[id.index()].vel *= 0.45;
     if near < 0.7 && foul::trips(game, id, rival) {
         game.players[rival.index()].body.strike_pose(Pose::Down, 45);
-        foul::call_or_let_run(game, events, id, rival, noise_severity(behind));
+        foul::call_or_let_run(game, events, id, rival, severity_of(behind));
     }
 }
 
 /// How bad a standing foul is: from behind is worse.
-fn noise_severity(behind: f32) -> f32 {
+fn severity_of(behind: f32) -> f32 {
     1.05 + 0.3 * behind.max(0.0)
 }
 

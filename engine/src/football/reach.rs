@@ -1,5 +1,6 @@
 //! Who can be at the ball first: time to the ball for everyone, and the player of each team who goes for it.
 
+use crate::football::body::Intent;
 use crate::football::forecast::Forecast;
 use crate::football::play::ticks_since;
 use crate::physics::lines::{OUT_X, OUT_Y};
@@ -51,17 +52,7 @@ fn last_touch(game: &Match) -> (i32, Option<PlayerId>) {
 
 /// Reckons everyone's meeting with the ball, and who goes for it.
 pub fn assess(game: &mut Match) {
-    let (forecast, tick, driven) = (game.play.forecast, game.tick, game.play.driven);
-    let (since, toucher) = last_touch(game);
-    for (i, player) in game.players.iter_mut().enumerate().filter(|(_, p)| p.active) {
-        let unseen = since < delay_ticks(player, driven & (1 << i) != 0);
-        if unseen && toucher.is_none_or(|id| id.index() != i) {
-            continue;
-        }
-        let (meet, meet_s) = meeting(player, &forecast, tick);
-        player.body.meet = meet;
-        player.body.meet_s = meet_s;
-    }
+    renew(game, |_| true);
     for team in [Team::Left, Team::Right] {
         choose(game, team);
     }
@@ -69,15 +60,21 @@ pub fn assess(game: &mut Match) {
 
 /// Renews the meetings of those who are going for the ball.
 pub fn refresh(game: &mut Match) {
+    renew(game, |player| matches!(player.body.intent, Intent::Ball(_)));
+}
+
+/// Renews the meetings of some players; who has not seen the last touch yet keeps his.
+fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
     let (forecast, tick, driven) = (game.play.forecast, game.tick, game.play.driven);
     let (since, toucher) = last_touch(game);
-    for (i, player) in game.players.iter_mut().enumerate() {
-        let unseen = since < delay_ticks(player, driven & (1 << i) != 0) && toucher.is_none_or(|id| id.index() != i);
-        if player.active && !unseen && matches!(player.body.intent, crate::football::body::Intent::Ball(_)) {
-            let (meet, meet_s) = meeting(player, &forecast, tick);
-            player.body.meet = meet;
-            player.body.meet_s = meet_s;
+    for (i, player) in game.players.iter_mut().enumerate().filter(|(_, player)| player.active && whose(player)) {
+        let unseen = since < delay_ticks(player, driven & (1 << i) != 0);
+        if unseen && toucher.is_none_or(|id| id.index() != i) {
+            continue;
         }
+        let (meet, meet_s) = meeting(player, &forecast, tick);
+        player.body.meet = meet;
+        player.body.meet_s = meet_s;
     }
 }
 

@@ -13,6 +13,8 @@ use setpiece_scenario::vocabulary::{Role, Stat};
 const MEANT_FOR_GOAL_RAD: f32 = 0.4;
 /// A held direction nearer to the middle of the goal than this names no side; radians.
 const STRAIGHT_RAD: f32 = 0.2;
+/// With how much a shot falls, its backspin reckoned in, m/s². Measured.
+const FALL_MPS2: f32 = 7.4;
 /// How far off the middle a shot is placed beside the keeper: at least, and how much further at most, metres.
 const PLACED_M: [f32; 2] = [0.4, 2.0];
 
@@ -101,14 +103,7 @@ pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Vec3 {
     // On average over its way it keeps nine tenths of its speed.
     let time = distance / (0.9 * speed);
     let rise = (1.1 + 0.5 * FALL_MPS2 * time * time) / (speed * time);
-    let wild = 0.05 * (1.5 - player_skill(game, id));
+    let wild = 0.05 * (1.5 - game.player(id).skill(Stat::Shot));
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * wild)) * speed;
     flat.extend(speed * (rise * (1.0 + noise::bell(game) * 2.0 * wild)).clamp(0.02, 0.7))
-}
-
-/// With how much a shot falls, its backspin reckoned in, m/s². Measured.
-const FALL_MPS2: f32 = 7.4;
-
-fn player_skill(game: &Match, id: PlayerId) -> f32 {
-    game.player(id).skill(Stat::Shot)
 }

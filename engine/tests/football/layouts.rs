@@ -12,21 +12,9 @@ pub(crate) enum Layout {
     EmptyGoal,
     RunToScore,
     RunToScoreKeeper,
-    PassAndShoot,
     ThreeVersusOne,
     Alone,
     AloneWithBall,
-}
-
-impl Layout {
-    pub(crate) const ACADEMY: &[Layout] = &[
-        Layout::EmptyGoalClose,
-        Layout::EmptyGoal,
-        Layout::RunToScore,
-        Layout::RunToScoreKeeper,
-        Layout::PassAndShoot,
-        Layout::ThreeVersusOne,
-    ];
 }
 
 use Role::{CB, CF, CM, GK, LB, LM, RB, RM};
@@ -79,11 +67,6 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
             right.push((if matches!(layout, Layout::RunToScore) { 1.0 } else { -1.0 }, 0.0, GK));
             right.extend([(0.12, 0.2, LB), (0.12, 0.1, CB), (0.12, 0.0, CM), (0.12, -0.1, CB), (0.12, -0.2, RB)]);
             ball = (0.02, 0.0);
-        }
-        Layout::PassAndShoot => {
-            left.extend([(-1.0, 0.0, GK), (0.7, 0.0, CB), (0.7, -0.3, CB)]);
-            right.extend([(-1.0, 0.0, GK), (-0.75, 0.3, CB)]);
-            ball = (0.7, -0.28);
         }
         Layout::ThreeVersusOne => {
             left.extend([(-1.0, 0.0, GK), (0.6, 0.0, CM), (0.7, 0.2, CM), (0.7, -0.2, CM)]);

@@ -19,14 +19,13 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     if player.pos.x * view.side > STRAYED_M && game.play.chaser[view.team.index()] == Some(id) {
         return false;
     }
-    let rival_s = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    let rivals = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
     let lone = game.team(view.team).count() == 1;
-    if lone && touch::controller(game).is_none() && player.body.meet_s < rival_s + 0.05 {
+    if lone && touch::controller(game).is_none() && player.body.meet_s < rivals + 0.05 {
         return false;
     }
     let goal = Vec2::new(-55.0, 0.0);
     let meet = player.body.meet * view.side;
-    let rivals = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
     let mates =
         game.team(view.team).filter(|(mate, _)| *mate != id).fold(9.0f32, |least, (_, p)| least.min(p.body.meet_s));
     let in_box = meet.x < -39.5 && meet.y.abs() < 19.5;

@@ -169,31 +169,24 @@ impl Serializer for Walk {
     }
 }
 
-impl ser::SerializeSeq for Parts {
-    type Ok = ();
-    type Error = Fault;
+macro_rules! elements {
+    ($($kind:ident)+) => {$(
+        impl ser::$kind for Parts {
+            type Ok = ();
+            type Error = Fault;
 
-    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
-        self.next(value)
-    }
+            fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+                self.next(value)
+            }
 
-    fn end(self) -> Result<(), Fault> {
-        Ok(())
-    }
+            fn end(self) -> Result<(), Fault> {
+                Ok(())
+            }
+        }
+    )+};
 }
 
-impl ser::SerializeTuple for Parts {
-    type Ok = ();
-    type Error = Fault;
-
-    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
-        self.next(value)
-    }
-
-    fn end(self) -> Result<(), Fault> {
-        Ok(())
-    }
-}
+elements!(SerializeSeq SerializeTuple);
 
 macro_rules! fields {
     ($($kind:ident)+) => {$(

@@ -24,11 +24,15 @@ pub use bot::bot_action;
 /// Steps that a set piece may wait for an agent.
 const STALLING_STEPS: u16 = 20;
 
-/// Takes the agents' actions and lets the bots decide: every intent of the step.
-pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
+/// Before a step: who can be at the ball first, and which player each agent has in it.
+pub fn prepare(game: &mut Match) {
     forecast::refresh(game);
     reach::assess(game);
     switching::update(game);
+}
+
+/// Takes the agents' actions and lets the bots decide: every intent of the step.
+pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
     game.play.led = [false; 2];
     game.play.driven = 0;
     for acting in &mut game.play.acting {

@@ -215,8 +215,8 @@ impl Environment {
         self.was_stopped = self.game.dead;
         if self.game.dead {
             *self.stopped = self.game.clone();
-            football::restart(&mut self.game, &mut self.events);
         }
+        football::go_on(&mut self.game);
         self.judge.settle(&self.game);
         let truncated = outcome.as_ref().is_some_and(|outcome| outcome.truncated);
         let terminated = outcome.is_some() && !truncated;

@@ -70,8 +70,11 @@ pub fn play_step(game: &mut Match, actions: &[Action], events: &mut Events, scra
     clock::end_step(game, events);
 }
 
-/// Applies the restart that a stop of play calls for: ball and players are placed, `dead` ends. Dead time costs no step.
-pub fn restart(game: &mut Match, events: &mut Events) {
-    let _ = events;
-    restart::apply(game);
+/// Goes on after a step that has been judged: play that was stopped is restarted (ball and players are placed; dead time
+/// costs no step), and every agent gets its player of the step to come.
+pub fn go_on(game: &mut Match) {
+    if game.dead {
+        restart::apply(game);
+    }
+    control::prepare(game);
 }

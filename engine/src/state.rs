@@ -57,7 +57,7 @@ pub struct Ball {
 }
 
 /// One simulation: no heap but the agent list's inline storage, no engine handle; `clone` is a copy.
-#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Match {
     /// Ticks of 10 ms since the start, dead time not counted.
     pub tick: u32,
@@ -177,6 +177,7 @@ pub struct AgentSlot {
 impl Match {
     /// The match that a drawn start begins with; `football::begin` fills in what the game needs.
     pub fn blank(drawn: &Drawn) -> Match {
+        use crate::football::noise;
         use crate::random::Purpose;
         let player = |slot: &Option<crate::start::DrawnPlayer>| {
             let drawn_player = slot.as_ref();
@@ -220,8 +221,8 @@ impl Match {
                     sticky: 0,
                 })
                 .collect(),
-            play_random: Stream::new(drawn.seed, drawn.index, Purpose::Play),
-            bot_random: Stream::new(drawn.seed, drawn.index, Purpose::Bot),
+            play_random: noise::stream(drawn, Purpose::Play),
+            bot_random: noise::stream(drawn, Purpose::Bot),
             play: Play::blank(),
         }
     }

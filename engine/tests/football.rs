@@ -15,8 +15,11 @@ mod referee;
 mod rules;
 #[path = "football/scenarios.rs"]
 mod scenarios;
+#[path = "football/statistics.rs"]
+mod statistics;
 
 use layouts::{Layout, drawn};
+use setpiece_engine::control;
 use setpiece_engine::event::{Event, Events};
 use setpiece_engine::football;
 use setpiece_engine::physics::Scratch;
@@ -42,11 +45,12 @@ impl Bench {
     /// Plays a step; the events stay readable until the next.
     fn step(&mut self, action: Action) {
         self.events.clear();
+        control::prepare(&mut self.game);
         football::play_step(&mut self.game, &[action], &mut self.events, &mut self.scratch);
     }
 
     fn restart(&mut self) {
-        football::restart(&mut self.game, &mut self.events);
+        football::go_on(&mut self.game);
     }
 
     fn seen(&self, kind: EventKind) -> Option<Event> {

@@ -40,19 +40,14 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: u16, act
         Action::LongPass => arm(game, id, KickKind::Long, direction),
         Action::HighPass => arm(game, id, KickKind::High, direction),
         Action::Shot => arm(game, id, KickKind::Shot, direction),
-        // A slide is for a ball that the others have or will have first.
-        Action::Sliding if !may_arm(game, id) => slide::begin(game, events, id, direction),
+        Action::Sliding if may_slide(game, id) => slide::begin(game, events, id, direction),
         _ => {}
     }
 }
 
 /// Arms a kick, where the ball is his side's to play.
 fn arm(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>) {
-    if !may_arm(game, id) {
-        return;
-    }
-    let thrown = game.play.set_piece.is_some_and(|s| s.taker == id && s.mode == GameMode::ThrowIn);
-    if thrown && matches!(kind, KickKind::High | KickKind::Shot) {
+    if !may_arm(game, id, kind) {
         return;
     }
     let now = game.tick as i32;
@@ -63,8 +58,19 @@ fn arm(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>) {
         Some(KickPlan { kind, dir, mate: None, point: None, power: 0.0, ready_at, until: now + kick::PATIENCE_TICKS });
 }
 
-/// Whether a kick can be asked for: he has the ball, or is nearer to it than every rival.
-pub fn may_arm(game: &Match, id: PlayerId) -> bool {
+/// Whether a kick can be asked for: the ball is his to play, and a throw-in is a pass to a mate.
+pub fn may_arm(game: &Match, id: PlayerId, kind: KickKind) -> bool {
+    let thrown = game.play.set_piece.is_some_and(|set_piece| set_piece.mode == GameMode::ThrowIn);
+    may_play(game, id) && !(thrown && matches!(kind, KickKind::High | KickKind::Shot))
+}
+
+/// Whether a slide can be asked for: it is for a ball that the others have or will have first.
+pub fn may_slide(game: &Match, id: PlayerId) -> bool {
+    slide::may_begin(game, id) && !may_play(game, id)
+}
+
+/// Whether the ball is his to play: he has it, or is nearer to it than every rival.
+pub fn may_play(game: &Match, id: PlayerId) -> bool {
     if let Some(set_piece) = game.play.set_piece {
         return set_piece.taker == id;
     }

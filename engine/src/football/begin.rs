@@ -40,6 +40,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     reach::assess(&mut game);
     start_of(&mut game, drawn, nearest);
     crate::control::switching::reassign(&mut game);
+    crate::control::prepare(&mut game);
     game
 }
 

@@ -156,6 +156,12 @@ impl Body {
 }
 
 impl Player {
+    /// Brings him down for so many ticks: a resilient man is up again sooner.
+    pub fn fall(&mut self, ticks: f32) {
+        let ticks = ticks * (1.3 - 0.4 * self.skill(Stat::Resilience));
+        self.body.strike_pose(Pose::Down, ticks as u8);
+    }
+
     /// A statistic as it counts now: raw · (0.3 + 0.7 difficulty) · (0.7 + 0.3 freshness).
     pub fn skill(&self, stat: Stat) -> f32 {
         self.body.stats[stat.index()] * self.body.level * (1.0 - 0.3 * self.fatigue)

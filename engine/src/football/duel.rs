@@ -1,7 +1,6 @@
 //! Challenging the player on the ball: automatic standing tackles, and what a lost one costs.
 
 use crate::event::Events;
-use crate::football::body::Pose;
 use crate::football::{foul, noise, report, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -9,6 +8,10 @@ use setpiece_scenario::vocabulary::{EventKind, Stat};
 
 /// How near the ball the tackler's foot must come, metres.
 const TACKLE_M: f32 = 0.85;
+/// How often at least a try succeeds; chosen.
+const LEAST: f32 = 0.025;
+/// How much more often against a man who stands still with the ball; chosen.
+const STANDS: f32 = 0.06;
 /// Ticks between two tries of one player.
 const RETRY_TICKS: i32 = 32;
 
@@ -29,9 +32,11 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
         0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
     let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
     let chance = (0.11 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
-    let chance = chance.clamp(0.02, 0.9);
+    // Who stands with it is there to be tried from any side.
+    let still = (1.0 - victim.vel.length() / 1.5).max(0.0);
+    let chance = (chance + STANDS * still).clamp(LEAST, 0.9);
     let now = game.tick as i32;
-    if noise::roll(game) < chance {
+    if noise::happens(game, chance) {
         win(game, events, id, rival, ball);
         game.players[rival.index()].body.ready_at = now + 45;
         game.players[rival.index()].vel *= 0.6;
@@ -41,7 +46,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     // Beaten: he is wrong-footed for a moment.
     game.players[id.index()].vel *= 0.45;
     if near < 0.7 && foul::trips(game, id, rival) {
-        game.players[rival.index()].body.strike_pose(Pose::Down, 45);
+        game.players[rival.index()].fall(foul::FALL_TICKS);
         foul::call_or_let_run(game, events, id, rival, severity_of(behind));
     }
 }
@@ -54,7 +59,7 @@ fn severity_of(behind: f32) -> f32 {
 /// The tackler takes the ball along, or pokes it away.
 fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, ball: Vec2) {
     let tackler = *game.player(id);
-    let clean = noise::roll(game) < 0.35 + 0.4 * tackler.skill(Stat::BallControl);
+    let clean = noise::happens(game, 0.35 + 0.4 * tackler.skill(Stat::BallControl));
     let away = (ball - tackler.pos).normalize_or_zero();
     let side = id.team().side() as f32;
     let velocity = if clean {

@@ -2,7 +2,7 @@
 
 use crate::event::{Event, Events};
 use crate::football::play::Flight;
-use crate::football::{offside, report, touch};
+use crate::football::{offside, report, restart, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
@@ -16,13 +16,15 @@ pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) 
     if offside::caught(game, events, by) {
         return false;
     }
-    report::did(game, events, touch::kind_of_touch(game.ball.pos.z), by, None);
-    if game.play.kick_off.take().is_some() {
+    let placed = game.play.set_piece.is_some();
+    let kind = if placed { EventKind::Touch } else { touch::kind_of_touch(game.ball.pos.z) };
+    report::did(game, events, kind, by, None);
+    if game.play.kick_off.is_some() {
         events.push(report::event(game, EventKind::Kickoff).by(by).qualified(Qualifier::Taken));
     }
     settle(game, events, by);
     note(game, by, Touch::Played);
-    game.play.kicked_by = (kick && game.ball.pos.z < 1.2).then_some(by);
+    game.play.kicked_by = (placed || kick && game.ball.pos.z < 1.2).then_some(by);
     true
 }
 
@@ -96,7 +98,7 @@ pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
     game.last_touch = Some(by);
     game.play.lead = by.team();
     game.players[by.index()].body.touched_at = game.tick as i32;
-    game.play.kick_off = None;
+    restart::end_kick_off(game);
     game.play.offside = match touch {
         Touch::Exempt => 0,
         Touch::Sprang if game.play.offside & team_bits(by.team().other()) != 0 => game.play.offside,

@@ -1,7 +1,6 @@
 //! Fouls and cards: what a trip or a hand costs.
 
 use crate::event::Events;
-use crate::football::body::Pose;
 use crate::football::play::Restart;
 use crate::football::{advantage, noise, referee, report};
 use crate::state::{Match, PlayerId};
@@ -13,12 +12,14 @@ use std::ops::Range;
 /// Severity above which a foul earns a yellow card.
 const YELLOW: f32 = 1.5;
 /// Severity above which a foul earns a red card.
-const RED: f32 = 1.93;
+const RED: f32 = 1.8;
 /// At which heights a ball meets a player's arms, metres.
 const ARMS_M: Range<f32> = 0.6..1.5;
 /// How often it is one of them that the ball springs off there.
 const HANDBALL: f32 = 0.04;
 
+/// How long a tripped man lies, ticks.
+pub const FALL_TICKS: f32 = 45.0;
 /// How often a push from behind brings a man down who runs fast.
 const SHOVE: f32 = 0.02;
 
@@ -27,7 +28,7 @@ pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
     let clumsy = 1.25 - game.player(id).skill(Stat::StandingTackle);
     let steady = 0.5 + 0.5 * game.player(rival).skill(Stat::Balance);
     let chance = 0.035 * clumsy / steady;
-    noise::roll(game) < chance && game.rule(Rule::Stochastic)
+    noise::happens(game, chance)
 }
 
 /// A body runs into a rival on the ball from behind: rarely, he is brought down by it.
@@ -42,10 +43,10 @@ pub fn shove(game: &mut Match, events: &mut Events, by: PlayerId, victim: Player
     let behind = player.body.facing.dot(away).max(0.0);
     let unsteady = 1.5 - player.skill(Stat::Balance) + 5.0 * player.body.push_m;
     let chance = SHOVE * behind * unsteady * (closing_mps - 1.0).min(4.0) * player.vel.length() / 8.0;
-    if noise::roll(game) >= chance || !game.rule(Rule::Stochastic) {
+    if !noise::happens(game, chance) {
         return;
     }
-    game.players[victim.index()].body.strike_pose(Pose::Down, 45);
+    game.players[victim.index()].fall(FALL_TICKS);
     call_or_let_run(game, events, by, victim, 1.0 + 0.3 * behind);
 }
 
@@ -75,7 +76,7 @@ pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool)
     if !game.rule(Rule::Handball) || game.dead || own_keeper || !ARMS_M.contains(&height) {
         return;
     }
-    if noise::roll(game) >= HANDBALL {
+    if !noise::happens(game, HANDBALL) {
         return;
     }
     report::did(game, events, EventKind::Handball, by, None);
@@ -140,24 +141,15 @@ fn caution(game: &mut Match, events: &mut Events, by: PlayerId) {
 
 /// Sends a player off, unless he is the last of his team.
 fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
-    report::did(game, events, EventKind::RedCard, by, None);
     if game.team(by.team()).count() <= 1 {
         return;
     }
+    report::did(game, events, EventKind::RedCard, by, None);
     let player = &mut game.players[by.index()];
     player.active = false;
     player.vel = Vec2::ZERO;
     player.body.kick = None;
-    if player.role == Role::GK {
-        // The first mate left goes in goal.
-        let heir = game.team(by.team()).map(|(id, _)| id).next();
-        if let Some(heir) = heir {
-            let (kickoff, slot) = (game.players[by.index()].body.kickoff, game.players[by.index()].body.mind.slot);
-            let player = &mut game.players[heir.index()];
-            player.role = Role::GK;
-            (player.body.kickoff, player.body.mind.slot) = (kickoff, slot);
-        }
-    }
+    succeed(game, by.team());
     if game.owner == Some(by) {
         game.owner = None;
     }
@@ -165,5 +157,26 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
         if slot.player == Some(by) && !slot.fixed {
             slot.player = None;
         }
+    }
+}
+
+/// Where a team's keepers have all been sent off, the first mate left goes in goal.
+pub fn succeed(game: &mut Match, team: Team) {
+    let mut sent_off = None;
+    for i in (0..game.players.len()).filter(|i| PlayerId(*i as u8).team() == team) {
+        let player = &game.players[i];
+        if player.role == Role::GK && player.active {
+            return;
+        }
+        if player.role == Role::GK && player.present {
+            sent_off = sent_off.or(Some(player.body));
+        }
+    }
+    let heir = game.team(team).map(|(id, _)| id).next();
+    if let (Some(keeper), Some(heir)) = (sent_off, heir) {
+        let player = &mut game.players[heir.index()];
+        player.role = Role::GK;
+        player.body.kickoff = keeper.kickoff;
+        (player.body.mind.slot, player.body.mind.mindset) = (keeper.mind.slot, keeper.mind.mindset);
     }
 }

@@ -93,8 +93,10 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
         return IDLE;
     }
     let goal_x = -(HALF_LENGTH_M as f32) * side;
-    let panic = GOAL_HALF_WIDTH_M as f32 + 0.5;
     let player = *game.player(id);
+    // How far beside the goal a ball still worries him: less, the better he reads it (the fact sheet's).
+    let reading = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
+    let panic = GOAL_HALF_WIDTH_M as f32 * (1.02 + 0.5 * (1.0 - reading));
     let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));
     let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let react_s = (reaction - since as f32 * 0.01).max(0.02);
@@ -123,9 +125,9 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
     } else {
         0.0
     };
-    let reaches = noise::roll(game) < chance;
+    let reaches = noise::happens(game, chance);
     let at_hand = game.ball.vel.length();
-    let holds = noise::roll(game) < (1.2 - at_hand / 30.0 - 0.5 * ratio).clamp(0.05, 0.95);
+    let holds = noise::happens(game, (1.2 - at_hand / 30.0 - 0.5 * ratio).clamp(0.05, 0.95));
     Save {
         at_tick: game.tick + ((time_s * 100.0) as u32).max(1),
         from_tick: game.tick + (react_s * 100.0) as u32,
@@ -173,7 +175,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     let speed = game.ball.vel.length();
     let y = game.ball.pos.y;
     let wide = if y.abs() < 0.2 { noise::bell(game).signum() * side } else { y.signum() };
-    let out_wide = noise::roll(game) < 0.35 + 0.2 * y.abs();
+    let out_wide = noise::happens(game, 0.35 + 0.2 * y.abs());
     let way =
         if out_wide { Vec2::new(-0.55 * side, wide) } else { Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game))) };
     let away = way.normalize_or_zero() * (0.3 * speed + 2.5);
@@ -205,7 +207,7 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     let rival = touch::controller(game).filter(|owner| owner.team() != team);
     let brave = if rival.is_some() { 0.45 } else { 1.0 };
     let chance = (1.25 - speed / 22.0).clamp(0.1, 1.0) * brave * (0.6 + 0.4 * player.body.level);
-    if noise::roll(game) < chance {
+    if noise::happens(game, chance) {
         if let Some(shot) = game.play.shot.take().filter(|shot| shot.by.team() != team) {
             events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
             report::did(game, events, EventKind::Save, id, Some(shot.by));

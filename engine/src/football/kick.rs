@@ -6,6 +6,7 @@ use crate::event::Events;
 use crate::football::body::{KickKind, KickPlan, NEVER};
 use crate::football::{flight, forecast, noise, pass_target, report, shot, touch};
 use crate::math;
+use crate::physics::constants::GRAVITY;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
@@ -18,6 +19,10 @@ pub const PATIENCE_TICKS: i32 = 200;
 pub const KICK_M: f32 = 0.85;
 /// Backspin of a shot, rad/s: in flight it falls with 7.4 m/s², as measured.
 const SHOT_BACKSPIN: f32 = 19.0;
+/// How far a throw-in goes at most, metres; chosen.
+const THROW_M: f32 = 25.0;
+/// The height at which a throw-in comes to a mate, metres; chosen.
+const CHEST_M: f32 = 1.0;
 /// Highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
@@ -83,12 +88,10 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
         report::did(game, events, EventKind::Touch, id, None);
     }
     let mode = set_piece.map(|s| s.mode);
-    let thrown = mode == Some(GameMode::ThrowIn);
     game.play.hands = None;
     game.play.set_piece = None;
     let exempt = matches!(mode, Some(GameMode::ThrowIn | GameMode::Corner | GameMode::GoalKick));
-    let plan = if thrown { KickPlan { kind: KickKind::Short, ..plan } } else { plan };
-    let rough = roughness(game.player(id), game);
+    let rough = roughness(game.player(id), game, plan.kind);
     let mut receiver = None;
     match plan.kind {
         KickKind::Shot => {
@@ -102,7 +105,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
         }
         KickKind::Clear => {
             let side = id.team().side() as f32;
-            let behind = touch::hurried(game, id) && noise::roll(game) < 0.5;
+            let behind = touch::hurried(game, id) && noise::happens(game, 0.5);
             let way = plan.dir.unwrap_or(Vec2::new(side, 0.0));
             // With a rival at his side he is glad of a corner.
             let way = if behind { Vec2::new(-way.x, math::sign_or(from.y, side) * way.y.abs()) } else { way };
@@ -112,7 +115,10 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
         kind => {
             let target = pass_target::choose(game, id, &plan);
             receiver = target.mate;
-            let velocity = pass_velocity(game, id, kind, target.point, rough, thrown || from_hands);
+            let velocity = match mode {
+                Some(GameMode::ThrowIn) => throw_velocity(game, id, target.point),
+                _ => pass_velocity(game, id, kind, target.point, rough, from_hands),
+            };
             let spin = if kind == KickKind::High { backspin(velocity) } else { Vec3::ZERO };
             send(game, velocity, spin);
         }
@@ -143,8 +149,9 @@ fn send(game: &mut Match, velocity: Vec3, spin: Vec3) {
     game.ball.spin = spin;
 }
 
-/// How awkward the kick is, 0..1: a fast, high or far ball, an opponent near.
-fn roughness(player: &Player, game: &Match) -> f32 {
+/// How awkward the kick is, 0..1: a fast, high or far ball (less for who volleys well), an opponent near (less for a
+/// calm man).
+fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
     if game.play.set_piece.is_some() || game.play.hands.is_some() {
         return 0.0;
     }
@@ -158,7 +165,11 @@ fn roughness(player: &Player, game: &Match) -> f32 {
         .count()
         .saturating_sub(1);
     let pushed = 3.0 * player.body.push_m;
-    (((relative - 4.0) / 25.0).clamp(0.0, 0.7) + far * 0.5 + high * 0.4 + near as f32 * 0.16 + pushed).clamp(0.0, 1.0)
+    let moving = ((relative - 4.0) / 25.0).clamp(0.0, 0.7) + high * 0.4;
+    // Both about 1 for the average player of the table.
+    let volley = if kind == KickKind::Shot { 1.22 - 0.4 * player.skill(Stat::Volley) } else { 1.0 };
+    let hurry = 1.3 - 0.4 * player.skill(Stat::Calmness);
+    (moving * volley + far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
 }
 
 /// The velocity of a pass to a point.
@@ -187,6 +198,18 @@ fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, ro
     let ahead = way.normalize_or(player.body.facing);
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
     flat.extend(level * rise * (1.0 + noise::bell(game) * wild))
+}
+
+/// The velocity of a throw-in: it comes down to a mate's chest at a point.
+fn throw_velocity(game: &mut Match, id: PlayerId, point: Vec2) -> Vec3 {
+    let way = point - game.ball.pos.truncate();
+    let distance = way.length().clamp(2.0, THROW_M);
+    let speed = 7.0 + 0.35 * distance;
+    let time = distance / (0.95 * speed);
+    let rise = (CHEST_M - game.ball.pos.z + 0.5 * GRAVITY * time * time) / time;
+    let ahead = way.normalize_or(game.player(id).body.facing);
+    let aside = Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * 0.02);
+    ((ahead + aside) * speed).extend(rise)
 }
 
 /// The backspin that lifts a lofted pass, rad/s.

@@ -57,13 +57,13 @@ pub fn place(game: &mut Match, restart: Restart) {
     crate::control::switching::reassign(game);
 }
 
-/// Everyone to his place of the kick-off; play is on at once.
+/// Everyone to his place of the kick-off. Play is on at once: the mode says until when it has not been taken.
 fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     for (i, player) in game.players.iter_mut().enumerate() {
         let own = PlayerId(i as u8).team() == team;
         player.pos = player.body.kickoff[usize::from(!own)];
     }
-    game.mode = GameMode::Normal;
+    game.mode = GameMode::KickOff;
     game.owner = None;
     game.possession = Some(team);
     game.last_touch = None;
@@ -80,6 +80,13 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
         }
     }
     bring_kicker(game, team, spot);
+}
+
+/// The kick-off has been taken, or given up.
+pub fn end_kick_off(game: &mut Match) {
+    if game.play.kick_off.take().is_some() {
+        game.mode = GameMode::Normal;
+    }
 }
 
 /// Someone of the team that kicks off must stand by the ball.

@@ -11,6 +11,8 @@ use setpiece_scenario::vocabulary::Stat;
 
 /// Distance at which two bodies touch, metres.
 pub const CONTACT_M: f32 = 0.72;
+/// How near one comes to a man who lies, metres; chosen.
+const LYING_M: f32 = 0.5;
 /// Most that one meeting moves a body in a tick, metres.
 const PUSH_MAX_M: f32 = 0.08;
 
@@ -47,17 +49,27 @@ pub fn separate(game: &mut Match, events: &mut Events) {
     }
 }
 
+/// Who comes to a man on the ground goes round him; `away`: from that man to him.
+fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
+    let player = &mut game.players[id.index()];
+    player.pos += away * (LYING_M - distance).clamp(0.0, PUSH_MAX_M);
+    player.vel -= away * player.vel.dot(away).min(0.0);
+}
+
 /// Pushes two bodies apart; the better balanced one yields less.
 fn part(game: &mut Match, events: &mut Events, i: PlayerId, j: PlayerId) {
     let (a, b) = (*game.player(i), *game.player(j));
-    if a.body.pose == Pose::Down || b.body.pose == Pose::Down {
-        return;
-    }
     let between = b.pos - a.pos;
     let distance = between.length();
-    let overlap = (CONTACT_M - distance).max(0.0);
     // Exactly on one spot: they part sideways, the first to his left.
     let away = if distance > 1e-4 { between / distance } else { Vec2::new(0.0, i.team().side() as f32) };
+    match (a.body.pose == Pose::Down, b.body.pose == Pose::Down) {
+        (false, false) => {}
+        (true, false) => return go_round(game, j, away, distance),
+        (false, true) => return go_round(game, i, -away, distance),
+        (true, true) => return,
+    }
+    let overlap = (CONTACT_M - distance).max(0.0);
     let mut share = 0.5 + 0.25 * (a.skill(Stat::Balance) - b.skill(Stat::Balance));
     if game.owner == Some(i) {
         share += 0.15;

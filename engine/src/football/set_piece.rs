@@ -16,6 +16,8 @@ pub const WALL_WITHIN_M: f32 = 40.0;
 const APART_M: f32 = 0.74;
 /// Times that a crowd is gone through until nobody stands in anybody.
 const SPREAD_PASSES: usize = 8;
+/// How high the ball is held before a throw-in, metres; chosen.
+const OVERHEAD_M: f32 = 1.9;
 /// From one man of a wall to the next, metres.
 const WALL_SPACING_M: f32 = 0.75;
 
@@ -58,6 +60,9 @@ pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
         _ => Vec2::new(-0.7 * side, 0.0),
     };
     game.players[taker.index()].pos = restart.spot + behind;
+    if restart.mode == GameMode::ThrowIn {
+        game.ball.pos.z = OVERHEAD_M;
+    }
     spread_out(game, taker);
 }
 

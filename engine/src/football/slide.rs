@@ -19,10 +19,15 @@ const REACH_M: f32 = 1.0;
 /// How near a slide must come to bring a rival down, metres.
 const LEGS_M: f32 = 0.75;
 
+/// Whether a player can throw himself into a slide: on his feet, without the ball, while play is on.
+pub fn may_begin(game: &Match, id: PlayerId) -> bool {
+    let waits = game.play.set_piece.is_some() || game.play.hands.is_some();
+    game.player(id).is_up() && game.owner != Some(id) && !waits
+}
+
 /// Throws a player into a slide tackle, in the way he runs or towards the ball.
 pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Vec2>) {
-    if !game.player(id).is_up() || game.owner == Some(id) || game.play.set_piece.is_some() || game.play.hands.is_some()
-    {
+    if !may_begin(game, id) {
         return;
     }
     let ball = game.ball.pos.truncate();
@@ -54,7 +59,7 @@ pub fn resolve(game: &mut Match, events: &mut Events) {
         let ball = game.ball.pos;
         if fresh && ball.z < 0.5 && foot.distance_squared(ball.truncate()) < REACH_M * REACH_M {
             let chance = 0.30 + 0.6 * player.skill(Stat::SlidingTackle);
-            if noise::roll(game) < chance {
+            if noise::happens(game, chance) {
                 take(game, events, id);
                 continue;
             }
@@ -93,7 +98,7 @@ fn meet_legs(game: &mut Match, events: &mut Events, id: PlayerId) {
         (up && other.pos.distance_squared(foot) < LEGS_M * LEGS_M).then_some((rival, other.pos, other.body.facing))
     });
     let Some((rival, pos, facing)) = hit else { return };
-    game.players[rival.index()].body.strike_pose(Pose::Down, 60);
+    game.players[rival.index()].fall(60.0);
     game.players[rival.index()].vel *= 0.5;
     if pos.distance_squared(ball) > 8.0 * 8.0 {
         return;

@@ -3,8 +3,8 @@
 use crate::event::Events;
 use crate::football::play::ticks_since;
 use crate::football::{
-    advantage, flight, forecast, foul, keeper, kick, movement, possession, reach, referee, report, separation, slide,
-    touch,
+    advantage, flight, forecast, foul, keeper, kick, movement, possession, reach, referee, report, restart, separation,
+    slide, touch,
 };
 use crate::physics::{self, Body, Contact, Scratch};
 use crate::state::{Match, PlayerId};
@@ -104,7 +104,7 @@ fn keep_circle(game: &mut Match) {
     let waited = game.tick.saturating_sub(game.play.kick_off_tick);
     if game.rule(Rule::AntiStalling) && waited > KICK_OFF_TICKS {
         // Whoever does not take it gives it up.
-        game.play.kick_off = None;
+        restart::end_kick_off(game);
         return;
     }
     let radius = CIRCLE_RADIUS_M as f32;

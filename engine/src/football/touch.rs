@@ -189,7 +189,7 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
         // A ball struck by the others: the faster, the harder to read.
         let reaction = player.skill(Stat::Reaction);
         let chance = (1.25 - 0.028 * meeting) * (0.5 + 0.5 * reaction) * (1.0 - 0.95 * surprise(game, reaction));
-        if noise::roll(game) > chance {
+        if !noise::happens(game, chance) {
             game.players[id.index()].body.ready_at = game.tick as i32 + 40;
             return;
         }
@@ -240,7 +240,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let aimed = match plan.map(|plan| plan.kind) {
         Some(KickKind::Shot) => Some((goal, 15.0)),
         Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
-        None if hurried(game, id) && noise::roll(game) < 0.5 => {
+        None if hurried(game, id) && noise::happens(game, 0.5) => {
             // With a rival at his side he is glad of a corner.
             Some((Vec2::new(-60.0 * side, math::sign_or(player.pos.y, side) * 16.0), 12.0))
         }

@@ -1,13 +1,16 @@
 //! Which actions can change anything.
 
 use super::{ObserveError, slot};
+use crate::control::driver;
+use crate::football::body::KickKind;
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
 /// Which of the 19 actions of GRF's `default` set can change something for agent `agent`; `idle` always may be chosen.
 ///
-/// Masked are: what is held already and the release of what isn't held; sliding while the own player has the ball;
-/// passes and shots while an opponent has it; everything but `idle` for an agent without a player on the pitch.
+/// Masked are: what is held already and the release of what isn't held; passes and shots while the ball is not the
+/// player's to play, and sliding while it is; high passes and shots at a throw-in; everything but `idle` for an agent
+/// without a player on the pitch.
 ///
 /// # Errors
 /// [`ObserveError::Agent`] for no such agent.
@@ -18,8 +21,7 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::DEFAULT_
     let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;
     let directions = &StickyAction::ALL[..StickyAction::Sprint.index()];
-    let ours = game.owner == Some(player);
-    let theirs = game.owner.is_some_and(|owner| owner.team() != slot.team);
+    let kick = |kind: KickKind| driver::may_arm(game, player, kind);
     for (action, open) in Action::ALL.iter().zip(&mut mask) {
         *open = match action {
             Action::Idle | Action::BuiltinAi => true,
@@ -36,8 +38,11 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::DEFAULT_
             Action::ReleaseSprint => held(StickyAction::Sprint),
             Action::Dribble => !held(StickyAction::Dribble),
             Action::ReleaseDribble => held(StickyAction::Dribble),
-            Action::LongPass | Action::HighPass | Action::ShortPass | Action::Shot => !theirs,
-            Action::Sliding => !ours,
+            Action::LongPass => kick(KickKind::Long),
+            Action::HighPass => kick(KickKind::High),
+            Action::ShortPass => kick(KickKind::Short),
+            Action::Shot => kick(KickKind::Shot),
+            Action::Sliding => driver::may_slide(game, player),
         };
     }
     Ok(mask)

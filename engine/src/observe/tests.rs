@@ -132,6 +132,8 @@ fn sizes_and_agents_are_checked() {
 #[test]
 fn the_mask_leaves_what_can_matter() {
     let mut game = game();
+    game.ball.pos = game.players[1].pos.extend(0.11);
+    game.last_touch = game.owner;
     game.agents[0].sticky = 1 << StickyAction::Right.index() | 1 << StickyAction::Sprint.index();
     let mask = action_mask(&game, 0).unwrap();
     let open = |action: Action| mask[action.index()];

@@ -1,14 +1,13 @@
 //! A new episode in an old state: what has happened is the snapshot's, what the scenario says is its own.
 
-use crate::event::Events;
-use crate::football;
+use crate::football::{self, foul};
 use crate::state::Match;
-use setpiece_scenario::vocabulary::Rule;
+use setpiece_scenario::vocabulary::{Rule, Team};
 
 /// The match of a new episode that begins where `past` stands.
 ///
 /// - Of `past`: places, ball, whatever goes on (kicks, flights, a set piece), score, cards, fatigue, the clock.
-/// - Of `fresh`, the start that the scenario draws: rules, limit, difficulty, who plays whom, the random streams.
+/// - Of `fresh`, the start that the scenario draws: rules, limit, difficulty, roles and statistics, who plays whom, the random streams.
 ///
 /// Steps are counted anew; ticks go on, as everything under way is timed by them.
 pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
@@ -27,13 +26,22 @@ pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
         player.ai = fresh.ai;
         player.controllable = fresh.controllable;
         player.difficulty = fresh.difficulty;
-        player.body.level = fresh.body.level;
-        let mind = &mut player.body.mind;
+        player.role = fresh.role;
+        let (body, said) = (&mut player.body, &fresh.body);
+        body.stats = said.stats;
+        body.level = said.level;
+        body.speed_top_mps = said.speed_top_mps;
+        body.height_m = said.height_m;
+        body.kickoff = said.kickoff;
+        let mind = &mut body.mind;
+        mind.slot = said.mind.slot;
+        mind.mindset = said.mind.mindset;
         mind.run_until_step = mind.run_until_step.saturating_sub(past.step);
         mind.decide_at_step = mind.decide_at_step.saturating_sub(past.step);
     }
-    if game.dead {
-        football::restart(&mut game, &mut Events::new());
+    for team in [Team::Left, Team::Right] {
+        foul::succeed(&mut game, team);
     }
+    football::go_on(&mut game);
     game
 }

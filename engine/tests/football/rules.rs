@@ -3,6 +3,7 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
+use setpiece_engine::football::body::Pose;
 use setpiece_engine::football::play::Restart;
 use setpiece_engine::football::restart::place;
 use setpiece_engine::football::{flight, foul, keeper, offside};
@@ -233,4 +234,90 @@ fn a_kick_off_that_nobody_takes_is_given_up() {
         });
         assert_eq!(touched, taken);
     }
+}
+
+#[test]
+fn a_kick_off_is_a_mode_until_it_is_taken() {
+    let mut bench = bench(&[], 0);
+    place(&mut bench.game, Restart { mode: GameMode::KickOff, team: Team::Left, spot: Vec2::ZERO });
+    assert_eq!(bench.game.mode, GameMode::KickOff);
+    for _ in 0..20 {
+        bench.step(Action::BuiltinAi);
+        let taken = bench.seen(EventKind::Touch).is_some();
+        assert_eq!(bench.game.mode, if taken { GameMode::Normal } else { GameMode::KickOff });
+        if taken {
+            return;
+        }
+    }
+    panic!("nobody kicked off");
+}
+
+#[test]
+fn a_throw_in_flies_from_above_the_head() {
+    let mut bench = bench(&[], 0);
+    let spot = Vec2::new(-10.0, 36.0);
+    place(&mut bench.game, Restart { mode: GameMode::ThrowIn, team: Team::Left, spot });
+    assert!(bench.game.ball.pos.z > 1.5);
+    let taker = bench.game.owner;
+    let mut lowest = f32::MAX;
+    for _ in 0..12 {
+        bench.step(Action::BuiltinAi);
+        let headed = bench.seen(EventKind::Header).and_then(|event| event.by);
+        assert!(headed.is_none() || headed != taker, "a throw is no header");
+        if bench.game.mode == GameMode::Normal {
+            let way = bench.game.ball.pos.truncate().distance(spot);
+            if (1.0..4.0).contains(&way) {
+                lowest = lowest.min(bench.game.ball.pos.z);
+            }
+        }
+    }
+    assert!(lowest > 1.0 && lowest < 4.0, "{lowest}");
+    assert!(bench.game.possession == Some(Team::Left));
+}
+
+#[test]
+fn nobody_walks_through_a_man_on_the_ground() {
+    let mut bench = bench(&[], 0);
+    let game = &mut bench.game;
+    game.agents[0].player = Some(PlayerId(9));
+    game.agents[0].fixed = true;
+    game.players[9].pos = Vec2::new(-8.0, 20.0);
+    game.players[9].vel = Vec2::ZERO;
+    let mut least = f32::MAX;
+    for _ in 0..25 {
+        bench.game.players[14].pos = Vec2::new(-3.0, 20.1);
+        bench.game.players[14].body.strike_pose(Pose::Down, 40);
+        bench.step(Action::Right);
+        least = least.min(bench.game.players[9].pos.distance(bench.game.players[14].pos));
+    }
+    assert!(bench.game.players[9].pos.x > -2.0, "he came by: {}", bench.game.players[9].pos);
+    assert!(least > 0.4, "he went through: {least} m");
+}
+
+#[test]
+fn the_last_man_of_a_team_is_shown_no_red_card() {
+    let mut bench = bench(&[], 0);
+    for player in &mut bench.game.players[1..11] {
+        player.active = false;
+    }
+    foul::call(&mut bench.game, &mut bench.events, PlayerId(0), PlayerId(15), 2.0);
+    assert!(bench.seen(EventKind::Foul).is_some() && bench.seen(EventKind::RedCard).is_none());
+    assert!(bench.game.players[0].active);
+}
+
+#[test]
+fn tackles_trips_and_runs_happen_without_noise_too() {
+    let mut bench = bench(&[(Rule::Stochastic, 0.0)], 0);
+    let mut seen = [0; 4];
+    for _ in 0..12_000 {
+        bench.step(Action::BuiltinAi);
+        for event in bench.events.as_slice() {
+            let kinds = [EventKind::Tackle, EventKind::Foul, EventKind::Save, EventKind::Slide];
+            if let Some(i) = kinds.iter().position(|kind| *kind == event.kind) {
+                seen[i] += 1;
+            }
+        }
+        bench.restart();
+    }
+    assert!(seen[0] > 20 && seen[1] > 2 && seen[2] > 2 && seen[3] > 2, "{seen:?}");
 }

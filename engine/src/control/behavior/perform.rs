@@ -2,7 +2,7 @@
 
 use super::actor::Frame;
 use super::steer::{Gait, rest, towards};
-use crate::control::driver::may_arm;
+use crate::control::driver::may_play;
 use crate::control::{agents, sticky};
 use crate::football::movement::RUN_MPS;
 use crate::football::{shot, touch};
@@ -92,7 +92,7 @@ pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut
 fn his(game: &Match, id: PlayerId) -> bool {
     let near = game.player(id).pos.distance(game.ball.pos.truncate()) < NEAR_M;
     let taker = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
-    touch::controller(game) == Some(id) || ((near || taker || game.owner == Some(id)) && may_arm(game, id))
+    touch::controller(game) == Some(id) || ((near || taker || game.owner == Some(id)) && may_play(game, id))
 }
 
 /// A player and what he holds.

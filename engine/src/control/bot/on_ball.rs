@@ -76,6 +76,7 @@ pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
 fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
     let player = *game.player(id);
     let fickle = 0.003 + 0.008 * (1.0 - player.body.level);
+    let fickle = fickle * (1.6 - 0.8 * player.body.stats[Stat::Vision.index()]);
     let mut best = Choice { worth: f32::MIN, act: Act::Clear };
     let mut offer = |game: &mut Match, worth: f32, act: Act| {
         let worth = worth + (noise::whim(game) - 0.5) * 2.0 * fickle;
@@ -178,7 +179,7 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     let choice = match best {
         Some((worth, mate)) if worth > 0.45 => plan(KickKind::Short, Some(mate), None),
         _ if held_ticks > 250 => {
-            let y = (noise::whim(game) * 2.0 - 1.0) * 20.0;
+            let y = (noise::choice(game) * 2.0 - 1.0) * 20.0;
             let point = Vec2::new(2.0, y) * view.side;
             plan(KickKind::High, None, Some(point))
         }
@@ -205,8 +206,11 @@ fn shot_chance(game: &Match, view: &View, id: PlayerId) -> (f32, Vec2) {
     if distance > 30.0 || own.x > 54.0 {
         return (0.0, goal);
     }
-    let keeper =
-        game.team(view.team.other()).find(|(_, rival)| rival.role == Role::GK).map(|(_, rival)| rival.pos * view.side);
+    let keeper = game
+        .team(view.team.other())
+        .find(|(_, rival)| rival.role == Role::GK)
+        .map(|(_, rival)| rival.pos * view.side)
+        .filter(|keeper| (keeper - own).dot(goal - own) > 0.0);
     let ways = [Vec2::new(55.0, -2.9), Vec2::new(55.0, 2.9)];
     let open = |post: Vec2| {
         let line = (post - own).normalize_or_zero();
@@ -215,6 +219,7 @@ fn shot_chance(game: &Match, view: &View, id: PlayerId) -> (f32, Vec2) {
     };
     let (first, second) = (open(ways[0]), open(ways[1]));
     let (off, target) = if first.0 >= second.0 { first } else { second };
+    let target = if keeper.is_some() { target } else { goal };
     // How wide the goal looks from here, radians.
     let wide = math::wrap(math::heading(Vec2::new(55.0, 3.7) - own) - math::heading(Vec2::new(55.0, -3.7) - own)).abs();
     let mut chance = (wide / 0.6).min(1.0) * (1.0 - distance / 34.0).max(0.0) * (0.30 + 0.16 * off.min(3.0));

@@ -42,7 +42,8 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     let deep = (own.x + 55.0).max(0.0);
     let zeal = (17.0 + 10.0 * player.body.mind.mindset.min(0.6))
         * (0.4 + 0.6 * player.body.level)
-        * (1.0 - 0.3 * player.fatigue);
+        * (1.0 - 0.3 * player.fatigue)
+        * (0.7 + 0.4 * player.body.stats[Stat::Workrate.index()]);
     // Whoever has just lost it near the others' goal goes for it at once.
     let zeal = if view.ball.x > 12.0 { zeal * 1.6 } else { zeal };
     let goal_near = view.ball.x < -20.0;
@@ -80,7 +81,7 @@ fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId,
     if !(1.0..2.0).contains(&gap) || !fast || game.ball.pos.z > 0.4 {
         return;
     }
-    if noise::whim(game) < 0.022 * (0.4 + tackler) {
+    if noise::chooses(game, 0.022 * (0.4 + tackler)) {
         slide::begin(game, events, id, None);
     }
 }

@@ -5,7 +5,7 @@ use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::noise;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Role, Rule};
+use setpiece_scenario::vocabulary::{Role, Rule, Stat};
 
 /// Places tried around the block's place, own frame, metres.
 const OFFSETS: [Vec2; 6] = [
@@ -61,8 +61,8 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
         && view.ball.x > -25.0;
     let onside = !offside || own.x < view.line_x - 0.2;
     if mindset >= 0.5 && owner_near && onside && own.x > view.line_x - 9.0 && player.role != Role::GK {
-        let keen = 0.14 + 0.22 * mindset;
-        if noise::whim(game) < keen && game.rule(Rule::Stochastic) {
+        let keen = (0.14 + 0.22 * mindset) * (0.3 + 0.8 * player.skill(Stat::OffensivePositioning));
+        if noise::chooses(game, keen) {
             game.players[id.index()].body.mind.run_until_step = game.step + 14;
         }
     }

@@ -34,8 +34,8 @@ pub fn think(game: &mut Match) {
 fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let side = set_piece.team.side() as f32;
     let own = set_piece.spot * side;
-    let luck = noise::whim(game);
-    let spread = noise::whim(game) * 2.0 - 1.0;
+    let luck = noise::choice(game);
+    let spread = noise::choice(game) * 2.0 - 1.0;
     let now = game.tick as i32;
     let base = KickPlan {
         kind: KickKind::Short,

@@ -1,0 +1,93 @@
+//! A masked action changes nothing, and an unmasked one can.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::event::Events;
+use setpiece::engine::football;
+use setpiece::engine::observe::action_mask;
+use setpiece::engine::random::{Purpose, Stream};
+use setpiece::engine::state::Match;
+use setpiece::scenario::vocabulary::{Action, GameMode};
+
+/// A throw-in as the start, for either side's agent.
+const THROW_INS: &str = "scenario throw_ins extends academy {
+    start throw_in for choice(left, right) at (uniform(-0.5, 0.5), 0.43)
+    agents { left: 1, right: 1 }
+    team left { GK at own (-1, 0)  CM at (0, 0.3)  CF at (0.4, 0.2) }
+    team right { GK at own (-1, 0)  CB at (0.5, 0)  CM at (0.2, 0.2) }
+    remove end out
+    remove end possession
+    end limit 30 steps
+}";
+
+/// The match after a step in which one agent plays an action and the others idle, without the record of who pressed
+/// what.
+fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> Match {
+    let mut copy = game.clone();
+    let actions: Vec<Action> = (0..game.agents.len()).map(|i| if i == agent { action } else { Action::Idle }).collect();
+    football::play_step(&mut copy, &actions, &mut Events::new(), scratch);
+    for acting in &mut copy.play.acting {
+        acting.played = None;
+    }
+    copy
+}
+
+#[test]
+fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
+    let mut scratch = Scratch::default();
+    let (mut masked, mut modes) = (0u32, [0u32; 7]);
+    let (mut open, mut mattered) = ([0u32; Action::DEFAULT_SET], [0u32; Action::DEFAULT_SET]);
+    for (name, seed) in [
+        ("academy_3_vs_1_with_keeper", 1),
+        ("academy_corner", 2),
+        ("11_vs_11_stochastic", 3),
+        ("11_vs_11_easy_stochastic", 4),
+        ("academy_run_to_score_with_keeper", 5),
+        ("5_vs_5", 6),
+        (THROW_INS, 7),
+    ] {
+        let loaded = if name == THROW_INS { setpiece::compile_text(name, "<test>") } else { setpiece::load(name) };
+        let scenario = loaded.unwrap_or_else(|error| panic!("{error}")).scenario;
+        let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+        environment.reset(Some(seed), None).unwrap();
+        let mut stream = Stream::new(seed, 0, Purpose::Agent);
+        let mut played = 0;
+        while played < 700 {
+            if !environment.is_running() {
+                environment.reset(None, None).unwrap();
+            }
+            let agents = environment.n_agents();
+            let game: Match = environment.state().clone();
+            for agent in 0..agents {
+                let mask = action_mask(&game, agent).unwrap();
+                let idle = after(&game, agent, Action::Idle, &mut scratch);
+                for (action, allowed) in Action::ALL.iter().zip(mask) {
+                    let same = after(&game, agent, *action, &mut scratch) == idle;
+                    if !allowed {
+                        assert!(same, "{name}, step {}, {:?}: {action:?} is masked", game.step, game.mode);
+                        masked += 1;
+                    } else {
+                        open[action.index()] += 1;
+                        mattered[action.index()] += u32::from(!same);
+                    }
+                }
+            }
+            modes[game.mode.index()] += 1;
+            let actions: Vec<Action> = (0..agents)
+                .map(|_| {
+                    let bot = stream.below(3) > 0;
+                    let random = Action::from_index(stream.below(Action::DEFAULT_SET as u32) as usize).unwrap();
+                    if bot { Action::BuiltinAi } else { random }
+                })
+                .collect();
+            environment.step(&actions, &mut scratch).unwrap();
+            played += 1;
+        }
+    }
+    assert!(masked > 10_000);
+    assert!(modes[GameMode::ThrowIn.index()] > 0 && modes[GameMode::GoalKick.index()] > 0, "{modes:?}");
+    for action in &Action::ALL[1..Action::DEFAULT_SET] {
+        let (open, mattered) = (open[action.index()], mattered[action.index()]);
+        assert!(mattered > open / 2, "{action:?} was open {open} times and mattered {mattered} times");
+    }
+}

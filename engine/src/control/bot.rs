@@ -126,7 +126,6 @@ fn hold(game: &mut Match, id: PlayerId) {
 
 /// One player's decision.
 fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
-    let index = id.team().index();
     let has_ball = view.owner == Some(id);
     if game.player(id).role == Role::GK && !has_ball && keeper::stands(game, view, id) {
         return;
@@ -139,19 +138,14 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         }
         return;
     }
-    if game.play.chaser[index] == Some(id) || game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
+    let [first, second] = pressers(game, view);
+    if first == Some(id) || game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
         press::first(game, events, view, id);
         return;
     }
     let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
-    if game.play.second[index] == Some(id) && !view.attacks(game) {
-        // Where an agent leads the first man, the second goes for the ball as well.
-        let led = game.play.chaser[index].is_some_and(|first| game.play.driven & (1 << first.0) != 0);
-        if led {
-            press::first(game, events, view, id);
-        } else {
-            press::second(game, view, id);
-        }
+    if second == Some(id) {
+        press::second(game, view, id);
         return;
     }
     let was_on_ball = matches!(game.player(id).body.intent, Intent::Ball(_));
@@ -164,6 +158,18 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     } else {
         mark::place(game, view, id);
     }
+}
+
+/// The man who goes for the ball, and the one who covers him where the others attack: whoever is there first, but those
+/// whom an agent plays are not relied on.
+fn pressers(game: &Match, view: &View) -> [Option<PlayerId>; 2] {
+    let [second, third] = game.play.behind[view.team.index()];
+    let first = game.play.chaser[view.team.index()];
+    if view.attacks(game) {
+        return [first, None];
+    }
+    let mut queue = [first, second, third].into_iter().flatten().filter(|id| game.play.driven & (1 << id.0) == 0);
+    [queue.next(), queue.next()]
 }
 
 /// Whether the bot may pass and shoot for him: not for the mates of an agent who can be given to it.

@@ -36,8 +36,8 @@ pub struct Play {
     pub offside: u32,
     /// Nearest to the ball in time, by team: the player who goes for it.
     pub chaser: [Option<PlayerId>; 2],
-    /// Second nearest.
-    pub second: [Option<PlayerId>; 2],
+    /// The two who are there next.
+    pub behind: [[Option<PlayerId>; 2]; 2],
     /// Who had the ball lately: 1 the left team alone, -1 the right team.
     pub share: f32,
     /// The ball's place, averaged over about two seconds.
@@ -144,7 +144,7 @@ impl Play {
             kicked_by: None,
             offside: 0,
             chaser: [None; 2],
-            second: [None; 2],
+            behind: [[None; 2]; 2],
             share: 0.0,
             ball_mean: Vec2::ZERO,
             last_owner: None,

@@ -78,13 +78,13 @@ fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
     }
 }
 
-/// Chooses the player of a team who goes for the ball, and the next.
+/// Chooses the player of a team who goes for the ball, and the two behind him.
 fn choose(game: &mut Match, team: Team) {
     let index = team.index();
     let current = game.play.chaser[index];
     let receiver = game.play.pass.and_then(|pass| pass.to);
     let owner = game.owner;
-    let mut best: [(f32, Option<PlayerId>); 2] = [(f32::MAX, None); 2];
+    let mut best: [(f32, Option<PlayerId>); 3] = [(f32::MAX, None); 3];
     for (id, player) in game.team(team) {
         let mut time = player.body.meet_s + 0.1;
         if Some(id) == current {
@@ -102,13 +102,11 @@ fn choose(game: &mut Match, team: Team) {
         if game.play.pass.is_some_and(|pass| pass.by == id) && Some(id) != owner {
             time += 0.6;
         }
-        if time < best[0].0 {
-            best[1] = best[0];
-            best[0] = (time, Some(id));
-        } else if time < best[1].0 {
-            best[1] = (time, Some(id));
+        if let Some(place) = best.iter().position(|(least, _)| time < *least) {
+            best[place..].rotate_right(1);
+            best[place] = (time, Some(id));
         }
     }
     game.play.chaser[index] = best[0].1;
-    game.play.second[index] = best[1].1;
+    game.play.behind[index] = [best[1].1, best[2].1];
 }

@@ -7,8 +7,10 @@ use crate::football::touch;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 
-/// Further up than this, own frame x, metres, a keeper is no keeper: he plays as the man who is nearest to the ball.
-const STRAYED_M: f32 = -15.0;
+/// Further up than this, own frame x, metres, a keeper goes for a ball that is as good as his alone; chosen.
+const FAR_OUT_M: f32 = -30.0;
+/// Seconds by which it must be his there; chosen.
+const FAR_LEAD_S: f32 = 3.0;
 
 /// Decides for a keeper without the ball; false if he should go for it like anyone else.
 pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
@@ -16,28 +18,13 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     if player.body.pose == Pose::Diving {
         return true;
     }
-    if player.pos.x * view.side > STRAYED_M && game.play.chaser[view.team.index()] == Some(id) {
-        return false;
-    }
-    let rivals = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
-    let lone = game.team(view.team).count() == 1;
-    if lone && touch::controller(game).is_none() && player.body.meet_s < rivals + 0.05 {
-        return false;
-    }
-    let goal = Vec2::new(-55.0, 0.0);
-    let meet = player.body.meet * view.side;
-    let mates =
-        game.team(view.team).filter(|(mate, _)| *mate != id).fold(9.0f32, |least, (_, p)| least.min(p.body.meet_s));
-    let in_box = meet.x < -39.5 && meet.y.abs() < 19.5;
-    let loose = touch::controller(game).is_none();
-    let first = player.body.meet_s + 0.25 < rivals && (in_box || player.body.meet_s + 0.8 < rivals && meet.x < -30.0);
-    let receives = game.play.pass.is_some_and(|pass| pass.to == Some(id));
-    if loose && (receives || first && (player.body.meet_s < mates + 0.3 || in_box && view.ball.x < -44.0)) {
+    if comes_out(game, view, id) {
         let body = &mut game.players[id.index()].body;
         body.intent = Intent::Ball(SPRINT_MPS);
         body.dribble = Vec2::ZERO;
         return true;
     }
+    let goal = Vec2::new(-55.0, 0.0);
     let way = view.ball - goal;
     let distance = way.length().max(1.0);
     let rival_on_ball = view.owner.is_some_and(|owner| owner.team() != view.team);
@@ -56,6 +43,32 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     let speed = if own.distance(spot) > 3.0 || alone { SPRINT_MPS } else { RUN_MPS };
     send(game, view, id, spot, speed);
     true
+}
+
+/// Whether a free ball is his: passed to him, or he is surely there before the others. How surely depends on where it
+/// is: out of his box his hands are no help, and his goal is empty; who has no mates has only himself.
+fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
+    if touch::controller(game).is_some() {
+        return false;
+    }
+    if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
+        return true;
+    }
+    let player = game.player(id);
+    let meet = player.body.meet * view.side;
+    let rivals = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    let mates =
+        game.team(view.team).filter(|(mate, _)| *mate != id).fold(9.0f32, |least, (_, p)| least.min(p.body.meet_s));
+    let lone = mates >= 9.0;
+    let in_box = meet.x < -39.5 && meet.y.abs() < 19.5;
+    let lead_s = match (lone, in_box, meet.x < FAR_OUT_M) {
+        (true, ..) => -0.05,
+        (_, true, _) => 0.25,
+        (_, _, true) => 0.8,
+        _ => FAR_LEAD_S,
+    };
+    let theirs_first = player.body.meet_s + lead_s >= rivals;
+    !theirs_first && (player.body.meet_s < mates + 0.3 || in_box && view.ball.x < -44.0)
 }
 
 /// Whether no defender stands between the ball and the goal.

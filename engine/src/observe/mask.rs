@@ -4,16 +4,17 @@ use super::{ObserveError, slot};
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
-/// Which of the 19 actions of GRF's `default` set can change something for agent `agent`; `idle` always may be chosen.
+/// Which of the 20 actions of GRF's `v2` set can change something for agent `agent`; the first 19 are its `default` set.
+/// `idle` always may be chosen.
 ///
 /// Masked are: what is held already and the release of what isn't held; sliding while the own player has the ball;
 /// passes and shots while an opponent has it; everything but `idle` for an agent without a player on the pitch.
 ///
 /// # Errors
 /// [`ObserveError::Agent`] for no such agent.
-pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::DEFAULT_SET], ObserveError> {
+pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::V2_SET], ObserveError> {
     let slot = slot(game, agent)?;
-    let mut mask = [false; Action::DEFAULT_SET];
+    let mut mask = [false; Action::V2_SET];
     mask[Action::Idle.index()] = true;
     let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;

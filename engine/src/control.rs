@@ -3,7 +3,7 @@
 //! Decides every player's intent and planned kick at the start of a step; leaves to `football` what comes of them.
 //! Inside: [`sticky`] keeps held actions, [`switching`] gives slots their players, [`driver`] turns an agent's actions
 //! into intents (with [`assist`], GRF's magnet), [`behavior`] chooses such actions for scripted players, [`bot`] plays
-//! everyone else, [`agents`] are ready-made agents.
+//! everyone else, [`tell`] says in actions what the bot does, [`agents`] are ready-made agents.
 
 pub mod agents;
 pub mod assist;
@@ -12,14 +12,18 @@ pub mod bot;
 pub mod driver;
 pub mod sticky;
 pub mod switching;
+pub mod tell;
 
 use crate::event::Events;
+use crate::football::play::Acting;
 use crate::football::{forecast, reach};
-use crate::state::{Match, PlayerId};
+use crate::state::{AgentSlot, Match, PlayerId};
 
+use arrayvec::ArrayVec;
+use setpiece_scenario::Ai;
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Rule};
-
-pub use bot::bot_action;
+use tell::Before;
 
 /// Steps that a set piece may wait for an agent.
 const STALLING_STEPS: u16 = 20;
@@ -31,8 +35,30 @@ pub fn prepare(game: &mut Match) {
     switching::update(game);
 }
 
-/// Takes the agents' actions and lets the bots decide: every intent of the step.
+/// Takes the agents' actions and lets the bots decide: every intent of the step, and what everyone pressed for it.
 pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
+    let before = decide(game, actions, events);
+    tell::record(game, &before);
+}
+
+/// What the bot would press for each agent, by slot, if all were handed over to it now: relative to what the slots hold.
+/// `game` is spent: it stands decided afterwards.
+///
+/// [`Action::Idle`] for an agent without a player. Who has a behaviour is told what that presses.
+pub fn bot_actions(game: &mut Match) -> ArrayVec<Action, PLAYERS_MAX> {
+    let held: ArrayVec<u16, PLAYERS_MAX> = game.agents.iter().map(|slot| slot.sticky).collect();
+    let handed = [Action::BuiltinAi; PLAYERS_MAX];
+    let before = decide(game, &handed, &mut Events::new());
+    let press = |(slot, held): (&AgentSlot, &u16)| {
+        let Some(id) = slot.player.filter(|id| game.player(*id).active) else { return Action::Idle };
+        let scripted = game.play.acting[id.index()].played.filter(|action| *action != Action::BuiltinAi);
+        scripted.unwrap_or_else(|| tell::tell(game, &before, id, *held).press)
+    };
+    game.agents.iter().zip(&held).map(press).collect()
+}
+
+/// Every intent of the step; says what was under way before the bots decided.
+fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     game.play.led = [false; 2];
     game.play.driven = 0;
     for acting in &mut game.play.acting {
@@ -57,13 +83,16 @@ pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
         }
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
         if let Some(id) = agent.player.filter(|id| action != Action::BuiltinAi && game.player(*id).active) {
-            game.play.acting[id.index()].played = Some(action);
+            let acting = &mut game.play.acting[id.index()];
+            *acting = Acting { played: Some(action), sticky: agent.sticky, chosen: None };
             let action = hurry(game, id, action);
             driver::drive(game, events, id, agent.sticky, action);
         }
     }
     drive_scripted(game, events);
+    let before = Before::of(game);
     bot::think(game, events);
+    before
 }
 
 /// Drives everyone for whom a behaviour has chosen an action and whom no agent drives.
@@ -71,6 +100,9 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
     for id in game.order() {
         let i = id.index();
         let bit = 1 << i;
+        if !matches!(game.players[i].ai, Ai::Behavior(_)) {
+            continue;
+        }
         let free = game.players[i].active && game.play.driven & bit == 0;
         let acting = &mut game.play.acting[i];
         let Some(action) = acting.chosen.take().filter(|_| free) else {

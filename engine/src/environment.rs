@@ -12,6 +12,7 @@ pub use crate::draw::{AgentsChoice, SideChoice};
 pub use crate::physics::Scratch;
 pub use error::{EnvironmentError, ResetError, StepError};
 
+use crate::control;
 use crate::control::behavior::Actors;
 use crate::draw::{DrawError, Drawer, Roster};
 use crate::event::{Event, Events};
@@ -23,6 +24,8 @@ use crate::snapshot::begin_from;
 use crate::start::Drawn;
 use crate::state::{AgentSlot, Match, PlayerId};
 use crate::statistics::Statistics;
+use arrayvec::ArrayVec;
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Rule, Team};
 use setpiece_scenario::{Bindings, Reward, Scenario};
 use std::sync::Arc;
@@ -296,10 +299,33 @@ impl Environment {
         &self.game.agents
     }
 
-    /// What a player pressed in the last step: his agent's action, else that of his behaviour, in the own frame of his
-    /// team; `None` where the bot or nobody plays him. [`Action::BuiltinAi`] where his behaviour hands over to the bot.
+    /// What a player pressed in the last step, in the own frame of his team: his agent's action, else that of his
+    /// behaviour, else what the bot did with him, told as an action.
+    ///
+    /// The bot's presses of a player are a stream: each is relative to what those before it hold. `None` where nobody
+    /// plays him (off the pitch, `ai: lazy`); [`Action::BuiltinAi`] where his behaviour hands over to the bot.
     pub fn action_of(&self, player: PlayerId) -> Option<Action> {
         self.game.play.acting.get(player.index()).and_then(|acting| acting.played)
+    }
+
+    /// What the bot would press for an agent in the next step: see [`Self::bot_actions`]; `None` for no such agent.
+    pub fn bot_action(&self, agent: usize) -> Option<Action> {
+        self.bot_actions().get(agent).copied()
+    }
+
+    /// What the bot would press for each agent if the next step handed all of them over to it
+    /// ([`Action::BuiltinAi`]), told as an action that goes on from what the agent's slot holds now; a behaviour's
+    /// press where the player has one. [`Action::Idle`] for an agent without a player.
+    ///
+    /// Tries the decision on a copy: neither the match nor its random numbers change.
+    pub fn bot_actions(&self) -> ArrayVec<Action, PLAYERS_MAX> {
+        let mut game = self.game.clone();
+        if self.started && !self.actors.is_empty() {
+            let handed = [Action::BuiltinAi; PLAYERS_MAX];
+            // A script that fails is left to the step itself: here its player is the bot's.
+            let _ = self.actors.clone().choose(&mut game, self.events(), &handed);
+        }
+        control::bot_actions(&mut game)
     }
 
     /// What each agent was paid in the last step.

@@ -18,7 +18,7 @@ from setpiece import _native
 from setpiece._errors import InUseError, ParameterError, ScriptError, SetpieceError
 from setpiece._native import Live, Scenario, load
 from setpiece._reload import Reload
-from setpiece._spaces import action_space, check_observation, observation_space
+from setpiece._spaces import action_space, check_action_set, check_observation, observation_space
 
 ParamValue = bool | int | float | str
 """A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
@@ -35,9 +35,16 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     - One agent: action `Discrete(19)`, reward a float, observation without an agent axis.
     - n agents: action `MultiDiscrete([19] * n)`, reward float32 `(n,)`, observation with a leading axis n (a tuple of n
       dicts for `"raw"`), left team's agents first.
+    - No agents (`agents { left: 0 }`): as n agents with n = 0. The bots play, and `step([])` goes on; what is left to
+      look at is `info`, `played` and `render`.
+
+    With `action_set="v2"` there is a 20th action, `Action.BUILTIN_AI`: the bot (or the behaviour of the scenario's
+    player) plays this step, and what the agent held is released.
 
     `info` has in every step `score` [left, right], `reward_terms` {"reward/label": paid in this step} and `action_mask`
-    (int8 `(19,)`, or `(n, 19)`); with `events=True` also `events`. In the last step it has also:
+    (int8 `(19,)`, or `(n, 19)`; 20 with `v2`); with `events=True` also `events`; with `bot_action=True` also
+    `bot_action`: what the bot would press in the state that is observed (an int, or int64 `(n,)`), going on from what
+    the agent holds. In the last step it has also:
 
     - `outcome`: the ending's name; `records`: the scenario's own records.
     - `setpiece`: `return` by term, `length` in steps, `seed`, `index`, `digest` of the final state, `success` of the
@@ -71,6 +78,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         render_mode: str | None = None,
         watch: bool | Literal["now"] = False,
         on_reload: Callable[[Reload], object] | None = None,
+        action_set: str = "default",
+        bot_action: bool = False,
     ) -> None:
         """Makes an environment; the arguments are those of `setpiece.make`."""
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
@@ -98,12 +107,14 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             "rewards": _reward_names(rewards),
             "events": events,
             "copy": copy,
+            "action_set": check_action_set(action_set),
+            "bot_action": bool(bot_action),
         }
         self.scenario = scenario.with_params(**self._bound)
         self._native = _native.Environment(self.scenario, **self._options)
         self._digest = self.scenario.digest
         self.agents = _agents(self._native)
-        self.action_space = action_space(len(self.agents))
+        self.action_space = action_space(len(self.agents), self._options["action_set"])
         self.observation_space = observation_space(self._native, self._observation)
         self._first_seed = None if seed is None else _check_number("seed", seed)
         self._seed: int | None = None
@@ -151,7 +162,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Plays 100 ms and returns observation, reward, terminated, truncated and `info`.
 
-        - `action`: an integer 0..18, or for n agents n of them.
+        - `action`: an integer 0..18 (0..19 with `action_set="v2"`), or for n agents n of them.
 
         `terminated` is an ending of the scenario (a goal, the ball lost), `truncated` its time limit. Raises
         `ActionError` for another action, `ScriptError` where a script of the scenario fails.
@@ -275,6 +286,22 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
         return self._native.action_mask()
 
+    def played(self) -> dict[str, int]:
+        """Returns what every player pressed in the last step, by his name: `Action` numbers in his own frame.
+
+        An agent's player has its action, a scripted one that of his behaviour (19 where it hands over to the bot), and
+        everyone else what the bot did with him, told as an action: step by step a stream, each press going on from
+        those before. Who is played by nobody is left out.
+
+        >>> import setpiece
+        >>> env = setpiece.make("academy_empty_goal", action_set="v2")
+        >>> _ = env.reset(seed=1)
+        >>> _ = env.step(setpiece.Action.BUILTIN_AI)
+        >>> env.played()["left_CB_1"] == setpiece.Action.RIGHT
+        True
+        """
+        return self._native.played()
+
     def render(self) -> str | None:
         """Returns a drawing of the pitch in text, for `render_mode="ansi"`; None without a render mode."""
         return self._native.drawing() if self.render_mode == "ansi" else None
@@ -298,6 +325,8 @@ def make(
     render_mode: str | None = None,
     watch: bool | Literal["now"] = False,
     on_reload: Callable[[Reload], object] | None = None,
+    action_set: str = "default",
+    bot_action: bool = False,
 ) -> FootballEnv:
     """Makes an environment of a scenario.
 
@@ -314,6 +343,8 @@ def make(
       every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one
       that would change the spaces is held back.
     - `on_reload`: called with the `Reload` of every change; see also `env.unwrapped.last_reload`.
+    - `action_set`: `"default"` (19 actions) or `"v2"` (20: `Action.BUILTIN_AI` hands the step over to the bot).
+    - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.
 
@@ -334,6 +365,8 @@ def make(
         "copy": copy,
         "watch": watch,
         "on_reload": on_reload,
+        "action_set": action_set,
+        "bot_action": bot_action,
     }
     env = FootballEnv(**kwargs, render_mode=render_mode)
     # So that `env.spec.make()` gives another one, as for environments that Gymnasium made.

@@ -12,6 +12,7 @@ from setpiece._errors import Diagnostic
 
 __all__ = [
     "ACTIONS",
+    "ACTION_SETS",
     "SMM_SHAPE",
     "AgentInfo",
     "Environment",
@@ -29,6 +30,7 @@ __all__ = [
 
 __version__: Final[str]
 ACTIONS: Final[tuple[tuple[str, str], ...]]
+ACTION_SETS: Final[dict[str, int]]
 SMM_SHAPE: Final[tuple[int, int, int]]
 
 @final
@@ -85,6 +87,8 @@ class Environment:
         rewards: Sequence[str] | None,
         events: bool,
         copy: bool,
+        action_set: str,
+        bot_action: bool,
     ) -> Environment: ...
     @property
     def agents(self) -> list[AgentInfo]: ...
@@ -105,6 +109,7 @@ class Environment:
     @property
     def params(self) -> dict[str, bool | int | float | str]: ...
     def step(self, action: object) -> tuple[Any, Any, bool, bool, dict[str, Any]]: ...
+    def played(self) -> dict[str, int]: ...
     def action_mask(self) -> NDArray[np.int8]: ...
     def drawing(self) -> str: ...
 

@@ -22,26 +22,38 @@ OBSERVED_MAX = 1.0e6
 
 def check_observation(name: object) -> str:
     """Returns the name of an observation, or raises `ParameterError`."""
-    if name in OBSERVATIONS:
-        return str(name)
-    similar = get_close_matches(str(name), OBSERVATIONS, n=1)
+    return _check_name("observation", name, OBSERVATIONS)
+
+
+def check_action_set(name: object) -> str:
+    """Returns the name of a set of actions, or raises `ParameterError`."""
+    return _check_name("action_set", name, tuple(_native.ACTION_SETS))
+
+
+def _check_name(option: str, name: object, known: tuple[str, ...]) -> str:
+    if isinstance(name, str) and name in known:
+        return name
+    similar = get_close_matches(str(name), known, n=1)
     raise ParameterError(
-        f"no observation `{name}`; there are `{'`, `'.join(OBSERVATIONS)}`",
-        name="observation",
+        f"no {option.replace('_', ' ')} `{name}`; there are `{'`, `'.join(known)}`",
+        name=option,
         help=f"did you mean `{similar[0]}`?" if similar else None,
     )
 
 
-def action_space(n_agents: int) -> spaces.Discrete | spaces.MultiDiscrete:
-    """Returns the space of one agent's action, or of several agents' actions."""
-    n_actions = len(_native.ACTIONS)
-    return spaces.Discrete(n_actions) if n_agents == 1 else spaces.MultiDiscrete([n_actions] * n_agents)
+def action_space(n_agents: int, action_set: str) -> spaces.Discrete | spaces.MultiDiscrete:
+    """Returns the space of one agent's action, or of several agents' actions: of none where nobody acts."""
+    n_actions = _native.ACTION_SETS[action_set]
+    if n_agents == 1:
+        return spaces.Discrete(n_actions)
+    return spaces.MultiDiscrete(np.full(n_agents, n_actions, np.int64))
 
 
 def observation_space(native: _native.Environment, observation: str) -> spaces.Space[Any]:
     """Returns the space of what `reset` and `step` observe.
 
-    With several agents an array gains a leading axis, and a raw observation becomes a tuple with one part per agent.
+    With several agents, or none, an array gains a leading axis, and a raw observation becomes a tuple with one part per
+    agent.
     """
     n_agents = len(native.agents)
     if observation == "raw":
@@ -54,7 +66,7 @@ def observation_space(native: _native.Environment, observation: str) -> spaces.S
         width = len(native.observed)
         return spaces.Box(-OBSERVED_MAX, OBSERVED_MAX, (width,) if n_agents == 1 else (n_agents, width), np.float32)
     low, high = _native.simple115v2_bounds()
-    if n_agents > 1:
+    if n_agents != 1:
         low, high = np.tile(low, (n_agents, 1)), np.tile(high, (n_agents, 1))
     return spaces.Box(low, high, dtype=np.float32)
 

@@ -6,7 +6,10 @@ from setpiece import _native
 
 
 class Action(IntEnum):
-    """An action, by its number in Google Research Football's `default` set, in the agent's own frame."""
+    """An action, by its number in Google Research Football, in the agent's own frame.
+
+    The first 19 are GRF's `default` set; `BUILTIN_AI` completes `v2` (`make(..., action_set="v2")`).
+    """
 
     IDLE = 0
     LEFT = 1
@@ -27,6 +30,7 @@ class Action(IntEnum):
     SLIDING = 16
     DRIBBLE = 17
     RELEASE_DRIBBLE = 18
+    BUILTIN_AI = 19
 
     @property
     def doc(self) -> str:

@@ -1,10 +1,12 @@
 //! Environments: one match, its judge, and the arrays an agent sees.
 
-use crate::info::InfoWriter;
+use crate::actions::{self, ActionSet};
+use crate::errors;
+use crate::info::{InfoOptions, InfoWriter};
 use crate::observation::{Kind, Observer};
 use crate::params::{bind, to_python};
 use crate::scenario::Scenario;
-use crate::{actions, errors};
+
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
@@ -34,13 +36,15 @@ pub(crate) struct Environment {
     scratch: Scratch,
     observer: Observer,
     info: InfoWriter,
+    action_set: ActionSet,
     actions: Vec<Action>,
 }
 
 #[pymethods]
 impl Environment {
     #[new]
-    #[pyo3(signature = (scenario, *, observation, rewards, events, copy))]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments of one call in Python")]
+    #[pyo3(signature = (scenario, *, observation, rewards, events, copy, action_set, bot_action))]
     fn new(
         py: Python<'_>,
         scenario: &Scenario,
@@ -48,16 +52,17 @@ impl Environment {
         rewards: Option<Vec<String>>,
         events: bool,
         copy: bool,
+        action_set: &str,
+        bot_action: bool,
     ) -> PyResult<Environment> {
         let options = EnvironmentOptions { rewards, ..EnvironmentOptions::default() };
         let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
-        if engine.n_agents() == 0 {
-            let message = format!("scenario `{}` has no agents: nobody to act for", scenario.inner().name);
-            return Err(errors::parameter(py, "scenario", &message));
-        }
         let kind = Kind::from_name(observation)
             .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
+        let action_set = ActionSet::from_name(action_set)
+            .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{action_set}`")))?;
         Ok(Environment {
+            action_set,
             observer: {
                 if matches!(kind, Kind::Vector) && engine.observed_names().is_empty() {
                     let name = &engine.scenario().name;
@@ -66,7 +71,7 @@ impl Environment {
                 }
                 Observer::new(py, kind, &engine, copy)
             },
-            info: InfoWriter::new(py, &engine, events),
+            info: InfoWriter::new(py, &engine, InfoOptions { actions: action_set, events, bot_action }),
             actions: vec![Action::Idle; engine.n_agents()],
             scratch: Scratch::default(),
             engine,
@@ -162,7 +167,7 @@ impl Environment {
 
     /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the interpreter meanwhile.
     fn step<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
-        actions::read(action, &mut self.actions)?;
+        actions::read(action, self.action_set, &mut self.actions)?;
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
         let result = py.detach(|| engine.step(actions, scratch)).map_err(|why| from_episode(py, why.into()))?;
         let observation = self.observer.observe(py, &mut self.engine)?;
@@ -174,9 +179,14 @@ impl Environment {
         (observation, reward, result.terminated, result.truncated, info).into_pyobject(py)
     }
 
-    /// 1 where an action can change something now, else 0: int8 `(19,)`, or `(n, 19)` for n agents.
+    /// What every player pressed in the last step, by name.
+    fn played<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.info.played(py, &self.engine)
+    }
+
+    /// 1 where an action can change something now, else 0: int8 `(19,)`, or `(n, 19)` for n agents; 20 with `v2`.
     fn action_mask<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        crate::info::action_mask(py, &self.engine)
+        self.info.action_mask(py, &self.engine)
     }
 
     /// A drawing of the pitch in text.

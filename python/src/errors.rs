@@ -27,6 +27,15 @@ pub(crate) fn raise_plain(py: Python<'_>, class: &str, message: &str) -> PyErr {
     raise(py, class, message, &PyDict::new(py))
 }
 
+/// An exception with a help line.
+pub(crate) fn raise_with_help(py: Python<'_>, class: &str, message: &str, help: &str) -> PyErr {
+    let fields = PyDict::new(py);
+    match fields.set_item("help", help) {
+        Ok(()) => raise(py, class, message, &fields),
+        Err(error) => error,
+    }
+}
+
 /// The exception for an error of the facade.
 pub(crate) fn from_facade(py: Python<'_>, error: &Error) -> PyErr {
     facade_fields(py, error)

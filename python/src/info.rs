@@ -1,5 +1,6 @@
 //! `info`: what a step says beside observation and reward.
 
+use crate::actions::ActionSet;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -10,7 +11,7 @@ use setpiece::engine::judge::Recorded;
 use setpiece::engine::observe;
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::pitch::{PLAYERS_MAX, to_normalised};
-use setpiece::scenario::{Action, Qualifier, Team, Verdict};
+use setpiece::scenario::{Qualifier, Team, Verdict};
 
 /// Writes the `info` of steps; keeps the words that recur.
 pub(crate) struct InfoWriter {
@@ -18,18 +19,29 @@ pub(crate) struct InfoWriter {
     terms: Vec<Py<PyString>>,
     /// The players' names, by id; `None` where nobody is.
     players: Vec<Option<Py<PyString>>>,
-    events: bool,
+    options: InfoOptions,
+}
+
+/// What `info` is asked for beside what it always has.
+#[derive(Clone, Copy)]
+pub(crate) struct InfoOptions {
+    /// The actions that the mask is about.
+    pub(crate) actions: ActionSet,
+    /// Whether it lists events.
+    pub(crate) events: bool,
+    /// Whether it tells what the bot would do.
+    pub(crate) bot_action: bool,
 }
 
 impl InfoWriter {
-    pub(crate) fn new(py: Python<'_>, engine: &Engine, events: bool) -> InfoWriter {
+    pub(crate) fn new(py: Python<'_>, engine: &Engine, options: InfoOptions) -> InfoWriter {
         let word = |text: &str| PyString::new(py, text).unbind();
         InfoWriter {
             terms: engine.term_names().iter().map(|name| word(name)).collect(),
             players: (0..PLAYERS_MAX as u8)
                 .map(|id| engine.player_name(PlayerId(id)).map(|name| word(&name)))
                 .collect(),
-            events,
+            options,
         }
     }
 
@@ -38,8 +50,11 @@ impl InfoWriter {
         let info = PyDict::new(py);
         info.set_item(intern!(py, "score"), PyList::new(py, engine.score())?)?;
         info.set_item(intern!(py, "reward_terms"), self.terms(py, engine, Engine::terms)?)?;
-        info.set_item(intern!(py, "action_mask"), action_mask(py, engine)?)?;
-        if self.events {
+        info.set_item(intern!(py, "action_mask"), self.action_mask(py, engine)?)?;
+        if self.options.bot_action {
+            info.set_item(intern!(py, "bot_action"), bot_action(py, engine)?)?;
+        }
+        if self.options.events {
             let events: PyResult<Vec<_>> = engine.events().iter().map(|event| self.event(py, event)).collect();
             info.set_item(intern!(py, "events"), events?)?;
         }
@@ -57,6 +72,28 @@ impl InfoWriter {
             info.set_item(intern!(py, "setpiece"), summary)?;
         }
         Ok(info)
+    }
+
+    /// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n; 20 with the set `v2`.
+    pub(crate) fn action_mask<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
+        let (n_agents, size) = (engine.n_agents(), self.options.actions.size);
+        let row = |agent| observe::action_mask(engine.state(), agent).unwrap_or_default().into_iter().take(size);
+        let mask = PyArray1::from_iter(py, (0..n_agents).flat_map(row).map(i8::from));
+        if n_agents == 1 {
+            return Ok(mask.into_any());
+        }
+        Ok(mask.reshape([n_agents, size])?.into_any())
+    }
+
+    /// What every player pressed in the last step, by name; who is played by nobody is left out.
+    pub(crate) fn played<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
+        let played = PyDict::new(py);
+        for (id, name) in self.players.iter().enumerate() {
+            if let (Some(name), Some(action)) = (name, engine.action_of(PlayerId(id as u8))) {
+                played.set_item(name, action.index())?;
+            }
+        }
+        Ok(played)
     }
 
     /// Values by term: a float for one agent, float64 `(n,)` for n.
@@ -125,14 +162,11 @@ fn recorded(py: Python<'_>, value: Recorded) -> PyResult<Bound<'_, PyAny>> {
     })
 }
 
-/// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n.
-pub(crate) fn action_mask<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
-    const N: usize = Action::DEFAULT_SET;
-    let n_agents = engine.n_agents();
-    let row = |agent| observe::action_mask(engine.state(), agent).unwrap_or([false; N]).map(i8::from);
-    if n_agents == 1 {
-        return Ok(PyArray1::from_slice(py, &row(0)).into_any());
+/// What the bot would press: an integer for one agent, int64 `(n,)` for n.
+fn bot_action<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
+    let actions = engine.bot_actions();
+    if let [one] = actions.as_slice() {
+        return Ok(one.index().into_pyobject(py)?.into_any());
     }
-    let rows: Vec<i8> = (0..n_agents).flat_map(row).collect();
-    Ok(PyArray1::from_vec(py, rows).reshape([n_agents, N])?.into_any())
+    Ok(PyArray1::from_iter(py, actions.iter().map(|action| action.index() as i64)).into_any())
 }

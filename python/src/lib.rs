@@ -13,7 +13,9 @@ mod scenario;
 /// Football scenarios from text files, and the engine that runs them.
 #[pyo3::pymodule]
 mod _native {
+    use crate::actions::ActionSet;
     use pyo3::prelude::*;
+    use pyo3::types::IntoPyDict;
     use setpiece::scenario::Action;
 
     #[pymodule_export]
@@ -29,9 +31,10 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        let actions: Vec<(&str, &str)> =
-            Action::ALL.iter().take(Action::DEFAULT_SET).map(|action| (action.name(), action.doc())).collect();
+        let actions: Vec<(&str, &str)> = Action::ALL.iter().map(|action| (action.name(), action.doc())).collect();
         module.add("ACTIONS", pyo3::types::PyTuple::new(module.py(), actions)?)?;
+        let sets = ActionSet::NAMED.map(|(name, set)| (name, set.size));
+        module.add("ACTION_SETS", sets.into_py_dict(module.py())?)?;
         module.add("SMM_SHAPE", crate::observation::SMM_SHAPE)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }

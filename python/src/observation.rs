@@ -93,7 +93,7 @@ impl Observer {
 impl<T: Element> Buffer<T> {
     fn new(py: Python<'_>, n_agents: usize, one: &[usize], copy: bool) -> Buffer<T> {
         let mut shape = one.to_vec();
-        if n_agents > 1 {
+        if n_agents != 1 {
             shape.insert(0, n_agents);
         }
         let shared = (!copy).then(|| PyArrayDyn::zeros(py, shape.clone(), false).unbind());
@@ -116,7 +116,7 @@ impl<T: Element> Buffer<T> {
         let locked = || errors::raise_plain(py, "SetpieceError", read_only);
         let mut guard = array.try_readwrite().map_err(|_| locked())?;
         let values = guard.as_slice_mut().map_err(|_| locked())?;
-        for (agent, out) in values.chunks_exact_mut(array.len() / n_agents).enumerate() {
+        for (agent, out) in values.chunks_exact_mut((array.len() / n_agents.max(1)).max(1)).enumerate() {
             write(agent, out).map_err(|why| from_observe(py, why))?;
         }
         drop(guard);

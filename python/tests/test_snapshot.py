@@ -173,3 +173,16 @@ def test_bytes_that_are_no_snapshot() -> None:
         env.reset(options={"snapshot": "text"})
     env.restore(snapshot)
     assert env.snapshot() == snapshot
+
+
+def test_copies_keep_the_actions_and_the_bots_choice() -> None:
+    env = setpiece.make("academy_3_vs_1_with_keeper", action_set="v2", bot_action=True)
+    env.reset(seed=1)
+    for action in (5, 13, 19, 19, 11):
+        env.step(action)
+    state = env.snapshot()
+    for other in (env.clone(), pickle.loads(pickle.dumps(env))):
+        assert other.action_space.n == 20
+        assert other.restore(state)[1]["bot_action"] == env.restore(state)[1]["bot_action"]
+        assert other.played() == env.played()
+        assert same(other.step(19), env.step(19))

@@ -4,6 +4,7 @@
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::event::Events;
 use setpiece::engine::football;
+use setpiece::engine::football::play::Acting;
 use setpiece::engine::observe::action_mask;
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::state::Match;
@@ -27,7 +28,7 @@ fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> M
     let actions: Vec<Action> = (0..game.agents.len()).map(|i| if i == agent { action } else { Action::Idle }).collect();
     football::play_step(&mut copy, &actions, &mut Events::new(), scratch);
     for acting in &mut copy.play.acting {
-        acting.played = None;
+        *acting = Acting::default();
     }
     copy
 }
@@ -36,7 +37,7 @@ fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> M
 fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
     let mut scratch = Scratch::default();
     let (mut masked, mut modes) = (0u32, [0u32; 7]);
-    let (mut open, mut mattered) = ([0u32; Action::DEFAULT_SET], [0u32; Action::DEFAULT_SET]);
+    let (mut open, mut mattered) = ([0u32; Action::V2_SET], [0u32; Action::V2_SET]);
     for (name, seed) in [
         ("academy_3_vs_1_with_keeper", 1),
         ("academy_corner", 2),

@@ -8,6 +8,21 @@ use setpiece_scenario::vocabulary::{Action, StickyAction};
 /// From how near the scripted agent shoots, metres.
 const SHOOT_M: f32 = 16.0;
 
+/// The eight directions in the order of their actions: unit vectors of the own frame.
+pub const WAYS: [(Action, Vec2); 8] = {
+    const D: f32 = std::f64::consts::FRAC_1_SQRT_2 as f32;
+    [
+        (Action::Left, Vec2::new(-1.0, 0.0)),
+        (Action::TopLeft, Vec2::new(-D, -D)),
+        (Action::Top, Vec2::new(0.0, -1.0)),
+        (Action::TopRight, Vec2::new(D, -D)),
+        (Action::Right, Vec2::new(1.0, 0.0)),
+        (Action::BottomRight, Vec2::new(D, D)),
+        (Action::Bottom, Vec2::new(0.0, 1.0)),
+        (Action::BottomLeft, Vec2::new(-D, D)),
+    ]
+};
+
 /// A ready-made agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Agent {
@@ -72,13 +87,10 @@ pub fn run_and_shoot(game: &Match, slot: usize) -> Action {
 /// The direction action nearest to a way in the own frame.
 pub fn direction_action(way: Vec2) -> Action {
     let mut best = (f32::MIN, Action::Right);
-    for index in Action::Left.index()..=Action::BottomLeft.index() {
-        let Some(action) = Action::from_index(index) else { continue };
-        if let Some((x, y)) = action.direction() {
-            let along = way.dot(Vec2::new(x as f32, y as f32));
-            if along > best.0 {
-                best = (along, action);
-            }
+    for (action, direction) in WAYS {
+        let along = way.dot(direction);
+        if along > best.0 {
+            best = (along, action);
         }
     }
     best.1

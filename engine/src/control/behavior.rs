@@ -62,6 +62,11 @@ impl Actors {
         }
     }
 
+    /// Whether nobody is scripted.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
     /// Goes on with other scripts.
     pub fn adopt(&mut self, scripts: Scripts) {
         self.known.adopt(scripts);

@@ -12,13 +12,12 @@ pub mod press;
 pub mod support;
 pub mod taker;
 
-use crate::control::agents;
 use crate::event::Events;
-use crate::football::body::{Intent, KickKind};
+use crate::football::body::Intent;
 use crate::football::touch;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Action, Role, StickyAction, Team};
+use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
 /// Steps between two decisions of a player far from the ball.
@@ -193,54 +192,4 @@ pub fn send(game: &mut Match, view: &View, id: PlayerId, to: Vec2, speed: f32) {
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::ZERO;
     body.intent = Intent::Go(to, speed);
-}
-
-/// The bot's choice for a player as an agent's action: the kick it plans, else the direction it runs, else its gait.
-///
-/// The match is not changed. A player without a slot is judged as one that holds nothing.
-pub fn bot_action(game: &Match, id: PlayerId) -> Action {
-    let mut copy = game.clone();
-    copy.play.driven &= !(1 << id.0);
-    copy.play.led = [false; 2];
-    copy.players[id.index()].body.kick = None;
-    copy.players[id.index()].body.mind.decide_at_step = 0;
-    let mut events = Events::new();
-    if copy.play.set_piece.is_some() {
-        taker::think(&mut copy);
-    } else {
-        let view = View::of(&copy, id.team());
-        decide(&mut copy, &mut events, &view, id);
-    }
-    let side = id.team().side() as f32;
-    let player = copy.player(id);
-    if let Some(plan) = player.body.kick {
-        return match plan.kind {
-            KickKind::Short => Action::ShortPass,
-            KickKind::Long => Action::LongPass,
-            KickKind::High | KickKind::Clear => Action::HighPass,
-            KickKind::Shot => Action::Shot,
-        };
-    }
-    let (way, speed) = match player.body.intent {
-        Intent::Stand => (Vec2::ZERO, 0.0),
-        Intent::Run(velocity) => (velocity, velocity.length()),
-        Intent::Go(to, speed) => (to - player.pos, speed),
-        Intent::Ball(speed) if player.body.dribble != Vec2::ZERO => (player.body.dribble, speed),
-        Intent::Ball(speed) => (player.body.meet - player.pos, speed),
-    };
-    let held = game.agents.iter().find(|slot| slot.player == Some(id)).map_or(0, |slot| slot.sticky);
-    if way.length() < 0.5 {
-        return if held & 0xff != 0 { Action::ReleaseDirection } else { Action::Idle };
-    }
-    let wanted = agents::direction_action(way * side);
-    let sprint = 1 << StickyAction::Sprint.index();
-    if held & (1 << (wanted.index() - Action::Left.index())) == 0 {
-        wanted
-    } else if speed > 6.0 && held & sprint == 0 {
-        Action::Sprint
-    } else if speed < 5.5 && held & sprint != 0 {
-        Action::ReleaseSprint
-    } else {
-        Action::Idle
-    }
 }

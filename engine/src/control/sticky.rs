@@ -41,6 +41,11 @@ pub fn direction(sticky: u16) -> Option<Vec2> {
     Some(Vec2::new(x as f32, y as f32))
 }
 
+/// Whether a direction action is held; false for any other action.
+pub fn holds(sticky: u16, direction: Action) -> bool {
+    direction.direction().is_some() && sticky & (1 << (direction.index() - Action::Left.index())) != 0
+}
+
 /// Whether sprint is held.
 pub fn sprints(sticky: u16) -> bool {
     sticky & SPRINT != 0

@@ -67,11 +67,11 @@ pub struct Play {
 /// The actions of a player who is played by actions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Acting {
-    /// What his behaviour has chosen for the step to come.
+    /// What his behaviour has chosen for the step to come, or the kick of the bot that is yet to be told.
     pub chosen: Option<Action>,
-    /// What he played in the last step: his agent's action, else his behaviour's.
+    /// What he played in the last step: his agent's action, else his behaviour's, else what is told of the bot.
     pub played: Option<Action>,
-    /// What his behaviour holds, as [`AgentSlot::sticky`](crate::state::AgentSlot::sticky).
+    /// What he holds by that, as [`AgentSlot::sticky`](crate::state::AgentSlot::sticky).
     pub sticky: u16,
 }
 

@@ -6,7 +6,8 @@ use crate::football::body::KickKind;
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
-/// Which of the 19 actions of GRF's `default` set can change something for agent `agent`; `idle` always may be chosen.
+/// Which of the 20 actions of GRF's `v2` set can change something for agent `agent`; the first 19 are its `default` set.
+/// `idle` always may be chosen.
 ///
 /// Masked are: what is held already and the release of what isn't held; passes and shots while the ball is not the
 /// player's to play, and sliding while it is; high passes and shots at a throw-in; everything but `idle` for an agent
@@ -14,9 +15,9 @@ use setpiece_scenario::vocabulary::{Action, StickyAction};
 ///
 /// # Errors
 /// [`ObserveError::Agent`] for no such agent.
-pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::DEFAULT_SET], ObserveError> {
+pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::V2_SET], ObserveError> {
     let slot = slot(game, agent)?;
-    let mut mask = [false; Action::DEFAULT_SET];
+    let mut mask = [false; Action::V2_SET];
     mask[Action::Idle.index()] = true;
     let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;

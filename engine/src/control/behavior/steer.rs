@@ -22,14 +22,13 @@ const FINE_M: f32 = 3.0;
 
 /// The press that brings him on his way; own frame, metres.
 pub fn towards(held: u16, way: Vec2, gait: Gait) -> Action {
-    let best = agents::direction_action(way);
-    let best_held = held & (1 << (best.index() - Action::Left.index())) != 0;
     let near = way.length() < FINE_M;
     let kept = sticky::direction(held).is_some_and(|dir| dir.dot(way.normalize_or_zero()) > KEEP_COS);
-    if !best_held && (near || !kept) {
-        return best;
+    if kept && !near {
+        return pace(held, gait);
     }
-    pace(held, gait)
+    let best = agents::direction_action(way);
+    if sticky::holds(held, best) { pace(held, gait) } else { best }
 }
 
 /// The press that changes his gait, if one does.

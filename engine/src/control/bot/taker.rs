@@ -50,7 +50,7 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     match set_piece.mode {
         GameMode::Penalty => KickPlan {
             kind: KickKind::Shot,
-            point: Some(Vec2::new(55.0 * side, spread * 3.2)),
+            point: Some(Vec2::new(55.0, spread * 3.2) * side),
             power: 0.3 + 0.5 * luck,
             ..base
         },
@@ -61,7 +61,7 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
         GameMode::GoalKick if luck < 0.45 => KickPlan { kind: KickKind::High, mate: near(5.0, spread * 22.0), ..base },
         GameMode::GoalKick => KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..base },
         GameMode::FreeKick if own.x > 29.0 && own.y.abs() < 16.0 => {
-            KickPlan { kind: KickKind::Shot, point: Some(Vec2::new(55.0 * side, spread * 3.3)), power: 0.5, ..base }
+            KickPlan { kind: KickKind::Shot, point: Some(Vec2::new(55.0, spread * 3.3) * side), power: 0.5, ..base }
         }
         GameMode::FreeKick if own.x > 22.0 => {
             let point = Vec2::new(46.0, spread * 8.0);

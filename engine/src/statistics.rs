@@ -100,6 +100,8 @@ pub struct MatchStatistics {
     pub shots: u32,
     /// Goals by both.
     pub goals: u32,
+    /// Spells of possession.
+    pub spells: u32,
     /// Mean steps until the other team has the ball.
     pub possession_spell: f64,
     /// Share of the steps in which nobody has the ball.
@@ -193,6 +195,7 @@ impl Statistics {
             pass_completion: share(both(|team| team.passes_completed).into(), passes),
             shots: both(|team| team.shots),
             goals: both(|team| team.goals),
+            spells: self.spells,
             possession_spell: share(possession.into(), self.spells),
             nobody_owns: share(self.loose_steps.into(), self.steps),
             crowding: share(self.crowd_sum, self.steps),

@@ -2,8 +2,8 @@
 //!
 //! `lab calibrate [--check] [--only SECTION] [--count N]` sets our figures beside those measured of Google Research
 //! Football and writes them to `docs/calibration.md`. `lab soak [--steps N] [--seed S]` holds scenarios made up at random
-//! to what must be true of any match and writes a line to `lab/soak.csv`. `cargo xtask calibrate` and `cargo xtask soak`
-//! build and call it.
+//! to what must be true of any match; a long run that held is a line of `lab/soak.csv`. `cargo xtask calibrate` and
+//! `cargo xtask soak` build and call it.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod agents;

@@ -5,7 +5,8 @@ use crate::pitch::{Failure, deviation, library, mean};
 use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::engine::event::Event;
 use setpiece::engine::state::Match;
-use setpiece::scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Role, Team};
+use setpiece::engine::statistics::{MatchStatistics, Statistics, TeamStatistics};
+use setpiece::scenario::vocabulary::{Action, EventKind, GameMode, Role};
 
 /// Matches of every pairing.
 const MATCHES: u64 = 200;
@@ -14,80 +15,47 @@ const LADDER: u64 = 1000;
 /// The scenario of all of them.
 const SCENARIO: &str = "11_vs_11_stochastic";
 
-/// What is counted of one match.
+/// What is counted of one match, as an agent sees it: after restarts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tally {
-    steps: f64,
-    goals: [f64; 2],
-    shots: [f64; 2],
+    counted: MatchStatistics,
+    beside: Beside,
+}
+
+/// What the engine's statistics leave out.
+#[derive(Clone, Debug, Default)]
+struct Beside {
     shot_m: f64,
     shot_mps: f64,
-    passes: [f64; 2],
-    completed: [f64; 2],
     owned: [f64; 2],
-    spells: f64,
-    possession: Option<Team>,
-    counts: [f64; COUNTED.len()],
+    headers: f64,
+    saves: f64,
     stopped: f64,
-    thirds: [f64; 3],
     high: f64,
     metres: f64,
     tired: [f64; 2],
 }
 
-/// What is counted besides, by both teams.
-const COUNTED: [EventKind; 12] = [
-    EventKind::GoalKick,
-    EventKind::ThrowIn,
-    EventKind::Corner,
-    EventKind::FreeKick,
-    EventKind::Penalty,
-    EventKind::Foul,
-    EventKind::YellowCard,
-    EventKind::RedCard,
-    EventKind::Header,
-    EventKind::Offside,
-    EventKind::Tackle,
-    EventKind::Save,
-];
-
-impl Tally {
+impl Beside {
     fn step(&mut self, game: &Match, events: &[Event]) {
-        self.steps += 1.0;
-        for event in events {
-            self.count(event);
+        for event in events.iter().filter(|event| event.qualifier.is_none()) {
+            match event.kind {
+                EventKind::Shot => {
+                    self.shot_m += f64::from(event.length_m);
+                    self.shot_mps += f64::from(event.speed_mps);
+                }
+                EventKind::Header => self.headers += 1.0,
+                EventKind::Save => self.saves += 1.0,
+                _ => {}
+            }
         }
         if let Some(id) = game.owner {
             self.owned[id.team().index()] += 1.0;
         }
-        if game.possession.is_some() && game.possession != self.possession {
-            self.spells += 1.0;
-            self.possession = game.possession;
-        }
-        let ball = game.ball.pos;
-        self.thirds[usize::from(ball.x > -55.0 / 3.0) + usize::from(ball.x > 55.0 / 3.0)] += 1.0;
-        self.high += f64::from(u8::from(ball.z > 1.0));
+        self.high += f64::from(u8::from(game.ball.pos.z > 1.0));
         self.stopped += f64::from(u8::from(game.mode != GameMode::Normal));
         for player in game.players.iter().filter(|p| p.active && p.role != Role::GK) {
             self.metres += f64::from(player.vel.length()) * 0.1 / 20.0;
-        }
-    }
-
-    fn count(&mut self, event: &Event) {
-        if let Some(place) = COUNTED.iter().position(|kind| *kind == event.kind && event.qualifier.is_none()) {
-            self.counts[place] += 1.0;
-        }
-        let Some(team) = event.team.map(Team::index) else { return };
-        match (event.kind, event.qualifier) {
-            (EventKind::Goal, _) => self.goals[team] += 1.0,
-            (EventKind::Shot, None) => {
-                self.shots[team] += 1.0;
-                self.shot_m += f64::from(event.length_m);
-                self.shot_mps += f64::from(event.speed_mps);
-            }
-            (EventKind::Pass, Some(Qualifier::Attempted)) => self.passes[team] += 1.0,
-            (EventKind::Pass, Some(Qualifier::Completed)) => self.completed[team] += 1.0,
-            _ => {}
         }
     }
 
@@ -103,9 +71,22 @@ impl Tally {
         };
         self.tired = [mean(false), mean(true)];
     }
+}
 
-    fn of(&self, kind: EventKind) -> f64 {
-        COUNTED.iter().position(|known| *known == kind).map_or(f64::NAN, |place| self.counts[place])
+impl Tally {
+    /// A count of a team.
+    fn team(&self, team: usize, of: fn(&TeamStatistics) -> u32) -> f64 {
+        f64::from(of(&self.counted.teams[team]))
+    }
+
+    /// A count of both teams.
+    fn both(&self, of: fn(&TeamStatistics) -> u32) -> f64 {
+        self.team(0, of) + self.team(1, of)
+    }
+
+    /// How many goals more the left team has scored.
+    fn lead(&self) -> f64 {
+        self.team(0, |team| team.goals) - self.team(1, |team| team.goals)
     }
 }
 
@@ -139,13 +120,15 @@ pub(crate) fn play(left: f64, right: f64, matches: u64) -> Result<Vec<Tally>, Fa
 
 fn match_of(environment: &mut Environment, seed: u64, scratch: &mut Scratch) -> Result<Tally, Failure> {
     environment.reset(Some(seed), Some(seed)).map_err(|why| why.to_string())?;
-    let mut tally = Tally::default();
+    let mut statistics = Statistics::begin(environment.state());
+    let mut beside = Beside::default();
     while environment.is_running() {
         environment.step(&[Action::BuiltinAi], scratch).map_err(|why| why.to_string())?;
-        tally.step(environment.state(), environment.events());
+        statistics.observe(environment.state(), environment.events());
+        beside.step(environment.state(), environment.events());
     }
-    tally.end(environment.state());
-    Ok(tally)
+    beside.end(environment.state());
+    Ok(Tally { counted: statistics.summary(), beside })
 }
 
 /// Measures everything of the section.
@@ -164,7 +147,7 @@ pub(crate) fn measure(matches: Option<u64>) -> Result<Section, Failure> {
     }
     for (left, right, theirs) in [(1.0, 0.05, 2.8), (1.0, 0.6, 1.4), (1.0, 0.95, -0.1)] {
         let tallies = play(left, right, count)?;
-        let goals: Vec<f64> = tallies.iter().map(|tally| tally.goals[0] - tally.goals[1]).collect();
+        let goals: Vec<f64> = tallies.iter().map(Tally::lead).collect();
         if right == 0.05 {
             let difference = mean(&goals);
             section.within("goal difference, 1.0 against 0.05", "+2.8", [2.0, f64::INFINITY], difference);
@@ -177,21 +160,21 @@ pub(crate) fn measure(matches: Option<u64>) -> Result<Section, Failure> {
 /// A pairing in words.
 fn pairing(left: f64, right: f64, theirs: f64, tallies: &[Tally]) -> String {
     let of = |what: &dyn Fn(&Tally) -> f64| mean(&tallies.iter().map(what).collect::<Vec<_>>());
-    let won = |sign: f64| tallies.iter().filter(|t| (t.goals[0] - t.goals[1]) * sign > 0.0).count();
+    let won = |sign: f64| tallies.iter().filter(|t| t.lead() * sign > 0.0).count();
     format!(
         "{left} against {right}: goals {} : {} (difference {}; theirs {theirs:+}), won {} drawn {} lost {}, shots {} : {}, \
          passes {} : {}, possession {:.2}.",
-        short(of(&|t| t.goals[0])),
-        short(of(&|t| t.goals[1])),
-        short(of(&|t| t.goals[0] - t.goals[1])),
+        short(of(&|t| t.team(0, |team| team.goals))),
+        short(of(&|t| t.team(1, |team| team.goals))),
+        short(of(&Tally::lead)),
         won(1.0),
         tallies.len() - won(1.0) - won(-1.0),
         won(-1.0),
-        short(of(&|t| t.shots[0])),
-        short(of(&|t| t.shots[1])),
-        short(of(&|t| t.passes[0])),
-        short(of(&|t| t.passes[1])),
-        of(&|t| t.owned[0] / (t.owned[0] + t.owned[1])),
+        short(of(&|t| t.team(0, |team| team.shots))),
+        short(of(&|t| t.team(1, |team| team.shots))),
+        short(of(&|t| t.team(0, |team| team.passes_attempted))),
+        short(of(&|t| t.team(1, |team| team.passes_attempted))),
+        of(&|t| t.beside.owned[0] / (t.beside.owned[0] + t.beside.owned[1])),
     )
 }
 
@@ -199,51 +182,54 @@ fn pairing(left: f64, right: f64, theirs: f64, tallies: &[Tally]) -> String {
 fn equal(section: &mut Section, level: f64, tallies: &[Tally]) {
     let of = |what: &dyn Fn(&Tally) -> f64| mean(&tallies.iter().map(what).collect::<Vec<_>>());
     let per = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { f64::NAN };
-    let both = |pair: [f64; 2]| pair[0] + pair[1];
-    let shots = of(&|t| both(t.shots));
-    let passes = of(&|t| both(t.passes));
-    let steps = of(&|t| t.steps);
-    let kind = |kind: EventKind| of(&|t| t.of(kind));
+    let both = |count: fn(&TeamStatistics) -> u32| of(&|t| t.both(count));
+    let shots = both(|t| t.shots);
+    let passes = both(|t| t.passes_attempted);
+    let steps = of(&|t| f64::from(t.counted.steps));
+    let share = |figure: fn(&MatchStatistics) -> f64| of(&|t| figure(&t.counted));
     let goals = if level < 0.8 { "1.5" } else { "2.3" };
     let figures: [(&str, &str, [f64; 2], f64); 25] = [
-        ("goals", goals, [1.0, 4.0], of(&|t| both(t.goals))),
+        ("goals", goals, [1.0, 4.0], both(|t| t.goals)),
         ("shots", "7", [6.0, 20.0], shots),
-        ("goals per shot", ".20–.39", [0.10, 0.35], per(of(&|t| both(t.goals)), shots)),
-        ("mean shot distance, m", "15.4", [12.0, 20.0], per(of(&|t| t.shot_m), shots)),
-        ("mean shot speed, m/s", "33", [28.0, 36.0], per(of(&|t| t.shot_mps), shots)),
+        ("goals per shot", ".20–.39", [0.10, 0.35], per(both(|t| t.goals), shots)),
+        ("mean shot distance, m", "15.4", [12.0, 20.0], per(of(&|t| t.beside.shot_m), shots)),
+        ("mean shot speed, m/s", "33", [28.0, 36.0], per(of(&|t| t.beside.shot_mps), shots)),
         ("passes", "80–95", [70.0, 160.0], passes),
-        ("share of passes completed", ".70–.75", [0.65, 0.85], per(of(&|t| both(t.completed)), passes)),
-        ("share of steps in which nobody owns the ball", ".41–.44", [0.30, 0.55], {
-            per(of(&|t| t.steps - both(t.owned)), steps)
-        }),
-        ("mean possession spell, steps", "30–50", [20.0, 70.0], per(steps, of(&|t| t.spells))),
-        ("goal kicks", "3", [2.0, 8.0], kind(EventKind::GoalKick)),
-        ("throw-ins", "1", [2.0, 10.0], kind(EventKind::ThrowIn)),
-        ("corners", ".1", [0.5, 6.0], kind(EventKind::Corner)),
-        ("free kicks", "4.8–6.4", [2.0, 10.0], kind(EventKind::FreeKick)),
-        ("fouls", ".2", [1.0, 6.0], kind(EventKind::Foul)),
-        ("yellow cards", ".1", [0.2, 2.0], kind(EventKind::YellowCard)),
-        ("red cards", "0", [0.0, 0.2], kind(EventKind::RedCard)),
-        ("penalties", ".1", [0.0, 0.4], kind(EventKind::Penalty)),
-        ("headers", "0", [1.0, 15.0], kind(EventKind::Header)),
-        ("steps with `game_mode` ≠ 0", "46–61", [30.0, 120.0], of(&|t| t.stopped)),
-        ("share of steps with the ball in the left third", ".24", [0.2, 0.5], per(of(&|t| t.thirds[0]), steps)),
-        ("share in the middle third", ".48", [0.2, 0.5], per(of(&|t| t.thirds[1]), steps)),
-        ("share in the right third", ".28", [0.2, 0.5], per(of(&|t| t.thirds[2]), steps)),
-        ("share of steps with the ball above 1 m", ".15–.20", [0.05, 0.25], per(of(&|t| t.high), steps)),
-        ("km run per outfield player", "1.1", [0.8, 1.5], of(&|t| t.metres / 1000.0)),
-        ("tiredness of outfield players at the end", ".82", [0.67, 0.97], of(&|t| t.tired[0])),
+        ("share of passes completed", ".70–.75", [0.65, 0.85], per(both(|t| t.passes_completed), passes)),
+        ("share of steps in which nobody owns the ball", ".41–.44", [0.30, 0.55], share(|t| t.nobody_owns)),
+        ("mean possession spell, steps", "30–50", [20.0, 70.0], per(steps, of(&|t| f64::from(t.counted.spells)))),
+        ("goal kicks", "3", [2.0, 8.0], both(|t| t.goal_kicks)),
+        ("throw-ins", "1", [2.0, 10.0], both(|t| t.throw_ins)),
+        ("corners", ".1", [0.5, 6.0], both(|t| t.corners)),
+        ("free kicks", "4.8–6.4", [2.0, 10.0], both(|t| t.free_kicks)),
+        ("fouls", ".2", [1.0, 6.0], both(|t| t.fouls)),
+        ("yellow cards", ".1", [0.2, 2.0], both(|t| t.yellow_cards)),
+        ("red cards", "0", [0.0, 0.2], both(|t| t.red_cards)),
+        ("penalties", ".1", [0.0, 0.4], both(|t| t.penalties)),
+        ("headers", "0", [1.0, 15.0], of(&|t| t.beside.headers)),
+        ("steps with `game_mode` ≠ 0", "46–61", [30.0, 120.0], of(&|t| t.beside.stopped)),
+        ("share of steps with the ball in the left third", ".24", [0.2, 0.5], share(|t| t.thirds[0])),
+        ("share in the middle third", ".48", [0.2, 0.5], share(|t| t.thirds[1])),
+        ("share in the right third", ".28", [0.2, 0.5], share(|t| t.thirds[2])),
+        ("share of steps with the ball above 1 m", ".15–.20", [0.05, 0.25], per(of(&|t| t.beside.high), steps)),
+        ("km run per outfield player", "1.1", [0.8, 1.5], of(&|t| t.beside.metres / 1000.0)),
+        ("tiredness of outfield players at the end", ".82", [0.67, 0.97], of(&|t| t.beside.tired[0])),
     ];
     for (what, theirs, range, ours) in figures {
         section.within(format!("{what}, {level} each"), theirs, range, ours);
     }
-    section.within(format!("tiredness of keepers at the end, {level} each"), ".25", [0.10, 0.40], of(&|t| t.tired[1]));
+    section.within(
+        format!("tiredness of keepers at the end, {level} each"),
+        ".25",
+        [0.10, 0.40],
+        of(&|t| t.beside.tired[1]),
+    );
     section.told.push(pairing(level, level, 0.0, tallies));
     section.told.push(format!(
         "Besides, {level} each: offsides {}, tackles {}, saves {} a match.",
-        short(kind(EventKind::Offside)),
-        short(kind(EventKind::Tackle)),
-        short(kind(EventKind::Save))
+        short(both(|t| t.offsides)),
+        short(both(|t| t.tackles)),
+        short(of(&|t| t.beside.saves))
     ));
 }
 
@@ -270,11 +256,7 @@ pub(crate) fn ladder(seeds: Option<u64>) -> Result<Section, Failure> {
         let there = play(better, worse, seeds)?;
         let back = play(worse, better, seeds)?;
         // A seed is one observation: its two matches have the same start.
-        let differences: Vec<f64> = there
-            .iter()
-            .zip(&back)
-            .map(|(a, b)| ((a.goals[0] - a.goals[1]) + (b.goals[1] - b.goals[0])) * 0.5)
-            .collect();
+        let differences: Vec<f64> = there.iter().zip(&back).map(|(a, b)| (a.lead() - b.lead()) * 0.5).collect();
         let middle = mean(&differences);
         let half = 1.96 * deviation(&differences) / (differences.len() as f64).sqrt();
         if surely {

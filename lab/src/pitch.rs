@@ -20,7 +20,7 @@ pub(crate) fn library(name: &str, params: &[(&str, String)]) -> Result<Environme
 
 /// The environment of a scenario's text.
 pub(crate) fn text(source: &str) -> Result<Environment, Failure> {
-    let loaded = setpiece::compile_text(source, "<lab>").map_err(|why| format!("{why}\n{source}"))?;
+    let loaded = setpiece::compile_text(source, "<lab>").map_err(|why| why.to_string())?;
     Environment::new(loaded.scenario, EnvironmentOptions::default()).map_err(|why| why.to_string())
 }
 

@@ -4,18 +4,22 @@ mod properties;
 mod scramble;
 
 use crate::pitch::{Failure, text};
-use properties::Witness;
+use properties::{Step, Witness};
 use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::scenario::vocabulary::Action;
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::Command;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Steps where nothing else is asked for.
 const STEPS: u64 = 10_000_000;
+/// A run of so many steps has a line in the log; a shorter one is but a look.
+const LOGGED: u64 = 1_000_000;
 /// Longest episode of a scenario, steps.
 const EPISODE: u32 = 600;
 /// Episodes of every scenario.
@@ -32,43 +36,63 @@ struct Count {
     cards: u64,
 }
 
+impl Count {
+    /// Both together.
+    fn with(self, other: Count) -> Count {
+        Count {
+            steps: self.steps + other.steps,
+            scenarios: self.scenarios + other.scenarios,
+            episodes: self.episodes + other.episodes,
+            goals: self.goals + other.goals,
+            set_pieces: self.set_pieces + other.set_pieces,
+            cards: self.cards + other.cards,
+        }
+    }
+}
+
+/// What has not held: the first case of each kind, and how many there were.
+type Breaches = BTreeMap<String, (u64, Failure)>;
+
 /// Runs `soak [--steps N] [--seed S]`.
 pub(crate) fn soak(args: &[String]) -> Result<(), Failure> {
     let (steps, seed) = options(args)?;
     let next = AtomicU64::new(0);
     let done = AtomicU64::new(0);
-    let results: Vec<Result<Count, Failure>> = std::thread::scope(|scope| {
-        let work = || {
-            let mut count = Count::default();
-            let mut scratch = Scratch::default();
-            while done.load(Ordering::Relaxed) < steps {
-                let which = next.fetch_add(1, Ordering::Relaxed);
-                let before = count.steps;
-                play(seed, which, &mut scratch, &mut count)?;
-                done.fetch_add(count.steps - before, Ordering::Relaxed);
+    let breaches = Mutex::new(Breaches::new());
+    let work = || {
+        let mut count = Count::default();
+        let mut scratch = Scratch::default();
+        while done.load(Ordering::Relaxed) < steps {
+            let which = next.fetch_add(1, Ordering::Relaxed);
+            let before = count.steps;
+            if let Err(breach) = play(seed, which, &mut scratch, &mut count)
+                && let Ok(mut breaches) = breaches.lock()
+            {
+                breaches.entry(kind_of(&breach.what)).or_insert((0, breach.told)).0 += 1;
             }
-            Ok(count)
-        };
-        let hands: Vec<_> = (0..crate::threads()).map(|_| scope.spawn(work)).collect();
-        hands.into_iter().map(|hand| hand.join().unwrap_or_else(|_| Err("a worker stopped".to_owned()))).collect()
-    });
-    let mut total = Count::default();
-    let mut failures = Vec::new();
-    for result in results {
-        match result {
-            Ok(count) => {
-                total.steps += count.steps;
-                total.scenarios += count.scenarios;
-                total.episodes += count.episodes;
-                total.goals += count.goals;
-                total.set_pieces += count.set_pieces;
-                total.cards += count.cards;
-            }
-            Err(why) => failures.push(why),
+            // A scenario that can't be played counts as a step: the run ends all the same.
+            done.fetch_add((count.steps - before).max(1), Ordering::Relaxed);
         }
-    }
+        count
+    };
+    let total = std::thread::scope(|scope| {
+        let hands: Vec<_> = (0..crate::threads()).map(|_| scope.spawn(work)).collect();
+        hands.into_iter().try_fold(Count::default(), |total, hand| {
+            hand.join().map(|count| total.with(count)).map_err(|_| "a worker stopped".to_owned())
+        })
+    })?;
     println!("{total:?}");
-    if failures.is_empty() { log(seed, total) } else { Err(failures.join("\n")) }
+    let breaches = breaches.into_inner().map_err(|_| "a worker stopped".to_owned())?;
+    if breaches.is_empty() {
+        return if steps < LOGGED { Ok(()) } else { log(seed, total) };
+    }
+    let told: Vec<Failure> = breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
+    Err(told.join("\n"))
+}
+
+/// What a breach is like: its words without its numbers.
+fn kind_of(what: &str) -> String {
+    what.chars().filter(|c| !c.is_ascii_digit() && !"-.,".contains(*c)).collect()
 }
 
 fn options(args: &[String]) -> Result<(u64, u64), Failure> {
@@ -88,6 +112,8 @@ fn options(args: &[String]) -> Result<(u64, u64), Failure> {
 /// Who acts in an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Habit {
+    /// Nobody does anything.
+    Idle,
     /// Every agent at random, every step.
     Random,
     /// The bot for every agent.
@@ -96,18 +122,33 @@ enum Habit {
     Slow,
 }
 
+/// Habits, each as often as it comes up.
+const HABITS: [Habit; 5] = [Habit::Random, Habit::Random, Habit::Bot, Habit::Slow, Habit::Idle];
+
+/// Something that has not held.
+struct Breach {
+    what: Failure,
+    /// The same with its scenario and the moment.
+    told: Failure,
+}
+
 /// Plays some episodes of a scenario made up from a seed.
-fn play(seed: u64, which: u64, scratch: &mut Scratch, count: &mut Count) -> Result<(), Failure> {
+fn play(seed: u64, which: u64, scratch: &mut Scratch, count: &mut Count) -> Result<(), Breach> {
     let mut random = Stream::new(seed, which, Purpose::Agent);
     let source = scramble::scenario(&mut random, EPISODE);
-    let fails = |why: String| format!("seed {seed}, scenario {which}: {why}\n{source}");
-    let mut environment = text(&source).map_err(fails)?;
+    let tell = |what: Failure, when: String| Breach {
+        told: format!("seed {seed}, scenario {which}{when}: {what}\n{source}"),
+        what,
+    };
+    let mut environment = text(&source).map_err(|why| tell(why, String::new()))?;
     count.scenarios += 1;
     for episode in 0..EPISODES {
-        let habit = [Habit::Random, Habit::Bot, Habit::Slow][random.below(3) as usize];
-        environment.reset(Some(seed), Some(episode)).map_err(|why| fails(why.to_string()))?;
+        let habit = HABITS[random.below(HABITS.len() as u32) as usize];
+        environment
+            .reset(Some(seed), Some(episode))
+            .map_err(|why| tell(why.to_string(), format!(", episode {episode}")))?;
         episode_of(&mut environment, habit, &mut random, scratch, count)
-            .map_err(|why| fails(format!("episode {episode}, {habit:?}, step {}: {why}", environment.steps())))?;
+            .map_err(|why| tell(why, format!(", episode {episode}, {habit:?}, step {}", environment.steps())))?;
         count.episodes += 1;
     }
     Ok(())
@@ -125,6 +166,7 @@ fn episode_of(
     while environment.is_running() {
         for action in &mut actions {
             *action = match habit {
+                Habit::Idle => Action::Idle,
                 Habit::Bot => Action::BuiltinAi,
                 Habit::Slow if random.below(8) > 0 => *action,
                 Habit::Random | Habit::Slow => {
@@ -133,7 +175,17 @@ fn episode_of(
             };
         }
         environment.step(&actions, scratch).map_err(|why| why.to_string())?;
-        let seen = witness.see(environment.judged_state(), environment.state(), environment.events())?;
+        let step = Step {
+            actions: &actions,
+            judged: environment.judged_state(),
+            after: environment.state(),
+            events: environment.events(),
+        };
+        let seen = witness.see(&step, scratch)?;
+        let ended = environment.steps() >= EPISODE;
+        if ended == environment.is_running() {
+            return Err("the limit is not the end".to_owned());
+        }
         count.steps += 1;
         count.goals += seen.goals;
         count.set_pieces += seen.set_pieces;

@@ -1,6 +1,9 @@
 //! Scenarios made up at random: teams of any size anywhere, every rule, every start, agents of every kind.
 
+mod script;
+
 use setpiece::engine::random::Stream;
+use setpiece::scenario::vocabulary::Stat;
 use std::fmt::Write as _;
 
 const ROLES: [&str; 9] = ["CB", "LB", "RB", "DM", "CM", "LM", "RM", "AM", "CF"];
@@ -15,52 +18,44 @@ const SWITCHES: [&str; 13] = [
     "fatigue",
     "stochastic",
     "assist",
+    "anti_stalling",
     "grf_keeper",
     "six_seconds",
-    "anti_stalling",
 ];
-const AIS: [&str; 6] = ["bot", "bot", "bot", "bot", "hold", "lazy"];
+const STARTS: [&str; 9] =
+    ["open", "open", "open", "kickoff", "corner", "free_kick", "throw_in", "goal_kick", "penalty"];
+const SIDES: [&str; 2] = ["left", "right"];
+
+/// A player of a scenario.
+struct Man {
+    name: String,
+    role: &'static str,
+    /// Normalised.
+    place: (f32, f32),
+    controllable: bool,
+}
 
 /// A scenario's text.
 pub(super) fn scenario(random: &mut Stream, limit: u32) -> String {
-    let mut text = String::from("scenario soak {\n    rules {");
-    for rule in SWITCHES {
-        // Mostly as it is by default; never without the rule that a run is held to.
-        if rule != "anti_stalling" && random.below(4) == 0 {
-            let _ = write!(text, " {rule}: {}", if random.below(2) == 0 { "on" } else { "off" });
-        }
+    let mut text = String::new();
+    let behaviors = one_in(random, 2);
+    if behaviors {
+        script::behaviors(&mut text, random);
     }
-    if random.below(6) == 0 {
-        let _ = write!(text, " half_time: {} steps", 50 + random.below(300));
+    if one_in(random, 8) {
+        kicked_off(&mut text, random, limit);
+        return text;
     }
-    if random.below(10) == 0 {
-        text.push_str(" physics: full");
-    }
-    text.push_str(" }\n");
-    let sizes = [1 + random.below(11), random.below(12)];
-    let kind = ["open", "open", "corner", "free_kick", "throw_in", "goal_kick", "penalty"][random.below(7) as usize];
-    let team = if sizes[1] > 0 && random.below(2) == 0 { "right" } else { "left" };
-    if kind == "open" {
-        ball(&mut text, random);
-    } else {
-        let _ = writeln!(text, "    start {kind} for {team}");
-        if kind == "free_kick" || kind == "throw_in" {
-            let _ = writeln!(text, "    ball at ({:.3}, {:.3})", spread(random) * 0.9, spread(random) * 0.4);
-        }
-    }
-    let agents = |random: &mut Stream, size: u32| match random.below(4) {
-        0 => "all".to_owned(),
-        1 => "0".to_owned(),
-        _ => random.below(size + 1).to_string(),
-    };
-    let left = agents(random, sizes[0]);
-    let right = if sizes[1] == 0 { "0".to_owned() } else { agents(random, sizes[1]) };
-    let others = if random.below(3) == 0 { "hold" } else { "bot" };
-    let _ = writeln!(text, "    agents {{ left: {left}, right: {right}, others: {others} }}");
-    for (side, size) in ["left", "right"].into_iter().zip(sizes) {
+    let sizes = [size(random, 1), size(random, 0)];
+    let teams = [0, 1].map(|team| men(random, team, sizes[team]));
+    text.push_str("scenario soak {\n");
+    rules(&mut text, random);
+    start(&mut text, random, &teams);
+    agents(&mut text, random, &teams);
+    for (side, team) in SIDES.into_iter().zip(&teams) {
         let _ = writeln!(text, "    team {side} {{\n        difficulty: {:.2}", random.unit());
-        for index in 0..size {
-            player(&mut text, random, index);
+        for man in team {
+            player(&mut text, random, man, &teams, behaviors);
         }
         text.push_str("    }\n");
     }
@@ -68,31 +63,181 @@ pub(super) fn scenario(random: &mut Stream, limit: u32) -> String {
     text
 }
 
+/// Whether something happens that happens once in `n` times.
+fn one_in(random: &mut Stream, n: u32) -> bool {
+    random.below(n) == 0
+}
+
 /// From -1 to 1.
 fn spread(random: &mut Stream) -> f32 {
     random.unit() * 2.0 - 1.0
 }
 
-fn ball(text: &mut String, random: &mut Stream) {
+/// How many play in a team: often few.
+fn size(random: &mut Stream, least: u32) -> u32 {
+    if one_in(random, 3) { least + random.below(3) } else { least + random.below(12 - least) }
+}
+
+fn men(random: &mut Stream, team: usize, size: u32) -> Vec<Man> {
+    let keeper = !one_in(random, 4);
+    let side = if team == 0 { -1.0 } else { 1.0 };
+    let man = |index| {
+        let role = if index == 0 && keeper { "GK" } else { ROLES[random.below(9) as usize] };
+        let at_home = role == "GK" && !one_in(random, 6);
+        let place = if at_home { (side, 0.0) } else { (spread(random), spread(random) * 0.42) };
+        Man { name: format!("{}{index}", &SIDES[team][..1]), role, place, controllable: !one_in(random, 12) }
+    };
+    (0..size).map(man).collect()
+}
+
+fn rules(text: &mut String, random: &mut Stream) {
+    text.push_str("    rules {");
+    for rule in SWITCHES {
+        // Mostly as it is by default.
+        if one_in(random, 4) {
+            let _ = write!(text, " {rule}: {}", if one_in(random, 2) { "on" } else { "off" });
+        }
+    }
+    if one_in(random, 4) {
+        let _ = write!(text, " half_time: {} steps", 50 + random.below(300));
+    }
+    if one_in(random, 10) {
+        text.push_str(" physics: full");
+    }
+    text.push_str(" }\n");
+}
+
+fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
+    let kind = STARTS[random.below(9) as usize];
+    let team = usize::from(!teams[1].is_empty() && one_in(random, 2));
+    let whose = matches!(kind, "corner" | "goal_kick" | "penalty") || (kind != "open" && !one_in(random, 4));
+    let whose = if whose { format!(" for {}", SIDES[team]) } else { String::new() };
+    let late = if one_in(random, 4) {
+        let (left, right, elapsed) = (random.below(4), random.below(4), random.below(200));
+        format!(" {{ score: [{left}, {right}]  elapsed: {elapsed} steps }}")
+    } else {
+        String::new()
+    };
+    let _ = writeln!(text, "    start {kind}{whose}{late}");
+    match kind {
+        "open" => ball(text, random, teams),
+        "free_kick" | "throw_in" => {
+            let _ = writeln!(text, "    ball at ({:.3}, {:.3})", spread(random) * 0.9, spread(random) * 0.4);
+        }
+        _ => {}
+    }
+}
+
+fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
+    let owner = teams.iter().flatten().filter(|man| man.place.0.abs() < 0.95).nth(random.below(22) as usize);
+    if let Some(man) = owner {
+        let _ = writeln!(text, "    ball at {} + ({:.2}m, 0m) {{ owner: {} }}", man.name, spread(random), man.name);
+        return;
+    }
     let (x, y) = (spread(random), spread(random) * 0.42);
     let _ = write!(text, "    ball at ({x:.3}, {y:.3})");
-    if random.below(2) == 0 {
-        let (vx, vy, height) = (spread(random) * 35.0, spread(random) * 35.0, random.unit() * 6.0);
-        let _ = write!(text, " {{ velocity: ({vx:.1}m/s, {vy:.1}m/s)  height: {height:.2}m }}");
+    if one_in(random, 2) {
+        let mut speed = |most: f32| format!("{:.1}m/s", spread(random) * most);
+        let (vx, vy, vz) = (speed(35.0), speed(35.0), speed(9.0));
+        let _ = write!(text, " {{ velocity: ({vx}, {vy}, {vz})  height: {:.2}m", random.unit() * 6.0);
+        if one_in(random, 3) {
+            let mut spin = || (spread(random) * 100.0).round();
+            let _ = write!(text, "  spin: ({}, {}, {})", spin(), spin(), spin());
+        }
+        text.push_str(" }");
     }
     text.push('\n');
 }
 
-fn player(text: &mut String, random: &mut Stream, index: u32) {
-    let role = if index == 0 && random.below(8) > 0 { "GK" } else { ROLES[random.below(9) as usize] };
-    let (x, y) = if role == "GK" { (-1.0, 0.0) } else { (spread(random), spread(random) * 0.42) };
-    let ai = AIS[random.below(6) as usize];
-    let _ = write!(text, "        {role} at ({x:.3}, {y:.3}) {{ ai: {ai}  overlap: allowed");
-    if random.below(6) == 0 {
-        let _ = write!(text, "  fatigue: {:.2}", random.unit());
+fn agents(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
+    text.push_str("    agents {");
+    for (side, team) in SIDES.into_iter().zip(teams) {
+        let free: Vec<&Man> = team.iter().filter(|man| man.controllable).collect();
+        let whom = match random.below(5) {
+            _ if free.is_empty() => "0".to_owned(),
+            0 => "all".to_owned(),
+            1 => "0".to_owned(),
+            2 => {
+                let named: Vec<&str> = free.iter().filter(|_| one_in(random, 2)).map(|man| man.name.as_str()).collect();
+                if named.is_empty() { "1".to_owned() } else { format!("[{}]", named.join(", ")) }
+            }
+            _ => random.below(free.len() as u32 + 1).to_string(),
+        };
+        let _ = write!(text, " {side}: {whom},");
     }
-    if random.below(12) == 0 {
+    manners(text, random);
+}
+
+/// What agents' mates do, and whether agents go from one to the other.
+fn manners(text: &mut String, random: &mut Stream) {
+    let others = if one_in(random, 3) { "hold" } else { "bot" };
+    let switching = if one_in(random, 4) { ", switching: fixed" } else { "" };
+    let _ = writeln!(text, " others: {others}{switching} }}");
+}
+
+fn player(text: &mut String, random: &mut Stream, man: &Man, teams: &[Vec<Man>; 2], behaviors: bool) {
+    let ai = match random.below(if behaviors { 10 } else { 6 }) {
+        0 => "hold".to_owned(),
+        1 => "lazy".to_owned(),
+        2..6 => "bot".to_owned(),
+        _ => script::call(random, teams.iter().flatten().map(|man| man.name.as_str())),
+    };
+    let _ = write!(text, "        {}: {} at ({:.3}, {:.3})", man.name, man.role, man.place.0, man.place.1);
+    if one_in(random, 8) {
+        let _ = write!(text, " facing {:.0}deg", spread(random) * 180.0);
+    }
+    let _ = write!(text, " {{ ai: {ai}  overlap: allowed");
+    if !man.controllable {
+        text.push_str("  controllable: off");
+    }
+    if one_in(random, 6) {
+        // Both ends of the range are among them.
+        let _ = write!(text, "  fatigue: {:.2}", (random.unit() * 1.4 - 0.2).clamp(0.0, 1.0));
+    }
+    if one_in(random, 8) {
         text.push_str("  yellow_cards: 1");
     }
+    if one_in(random, 10) {
+        let _ = write!(text, "  velocity: ({:.1}m/s, {:.1}m/s)", spread(random) * 7.0, spread(random) * 7.0);
+    }
+    if one_in(random, 5) {
+        let stats: Vec<String> = Stat::ALL
+            .iter()
+            .map(|stat| (stat.name(), random.unit() * 4.2 - 0.6))
+            .filter(|(_, value)| *value < 1.6)
+            .map(|(name, value)| format!("{name}: {:.2}", value.clamp(0.0, 1.0)))
+            .collect();
+        if !stats.is_empty() {
+            let _ = write!(text, "  stats: {{ {} }}", stats.join(", "));
+        }
+    }
     text.push_str(" }\n");
+}
+
+/// A scenario whose teams are those of a kick-off, of formations of its own.
+fn kicked_off(text: &mut String, random: &mut Stream, limit: u32) {
+    let size = size(random, 1);
+    let keeper = !one_in(random, 4);
+    let roles: Vec<&str> =
+        (0..size).map(|index| if index == 0 && keeper { "GK" } else { ROLES[random.below(9) as usize] }).collect();
+    for name in ["kicking", "receiving"] {
+        let _ = writeln!(text, "formation {name} {{");
+        for role in &roles {
+            let place = if *role == "GK" { (-1.0, 0.0) } else { (-random.unit(), spread(random) * 0.42) };
+            let _ = writeln!(text, "    {role} at ({:.3}, {:.3})", place.0, place.1);
+        }
+        text.push_str("}\n");
+    }
+    text.push_str("scenario soak {\n");
+    rules(text, random);
+    let whose = ["left", "right", "alternate(left, right)", "choice(left, right)"][random.below(4) as usize];
+    let _ = writeln!(text, "    kickoff {whose} {{ kicking: kicking, receiving: receiving }}");
+    let mut whom = || if one_in(random, 3) { "all".to_owned() } else { random.below(size + 1).to_string() };
+    let _ = write!(text, "    agents {{ left: {}, right: {},", whom(), whom());
+    manners(text, random);
+    for side in SIDES {
+        let _ =
+            writeln!(text, "    team {side} {{ difficulty: {:.2}  each all {{ overlap: allowed }} }}", random.unit());
+    }
+    let _ = writeln!(text, "    end limit {limit} steps\n}}");
 }

@@ -1,0 +1,42 @@
+//! The bench itself, in short: it plays, measures and says what is wrong.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use std::process::Command;
+
+/// What the bench prints, and whether it was content.
+fn lab(args: &[&str]) -> (String, bool) {
+    let output = Command::new(env!("CARGO_BIN_EXE_lab")).args(args).output().unwrap();
+    (String::from_utf8(output.stdout).unwrap(), output.status.success())
+}
+
+#[test]
+fn scenarios_made_up_at_random_hold() {
+    let (told, held) = lab(&["soak", "--steps", "10000", "--seed", "1"]);
+    assert!(held, "{told}");
+    assert!(told.contains("goals: "), "{told}");
+}
+
+#[test]
+fn every_section_measures_every_figure() {
+    for (section, figures) in [("2", 70), ("3", 60), ("4", 50), ("5", 30), ("7", 6)] {
+        let (told, _) = lab(&["calibrate", "--only", section, "--count", "2"]);
+        let rows: Vec<&str> = told.lines().filter(|line| line.starts_with("| C-")).collect();
+        assert!(rows.len() >= figures, "section {section} has {} figures", rows.len());
+        let found = rows.iter().filter(|row| !row.contains("| none |")).count();
+        assert!(found * 10 >= rows.len() * 8, "section {section} measures {found} of {}: {told}", rows.len());
+    }
+}
+
+#[test]
+fn what_is_asked_for_wrongly_is_told() {
+    for (args, words) in [
+        (vec![], "lab calibrate"),
+        (vec!["soak", "--steps"], "`--steps` wants a number"),
+        (vec!["soak", "--stop", "1"], "no option `--stop`"),
+        (vec!["calibrate", "--only", "x"], "`--only` wants a number"),
+        (vec!["calibrate", "--all"], "no option `--all`"),
+    ] {
+        let (told, content) = lab(&args);
+        assert!(!content && told.contains(words), "{args:?}: {told}");
+    }
+}

@@ -143,6 +143,7 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
             name: None,
             ai: Ai::Bot,
             controllable: role != Role::GK,
+            overlap: false,
             stats: Vec::new(),
             start: PlayerStart {
                 x: code.number(x),

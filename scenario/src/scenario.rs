@@ -97,6 +97,9 @@ pub struct PlayerSlot {
     pub ai: Ai,
     /// Whether an agent may be given him.
     pub controllable: bool,
+    /// Whether a draw may put him on another's spot.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub overlap: bool,
     /// Statistics that replace the table's, each a register of the start program, 0..1.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stats: Vec<(Stat, Reg)>,

@@ -87,3 +87,23 @@ fn a_polygon_whose_corners_are_drawn_is_filled_all_the_same() {
     let share = f64::from(near) / DRAWS as f64;
     assert!((share - 0.75).abs() < 0.023, "{share}");
 }
+
+#[test]
+fn who_may_overlap_may_be_drawn_onto_another() {
+    let text = |overlap: &str| {
+        format!(
+            "formation kicking {{ GK at (-1, 0)  CB at (-0.5, 0.1)  CB at (-0.5, 0.3) }}
+            formation receiving {{ GK at (-1, 0)  CB at (-0.6, 0.1)  CB at (-0.6, 0.101) }}
+            scenario close {{
+                kickoff choice(left, right) {{ kicking: kicking, receiving: receiving }}
+                team left {{ {overlap} }}
+                team right {{ {overlap} }}
+                end limit 10 steps
+            }}"
+        )
+    };
+    assert!(setpiece::compile_text(&text(""), "<test>").is_err());
+    let loaded = setpiece::compile_text(&text("each all { overlap: allowed }"), "<test>").unwrap();
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    environment.reset(Some(1), Some(0)).unwrap();
+}

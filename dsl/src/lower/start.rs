@@ -249,6 +249,7 @@ fn slots(
             }),
             ai: option.ai,
             controllable: option.controllable,
+            overlap: option.overlap,
             stats: option.stats,
             start: PlayerStart {
                 x: place.0,

@@ -101,7 +101,7 @@ pub fn think(game: &mut Match, events: &mut Events) {
         }
         match ai_of(game, id) {
             Ai::Lazy => game.players[i].body.intent = Intent::Stand,
-            Ai::Hold => hold(game, id),
+            Ai::Hold => hold(game, &views[id.team().index()], id),
             Ai::Bot | Ai::Behavior(_) => decide(game, events, &views[id.team().index()], id),
         }
     }
@@ -114,8 +114,12 @@ fn ai_of(game: &Match, id: PlayerId) -> Ai {
     if ai == Ai::Bot && mates_hold { Ai::Hold } else { ai }
 }
 
-/// Stands, but plays a ball that comes to him.
-fn hold(game: &mut Match, id: PlayerId) {
+/// Stands, but plays a ball that comes to him; with it in his hands he is a keeper like any other.
+fn hold(game: &mut Match, view: &View, id: PlayerId) {
+    if game.play.hands.is_some_and(|(keeper, _)| keeper == id) {
+        on_ball::decide(game, view, id);
+        return;
+    }
     let near = game.player(id).pos.distance_squared(game.ball.pos.truncate()) < 36.0;
     let his = game.play.chaser[id.team().index()] == Some(id) && near;
     let body = &mut game.players[id.index()].body;

@@ -1,9 +1,10 @@
 //! What the pitch itself requires of a drawn start.
 
 use super::{Drawer, Roster};
+use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::Scenario;
-use setpiece_scenario::pitch::{RIM_X_M, RIM_Y_M};
+use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Team;
 
 /// Least distance between two players of whom one was placed at random.
@@ -31,7 +32,7 @@ impl Fault {
             Fault::Number => "every place, velocity and heading is a number",
             Fault::Ball => "the ball lies on the pitch",
             Fault::Player => "every player stands on the pitch",
-            Fault::Gap => "players placed at random keep 0.6 m from others",
+            Fault::Gap => "players placed at random keep 0.6 m from others, but for who may overlap",
         }
     }
 }
@@ -49,8 +50,8 @@ impl Drawer {
         if !on_pitch(ball) {
             return Some(Fault::Ball);
         }
-        let mut placed: arrayvec::ArrayVec<(Vec2, bool), { setpiece_scenario::pitch::PLAYERS_MAX }> =
-            arrayvec::ArrayVec::new();
+        // Where the men before him stand, whether they were drawn there, and whether others may stand there too.
+        let mut placed: ArrayVec<(Vec2, bool, bool), PLAYERS_MAX> = ArrayVec::new();
         for team in Team::ALL {
             for (_, slot) in scenario.team(*team).filter(|&(id, _)| roster.present.get(id) == Some(&true)) {
                 let own = &slot.start;
@@ -64,13 +65,15 @@ impl Drawer {
                 }
                 let random = self.is_random(own.x) || self.is_random(own.y);
                 // Two fixed places may coincide: the author wrote them so.
-                let crowded = placed
-                    .iter()
-                    .any(|&(other, other_random)| (random || other_random) && at.distance(other) < MIN_GAP_M);
+                let crowded = placed.iter().any(|&(other, other_random, other_overlap)| {
+                    (random || other_random)
+                        && !(slot.overlap || other_overlap)
+                        && at.distance(other) < MIN_GAP_M
+                });
                 if crowded {
                     return Some(Fault::Gap);
                 }
-                placed.push((at, random));
+                placed.push((at, random, slot.overlap));
             }
         }
         None

@@ -156,9 +156,14 @@ impl Body {
 }
 
 impl Player {
-    /// Brings him down for so many ticks: a resilient man is up again sooner.
+    /// Ticks that a knock costs him: fewer, the more resilient he is; as many as said for the average of the table.
+    pub fn shaken(&self, ticks: f32) -> f32 {
+        ticks * (1.3 - 0.4 * self.skill(Stat::Resilience))
+    }
+
+    /// Brings him down for so many ticks.
     pub fn fall(&mut self, ticks: f32) {
-        let ticks = ticks * (1.3 - 0.4 * self.skill(Stat::Resilience));
+        let ticks = self.shaken(ticks);
         self.body.strike_pose(Pose::Down, ticks as u8);
     }
 

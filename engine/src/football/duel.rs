@@ -12,6 +12,8 @@ const TACKLE_M: f32 = 0.85;
 const LEAST: f32 = 0.025;
 /// How much more often against a man who stands still with the ball; chosen.
 const STANDS: f32 = 0.06;
+/// Ticks for which who has lost the ball can't try it; chosen.
+const BEATEN_TICKS: f32 = 45.0;
 /// Ticks between two tries of one player.
 const RETRY_TICKS: i32 = 32;
 
@@ -38,7 +40,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let now = game.tick as i32;
     if noise::happens(game, chance) {
         win(game, events, id, rival, ball);
-        game.players[rival.index()].body.ready_at = now + 45;
+        game.players[rival.index()].body.ready_at = now + victim.shaken(BEATEN_TICKS) as i32;
         game.players[rival.index()].vel *= 0.6;
         return;
     }

@@ -16,6 +16,8 @@ pub fn tire(game: &mut Match, ticks: u32) {
     for player in game.players.iter_mut().filter(|p| p.active) {
         let metres = player.vel.length() * seconds;
         let stamina = player.body.stats[Stat::Stamina.index()];
-        player.fatigue = (player.fatigue + metres * PER_METRE * (2.0 - stamina)).min(0.99);
+        // Nobody runs himself to a stand; who begins exhausted stays it.
+        let most = player.fatigue.max(0.99);
+        player.fatigue = (player.fatigue + metres * PER_METRE * (2.0 - stamina)).min(most);
     }
 }

@@ -12,7 +12,7 @@ use std::ops::Range;
 /// Severity above which a foul earns a yellow card.
 const YELLOW: f32 = 1.5;
 /// Severity above which a foul earns a red card.
-const RED: f32 = 1.8;
+const RED: f32 = 1.87;
 /// At which heights a ball meets a player's arms, metres.
 const ARMS_M: Range<f32> = 0.6..1.5;
 /// How often it is one of them that the ball springs off there.
@@ -129,8 +129,11 @@ pub fn in_box(point: Vec2, team: Team) -> bool {
     -point.x * team.side() as f32 > depth && point.y.abs() < BOX_HALF_WIDTH_M as f32
 }
 
-/// Shows yellow; the second sends off.
+/// Shows yellow; the second sends off, and is therefore not shown to the last of a team.
 fn caution(game: &mut Match, events: &mut Events, by: PlayerId) {
+    if game.player(by).yellow_cards > 0 && game.team(by.team()).count() <= 1 {
+        return;
+    }
     report::did(game, events, EventKind::YellowCard, by, None);
     let player = &mut game.players[by.index()];
     player.yellow_cards = player.yellow_cards.saturating_add(1);

@@ -244,14 +244,14 @@ fn hold(game: &mut Match, id: PlayerId) {
     let x = (player.pos.x * side).clamp(-line + 0.6, -line + 15.5) * side;
     let inside = Vec2::new(x, player.pos.y.clamp(-19.0, 19.0));
     player.pos += (inside - player.pos).clamp_length_max(0.08);
-    // What he has caught before it was over the line he does not carry over it.
-    player.pos.x = (player.pos.x * side).max(-line) * side;
     player.body.facing = Vec2::new(side, 0.0);
     if player.body.pose == Pose::Diving {
         player.body.strike_pose(Pose::Down, 30);
     }
     let vel = player.vel;
-    let at = player.pos + player.body.facing * 0.35;
+    let mut at = player.pos + player.body.facing * 0.35;
+    // What he has caught before it was over the line he does not carry over it.
+    at.x = (at.x * side).max(-line) * side;
     game.ball.pos = at.extend(1.0);
     game.ball.vel = vel.extend(0.0);
     game.ball.spin = Vec3::ZERO;

@@ -33,13 +33,13 @@ pub fn apply(game: &mut Match) {
 /// One that is awarded to a team without players is taken by the others; without anybody the ball just lies there.
 pub fn place(game: &mut Match, restart: Restart) {
     calm(game);
+    let empty = game.team(restart.team).next().is_none();
+    let restart = if empty { Restart { team: restart.team.other(), ..restart } } else { restart };
     game.play.lead = restart.team;
     lay_ball(game, restart.spot);
-    let others = Restart { team: restart.team.other(), ..restart };
-    let takers = [restart, others].map(|restart| (restart, set_piece::taker(game, restart)));
     if restart.mode == GameMode::KickOff {
         kick_off(game, restart.team, restart.spot);
-    } else if let Some((restart, taker)) = takers.iter().find_map(|&(restart, taker)| Some((restart, taker?))) {
+    } else if let Some(taker) = set_piece::taker(game, restart) {
         set_piece::arrange(game, restart, taker);
         game.play.set_piece =
             Some(SetPiece { mode: restart.mode, team: restart.team, taker, spot: restart.spot, waited_steps: 0 });

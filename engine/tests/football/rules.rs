@@ -321,3 +321,42 @@ fn tackles_trips_and_runs_happen_without_noise_too() {
     }
     assert!(seen[0] > 20 && seen[1] > 2 && seen[2] > 2 && seen[3] > 2, "{seen:?}");
 }
+
+#[test]
+fn who_begins_exhausted_stays_it() {
+    let mut bench = bench(&[], 0);
+    bench.game.players[9].fatigue = 1.0;
+    bench.game.players[8].fatigue = 0.9899;
+    for _ in 0..20 {
+        bench.step(Action::BuiltinAi);
+    }
+    assert_eq!((bench.game.players[9].fatigue, bench.game.players[8].fatigue), (1.0, 0.99));
+}
+
+#[test]
+fn a_keeper_who_is_to_hold_his_place_still_lets_the_ball_go() {
+    let mut bench = bench(&[(Rule::SixSeconds, 0.0)], 0);
+    bench.game.players[0].ai = setpiece_scenario::Ai::Hold;
+    bench.game.ball.pos = bench.game.players[0].pos.extend(1.0);
+    keeper::take(&mut bench.game, &mut bench.events, PlayerId(0));
+    let released = (0..80).any(|_| {
+        bench.step(Action::BuiltinAi);
+        bench.game.play.hands.is_none()
+    });
+    assert!(released);
+}
+
+#[test]
+fn a_kick_off_of_nobody_is_the_others() {
+    let mut bench = bench(&[(Rule::AntiStalling, 0.0)], 0);
+    for player in &mut bench.game.players[..11] {
+        player.active = false;
+    }
+    place(&mut bench.game, Restart { mode: GameMode::KickOff, team: Team::Left, spot: Vec2::ZERO });
+    assert_eq!(bench.game.play.kick_off, Some(Team::Right));
+    let taken = (0..60).any(|_| {
+        bench.step(Action::BuiltinAi);
+        bench.seen(EventKind::Touch).is_some()
+    });
+    assert!(taken);
+}

@@ -128,7 +128,7 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, choice: Choice) {
         Act::Shoot(point) => {
             let luck = noise::whim(game);
             let plan =
-                KickPlan { kind: KickKind::Shot, point: Some(point * view.side), power: 0.55 + 0.4 * luck, ..plan };
+                KickPlan { kind: KickKind::Shot, point: Some(point * view.side), power: 0.62 + 0.38 * luck, ..plan };
             game.players[id.index()].body.kick = Some(plan);
         }
         Act::Pass(mate, kind, point) => {

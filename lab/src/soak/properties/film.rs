@@ -28,9 +28,9 @@ const GIVE_M: f32 = 0.01;
 /// The most that a ball is moved in a tick beside its velocity: lifted for a kick, pushed by a body, metres.
 const LIFT_M: f32 = 0.05;
 /// The most that a player moves in a tick, metres.
-const STRIDE_M: f32 = 0.16;
+const STRIDE_M: f32 = 0.24;
 /// How near two men on their feet, who have stood apart, come to each other, metres: in a crowd, far into each other.
-const NEAREST_M: f32 = 0.08;
+const NEAREST_M: f32 = 0.3;
 /// How near a player's middle comes to a net or post, metres.
 const NET_M: f32 = 0.2;
 

@@ -60,7 +60,7 @@ fn clock(before: &Match, step: &Step) -> Result<(), Failure> {
     must(!blown || due, || "half-time too early".to_owned())?;
     let goes_on = !judged.dead && judged.play.set_piece.is_none();
     must(!due || judged.play.second_half || !goes_on, || "half-time is late".to_owned())?;
-    let kicks_off = after.play.kick_off == Some(after.play.first_kickoff.other());
+    let kicks_off = after.play.kick_off == Some(given_to(after, after.play.first_kickoff.other()));
     must(!blown || kicks_off, || format!("after half-time {:?} kicks off", after.play.kick_off))?;
     let full = judged.limit_steps.is_some_and(|limit| judged.step >= limit);
     let whistle = count(events, |event| event.kind == EventKind::FullTime);
@@ -148,6 +148,11 @@ fn stop(before: &Match, step: &Step) -> Result<(), Failure> {
     must(pending == Some((award.kind, award.team)), || format!("{pending:?} waits after {award:?}"))
 }
 
+/// Who plays what a team is awarded: the others, where it has nobody.
+fn given_to(game: &Match, team: Team) -> Team {
+    if game.team(team).next().is_none() { team.other() } else { team }
+}
+
 /// After a stop the ball lies where it was awarded and the team that has it waits to play it; without one nothing changes.
 fn restart(step: &Step) -> Result<(), Failure> {
     let Step { judged, after, events, .. } = step;
@@ -158,17 +163,17 @@ fn restart(step: &Step) -> Result<(), Failure> {
         let lies = after.ball.pos.truncate() == set_piece.spot && after.owner == Some(set_piece.taker);
         must(lies, || format!("{:?} is not where {set_piece:?} is", after.ball))?;
     }
-    let waits = after.play.set_piece.map_or(GameMode::Normal, |set_piece| set_piece.mode);
+    let open = if after.play.kick_off.is_some() { GameMode::KickOff } else { GameMode::Normal };
+    let waits = after.play.set_piece.map_or(open, |set_piece| set_piece.mode);
     must(after.mode == waits, || format!("the mode is {:?} while {waits:?} waits", after.mode))?;
     let Some(award) = award(events) else { return Ok(()) };
     must(after.ball.pos.truncate() == award.at.truncate(), || format!("{:?} after {award:?}", after.ball))?;
     let waits = after.play.set_piece.map(|set_piece| (event_of(set_piece.mode), Some(set_piece.team)));
-    let nobody = |team| after.team(team).count() == 0;
-    let team = award.team.map(|team| if nobody(team) { team.other() } else { team });
+    let team = award.team.map(|team| given_to(after, team));
     let expected = (award.kind != EventKind::Kickoff && !judged.players.iter().all(|player| !player.active))
         .then_some((award.kind, team));
     must(waits == expected, || format!("{waits:?} waits after {award:?}"))?;
-    let kicks_off = (award.kind == EventKind::Kickoff).then_some(award.team).flatten();
+    let kicks_off = (award.kind == EventKind::Kickoff).then_some(team).flatten();
     must(after.play.kick_off == kicks_off, || format!("{:?} kicks off after {award:?}", after.play.kick_off))
 }
 

@@ -7,6 +7,8 @@ use crate::football::touch;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 
+/// Further up than this, own frame x, metres, a keeper without mates plays as the only man he is; chosen.
+const STRAYED_M: f32 = -15.0;
 /// Further up than this, own frame x, metres, a keeper goes for a ball that is as good as his alone; chosen.
 const FAR_OUT_M: f32 = -30.0;
 /// Seconds by which it must be his there; chosen.
@@ -17,6 +19,10 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     let player = *game.player(id);
     if player.body.pose == Pose::Diving {
         return true;
+    }
+    let lone = game.team(view.team).count() == 1;
+    if lone && player.pos.x * view.side > STRAYED_M {
+        return false;
     }
     if comes_out(game, view, id) {
         let body = &mut game.players[id.index()].body;

@@ -37,7 +37,9 @@ pub fn assign(game: &mut Match, view: &View) {
         let post = goal_side(pos);
         let mut best: Option<(f32, PlayerId)> = None;
         for (id, player) in game.team(view.team) {
-            let busy = game.play.chaser[view.team.index()] == Some(id) || player.body.mind.mark.is_some();
+            // Whom an agent plays marks nobody for sure.
+            let driven = game.play.driven & (1 << id.0) != 0;
+            let busy = driven || game.play.chaser[view.team.index()] == Some(id) || player.body.mind.mark.is_some();
             if player.role == Role::GK || busy || player.body.mind.mindset > 0.7 {
                 continue;
             }

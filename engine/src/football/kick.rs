@@ -13,6 +13,8 @@ use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
 /// Ticks from the press to the contact: a pass on the ground, a lofted one, a shot.
 pub const SWING_TICKS: [i32; 3] = [33, 28, 25];
+/// Ticks of that which pass while an agent holds the key: a bot's kick needs none.
+const PRESS_TICKS: i32 = 10;
 /// Ticks that a kick waits for the ball.
 pub const PATIENCE_TICKS: i32 = 200;
 /// How near the ball must be to be kicked, metres.
@@ -33,6 +35,13 @@ pub fn swing(kind: KickKind) -> i32 {
         KickKind::High => SWING_TICKS[1],
         KickKind::Shot | KickKind::Clear => SWING_TICKS[2],
     }
+}
+
+/// A kick that a bot decides on now: it swings like an agent's, but for the key.
+pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
+    let now = tick as i32;
+    let ready_at = now + swing(kind) - PRESS_TICKS;
+    KickPlan { kind, dir: None, mate: None, point: None, power: 0.0, ready_at, until: now + PATIENCE_TICKS }
 }
 
 /// Kicks the ball for whoever has a kick ready and the ball in reach; at most one kick a tick.

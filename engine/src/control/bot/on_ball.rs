@@ -30,6 +30,8 @@ enum Act {
 
 /// What a pass must be better than running on.
 const PASS_COST: f32 = 0.008;
+/// Ticks after which a kick that did not come off is thought over.
+const MIND_TICKS: i32 = 80;
 /// Steps between two thoughts.
 const PAUSE_STEPS: u32 = 2;
 
@@ -112,34 +114,26 @@ fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
 
 /// Turns the choice into an intent or a kick.
 fn perform(game: &mut Match, view: &View, id: PlayerId, choice: Choice) {
-    let now = game.tick as i32;
+    let until = game.tick as i32 + MIND_TICKS;
+    let plan = |kind: KickKind| KickPlan { until, ..kick::planned(kind, game.tick) };
+    let (shot, clearance) = (plan(KickKind::Shot), plan(KickKind::Clear));
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
-    let plan = KickPlan {
-        kind: KickKind::Short,
-        dir: None,
-        mate: None,
-        point: None,
-        power: 0.0,
-        ready_at: now + 14,
-        until: now + 70,
-    };
     match choice.act {
         Act::Shoot(point) => {
             let luck = noise::whim(game);
-            let plan =
-                KickPlan { kind: KickKind::Shot, point: Some(point * view.side), power: 0.62 + 0.38 * luck, ..plan };
+            let plan = KickPlan { point: Some(point * view.side), power: 0.62 + 0.38 * luck, ..shot };
             game.players[id.index()].body.kick = Some(plan);
         }
         Act::Pass(mate, kind, point) => {
             body.dribble = Vec2::ZERO;
-            body.kick = Some(KickPlan { kind, mate: Some(mate), point, ..plan });
+            body.kick = Some(KickPlan { until, mate: Some(mate), point, ..kick::planned(kind, game.tick) });
         }
         Act::Clear => {
             let own = body.meet * view.side;
             let wide = if own.y < 0.0 { -0.7 } else { 0.7 };
             let dir = Vec2::new(1.0, wide).normalize_or_zero() * view.side;
-            body.kick = Some(KickPlan { kind: KickKind::Clear, dir: Some(dir), ..plan });
+            body.kick = Some(KickPlan { dir: Some(dir), ..clearance });
         }
         Act::Run(way, speed) => body.dribble = way * (speed * view.side),
     }
@@ -166,22 +160,15 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
             best = Some((worth, mate));
         }
     }
-    let now = game.tick as i32;
-    let plan = |kind, mate, point: Option<Vec2>| KickPlan {
-        kind,
-        dir: None,
-        mate,
-        point,
-        power: 0.0,
-        ready_at: now + 10,
-        until: now + kick::PATIENCE_TICKS,
-    };
+    let tick = game.tick;
     let choice = match best {
-        Some((worth, mate)) if worth > 0.45 => plan(KickKind::Short, Some(mate), None),
+        Some((worth, mate)) if worth > 0.45 => {
+            KickPlan { mate: Some(mate), ..kick::planned(KickKind::Short, tick) }
+        }
         _ if held_ticks > 250 => {
             let y = (noise::choice(game) * 2.0 - 1.0) * 20.0;
             let point = Vec2::new(2.0, y) * view.side;
-            plan(KickKind::High, None, Some(point))
+            KickPlan { point: Some(point), ..kick::planned(KickKind::High, tick) }
         }
         _ => return,
     };

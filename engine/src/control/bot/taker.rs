@@ -36,39 +36,30 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let own = set_piece.spot * side;
     let luck = noise::choice(game);
     let spread = noise::choice(game) * 2.0 - 1.0;
-    let now = game.tick as i32;
-    let base = KickPlan {
-        kind: KickKind::Short,
-        dir: None,
-        mate: None,
-        point: None,
-        power: 0.0,
-        ready_at: now + 10,
-        until: now + kick::PATIENCE_TICKS,
-    };
+    let [short, high, shot] =
+        [KickKind::Short, KickKind::High, KickKind::Shot].map(|kind| kick::planned(kind, game.tick));
     let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);
     match set_piece.mode {
         GameMode::Penalty => KickPlan {
-            kind: KickKind::Shot,
             point: Some(Vec2::new(55.0, spread * 3.2) * side),
             power: 0.3 + 0.5 * luck,
-            ..base
+            ..shot
         },
         GameMode::Corner if luck < 0.75 => {
             let point = Vec2::new(46.5, spread * 7.0);
-            KickPlan { kind: KickKind::High, mate: near(point.x, point.y), point: Some(point * side), ..base }
+            KickPlan { mate: near(point.x, point.y), point: Some(point * side), ..high }
         }
-        GameMode::GoalKick if luck < 0.45 => KickPlan { kind: KickKind::High, mate: near(5.0, spread * 22.0), ..base },
-        GameMode::GoalKick => KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..base },
+        GameMode::GoalKick if luck < 0.45 => KickPlan { mate: near(5.0, spread * 22.0), ..high },
+        GameMode::GoalKick => KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..short },
         GameMode::FreeKick if own.x > 29.0 && own.y.abs() < 16.0 => {
-            KickPlan { kind: KickKind::Shot, point: Some(Vec2::new(55.0, spread * 3.3) * side), power: 0.5, ..base }
+            KickPlan { point: Some(Vec2::new(55.0, spread * 3.3) * side), power: 0.5, ..shot }
         }
         GameMode::FreeKick if own.x > 22.0 => {
             let point = Vec2::new(46.0, spread * 8.0);
-            KickPlan { kind: KickKind::High, mate: near(point.x, point.y), point: Some(point * side), ..base }
+            KickPlan { mate: near(point.x, point.y), point: Some(point * side), ..high }
         }
-        GameMode::ThrowIn => KickPlan { mate: nearest(game, set_piece.taker, set_piece.spot), ..base },
-        _ => KickPlan { mate: near(own.x + 10.0, own.y * 0.7), ..base },
+        GameMode::ThrowIn => KickPlan { mate: nearest(game, set_piece.taker, set_piece.spot), ..short },
+        _ => KickPlan { mate: near(own.x + 10.0, own.y * 0.7), ..short },
     }
 }
 

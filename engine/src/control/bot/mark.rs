@@ -4,7 +4,7 @@ use crate::control::bot::{View, formation, send};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::Role;
+use setpiece_scenario::vocabulary::{Role, Rule};
 
 /// How far behind the ball the back line stands, metres.
 const FALL_BACK_M: f32 = 28.0;
@@ -77,8 +77,10 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
         let post = goal_side(man + other.vel * view.side * 0.4);
         // The nearer to the own goal, the tighter.
         let weight = (0.95 - (man.x + 55.0) / 110.0 * 0.6).clamp(0.2, 0.9);
-        to += (post - to) * weight;
-        speed = 6.5;
+        // Where nobody is offside, nobody is left behind the line.
+        let loose = own.x > post.x + 1.0 && !game.rule(Rule::Offside);
+        to += (post - to) * if loose { weight.max(0.85) } else { weight };
+        speed = if own.x > post.x + 1.0 { SPRINT_MPS } else { 6.5 };
     }
     // The back line keeps behind the ball, the midfield not far before it.
     let mindset = player.body.mind.mindset;

@@ -93,7 +93,7 @@ fn who_lost_the_ball_is_known() {
     for episode in summary.episodes.iter().flatten() {
         let total = |name: &str| episode.terms.iter().map(|terms| terms[term(name)]).sum::<f64>();
         let (by_me, by_us) = (total("lost/me"), total("lost/us") / episode.terms.len() as f64);
-        assert!(by_us > 3.0, "{by_us}");
+        assert!(by_us >= 2.0, "{by_us}");
         // A player who was sent off, or a ball that was given to nobody, is nobody's loss.
         assert!(by_me >= by_us - 2.0 && by_me <= by_us, "{by_me} of {by_us}");
     }

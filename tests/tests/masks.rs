@@ -10,16 +10,20 @@ use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::state::Match;
 use setpiece::scenario::vocabulary::{Action, GameMode};
 
-/// A throw-in as the start, for either side's agent.
-const THROW_INS: &str = "scenario throw_ins extends academy {
-    start throw_in for choice(left, right) at (uniform(-0.5, 0.5), 0.43)
-    agents { left: 1, right: 1 }
-    team left { GK at own (-1, 0)  CM at (0, 0.3)  CF at (0.4, 0.2) }
-    team right { GK at own (-1, 0)  CB at (0.5, 0)  CM at (0.2, 0.2) }
-    remove end out
-    remove end possession
-    end limit 30 steps
-}";
+/// A scenario that starts with a set piece, with an agent on either side.
+fn starting(set_piece: &str) -> String {
+    format!(
+        "scenario set_pieces extends academy {{
+            start {set_piece}
+            agents {{ left: 1, right: 1 }}
+            team left {{ GK at own (-1, 0)  CM at (0, 0.3)  CF at (0.4, 0.2) }}
+            team right {{ GK at own (-1, 0)  CB at (0.5, 0)  CM at (0.2, 0.2) }}
+            remove end out
+            remove end possession
+            end limit 30 steps
+        }}"
+    )
+}
 
 /// The match after a step in which one agent plays an action and the others idle, without the record of who pressed
 /// what.
@@ -45,9 +49,11 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
         ("11_vs_11_easy_stochastic", 4),
         ("academy_run_to_score_with_keeper", 5),
         ("5_vs_5", 6),
-        (THROW_INS, 7),
+        ("throw_in for choice(left, right) at (uniform(-0.5, 0.5), 0.43)", 7),
+        ("goal_kick for choice(left, right)", 8),
     ] {
-        let loaded = if name == THROW_INS { setpiece::compile_text(name, "<test>") } else { setpiece::load(name) };
+        let set_piece = name.contains(" for ");
+        let loaded = if set_piece { setpiece::compile_text(&starting(name), "<test>") } else { setpiece::load(name) };
         let scenario = loaded.unwrap_or_else(|error| panic!("{error}")).scenario;
         let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
         environment.reset(Some(seed), None).unwrap();

@@ -5,6 +5,8 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
+/// The point (1, 0) of the own frame, which the scripted agent runs to, metres.
+const POINT: Vec2 = Vec2::new(54.4, 0.0);
 /// From how near the scripted agent shoots, metres.
 const SHOOT_M: f32 = 16.0;
 
@@ -66,7 +68,7 @@ pub fn run_and_shoot(game: &Match, slot: usize) -> Action {
     let side = id.team().side() as f32;
     let player = game.player(id);
     let own = player.pos * side;
-    let to_goal = Vec2::new(54.4, 0.0) - own;
+    let to_goal = POINT - own;
     let has_ball = game.owner == Some(id);
     if has_ball && to_goal.length() < SHOOT_M {
         return Action::Shot;

@@ -3,6 +3,8 @@
 //! Decides in this order: a set piece that is his, the ball in his hands or at his feet ([`on_ball`]), going for the
 //! ball ([`press`]), marking ([`mark`]), support ([`support`]), else his place in the block ([`formation`]); keepers by
 //! [`keeper`]. Decisions are staggered: the ball's neighbourhood every step, the rest every fourth.
+//!
+//! Figures of its files without a source are chosen: so that its matches come out as `docs/calibration.md` wants them.
 
 pub mod formation;
 pub mod keeper;
@@ -17,9 +19,14 @@ use crate::football::body::Intent;
 use crate::football::touch;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::pitch::HALF_LENGTH_M;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
+/// The middle of their goal in the own frame, metres; of the own one, its negative.
+const GOAL: Vec2 = Vec2::new(HALF_LENGTH_M as f32, 0.0);
+/// How near a ball must come to one who is to hold his place, metres; chosen.
+const HOLD_M: f32 = 6.0;
 /// Steps between two decisions of a player far from the ball.
 const STAGGER: u32 = 4;
 
@@ -120,7 +127,7 @@ fn hold(game: &mut Match, view: &View, id: PlayerId) {
         on_ball::decide(game, view, id);
         return;
     }
-    let near = game.player(id).pos.distance_squared(game.ball.pos.truncate()) < 36.0;
+    let near = game.player(id).pos.distance_squared(game.ball.pos.truncate()) < HOLD_M * HOLD_M;
     let his = game.play.chaser[id.team().index()] == Some(id) && near;
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::ZERO;

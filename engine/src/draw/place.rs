@@ -66,9 +66,7 @@ impl Drawer {
                 let random = self.is_random(own.x) || self.is_random(own.y);
                 // Two fixed places may coincide: the author wrote them so.
                 let crowded = placed.iter().any(|&(other, other_random, other_overlap)| {
-                    (random || other_random)
-                        && !(slot.overlap || other_overlap)
-                        && at.distance(other) < MIN_GAP_M
+                    (random || other_random) && !(slot.overlap || other_overlap) && at.distance(other) < MIN_GAP_M
                 });
                 if crowded {
                     return Some(Fault::Gap);

@@ -4,6 +4,7 @@ use crate::football::body::{KickKind, KickPlan};
 use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::pitch::HALF_LENGTH_M;
 
 /// Where a pass goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +44,7 @@ pub fn choose(game: &Match, id: PlayerId, plan: &KickPlan) -> PassTarget {
             let distance = game.player(mate).pos.distance(player.pos);
             let target = lead(game.player(mate), distance);
             if plan.kind == KickKind::Long {
-                let goal = Vec2::new(55.0 * side, 0.0);
+                let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
                 target + (goal - target).normalize_or_zero() * (0.2 * distance).min(10.0)
             } else {
                 target

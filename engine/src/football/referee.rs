@@ -9,6 +9,9 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
 
+/// No nearer to a corner than this, from the middle, is a throw-in taken, metres. (The fact sheet's.)
+const THROW_IN_X_M: f32 = 54.4;
+
 /// Judges the tick in which the ball came from `before`.
 pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
     if game.dead || game.play.set_piece.is_some() {
@@ -73,7 +76,7 @@ fn out(game: &mut Match, events: &mut Events, line: Line) {
             stop(game, events, GameMode::GoalKick, defenders, spot);
         }
     } else {
-        let spot = Vec2::new(ball.x.clamp(-54.4, 54.4), HALF_WIDTH_M as f32 * ball.y.signum());
+        let spot = Vec2::new(ball.x.clamp(-THROW_IN_X_M, THROW_IN_X_M), HALF_WIDTH_M as f32 * ball.y.signum());
         stop(game, events, GameMode::ThrowIn, last.other(), spot);
     }
 }

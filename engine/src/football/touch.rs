@@ -234,7 +234,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let side = id.team().side() as f32;
     let skill = player.skill(Stat::Header);
-    let goal = Vec2::new(55.0 * side, 0.0);
+    let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
     let own_third = player.pos.x * side < -20.0;
     let plan = player.body.kick;
     let aimed = match plan.map(|plan| plan.kind) {

@@ -1,6 +1,6 @@
 //! The keeper's feet: where he stands, when he comes out. (His hands are `football::keeper`'s.)
 
-use crate::control::bot::{View, send};
+use crate::control::bot::{GOAL, View, send};
 use crate::football::body::{Intent, Pose};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::touch;
@@ -30,8 +30,7 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
         body.dribble = Vec2::ZERO;
         return true;
     }
-    let goal = Vec2::new(-55.0, 0.0);
-    let way = view.ball - goal;
+    let way = view.ball + GOAL;
     let distance = way.length().max(1.0);
     let rival_on_ball = view.owner.is_some_and(|owner| owner.team() != view.team);
     let alone = rival_on_ball && distance < 26.0 && alone_on_goal(game, view, distance);
@@ -42,7 +41,7 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     } else {
         (distance * 0.13).clamp(1.0, 5.0)
     };
-    let mut spot = goal + way * (out / distance);
+    let mut spot = way * (out / distance) - GOAL;
     spot.y = spot.y.clamp(-6.0, 6.0);
     spot.x = spot.x.max(-54.3);
     let own = player.pos * view.side;
@@ -79,11 +78,10 @@ fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
 
 /// Whether no defender stands between the ball and the goal.
 fn alone_on_goal(game: &Match, view: &View, distance: f32) -> bool {
-    let goal = Vec2::new(-55.0, 0.0);
     !game.team(view.team).any(|(_, mate)| {
         let own = mate.pos * view.side;
         mate.role != setpiece_scenario::vocabulary::Role::GK
-            && own.distance(goal) < distance
+            && own.distance(-GOAL) < distance
             && own.distance(view.ball) < 6.0
     })
 }

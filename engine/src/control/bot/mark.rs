@@ -1,6 +1,6 @@
 //! Defending without the ball: the most dangerous opponents are marked, the rest keep the block.
 
-use crate::control::bot::{View, formation, send};
+use crate::control::bot::{GOAL, View, formation, send};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -76,7 +76,7 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
         let man = other.pos * view.side;
         let post = goal_side(man + other.vel * view.side * 0.4);
         // The nearer to the own goal, the tighter.
-        let weight = (0.95 - (man.x + 55.0) / 110.0 * 0.6).clamp(0.2, 0.9);
+        let weight = (0.95 - (man.x + GOAL.x) / (2.0 * GOAL.x) * 0.6).clamp(0.2, 0.9);
         // Where nobody is offside, nobody is left behind the line.
         let loose = own.x > post.x + 1.0 && !game.rule(Rule::Offside);
         to += (post - to) * if loose { weight.max(0.85) } else { weight };

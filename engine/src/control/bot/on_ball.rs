@@ -3,13 +3,14 @@
 //! Every choice is rated on one scale, about the chance that it leads to a goal; the best one is taken, with a little
 //! whim and more of it at a low level.
 
-use crate::control::bot::View;
+use crate::control::bot::{GOAL, View};
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::SPRINT_MPS;
 use crate::football::{kick, noise, pass_target};
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{Role, Rule, Stat};
 
 /// A choice and what it is worth.
@@ -28,6 +29,8 @@ enum Act {
     Run(Vec2, f32),
 }
 
+/// How far beside the middle of the goal a shot is aimed, metres.
+const PLACED_M: f32 = 2.9;
 /// What a pass must be better than running on.
 const PASS_COST: f32 = 0.008;
 /// Ticks after which a kick that did not come off is thought over.
@@ -162,9 +165,7 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     }
     let tick = game.tick;
     let choice = match best {
-        Some((worth, mate)) if worth > 0.45 => {
-            KickPlan { mate: Some(mate), ..kick::planned(KickKind::Short, tick) }
-        }
+        Some((worth, mate)) if worth > 0.45 => KickPlan { mate: Some(mate), ..kick::planned(KickKind::Short, tick) },
         _ if held_ticks > 250 => {
             let y = (noise::choice(game) * 2.0 - 1.0) * 20.0;
             let point = Vec2::new(2.0, y) * view.side;
@@ -177,10 +178,10 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
 
 /// What having the ball at a place is worth: the chance of a goal from there, roughly. Own frame, metres.
 fn value(own: Vec2) -> f32 {
-    let forward = ((own.x + 55.0) / 110.0).clamp(0.0, 1.0);
+    let forward = ((own.x + GOAL.x) / (2.0 * GOAL.x)).clamp(0.0, 1.0);
     let goal = own.distance(Vec2::new(54.0, 0.0));
     let near = (1.0 - goal / 42.0).max(0.0);
-    let wing = (own.y.abs() / 36.0).powi(2) * 0.012;
+    let wing = (own.y.abs() / HALF_WIDTH_M as f32).powi(2) * 0.012;
     0.008 + 0.03 * forward + 0.14 * forward * forward + 0.26 * near * near - wing
 }
 
@@ -188,7 +189,7 @@ fn value(own: Vec2) -> f32 {
 fn shot_chance(game: &Match, view: &View, id: PlayerId) -> (f32, Vec2) {
     let player = game.player(id);
     let own = player.pos * view.side;
-    let goal = Vec2::new(55.0, 0.0);
+    let goal = GOAL;
     let distance = own.distance(goal);
     if distance > 30.0 || own.x > 54.0 {
         return (0.0, goal);
@@ -198,7 +199,7 @@ fn shot_chance(game: &Match, view: &View, id: PlayerId) -> (f32, Vec2) {
         .find(|(_, rival)| rival.role == Role::GK)
         .map(|(_, rival)| rival.pos * view.side)
         .filter(|keeper| (keeper - own).dot(goal - own) > 0.0);
-    let ways = [Vec2::new(55.0, -2.9), Vec2::new(55.0, 2.9)];
+    let ways = [-PLACED_M, PLACED_M].map(|y| Vec2::new(GOAL.x, y));
     let open = |post: Vec2| {
         let line = (post - own).normalize_or_zero();
         let off = keeper.map_or(4.0, |keeper| line.perp_dot(keeper - own).abs());
@@ -208,7 +209,8 @@ fn shot_chance(game: &Match, view: &View, id: PlayerId) -> (f32, Vec2) {
     let (off, target) = if first.0 >= second.0 { first } else { second };
     let target = if keeper.is_some() { target } else { goal };
     // How wide the goal looks from here, radians.
-    let wide = math::wrap(math::heading(Vec2::new(55.0, 3.7) - own) - math::heading(Vec2::new(55.0, -3.7) - own)).abs();
+    let post = |y: f64| math::heading(Vec2::new(GOAL.x, y as f32) - own);
+    let wide = math::wrap(post(GOAL_HALF_WIDTH_M) - post(-GOAL_HALF_WIDTH_M)).abs();
     let mut chance = (wide / 0.6).min(1.0) * (1.0 - distance / 34.0).max(0.0) * (0.30 + 0.16 * off.min(3.0));
     let way = (goal - own).normalize_or_zero();
     for (_, rival) in game.team(view.team.other()) {
@@ -301,7 +303,7 @@ fn pass_worth(game: &Match, view: &View, id: PlayerId, mate: PlayerId) -> (f32, 
 
 /// What losing the ball at a place costs.
 fn loss(own: Vec2) -> f32 {
-    let back = 1.0 - ((own.x + 55.0) / 110.0).clamp(0.0, 1.0);
+    let back = 1.0 - ((own.x + GOAL.x) / (2.0 * GOAL.x)).clamp(0.0, 1.0);
     0.004 + 0.055 * back * back
 }
 

@@ -1,6 +1,6 @@
 //! Going for the ball: the first man chases or presses, the second covers behind him.
 
-use crate::control::bot::{View, on_ball, send};
+use crate::control::bot::{GOAL, View, on_ball, send};
 use crate::event::Events;
 use crate::football::body::Intent;
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
@@ -39,7 +39,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     };
     let carrier = *game.player(rival);
     let gap = player.pos.distance(carrier.pos);
-    let deep = (own.x + 55.0).max(0.0);
+    let deep = (own.x + GOAL.x).max(0.0);
     let zeal = (17.0 + 10.0 * player.body.mind.mindset.min(0.6))
         * (0.4 + 0.6 * player.body.level)
         * (1.0 - 0.3 * player.fatigue)

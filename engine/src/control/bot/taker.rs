@@ -1,5 +1,6 @@
 //! Set pieces by the bot: what the taker plays, and when.
 
+use crate::control::bot::GOAL;
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::kick;
 use crate::football::noise;
@@ -40,11 +41,9 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
         [KickKind::Short, KickKind::High, KickKind::Shot].map(|kind| kick::planned(kind, game.tick));
     let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);
     match set_piece.mode {
-        GameMode::Penalty => KickPlan {
-            point: Some(Vec2::new(55.0, spread * 3.2) * side),
-            power: 0.3 + 0.5 * luck,
-            ..shot
-        },
+        GameMode::Penalty => {
+            KickPlan { point: Some(Vec2::new(GOAL.x, spread * 3.2) * side), power: 0.3 + 0.5 * luck, ..shot }
+        }
         GameMode::Corner if luck < 0.75 => {
             let point = Vec2::new(46.5, spread * 7.0);
             KickPlan { mate: near(point.x, point.y), point: Some(point * side), ..high }
@@ -52,7 +51,7 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
         GameMode::GoalKick if luck < 0.45 => KickPlan { mate: near(5.0, spread * 22.0), ..high },
         GameMode::GoalKick => KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..short },
         GameMode::FreeKick if own.x > 29.0 && own.y.abs() < 16.0 => {
-            KickPlan { point: Some(Vec2::new(55.0, spread * 3.3) * side), power: 0.5, ..shot }
+            KickPlan { point: Some(Vec2::new(GOAL.x, spread * 3.3) * side), power: 0.5, ..shot }
         }
         GameMode::FreeKick if own.x > 22.0 => {
             let point = Vec2::new(46.0, spread * 8.0);

@@ -198,9 +198,11 @@ fn the_scenario_may_be_another_but_not_who_takes_part() {
     longer.rewards.clear();
     longer.endings = Endings::default();
     longer.start.limit = None;
+    longer.players[0].role = Role::CM;
     let mut longer = of(longer);
     longer.reset_from(&snapshot, None, None).unwrap();
     assert_eq!(longer.limit_steps(), None);
+    assert_eq!(longer.state().players[0].role, Role::CM, "who plays whom is the new scenario's");
     play(&mut longer, 100);
 
     let mut alone = duel();

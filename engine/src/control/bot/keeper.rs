@@ -61,9 +61,9 @@ fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
     }
     let player = game.player(id);
     let meet = player.body.meet * view.side;
-    let rivals = game.play.chaser[view.team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    let rivals = View::soonest(game, view.team.other());
     let mates =
-        game.team(view.team).filter(|(mate, _)| *mate != id).fold(9.0f32, |least, (_, p)| least.min(p.body.meet_s));
+        game.team(view.team).filter(|(mate, _)| *mate != id).fold(f32::MAX, |least, (_, p)| least.min(p.body.meet_s));
     let lone = game.team(view.team).count() == 1;
     let in_box = meet.x < -39.5 && meet.y.abs() < 19.5;
     let lead_s = match (lone, in_box, meet.x < FAR_OUT_M) {

@@ -70,8 +70,8 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
         let agent = &mut game.agents[slot];
         agent.sticky = sticky::next(agent.sticky, action);
         if action != Action::BuiltinAi {
-            game.play.led[agent.team.index()] = true;
-            if let Some(id) = agent.player {
+            if let Some(id) = agent.player.filter(|id| game.players[id.index()].active) {
+                game.play.led[agent.team.index()] = true;
                 game.play.driven |= 1 << id.0;
             }
         }

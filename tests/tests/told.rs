@@ -86,8 +86,8 @@ fn who_presses_what_the_bot_would_scores_about_as_it_does() {
         ("academy_empty_goal_close", 0.9),
         ("academy_empty_goal", 0.9),
         ("academy_run_to_score", 0.9),
-        // An agent's passes take a longer swing than the bot's.
-        ("academy_3_vs_1_with_keeper", 0.4),
+        // Before a keeper it tells that an agent's shots are softer than the bot's, and its kicks wait for the key.
+        ("academy_3_vs_1_with_keeper", 0.2),
     ] {
         let bot = success(name, |_, environment| all(environment, Action::BuiltinAi));
         let asked = success(name, |_, environment| environment.bot_actions().to_vec());

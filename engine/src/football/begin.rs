@@ -2,7 +2,7 @@
 
 use crate::football::body::Body;
 use crate::football::play::Restart;
-use crate::football::{forecast, reach, restart, stats};
+use crate::football::{forecast, noise, reach, restart, stats};
 use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -30,7 +30,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     crate::control::bot::formation::assign_slots(&mut game);
     game.play.others = drawn.others;
     game.play.ball_mean = drawn.ball_pos.truncate();
-    let nearest = nearest_team(&game);
+    let nearest = nearest_team(&mut game);
     game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
     game.play.lead = drawn.owner.map_or(game.play.first_kickoff, PlayerId::team);
     let half_time = game.rules[Rule::HalfTime.index()];
@@ -84,10 +84,12 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
     }
 }
 
-/// The team whose nearest player is nearer to the ball.
-fn nearest_team(game: &Match) -> Team {
+/// The team whose nearest player is nearer to the ball; where both are as near, chance decides.
+fn nearest_team(game: &mut Match) -> Team {
     let ball = game.ball.pos.truncate();
     let least =
         |team| game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.pos.distance_squared(ball)));
-    if least(Team::Right) < least(Team::Left) { Team::Right } else { Team::Left }
+    let (left, right) = (least(Team::Left), least(Team::Right));
+    let drawn = left == right && game.rule(Rule::Stochastic) && noise::happens(game, 0.5);
+    if right < left || drawn { Team::Right } else { Team::Left }
 }

@@ -101,7 +101,6 @@ fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) {
     }
     if let Some((distance, id)) = best
         && distance > 2.5
-        && distance < 9.0e3
     {
         game.players[id.index()].pos = spot - Vec2::new(0.9 * team.side() as f32, 0.0);
     }

@@ -10,6 +10,8 @@ use setpiece_scenario::vocabulary::{GameMode, Role, Team};
 
 /// How far a wall stands from the ball, metres. Laws.
 const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
+/// How far everybody keeps from a penalty, metres. (The fact sheet's, and a little for who is pushed aside.)
+const PENALTY_M: f32 = 9.65 + 0.4;
 /// A wall is built for free kicks nearer to goal than this, metres (the fact sheet's).
 pub const WALL_WITHIN_M: f32 = 40.0;
 /// How near two men stand at a set piece at the nearest, metres: about a body's breadth.
@@ -162,7 +164,11 @@ fn keep_distance(game: &mut Match, restart: Restart) {
             continue;
         }
         let own = PlayerId(i as u8).team() == restart.team;
-        let least = if own { 2.5 } else { apart };
+        let least = match restart.mode {
+            GameMode::Penalty => PENALTY_M,
+            _ if own => 2.5,
+            _ => apart,
+        };
         let away = player.pos - restart.spot;
         if away.length() < least {
             let inward = Vec2::new(-restart.spot.x, -restart.spot.y).normalize_or(Vec2::new(-side, 0.0));

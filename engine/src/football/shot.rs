@@ -6,7 +6,7 @@ use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
-use setpiece_scenario::vocabulary::{Role, Stat};
+use setpiece_scenario::vocabulary::{GameMode, Role, Stat};
 
 /// A held direction further off the goal than this, about half of what is between two directions, is not meant for it;
 /// radians. Measured: such a shot goes along it.
@@ -23,9 +23,15 @@ fn aim(game: &mut Match, id: PlayerId, from: Vec2, plan: &KickPlan) -> Vec2 {
     let side = id.team().side() as f32;
     match (plan.point, plan.dir) {
         (Some(point), _) => point,
+        (None, Some(dir)) if penalty(game) => beside_middle(from, side, off_goal(from, side, dir)),
         (None, Some(dir)) if off_goal(from, side, dir).abs() > STRAIGHT_RAD => aim_of(from, side, plan.dir),
         (None, _) => beside_keeper(game, id, from, goal_of(side)),
     }
+}
+
+/// Whether the shot is a penalty: then a held direction names the side of the goal, however far it points beside it.
+fn penalty(game: &Match) -> bool {
+    game.mode == GameMode::Penalty
 }
 
 /// The middle of the goal that a side attacks.
@@ -47,7 +53,14 @@ pub fn aim_of(from: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
     if angle.abs() > MEANT_FOR_GOAL_RAD {
         return from + dir * 30.0;
     }
+    beside_middle(from, side, angle)
+}
+
+/// The point of the goal mouth that a direction means which is so far off its middle, radians. (The fact sheet's.)
+fn beside_middle(from: Vec2, side: f32, angle: f32) -> Vec2 {
+    let goal = goal_of(side);
     // The sign of the angle tells the side of the goal in the shooter's own view.
+    let angle = angle.clamp(-std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_PI_2);
     let turn = 2.0 * angle / std::f32::consts::PI;
     let shift = libm::powf(turn.abs(), 0.7) * math::sign_or(turn, 1.0);
     Vec2::new(goal.x, shift * math::sign_or(goal.x - from.x, side) * GOAL_HALF_WIDTH_M as f32 * 0.9)

@@ -101,7 +101,8 @@ fn side(frame: Frame<'_>, team: Team) -> RawTeam {
         side.places.push(frame.place_of(player.pos));
         side.directions.push(frame.stride_of(player.vel));
         side.tired_factors.push(player.fatigue.into());
-        side.yellow_cards.push(player.yellow_cards > 0);
+        // Any card, as GRF has it.
+        side.yellow_cards.push(player.yellow_cards > 0 || !player.active);
         side.active.push(player.active);
         side.roles.push(player.role.index() as i64);
     }

@@ -7,7 +7,7 @@ use setpiece_scenario::vocabulary::{Rule, Team};
 /// The match of a new episode that begins where `past` stands.
 ///
 /// - Of `past`: places, ball, whatever goes on (kicks, flights, a set piece), score, cards, fatigue, the clock.
-/// - Of `fresh`, the start that the scenario draws: rules, limit, difficulty, roles and statistics, who plays whom, the random streams.
+/// - Of `fresh`, the start that the scenario draws: rules, limit, difficulty, roles and statistics, who plays whom, the random streams; nothing is held.
 ///
 /// Steps are counted anew; ticks go on, as everything under way is timed by them.
 pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
@@ -20,6 +20,10 @@ pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
     game.play_random = fresh.play_random.clone();
     game.bot_random = fresh.bot_random.clone();
     game.play.others = fresh.play.others;
+    game.play.acting = fresh.play.acting;
+    for slot in &mut game.agents {
+        slot.sticky = 0;
+    }
     let half_time = game.rules[Rule::HalfTime.index()];
     game.play.second_half = half_time > 0.0 && f64::from(game.elapsed_at_start) >= half_time;
     for (player, fresh) in game.players.iter_mut().zip(&fresh.players) {

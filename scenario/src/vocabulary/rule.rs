@@ -13,7 +13,7 @@ words! {
         KickoffCircle = "kickoff_circle", "opponents keep out of the centre circle at a kick-off";
         BackPass = "back_pass", "the keeper may not handle a deliberate back pass";
         Fatigue = "fatigue", "running tires";
-        Stochastic = "stochastic", "noise in kicks, touches and bots";
+        Stochastic = "stochastic", "chance in play follows the seed";
         Assist = "assist", "the controlled player runs to a ball that is his (GRF's magnet)";
         AntiStalling = "anti_stalling", "a set piece that is not taken is taken for the agent";
         HalfTime = "half_time", "step of the half-time, 0 for none";

@@ -167,7 +167,7 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     let choice = match best {
         Some((worth, mate)) if worth > 0.45 => KickPlan { mate: Some(mate), ..kick::planned(KickKind::Short, tick) },
         _ if held_ticks > 250 => {
-            let y = (noise::choice(game) * 2.0 - 1.0) * 20.0;
+            let y = (noise::whim(game) * 2.0 - 1.0) * 20.0;
             let point = Vec2::new(2.0, y) * view.side;
             KickPlan { point: Some(point), ..kick::planned(KickKind::High, tick) }
         }

@@ -35,8 +35,8 @@ pub fn think(game: &mut Match) {
 fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let side = set_piece.team.side() as f32;
     let own = set_piece.spot * side;
-    let luck = noise::choice(game);
-    let spread = noise::choice(game) * 2.0 - 1.0;
+    let luck = noise::whim(game);
+    let spread = noise::whim(game) * 2.0 - 1.0;
     let [short, high, shot] =
         [KickKind::Short, KickKind::High, KickKind::Shot].map(|kind| kick::planned(kind, game.tick));
     let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);

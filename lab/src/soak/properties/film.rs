@@ -30,7 +30,7 @@ const LIFT_M: f32 = 0.05;
 /// The most that a player moves in a tick, metres.
 const STRIDE_M: f32 = 0.24;
 /// How near two men on their feet, who have stood apart, come to each other, metres: in a crowd, far into each other.
-const NEAREST_M: f32 = 0.15;
+const NEAREST_M: f32 = 0.12;
 /// How near a player's middle comes to a net or post, metres.
 const NET_M: f32 = 0.2;
 

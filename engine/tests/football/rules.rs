@@ -8,7 +8,7 @@ use setpiece_engine::football::play::Restart;
 use setpiece_engine::football::restart::place;
 use setpiece_engine::football::{flight, foul, keeper, offside};
 use setpiece_engine::state::{Ball, PlayerId};
-use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Role, Rule, Team};
+use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Role, Rule, Team};
 
 /// A match of eleven against eleven with some rules changed.
 fn bench(rules: &[(Rule, f64)], seed: u64) -> Bench {
@@ -306,20 +306,21 @@ fn the_last_man_of_a_team_is_shown_no_red_card() {
 }
 
 #[test]
-fn tackles_trips_and_runs_happen_without_noise_too() {
+fn without_a_seed_the_game_is_the_same_game() {
     let mut bench = bench(&[(Rule::Stochastic, 0.0)], 0);
-    let mut seen = [0; 4];
+    let (mut seen, mut wide) = ([0; 4], 0);
     for _ in 0..12_000 {
         bench.step(Action::BuiltinAi);
         for event in bench.events.as_slice() {
             let kinds = [EventKind::Tackle, EventKind::Foul, EventKind::Save, EventKind::Slide];
+            wide += u32::from(event.kind == EventKind::Shot && event.qualifier == Some(Qualifier::OffTarget));
             if let Some(i) = kinds.iter().position(|kind| *kind == event.kind) {
                 seen[i] += 1;
             }
         }
         bench.restart();
     }
-    assert!(seen[0] > 20 && seen[1] > 2 && seen[2] > 2 && seen[3] > 2, "{seen:?}");
+    assert!(seen[0] > 20 && seen[1] > 2 && seen[2] > 2 && seen[3] > 2 && wide > 2, "{seen:?}, {wide} wide");
 }
 
 #[test]
@@ -359,4 +360,65 @@ fn a_kick_off_of_nobody_is_the_others() {
         bench.seen(EventKind::Touch).is_some()
     });
     assert!(taken);
+}
+
+#[test]
+fn an_agents_penalty_goes_to_the_side_that_is_held() {
+    for (hold, side) in [(Action::TopRight, -1.0), (Action::BottomRight, 1.0), (Action::Top, -1.0)] {
+        let (mut wide, mut meant) = (0, 0);
+        for seed in 0..20 {
+            let mut bench = bench(&[], seed);
+            let spot = Vec2::new(44.0, 0.0);
+            place(&mut bench.game, Restart { mode: GameMode::Penalty, team: Team::Left, spot });
+            let taker = bench.game.owner.unwrap();
+            bench.game.agents[0].player = Some(taker);
+            bench.step(hold);
+            bench.step(Action::Shot);
+            for _ in 0..4 {
+                bench.step(Action::Idle);
+                if bench.seen(EventKind::Shot).is_some() {
+                    break;
+                }
+            }
+            let way = bench.game.ball.vel;
+            meant += u32::from(way.y * side > 0.0);
+            wide += u32::from((way.y / way.x * 11.0).abs() > 3.7);
+        }
+        assert!(meant >= 18 && wide <= 2, "{hold:?}: {meant} to that side, {wide} wide");
+    }
+}
+
+#[test]
+fn everybody_keeps_off_a_penalty() {
+    for seed in 0..6 {
+        let mut bench = bench(&[], seed);
+        for _ in 0..(seed * 40) {
+            bench.step(Action::BuiltinAi);
+            bench.restart();
+        }
+        let spot = Vec2::new(-44.0, 0.0);
+        place(&mut bench.game, Restart { mode: GameMode::Penalty, team: Team::Right, spot });
+        let taker = bench.game.owner.unwrap();
+        for (i, player) in bench.game.players.iter().enumerate() {
+            let away = player.pos.distance(spot);
+            let may = i == taker.index() || player.role == Role::GK;
+            assert!(may || away > 9.15, "{i} stands {away} m away");
+        }
+    }
+}
+
+#[test]
+fn an_agent_whose_player_was_sent_off_leads_nobody() {
+    let played = |action: Action| {
+        let mut bench = bench(&[], 0);
+        bench.game.agents[0].player = Some(PlayerId(9));
+        bench.game.agents[0].fixed = true;
+        bench.game.players[9].active = false;
+        for _ in 0..300 {
+            bench.step(action);
+            bench.restart();
+        }
+        format!("{:?} {:?}", bench.game.ball, bench.game.score)
+    };
+    assert_eq!(played(Action::Idle), played(Action::BuiltinAi));
 }

@@ -192,7 +192,9 @@ fn noise_is_the_new_seeds() {
 
 #[test]
 fn the_scenario_may_be_another_but_not_who_takes_part() {
-    let snapshot = underway(duel(), 20).snapshot().unwrap();
+    let mut holding = underway(duel(), 20);
+    holding.step(&[Action::Right], &mut Scratch::default()).unwrap();
+    let snapshot = holding.snapshot().unwrap();
     let mut longer = duel();
     longer.name = "longer".to_owned();
     longer.rewards.clear();
@@ -203,6 +205,7 @@ fn the_scenario_may_be_another_but_not_who_takes_part() {
     longer.reset_from(&snapshot, None, None).unwrap();
     assert_eq!(longer.limit_steps(), None);
     assert_eq!(longer.state().players[0].role, Role::CM, "who plays whom is the new scenario's");
+    assert_eq!(longer.agents()[0].sticky, 0, "a new episode begins with nothing held");
     play(&mut longer, 100);
 
     let mut alone = duel();

@@ -69,11 +69,10 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
         let agent = &mut game.agents[slot];
         agent.sticky = sticky::next(agent.sticky, action);
-        if action != Action::BuiltinAi {
-            if let Some(id) = agent.player.filter(|id| game.players[id.index()].active) {
-                game.play.led[agent.team.index()] = true;
-                game.play.driven |= 1 << id.0;
-            }
+        let player = agent.player.filter(|id| game.players[id.index()].active);
+        if let Some(id) = player.filter(|_| action != Action::BuiltinAi) {
+            game.play.led[agent.team.index()] = true;
+            game.play.driven |= 1 << id.0;
         }
     }
     for (team, slot) in game.teams().into_iter().flat_map(|team| (0..slots).map(move |slot| (team, slot))) {

@@ -23,8 +23,8 @@ const BAR_Z: f32 = GOAL_HEIGHT_M as f32;
 
 // The figures are what was measured over some million steps, and a little.
 
-/// What contacts give way, metres.
-const GIVE_M: f32 = 0.01;
+/// What contacts give way, metres: a ball that a foot holds against a post.
+const GIVE_M: f32 = 0.03;
 /// The most that a ball is moved in a tick beside its velocity: lifted for a kick, pushed by a body, metres.
 const LIFT_M: f32 = 0.05;
 /// The most that a player moves in a tick, metres.

@@ -298,5 +298,5 @@ fn what_waits_for_too_long_is_seen() {
     let hold = |game: &mut Match| (none(game), game.play.hands = Some((PlayerId(keeper), 0))).0;
     assert!(wait(&hold, 61));
     assert!(wait(&|game| (none(game), game.play.kick_off = Some(Team::Left)).0, 21));
-    assert!(wait(&|game| (none(game), game.play.kick_off = None).0, 120), "the ball lies about");
+    assert!(wait(&|game| (none(game), game.play.kick_off = None).0, 180), "the ball lies about");
 }

@@ -14,8 +14,8 @@ const KICK_OFF_STEPS: u32 = 21;
 /// Steps that a keeper may hold the ball: six seconds, and a step.
 const HOLD_STEPS: u32 = 61;
 
-/// Steps that the ball may lie about where everybody is a bot.
-const LYING_STEPS: u32 = 120;
+/// Steps that the ball may lie about where everybody is a bot: as long as a run over the whole pitch, and a little.
+const LYING_STEPS: u32 = 180;
 /// A ball that stays within so many metres lies.
 const LIES_M: f32 = 1.0;
 

@@ -1,7 +1,7 @@
 //! The bench on which the game is measured.
 //!
 //! `lab calibrate [--check] [--only SECTION] [--count N]` sets our figures beside those measured of Google Research
-//! Football and writes them to `docs/calibration.md`. `lab soak [--steps N] [--seed S]` holds scenarios made up at random
+//! Football and writes them to `docs/calibration.md`. `lab soak [--steps N] [--seed S] [--from SCENARIO]` holds scenarios made up at random
 //! to what must be true of any match; a long run that held is a line of `lab/soak.csv`. `cargo xtask calibrate` and
 //! `cargo xtask soak` build and call it.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
@@ -22,7 +22,10 @@ fn main() -> ExitCode {
     let result = match args.first().map(String::as_str) {
         Some("calibrate") => calibrate::calibrate(&args[1..]),
         Some("soak") => soak::soak(&args[1..]),
-        _ => Err("lab calibrate [--check] [--only SECTION] [--count N] | lab soak [--steps N] [--seed S]".to_owned()),
+        _ => Err(
+            "lab calibrate [--check] [--only SECTION] [--count N] | lab soak [--steps N] [--seed S] [--from SCENARIO]"
+                .to_owned(),
+        ),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

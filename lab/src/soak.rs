@@ -53,10 +53,18 @@ impl Count {
 /// What has not held: the first case of each kind, and how many there were.
 type Breaches = BTreeMap<String, (u64, Failure)>;
 
-/// Runs `soak [--steps N] [--seed S]`.
+/// What a run is asked for.
+struct Options {
+    steps: u64,
+    seed: u64,
+    /// The scenario to begin with: the one that a breach has named.
+    from: u64,
+}
+
+/// Runs `soak [--steps N] [--seed S] [--from SCENARIO]`.
 pub(crate) fn soak(args: &[String]) -> Result<(), Failure> {
-    let (steps, seed) = options(args)?;
-    let next = AtomicU64::new(0);
+    let Options { steps, seed, from } = options(args)?;
+    let next = AtomicU64::new(from);
     let done = AtomicU64::new(0);
     let breaches = Mutex::new(Breaches::new());
     let work = || {
@@ -84,7 +92,7 @@ pub(crate) fn soak(args: &[String]) -> Result<(), Failure> {
     println!("{total:?}");
     let breaches = breaches.into_inner().map_err(|_| "a worker stopped".to_owned())?;
     if breaches.is_empty() {
-        return if steps < LOGGED { Ok(()) } else { log(seed, total) };
+        return if steps < LOGGED || from > 0 { Ok(()) } else { log(seed, total) };
     }
     let told: Vec<Failure> = breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
     Err(told.join("\n"))
@@ -95,18 +103,19 @@ fn kind_of(what: &str) -> String {
     what.chars().filter(|c| !c.is_ascii_digit() && !"-.,".contains(*c)).collect()
 }
 
-fn options(args: &[String]) -> Result<(u64, u64), Failure> {
-    let (mut steps, mut seed) = (STEPS, 0);
+fn options(args: &[String]) -> Result<Options, Failure> {
+    let mut options = Options { steps: STEPS, seed: 0, from: 0 };
     let mut args = args.iter();
     while let Some(arg) = args.next() {
         let number = args.next().and_then(|n| n.parse::<u64>().ok()).ok_or(format!("`{arg}` wants a number"));
         match arg.as_str() {
-            "--steps" => steps = number?,
-            "--seed" => seed = number?,
-            other => return Err(format!("no option `{other}`; there is --steps N, --seed S")),
+            "--steps" => options.steps = number?,
+            "--seed" => options.seed = number?,
+            "--from" => options.from = number?,
+            other => return Err(format!("no option `{other}`; there is --steps N, --seed S, --from SCENARIO")),
         }
     }
-    Ok((steps, seed))
+    Ok(options)
 }
 
 /// Who acts in an episode.

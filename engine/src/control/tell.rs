@@ -8,7 +8,7 @@
 use crate::control::behavior::steer::{Gait, rest, towards};
 use crate::control::{agents, sticky};
 use crate::football::body::{Intent, KickKind, KickPlan, Pose};
-use crate::football::{pass_target, shot, touch};
+use crate::football::{movement, pass_target, shot, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
@@ -17,8 +17,6 @@ use setpiece_scenario::vocabulary::Action;
 
 /// Nearer than this to where the bot sends him he stands, metres.
 const THERE_M: f32 = 1.0;
-/// As `football::movement` has it: metres of distance to m/s of speed wanted.
-const ARRIVAL_PER_S: f32 = 2.6;
 /// A ball this near is at his feet: he runs as he wants to dribble, metres.
 const AT_FEET_M: f32 = 1.2;
 /// Who is after a ball at another's feet looks so far ahead, seconds.
@@ -122,7 +120,7 @@ fn wish(game: &Match, id: PlayerId) -> (Vec2, f32) {
         Intent::Go(to, speed) => {
             let way = to - player.pos;
             let distance = way.length();
-            if distance < THERE_M { (Vec2::ZERO, 0.0) } else { (way, speed.min(distance * ARRIVAL_PER_S)) }
+            if distance < THERE_M { (Vec2::ZERO, 0.0) } else { (way, speed.min(distance * movement::ARRIVAL_PER_S)) }
         }
         Intent::Ball(speed) => for_ball(game, id, speed),
     }

@@ -25,7 +25,7 @@ pub const WITH_BALL: f32 = 0.955;
 /// Length of a tick, seconds.
 pub const DT: f32 = 0.01;
 /// Metres of distance to m/s of speed wanted.
-const ARRIVAL_PER_S: f32 = 2.6;
+pub const ARRIVAL_PER_S: f32 = 2.6;
 /// Braking, m/s².
 const BRAKE_MPS2: f32 = 14.0;
 /// Sideways acceleration of a turn, m/s².

@@ -11,7 +11,7 @@ use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, PLAYERS_MAX};
-use setpiece_scenario::vocabulary::{EventKind, Rule};
+use setpiece_scenario::vocabulary::{EventKind, Role, Rule};
 
 /// How long the circle is kept for a kick-off that is not taken, ticks: as long as a set piece waits for an agent.
 const KICK_OFF_TICKS: u32 = 200;
@@ -91,7 +91,7 @@ fn near_bodies(game: &Match) -> ArrayVec<Body, BODIES_MAX> {
         let lately = ticks_since(game.tick, player.body.touched_at) < 30;
         // A keeper meets it with his hands, or does not meet it at all.
         let planned = game.play.save[id.team().index()].is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
-        let by_hand = planned && player.role == setpiece_scenario::vocabulary::Role::GK;
+        let by_hand = planned && player.role == Role::GK;
         if !lately && !by_hand {
             bodies.push(Body { id: id.0, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
         }

@@ -5,7 +5,7 @@ use crate::event::Events;
 use crate::football::body::Intent;
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::{noise, slide};
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};
 
@@ -53,19 +53,23 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     }
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
-    // Goal-side he goes straight in; chasing from behind he runs to where the carrier is going.
-    let goal_side = own.x < view.ball.x + 0.5;
-    if goal_side && gap < 2.2 && carrier.vel.length() > 4.0 && gap > 1.2 {
-        let ahead = game.ball.pos.truncate() + carrier.vel * 0.25;
-        let body = &mut game.players[id.index()].body;
-        body.intent = Intent::Go(ahead, SPRINT_MPS);
-        if gap < 1.0 {
-            body.intent = Intent::Ball(SPRINT_MPS);
-        }
-    } else {
-        game.players[id.index()].body.intent = Intent::Ball(SPRINT_MPS);
-    }
+    body.intent = match past_him(view, own, &carrier) {
+        Some(point) => Intent::Go(point * view.side, SPRINT_MPS),
+        None => Intent::Ball(SPRINT_MPS),
+    };
     maybe_slide(game, events, view, id, rival);
+}
+
+/// Where he runs who has the carrier before him, in his own frame: past him, into his way to the goal; goal-side he
+/// goes straight in.
+fn past_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
+    let gap = own.distance(carrier.pos * view.side);
+    if own.x < view.ball.x + 0.5 {
+        let runs = carrier.vel.length() > 4.0 && (1.2..2.2).contains(&gap);
+        return runs.then(|| view.ball + carrier.vel * view.side * 0.25);
+    }
+    let way = (-GOAL - view.ball).normalize_or(Vec2::NEG_X);
+    Some(view.ball + way * (gap * 0.6).clamp(1.5, 6.0) + carrier.vel * view.side * 0.3)
 }
 
 /// Slides where a standing tackle comes too late.

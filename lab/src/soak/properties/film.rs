@@ -147,7 +147,7 @@ fn nets(at: Vec3) -> f32 {
 
 /// Whether a ball is behind the right goal's line, between its nets.
 fn in_goal(at: Vec3) -> bool {
-    (OUT_X..REAR_X).contains(&at.x) && at.y.abs() < POST_Y && at.z < BAR_Z
+    at.x > OUT_X && at.x < REAR_X && at.y.abs() < POST_Y && at.z < BAR_Z
 }
 
 /// Whether a ball came over a goal line with room on every side for all of it.

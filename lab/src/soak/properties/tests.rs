@@ -5,6 +5,7 @@ use crate::pitch::text;
 use glam::{Vec2, Vec3};
 use setpiece::engine::environment::Environment;
 use setpiece::engine::football::body::Pose;
+use setpiece::engine::physics::lines::OUT_X;
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::vocabulary::{Qualifier, Role, Rule, Team};
 
@@ -122,6 +123,7 @@ fn what_goes_through_something_is_seen() {
     for side in [1.0, -1.0] {
         let at = |x: f32, y: f32, z: f32| Vec3::new(x * side, y * side, z);
         assert_eq!(fly(at(54.8, 0.0, 1.0), at(55.1, 0.0, 1.0)), "", "through the mouth, not yet over the line");
+        assert_eq!(fly(at(54.8, 0.0, 1.0), at(OUT_X, 0.0, 1.0)), "", "on the line to the last hair");
         assert!(fly(at(54.8, 3.7, 1.0), at(55.2, 3.7, 1.0)).contains("frame"), "through a post");
         assert!(fly(at(54.8, 1.0, 2.5), at(55.2, 1.0, 2.5)).contains("frame"), "through the bar");
         assert!(fly(at(55.1, 3.95, 1.0), at(55.4, 3.7, 1.0)).contains("net"), "in the side net");

@@ -13,15 +13,15 @@ const EXPLAINED: &[(u16, &str)] = &[
     (421, "our teams build up a little longer; the thirds beside it are inside"),
     (
         512,
-        "the agent passes to its keeper, through the defenders behind it: ours stand in the way of a fast pass, theirs \
-         seldom meet one",
+        "their defenders play a loose ball on first time, so that nobody owns it for a hundred steps; ours take it down, \
+         which ends the episode. Passing on first time, they leave the range of C-434 and gain seven steps here",
     ),
     (515, "as C-512"),
     (524, "a random player at the flag soon plays the ball over a line; theirs is slower to turn and to kick"),
     (
         526,
-        "theirs is the mean of three matches; our bots use what a random player gives away, and made tamer they would not \
-         reach the figures of section 4",
+        "theirs is the mean of three matches (of sixteen more each: -1.8, -2.8, -3.3); our bots use what a random player \
+         gives away, and made tamer they would not reach the figures of section 4",
     ),
     (528, "as C-526"),
     (530, "as C-526"),

@@ -68,6 +68,10 @@ fn past_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
         let runs = carrier.vel.length() > 4.0 && (1.2..2.2).contains(&gap);
         return runs.then(|| view.ball + carrier.vel * view.side * 0.25);
     }
+    // At his side he challenges him.
+    if gap < 2.0 {
+        return None;
+    }
     let way = (-GOAL - view.ball).normalize_or(Vec2::NEG_X);
     Some(view.ball + way * (gap * 0.6).clamp(1.5, 6.0) + carrier.vel * view.side * 0.3)
 }

@@ -20,7 +20,7 @@ const EXPLAINED: &[(u16, &str)] = &[
     (524, "a random player at the flag soon plays the ball over a line; theirs is slower to turn and to kick"),
     (
         526,
-        "theirs is the mean of three matches (of sixteen more each: -1.8, -2.8, -3.3); our bots use what a random player \
+        "theirs is the mean of three matches (of sixteen more each: -1.8, -2.8, -3.1); our bots use what a random player \
          gives away, and made tamer they would not reach the figures of section 4",
     ),
     (528, "as C-526"),

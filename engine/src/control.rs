@@ -2,13 +2,14 @@
 //!
 //! Decides every player's intent and planned kick at the start of a step; leaves to `football` what comes of them.
 //! Inside: [`sticky`] keeps held actions, [`switching`] gives slots their players, [`driver`] turns an agent's actions
-//! into intents (with [`assist`], GRF's magnet), [`behavior`] chooses such actions for scripted players, [`bot`] plays
+//! into intents (with [`assist`], GRF's magnet), [`continuous`] reads actions of numbers, [`behavior`] chooses such actions for scripted players, [`bot`] plays
 //! everyone else, [`tell`] says in actions what the bot does, [`agents`] are ready-made agents.
 
 pub mod agents;
 pub mod assist;
 pub mod behavior;
 pub mod bot;
+pub mod continuous;
 pub mod driver;
 pub mod sticky;
 pub mod switching;
@@ -60,6 +61,8 @@ pub fn bot_actions(game: &mut Match) -> ArrayVec<Action, PLAYERS_MAX> {
 /// Every intent of the step; says what was under way before the bots decided.
 fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     game.play.led = [false; 2];
+    game.play.rush = [false; 2];
+    game.play.team_pressure = [false; 2];
     game.play.driven = 0;
     for acting in &mut game.play.acting {
         acting.played = None;
@@ -67,11 +70,20 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     let slots = game.agents.len();
     for slot in 0..slots {
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
+        if action == Action::Switch {
+            switching::press(game, slot);
+        }
         let agent = &mut game.agents[slot];
         agent.sticky = sticky::next(agent.sticky, action);
+        if sticky::unsteers(action) {
+            agent.steer = None;
+        }
         let player = agent.player.filter(|id| game.players[id.index()].active);
         if let Some(id) = player.filter(|_| action != Action::BuiltinAi) {
-            game.play.led[agent.team.index()] = true;
+            let team = agent.team.index();
+            game.play.led[team] = true;
+            game.play.rush[team] |= sticky::rushes(agent.sticky);
+            game.play.team_pressure[team] |= sticky::team_presses(agent.sticky);
             game.play.driven |= 1 << id.0;
         }
     }
@@ -85,7 +97,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
             let acting = &mut game.play.acting[id.index()];
             *acting = Acting { played: Some(action), sticky: agent.sticky, chosen: None };
             let action = hurry(game, id, action);
-            driver::drive(game, events, id, agent.sticky, action);
+            driver::drive(game, events, id, driver::Held { sticky: agent.sticky, steer: agent.steer }, action);
         }
     }
     drive_scripted(game, events);
@@ -114,7 +126,7 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
             let held = acting.sticky;
             game.play.driven |= bit;
             let action = hurry(game, id, action);
-            driver::drive(game, events, id, held, action);
+            driver::drive(game, events, id, driver::Held { sticky: held, steer: None }, action);
         }
     }
 }

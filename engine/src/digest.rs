@@ -70,6 +70,9 @@ pub fn of_match(game: &Match) -> u64 {
         .whole(game.dead.into());
     for agent in &game.agents {
         digest = digest.whole(id(agent.player)).whole(agent.sticky.into());
+        if let Some(steer) = agent.steer {
+            digest = digest.floats(steer.way.to_array()).float(steer.power);
+        }
     }
     digest.whole(game.play_random.clone().bits().into()).whole(game.bot_random.clone().bits().into()).value()
 }

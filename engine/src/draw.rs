@@ -7,6 +7,7 @@
 mod place;
 mod roster;
 
+pub(crate) use roster::player_name;
 pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
 
 use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers, truth};

@@ -14,18 +14,19 @@ pub use error::{EnvironmentError, ResetError, StepError};
 
 use crate::control;
 use crate::control::behavior::Actors;
-use crate::draw::{DrawError, Drawer, Roster};
+use crate::draw::{DrawError, Drawer, Roster, player_name};
 use crate::event::{Event, Events};
 use crate::football;
 use crate::judge::script::Scripts;
 use crate::judge::{Judge, Outcome, Recorded};
-use crate::observe::ObserveError;
+use crate::observe::layout::{self, Layout};
+use crate::observe::{self, Floats, ObserveError};
 use crate::snapshot::begin_from;
 use crate::start::Drawn;
-use crate::state::{AgentSlot, Match, PlayerId};
+use crate::state::{AgentSlot, Match, PlayerId, Steer};
 use crate::statistics::Statistics;
 use arrayvec::ArrayVec;
-use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Action, Rule, Team};
 use setpiece_scenario::{Bindings, Reward, Scenario};
 use std::sync::Arc;
@@ -228,6 +229,14 @@ impl Environment {
         Ok(StepResult { terminated, truncated })
     }
 
+    /// Steers an agent's player from the next step on: a way of any angle and pace in the place of a held direction,
+    /// until a direction is pressed. Does nothing for no such agent.
+    pub fn steer(&mut self, agent: usize, steer: Option<Steer>) {
+        if let Some(slot) = self.game.agents.get_mut(agent) {
+            slot.steer = steer;
+        }
+    }
+
     /// Goes on with another version of the scenario's scripts, at once and with the memory they have; false, and nothing
     /// done, where anything else is another.
     ///
@@ -362,6 +371,36 @@ impl Environment {
     /// The names of the numbers of the scenario's own observation (`observe vector`), in order; empty without one.
     pub fn observed_names(&self) -> Vec<String> {
         self.judge.observed_names()
+    }
+
+    /// How the numbers of an observation lie.
+    pub fn layout(&self, floats: Floats) -> Layout {
+        match floats {
+            Floats::Simple115 => layout::simple115(),
+            Floats::Simple115v2 => layout::simple115v2(),
+            Floats::Egocentric => layout::egocentric(self.larger_team()),
+            Floats::Vector => layout::declared(&self.observed_names()),
+        }
+    }
+
+    /// Writes an observation for an agent.
+    ///
+    /// # Errors
+    /// [`ObserveError`] where there is no such agent, or `out` has another length than the observation.
+    pub fn observe(&mut self, floats: Floats, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+        match floats {
+            Floats::Simple115 => observe::simple115(&self.game, agent, out),
+            Floats::Simple115v2 => observe::simple115v2(&self.game, agent, out),
+            Floats::Egocentric => observe::egocentric(&self.game, agent, self.larger_team(), out),
+            Floats::Vector => self.observe_vector(agent, out),
+        }
+    }
+
+    /// How many players the larger team has.
+    fn larger_team(&self) -> usize {
+        let count = |players: &[bool]| players.iter().filter(|present| **present).count();
+        let (left, right) = self.roster.present.split_at(TEAM_MAX);
+        count(left).max(count(right))
     }
 
     /// Writes the scenario's own observation for an agent: quantities in SI units, places normalised, own frame.
@@ -510,17 +549,6 @@ fn agent_ids(scenario: &Scenario, roster: &Roster) -> Arc<[String]> {
         format!("{team}_{}", roaming[team.index()] - 1)
     };
     roster.agents.iter().map(id).collect()
-}
-
-/// A player's name, else his team, role and number among its players of that role.
-fn player_name(scenario: &Scenario, team: Team, player: PlayerId) -> String {
-    let Some((_, slot)) = scenario.team(team).find(|(id, _)| *id == player.index()) else {
-        return format!("{team}_{}", player.in_team());
-    };
-    slot.name.clone().unwrap_or_else(|| {
-        let before = scenario.team(team).filter(|(id, other)| *id <= player.index() && other.role == slot.role);
-        format!("{team}_{}_{}", slot.role, before.count())
-    })
 }
 
 #[cfg(test)]

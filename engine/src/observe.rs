@@ -5,6 +5,7 @@
 //! normalised ([`setpiece_scenario::pitch`]), directions are the displacement of one step. What GRF documents and
 //! does otherwise follows the documentation: a player who was sent off is shown as a missing one.
 
+mod egocentric;
 mod frame;
 pub mod layout;
 mod mask;
@@ -12,12 +13,26 @@ mod raw;
 mod simple115;
 mod smm;
 
+pub use egocentric::{egocentric, size as egocentric_size};
 pub use mask::action_mask;
 pub use raw::{Raw, RawTeam, raw, raw_of};
-pub use simple115::simple115;
+pub use simple115::{simple115, simple115v2};
 pub use smm::{SMM_HEIGHT, SMM_WIDTH, smm, smm_size};
 
 use crate::state::{AgentSlot, Match};
+
+/// An observation that is an array of floats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Floats {
+    /// GRF's first one: players without gaps.
+    Simple115,
+    /// GRF's second one.
+    Simple115v2,
+    /// What a player sees from where he is.
+    Egocentric,
+    /// The scenario's own: `observe vector { … }`.
+    Vector,
+}
 
 /// Why nothing was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -162,7 +162,7 @@ pub struct Player {
 }
 
 /// An agent's slot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct AgentSlot {
     /// Its team.
     pub team: Team,
@@ -170,8 +170,19 @@ pub struct AgentSlot {
     pub player: Option<PlayerId>,
     /// Whether it may be given another.
     pub fixed: bool,
-    /// Held actions as GRF's ten flags, in the own frame: bit i is `StickyAction` i.
+    /// Held actions as GRF's flags, in the own frame: bit i is `StickyAction` i.
     pub sticky: u16,
+    /// A direction of any angle and pace, held in place of one of the eight.
+    pub steer: Option<Steer>,
+}
+
+/// How an agent with continuous actions runs and kicks.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Steer {
+    /// The way, own frame; its length is the pace, 0 to 1 (a sprint).
+    pub way: Vec2,
+    /// The power of a kick, 0..1; 0 leaves it to the kicker.
+    pub power: f32,
 }
 
 impl Match {
@@ -219,6 +230,7 @@ impl Match {
                     player: agent.fixed,
                     fixed: agent.fixed.is_some(),
                     sticky: 0,
+                    steer: None,
                 })
                 .collect(),
             play_random: noise::stream(drawn, Purpose::Play),

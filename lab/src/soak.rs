@@ -179,7 +179,7 @@ fn episode_of(
                 Habit::Bot => Action::BuiltinAi,
                 Habit::Slow if random.below(8) > 0 => *action,
                 Habit::Random | Habit::Slow => {
-                    Action::from_index(random.below(Action::V2_SET as u32) as usize).unwrap_or(Action::Idle)
+                    Action::from_index(random.below(Action::FULL_SET as u32) as usize).unwrap_or(Action::Idle)
                 }
             };
         }

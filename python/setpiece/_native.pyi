@@ -13,7 +13,8 @@ from setpiece._errors import Diagnostic
 __all__ = [
     "ACTIONS",
     "ACTION_SETS",
-    "SMM_SHAPE",
+    "CONTINUOUS",
+    "KINDS",
     "AgentInfo",
     "Environment",
     "Live",
@@ -25,13 +26,13 @@ __all__ = [
     "load",
     "restore",
     "run_command",
-    "simple115v2_bounds",
 ]
 
 __version__: Final[str]
 ACTIONS: Final[tuple[tuple[str, str], ...]]
 ACTION_SETS: Final[dict[str, int]]
-SMM_SHAPE: Final[tuple[int, int, int]]
+CONTINUOUS: Final[tuple[list[float], list[float]]]
+KINDS: Final[tuple[str, ...]]
 
 @final
 class Param:
@@ -89,6 +90,11 @@ class Environment:
         copy: bool,
         action_set: str,
         bot_action: bool,
+        stack: int = 1,
+        size: tuple[int, int] = (96, 72),
+        left: int | str | Sequence[str] | None = None,
+        right: int | str | Sequence[str] | None = None,
+        switching: str | None = None,
     ) -> Environment: ...
     @property
     def agents(self) -> list[AgentInfo]: ...
@@ -96,6 +102,16 @@ class Environment:
     def players(self) -> tuple[int, int]: ...
     @property
     def observed(self) -> list[str]: ...
+    @property
+    def held_actions(self) -> int: ...
+    @property
+    def observation_shape(self) -> list[int]: ...
+    @property
+    def blocks(self) -> list[tuple[int, int, str, str]]: ...
+    @property
+    def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]] | None: ...
+    def frames(self) -> bytes: ...
+    def set_frames(self, frames: bytes) -> None: ...
     def adopt_scripts(self, scenario: Scenario) -> bool: ...
     def reset(
         self, seed: int, episode: int, params: dict[str, Any], snapshot: bytes | None = None
@@ -124,5 +140,4 @@ def library() -> list[tuple[str, str, tuple[int, int]]]: ...
 def load(name_or_path: str | PathLike[str]) -> Scenario: ...
 def compile(text: str, name: str = "<text>") -> Scenario: ...
 def restore(text: str) -> Scenario: ...
-def simple115v2_bounds() -> tuple[NDArray[np.float32], NDArray[np.float32]]: ...
 def run_command(arguments: Sequence[str]) -> int: ...

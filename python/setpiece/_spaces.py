@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from gymnasium import spaces
+from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._errors import ParameterError
@@ -14,20 +16,86 @@ from setpiece._errors import ParameterError
 COUNT_MAX = 2**32 - 1
 """Greatest count of goals or steps: the engine counts in 32 bits."""
 
-OBSERVATIONS = ("simple115v2", "smm", "raw", "vector")
+OBSERVATIONS = ("simple115v2", "simple115", "egocentric", "smm", "raw", "vector")
 
-OBSERVED_MAX = 1.0e6
-"""Greatest size of a number of a scenario's own observation: what is beyond is held there."""
+ALIASES = {"extracted": "smm"}
+"""GRF's names of observations that have another here."""
+
+SIZE_MAX = 1024
+"""Most pixels of a super mini map on either side."""
+
+STACK_MAX = 64
+"""Most observations of a stack."""
+
+
+class Observing(Protocol):
+    """Whatever observes: a native environment, or a batch of them."""
+
+    @property
+    def agents(self) -> list[_native.AgentInfo]: ...
+    @property
+    def players(self) -> tuple[int, int]: ...
+    @property
+    def held_actions(self) -> int: ...
+    @property
+    def observation_shape(self) -> list[int]: ...
+    @property
+    def blocks(self) -> list[tuple[int, int, str, str]]: ...
+    @property
+    def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]] | None: ...
+
+
+class Block(NamedTuple):
+    """A block of numbers on the last axis of an observation, which mean the like."""
+
+    start: int
+    length: int
+    meaning: str
+    unit: str
+
+
+class Key(NamedTuple):
+    """A key of a raw observation."""
+
+    name: str
+    dtype: str
+    shape: tuple[int, ...]
+    meaning: str
+
+
+Layout = tuple[Block, ...] | tuple[Key, ...]
+"""How an observation lies: blocks of an array, or the keys of a dict."""
 
 
 def check_observation(name: object) -> str:
     """Returns the name of an observation, or raises `ParameterError`."""
+    name = ALIASES.get(name, name) if isinstance(name, str) else name
     return _check_name("observation", name, OBSERVATIONS)
 
 
 def check_action_set(name: object) -> str:
     """Returns the name of a set of actions, or raises `ParameterError`."""
     return _check_name("action_set", name, tuple(_native.ACTION_SETS))
+
+
+def check_stack(stack: object, observation: str) -> int:
+    """Returns how many observations a stack has, or raises `ParameterError`."""
+    if isinstance(stack, bool) or not isinstance(stack, int | np.integer) or not 1 <= stack <= STACK_MAX:
+        raise ParameterError(f"`stack` is {stack!r}; it can be an integer in 1..{STACK_MAX}", name="stack")
+    if stack > 1 and observation == "raw":
+        raise ParameterError("raw observations are dicts, which can't be stacked", name="stack")
+    return int(stack)
+
+
+def check_size(size: object) -> tuple[int, int]:
+    """Returns the width and height of a super mini map, or raises `ParameterError`."""
+    if (
+        isinstance(size, Sequence)
+        and len(size) == 2
+        and all(isinstance(n, int | np.integer) and not isinstance(n, bool) and 1 <= n <= SIZE_MAX for n in size)
+    ):
+        return int(size[0]), int(size[1])
+    raise ParameterError(f"`size` is {size!r}; it can be (width, height), each in 1..{SIZE_MAX}", name="size")
 
 
 def _check_name(option: str, name: object, known: tuple[str, ...]) -> str:
@@ -41,61 +109,125 @@ def _check_name(option: str, name: object, known: tuple[str, ...]) -> str:
     )
 
 
-def action_space(n_agents: int, action_set: str) -> spaces.Discrete | spaces.MultiDiscrete:
+def one_action_space(action_set: str) -> spaces.Discrete | spaces.Box:
+    """Returns the space of one agent's action."""
+    if action_set == "continuous":
+        low, high = _native.CONTINUOUS
+        return spaces.Box(np.array(low, np.float32), np.array(high, np.float32), dtype=np.float32)
+    return spaces.Discrete(_native.ACTION_SETS[action_set])
+
+
+def action_space(n_agents: int, action_set: str) -> spaces.Space[Any]:
     """Returns the space of one agent's action, or of several agents' actions: of none where nobody acts."""
-    n_actions = _native.ACTION_SETS[action_set]
+    one = one_action_space(action_set)
     if n_agents == 1:
-        return spaces.Discrete(n_actions)
-    return spaces.MultiDiscrete(np.full(n_agents, n_actions, np.int64))
+        return one
+    if isinstance(one, spaces.Box):
+        return spaces.Box(np.tile(one.low, (n_agents, 1)), np.tile(one.high, (n_agents, 1)), dtype=np.float32)
+    return spaces.MultiDiscrete(np.full(n_agents, one.n, np.int64))
 
 
-def observation_space(native: _native.Environment, observation: str) -> spaces.Space[Any]:
+def observation_space(native: Observing, observation: str) -> spaces.Space[Any]:
     """Returns the space of what `reset` and `step` observe.
 
     With several agents, or none, an array gains a leading axis, and a raw observation becomes a tuple with one part per
     agent.
     """
     n_agents = len(native.agents)
+    parts = [one_observation_space(native, observation, agent.team) for agent in native.agents[: None if observation == "raw" else 1]]
     if observation == "raw":
-        parts = [_raw_space(native.players, agent.team) for agent in native.agents]
         return parts[0] if n_agents == 1 else spaces.Tuple(parts)
-    if observation == "smm":
-        shape = _native.SMM_SHAPE if n_agents == 1 else (n_agents, *_native.SMM_SHAPE)
+    one = parts[0] if parts else one_observation_space(native, observation, 0)
+    if n_agents == 1:
+        return one
+    assert isinstance(one, spaces.Box)
+    low, high = (np.broadcast_to(bound, (n_agents, *one.shape)) for bound in (one.low, one.high))
+    return spaces.Box(low, high, dtype=one.dtype.type)  # type: ignore[union-attr]
+
+
+def one_observation_space(native: Observing, observation: str, team: int) -> spaces.Space[Any]:
+    """Returns the space of the observation of one agent of a team, 0 left, 1 right."""
+    if observation == "raw":
+        return _raw_space(native.players, team, native.held_actions)
+    shape = tuple(native.observation_shape)
+    if native.bounds is None:
         return spaces.Box(0, 255, shape, np.uint8)
-    if observation == "vector":
-        width = len(native.observed)
-        return spaces.Box(-OBSERVED_MAX, OBSERVED_MAX, (width,) if n_agents == 1 else (n_agents, width), np.float32)
-    low, high = _native.simple115v2_bounds()
-    if n_agents != 1:
-        low, high = np.tile(low, (n_agents, 1)), np.tile(high, (n_agents, 1))
+    # A stack repeats the bounds.
+    low, high = (np.tile(bound, shape[0] // len(bound)) for bound in native.bounds)
     return spaces.Box(low, high, dtype=np.float32)
 
 
-def _raw_space(players: tuple[int, int], team: int) -> spaces.Dict:
-    """Returns the space of one agent's raw observation; its own team is the left one, whichever it is."""
-    low, high = (bound.astype(np.float64) for bound in _native.simple115v2_bounds())
-    places, strides, ball, ball_stride = slice(0, 2), slice(22, 24), slice(88, 91), slice(91, 94)
+def observation_layout(native: Observing, observation: str, stack: int) -> Layout:
+    """Returns how one agent's observation lies: the blocks of its last axis, or the keys of a dict."""
+    if observation == "raw":
+        space = _raw_space(native.players, 0, native.held_actions)
+        return tuple(Key(name, *_typed(part), RAW_MEANINGS[name.removeprefix("left_team").removeprefix("right_team") or name]) for name, part in space.items())
+    if observation == "smm":
+        planes = ("own team", "opponents", "the ball", "the controlled player")
+        blocks = [Block(i, 1, meaning, "0 or 255") for i, meaning in enumerate(planes)]
+    else:
+        blocks = [Block(*block) for block in native.blocks]
+    width = blocks[-1].start + blocks[-1].length if blocks else 0
+    if stack == 1:
+        return tuple(blocks)
+    ago = [f", {n} step{'s' if n > 1 else ''} ago" if n else ", now" for n in range(stack - 1, -1, -1)]
+    return tuple(
+        block._replace(start=block.start + i * width, meaning=block.meaning + when)
+        for i, when in enumerate(ago)
+        for block in blocks
+    )
 
-    def like(block: slice, *size: int) -> spaces.Box:
-        shape = (*size, block.stop - block.start)
-        return spaces.Box(np.broadcast_to(low[block], shape), np.broadcast_to(high[block], shape), dtype=np.float64)
+
+RAW_MEANINGS = {
+    "ball": "x, y normalised, z in metres",
+    "ball_direction": "displacement per step: x, y normalised, z in metres",
+    "ball_rotation": "turn per millisecond about the axes, scaled as GRF scales it",
+    "ball_owned_team": "-1 nobody, 0 the own team, 1 the opponents",
+    "ball_owned_player": "index within the owner's team, or -1",
+    "designated": "index of the own team's player who is foremost for the ball, or -1",
+    "active": "index of the agent's player, or -1",
+    "sticky_actions": "held actions: eight directions from left clockwise, sprint, dribble",
+    "score": "own goals, the opponents' goals",
+    "steps_left": "steps until the limit; -1 without one",
+    "game_mode": "a `GameMode`",
+    "left_team": "the own team's players: x, y normalised",
+    "right_team": "the opponents: x, y normalised",
+    "_direction": "displacement per step of that team's players, normalised",
+    "_tired_factor": "tiredness of that team's players: 0 fresh to 1",
+    "_yellow_card": "whether each player of that team has a card",
+    "_active": "whether each player of that team is on the pitch",
+    "_roles": "each player's `Role`",
+}
+
+
+def _typed(space: spaces.Space[Any]) -> tuple[str, tuple[int, ...]]:
+    return ("int", ()) if isinstance(space, spaces.Discrete) else (str(space.dtype), space.shape or ())
+
+
+def _raw_space(players: tuple[int, int], team: int, held_actions: int) -> spaces.Dict:
+    """Returns the space of one agent's raw observation; its own team is the left one, whichever it is."""
+    place, stride = np.array([2.0, 1.5]), np.array([1.0, 1.0])
+
+    def around(bound: NDArray[np.float64], size: int) -> spaces.Box:
+        high = np.broadcast_to(bound, (size, 2))
+        return spaces.Box(-high, high, dtype=np.float64)
 
     parts: dict[str, spaces.Space[Any]] = {
-        "ball": like(ball),
-        "ball_direction": like(ball_stride),
+        "ball": spaces.Box(np.array([-2.0, -1.5, 0.0]), np.array([2.0, 1.5, 100.0]), dtype=np.float64),
+        "ball_direction": spaces.Box(np.array([-1.0, -1.0, -10.0]), np.array([1.0, 1.0, 10.0]), dtype=np.float64),
         "ball_rotation": spaces.Box(-1.0, 1.0, (3,), dtype=np.float64),
         "ball_owned_team": spaces.Discrete(3, start=-1),
         "ball_owned_player": spaces.Discrete(12, start=-1),
         "designated": spaces.Discrete(12, start=-1),
         "active": spaces.Discrete(12, start=-1),
-        "sticky_actions": spaces.Box(0, 1, (10,), dtype=np.uint8),
+        "sticky_actions": spaces.Box(0, 1, (held_actions,), dtype=np.uint8),
         "score": spaces.Box(0, COUNT_MAX, (2,), dtype=np.int64),
         "steps_left": spaces.Box(-1, COUNT_MAX, (), dtype=np.int64),
         "game_mode": spaces.Discrete(7),
     }
     for side, size in zip(("left_team", "right_team"), players if team == 0 else players[::-1], strict=True):
-        parts[side] = like(places, size)
-        parts[f"{side}_direction"] = like(strides, size)
+        parts[side] = around(place, size)
+        parts[f"{side}_direction"] = around(stride, size)
         parts[f"{side}_tired_factor"] = spaces.Box(0.0, 1.0, (size,), dtype=np.float64)
         parts[f"{side}_yellow_card"] = spaces.Box(0, 1, (size,), dtype=np.bool_)
         parts[f"{side}_active"] = spaces.Box(0, 1, (size,), dtype=np.bool_)

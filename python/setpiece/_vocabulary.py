@@ -6,9 +6,9 @@ from setpiece import _native
 
 
 class Action(IntEnum):
-    """An action, by its number in Google Research Football, in the agent's own frame.
+    """An action, by its number in Google Research Football's `full` set, in the agent's own frame.
 
-    The first 19 are GRF's `default` set; `BUILTIN_AI` completes `v2` (`make(..., action_set="v2")`).
+    The first 19 are GRF's `default` set; `BUILTIN_AI` completes `v2`: `make(..., action_set="v2")`.
     """
 
     IDLE = 0
@@ -31,6 +31,19 @@ class Action(IntEnum):
     DRIBBLE = 17
     RELEASE_DRIBBLE = 18
     BUILTIN_AI = 19
+    KEEPER_RUSH = 20
+    PRESSURE = 21
+    TEAM_PRESSURE = 22
+    SWITCH = 23
+    RELEASE_LONG_PASS = 24
+    RELEASE_HIGH_PASS = 25
+    RELEASE_SHORT_PASS = 26
+    RELEASE_SHOT = 27
+    RELEASE_KEEPER_RUSH = 28
+    RELEASE_SLIDING = 29
+    RELEASE_PRESSURE = 30
+    RELEASE_TEAM_PRESSURE = 31
+    RELEASE_SWITCH = 32
 
     @property
     def doc(self) -> str:

@@ -1,92 +1,180 @@
 //! Actions: what Python may give for one.
 
 use crate::errors;
+use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PySet, PyString};
+use setpiece::engine::control::continuous;
+use setpiece::engine::state::Steer;
 use setpiece::scenario::Action;
+use setpiece::scenario::vocabulary::StickyAction;
 
 /// Longest part of a value that an error shows, characters.
 const SHOWN_MAX: usize = 60;
 
-/// A set of Google Research Football's actions: the numbers below its size.
+/// What an agent may do in a step.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum ActionSet {
+    /// A set of Google Research Football's actions: the numbers below a size.
+    Keys(usize),
+    /// Four numbers: see `setpiece::engine::control::continuous`.
+    Continuous,
+}
+
+/// What an agent does in a step.
 #[derive(Clone, Copy)]
-pub(crate) struct ActionSet {
-    /// How many actions it has.
-    pub(crate) size: usize,
+pub(crate) struct Act {
+    /// The key it presses.
+    pub(crate) action: Action,
+    /// How it steers, with continuous actions.
+    pub(crate) steer: Option<Steer>,
+}
+
+impl Act {
+    /// Nothing is pressed.
+    pub(crate) const IDLE: Act = Act { action: Action::Idle, steer: None };
 }
 
 impl ActionSet {
     /// The sets by name.
-    pub(crate) const NAMED: [(&'static str, ActionSet); 2] =
-        [("default", ActionSet { size: Action::DEFAULT_SET }), ("v2", ActionSet { size: Action::V2_SET })];
+    pub(crate) const NAMED: [(&'static str, ActionSet); 4] = [
+        ("default", ActionSet::Keys(Action::DEFAULT_SET)),
+        ("v2", ActionSet::Keys(Action::V2_SET)),
+        ("full", ActionSet::Keys(Action::FULL_SET)),
+        ("continuous", ActionSet::Continuous),
+    ];
 
     /// The set of a name in `setpiece.make`.
     pub(crate) fn from_name(name: &str) -> Option<ActionSet> {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, set)| set)
     }
+
+    /// The keys that a mask of it tells of.
+    pub(crate) fn masked(self) -> &'static [Action] {
+        match self {
+            ActionSet::Keys(size) => &Action::ALL[..size],
+            ActionSet::Continuous => &continuous::KINDS,
+        }
+    }
+
+    /// How many held actions its raw observations show.
+    pub(crate) fn held(self) -> usize {
+        if self == ActionSet::Keys(Action::FULL_SET) { StickyAction::ALL.len() } else { StickyAction::DEFAULT_SET }
+    }
 }
 
-/// Reads one action per agent: an integer (or a sequence of one) for one agent, a sequence of n for n.
+/// Reads one action per agent: an integer (or a sequence of one) for one agent, a sequence of n for n; with continuous
+/// actions four numbers, or n rows of four.
 ///
-/// Raises `ActionError` for anything else; `actions` may then be partly overwritten.
-pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, actions: &mut [Action]) -> PyResult<()> {
-    if let [single] = actions
-        && let Some(action) = one(given, set)
+/// Raises `ActionError` for anything else; `acts` may then be partly overwritten.
+pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, acts: &mut [Act]) -> PyResult<()> {
+    let size = match set {
+        ActionSet::Keys(size) => size,
+        ActionSet::Continuous => return read_numbers(given, acts),
+    };
+    if let [single] = acts
+        && let Some(action) = one(given, size)
     {
-        *single = action;
+        *single = Act { action, steer: None };
         return Ok(());
     }
-    if several(given, set, actions) { Ok(()) } else { Err(wrong(given, set, actions.len())) }
+    if several(given, size, acts) { Ok(()) } else { Err(wrong(given, size, acts.len())) }
 }
 
 /// An action by its number: any integer of Python's or `NumPy`'s, but no truth value.
-fn one(given: &Bound<'_, PyAny>, set: ActionSet) -> Option<Action> {
+pub(crate) fn one(given: &Bound<'_, PyAny>, size: usize) -> Option<Action> {
     if given.is_instance_of::<PyBool>() {
         return None;
     }
     let number: usize = given.extract().ok()?;
-    Action::from_index(number).filter(|_| number < set.size)
+    Action::from_index(number).filter(|_| number < size)
 }
 
-fn several(given: &Bound<'_, PyAny>, set: ActionSet, actions: &mut [Action]) -> bool {
+fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [Act]) -> bool {
     // What has keys has no order; a text's letters are no actions.
     let unordered =
         given.is_instance_of::<PyString>() || given.is_instance_of::<PyDict>() || given.is_instance_of::<PySet>();
-    if unordered || given.len().ok() != Some(actions.len()) {
+    if unordered || given.len().ok() != Some(acts.len()) {
         return false;
     }
     let Ok(items) = given.try_iter() else { return false };
-    let mut slots = actions.iter_mut();
+    let mut slots = acts.iter_mut();
     for item in items {
-        match (item.ok().and_then(|item| one(&item, set)), slots.next()) {
-            (Some(action), Some(slot)) => *slot = action,
+        match (item.ok().and_then(|item| one(&item, size)), slots.next()) {
+            (Some(action), Some(slot)) => *slot = Act { action, steer: None },
             _ => return false,
         }
     }
     slots.next().is_none()
 }
 
-fn wrong(given: &Bound<'_, PyAny>, set: ActionSet, n_agents: usize) -> PyErr {
+/// Reads rows of four numbers.
+fn read_numbers(given: &Bound<'_, PyAny>, acts: &mut [Act]) -> PyResult<()> {
     let py = given.py();
-    let mut shown: String = given.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string_lossy().into_owned());
-    if shown.chars().count() > SHOWN_MAX {
-        shown = shown.chars().take(SHOWN_MAX).chain("…".chars()).collect();
+    let n_agents = acts.len();
+    let told = |why: &str| {
+        let shape = if n_agents == 1 { "(4,)".to_owned() } else { format!("({n_agents}, 4)") };
+        let message = format!("expected numbers of shape {shape}: x, y, kind, power; {why}");
+        errors::raise_plain(py, "ActionError", &message)
+    };
+    let array = floats(given).ok_or_else(|| told(&format!("found `{}`", shown(given))))?;
+    if array.shape() != [n_agents, 4] && (n_agents != 1 || array.shape() != [4]) {
+        return Err(told(&format!("found the shape {:?}", array.shape())));
     }
-    let last = set.size - 1;
+    let values = array.readonly().as_array().iter().copied().collect::<Vec<f32>>();
+    for (act, row) in acts.iter_mut().zip(values.chunks_exact(4)) {
+        let (steer, action) = continuous::decode([row[0], row[1], row[2], row[3]])
+            .ok_or_else(|| told(&format!("found {row:?}, which is not all numbers")))?;
+        *act = Act { action, steer: Some(steer) };
+    }
+    Ok(())
+}
+
+/// Whatever `NumPy` reads as float32.
+pub(crate) fn floats<'py>(given: &Bound<'py, PyAny>) -> Option<Bound<'py, PyArrayDyn<f32>>> {
+    if let Ok(array) = given.cast::<PyArrayDyn<f32>>() {
+        return Some(array.clone());
+    }
+    if given.is_instance_of::<PyString>() {
+        return None;
+    }
+    let numpy = given.py().import("numpy").ok()?;
+    let array = numpy.call_method1("asarray", (given, "float32")).ok()?;
+    array.cast_into::<PyArrayDyn<f32>>().ok()
+}
+
+/// The beginning of a value's text.
+fn shown(given: &Bound<'_, PyAny>) -> String {
+    let text = given.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string_lossy().into_owned());
+    if text.chars().count() <= SHOWN_MAX {
+        return text;
+    }
+    text.chars().take(SHOWN_MAX).chain("…".chars()).collect()
+}
+
+fn wrong(given: &Bound<'_, PyAny>, size: usize, n_agents: usize) -> PyErr {
+    let py = given.py();
+    let (last, shown) = (size - 1, shown(given));
     let message = match n_agents {
         1 => format!("expected an action, an integer in 0..{last}, found `{shown}`"),
         0 => format!("nobody acts in this scenario: expected no actions (`[]`), found `{shown}`"),
         n => format!("expected {n} actions, integers in 0..{last}, found `{shown}`"),
     };
-    if set.size < Action::V2_SET && wants_bot(given) {
-        let help = "19 is `builtin_ai`, which `make(..., action_set=\"v2\")` has";
-        return errors::raise_with_help(py, "ActionError", &message, help);
+    let wider = ActionSet::NAMED.iter().find_map(|&(name, set)| match set {
+        ActionSet::Keys(more) if more > size && holds(given, size..more) => Some(name),
+        _ => None,
+    });
+    match wider {
+        Some(name) => {
+            let help = format!("`make(..., action_set=\"{name}\")` has it");
+            errors::raise_with_help(py, "ActionError", &message, &help)
+        }
+        None => errors::raise_plain(py, "ActionError", &message),
     }
-    errors::raise_plain(py, "ActionError", &message)
 }
 
-/// Whether an action that the `default` set lacks and `v2` has is among what was given.
-fn wants_bot(given: &Bound<'_, PyAny>) -> bool {
-    let is_bot = |item: &Bound<'_, PyAny>| item.extract::<usize>().ok() == Some(Action::BuiltinAi.index());
-    is_bot(given) || given.try_iter().is_ok_and(|mut items| items.any(|item| item.is_ok_and(|item| is_bot(&item))))
+/// Whether an action of a range is among what was given.
+fn holds(given: &Bound<'_, PyAny>, range: std::ops::Range<usize>) -> bool {
+    let within = |item: &Bound<'_, PyAny>| item.extract::<usize>().is_ok_and(|number| range.contains(&number));
+    within(given) || given.try_iter().is_ok_and(|mut items| items.any(|item| item.is_ok_and(|item| within(&item))))
 }

@@ -1,11 +1,12 @@
 //! Environments: one match, its judge, and the arrays an agent sees.
 
-use crate::actions::{self, ActionSet};
+use crate::actions::{self, Act, ActionSet};
 use crate::errors;
 use crate::info::{InfoOptions, InfoWriter};
-use crate::observation::{Kind, Observer};
+use crate::observation::{self, Kind, Observer};
 use crate::params::{bind, to_python};
 use crate::scenario::Scenario;
+use crate::seats::{Seats, read as read_seats};
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -13,6 +14,7 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 use setpiece::Error;
 use setpiece::engine::batch::EpisodeError;
 use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, ResetError, Scratch};
+use setpiece::engine::observe::Floats;
 use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::pitch::TEAM_MAX;
@@ -37,6 +39,9 @@ pub(crate) struct Environment {
     observer: Observer,
     info: InfoWriter,
     action_set: ActionSet,
+    kind: Kind,
+    stack: usize,
+    acts: Vec<Act>,
     actions: Vec<Action>,
 }
 
@@ -44,7 +49,8 @@ pub(crate) struct Environment {
 impl Environment {
     #[new]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments of one call in Python")]
-    #[pyo3(signature = (scenario, *, observation, rewards, events, copy, action_set, bot_action))]
+    #[pyo3(signature = (scenario, *, observation, rewards, events, copy, action_set, bot_action,
+        stack = 1, size = (96, 72), left = None, right = None, switching = None))]
     fn new(
         py: Python<'_>,
         scenario: &Scenario,
@@ -54,24 +60,21 @@ impl Environment {
         copy: bool,
         action_set: &str,
         bot_action: bool,
+        stack: usize,
+        size: (usize, usize),
+        left: Option<&Bound<'_, PyAny>>,
+        right: Option<&Bound<'_, PyAny>>,
+        switching: Option<&str>,
     ) -> PyResult<Environment> {
-        let options = EnvironmentOptions { rewards, ..EnvironmentOptions::default() };
-        let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
-        let kind = Kind::from_name(observation)
-            .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
-        let action_set = ActionSet::from_name(action_set)
-            .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{action_set}`")))?;
+        let (engine, kind, action_set) =
+            prepare(py, scenario, rewards, (observation, size), action_set, &Seats { left, right, switching })?;
         Ok(Environment {
+            kind,
+            stack,
             action_set,
-            observer: {
-                if matches!(kind, Kind::Vector) && engine.observed_names().is_empty() {
-                    let name = &engine.scenario().name;
-                    let message = format!("`{name}` declares no observation: it has no `observe vector {{ … }}`");
-                    return Err(errors::parameter(py, "observation", &message));
-                }
-                Observer::new(py, kind, &engine, copy)
-            },
+            observer: Observer::new(py, kind, &engine, (stack, copy), action_set.held()),
             info: InfoWriter::new(py, &engine, InfoOptions { actions: action_set, events, bot_action }),
+            acts: vec![Act::IDLE; engine.n_agents()],
             actions: vec![Action::Idle; engine.n_agents()],
             scratch: Scratch::default(),
             engine,
@@ -89,6 +92,41 @@ impl Environment {
     #[getter]
     fn observed(&self) -> Vec<String> {
         self.engine.observed_names()
+    }
+
+    /// How many held actions raw observations show.
+    #[getter]
+    fn held_actions(&self) -> usize {
+        self.action_set.held()
+    }
+
+    /// The shape of one agent's observation; empty for a dict.
+    #[getter]
+    fn observation_shape(&self) -> Vec<usize> {
+        self.kind.shape(&self.engine, self.stack)
+    }
+
+    /// The blocks of an observation of floats: (start, length, meaning, unit).
+    #[getter]
+    fn blocks(&self) -> Vec<(usize, usize, String, &'static str)> {
+        observation::blocks(self.kind, &self.engine)
+    }
+
+    /// Least and greatest value of every number of one observation of floats: two float32 `(n,)`; none for others.
+    #[getter]
+    fn bounds<'py>(&self, py: Python<'py>) -> Option<observation::Bounds<'py>> {
+        let Kind::Floats(floats) = self.kind else { return None };
+        Some(observation::bounds(py, floats, &self.engine))
+    }
+
+    /// What a stack of observations holds, as bytes.
+    fn frames<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.observer.frames())
+    }
+
+    /// Puts back what a stack of observations held.
+    fn set_frames(&mut self, frames: &[u8]) {
+        self.observer.set_frames(frames);
     }
 
     /// Players of the left and the right team, as raw observations count them.
@@ -167,10 +205,16 @@ impl Environment {
 
     /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the interpreter meanwhile.
     fn step<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
-        actions::read(action, self.action_set, &mut self.actions)?;
+        actions::read(action, self.action_set, &mut self.acts)?;
+        for (agent, (act, action)) in self.acts.iter().zip(&mut self.actions).enumerate() {
+            *action = act.action;
+            if act.steer.is_some() {
+                self.engine.steer(agent, act.steer);
+            }
+        }
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
         let result = py.detach(|| engine.step(actions, scratch)).map_err(|why| from_episode(py, why.into()))?;
-        let observation = self.observer.observe(py, &mut self.engine)?;
+        let observation = self.observer.observe(py, &mut self.engine, false)?;
         let reward = match self.engine.rewards() {
             [one] => f64::from(*one).into_pyobject(py)?.into_any(),
             several => PyArray1::from_slice(py, several).into_any(),
@@ -184,7 +228,8 @@ impl Environment {
         self.info.played(py, &self.engine)
     }
 
-    /// 1 where an action can change something now, else 0: int8 `(19,)`, or `(n, 19)` for n agents; 20 with `v2`.
+    /// 1 where an action can change something now, else 0: int8 `(19,)`, or `(n, 19)` for n agents; 20 with `v2`, 33 with
+    /// `full`, the 6 kinds with `continuous`.
     fn action_mask<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.info.action_mask(py, &self.engine)
     }
@@ -198,18 +243,41 @@ impl Environment {
 impl Environment {
     /// What is observed, and the info.
     fn seen<'py>(&mut self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
-        Ok((self.observer.observe(py, &mut self.engine)?, self.info.write(py, &self.engine)?))
+        Ok((self.observer.observe(py, &mut self.engine, true)?, self.info.write(py, &self.engine)?))
     }
 }
 
-fn from_snapshot(py: Python<'_>, why: SnapshotError) -> PyErr {
+/// The engine of a scenario with its agents, what is observed and how it is acted, checked.
+pub(crate) fn prepare(
+    py: Python<'_>,
+    scenario: &Scenario,
+    rewards: Option<Vec<String>>,
+    (observation, size): (&str, (usize, usize)),
+    action_set: &str,
+    seats: &Seats<'_, '_>,
+) -> PyResult<(Engine, Kind, ActionSet)> {
+    let options = EnvironmentOptions { rewards, agents: read_seats(py, seats)?, ..EnvironmentOptions::default() };
+    let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
+    let kind = Kind::from_name(observation, size)
+        .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
+    let action_set = ActionSet::from_name(action_set)
+        .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{action_set}`")))?;
+    if kind == Kind::Floats(Floats::Vector) && engine.observed_names().is_empty() {
+        let name = &engine.scenario().name;
+        let message = format!("`{name}` declares no observation: it has no `observe vector {{ … }}`");
+        return Err(errors::parameter(py, "observation", &message));
+    }
+    Ok((engine, kind, action_set))
+}
+
+pub(crate) fn from_snapshot(py: Python<'_>, why: SnapshotError) -> PyErr {
     errors::from_facade(py, &Error::Snapshot(why))
 }
 
-fn from_engine(py: Python<'_>, error: EnvironmentError) -> PyErr {
+pub(crate) fn from_engine(py: Python<'_>, error: EnvironmentError) -> PyErr {
     errors::from_facade(py, &Error::Environment(error))
 }
 
-fn from_episode(py: Python<'_>, error: EpisodeError) -> PyErr {
+pub(crate) fn from_episode(py: Python<'_>, error: EpisodeError) -> PyErr {
     errors::from_facade(py, &Error::Episode(Box::new(error)))
 }

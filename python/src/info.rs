@@ -74,11 +74,16 @@ impl InfoWriter {
         Ok(info)
     }
 
-    /// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n; 20 with the set `v2`.
+    /// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n; 20 with the set `v2`, 33 with
+    /// `full`, the 6 kinds with `continuous`.
     pub(crate) fn action_mask<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
-        let (n_agents, size) = (engine.n_agents(), self.options.actions.size);
-        let row = |agent| observe::action_mask(engine.state(), agent).unwrap_or_default().into_iter().take(size);
-        let mask = PyArray1::from_iter(py, (0..n_agents).flat_map(row).map(i8::from));
+        let n_agents = engine.n_agents();
+        let size = self.options.actions.masked().len();
+        let mut mask = vec![0; n_agents * size];
+        for (agent, row) in mask.chunks_exact_mut(size).enumerate() {
+            write_mask(self.options.actions, engine, agent, row);
+        }
+        let mask = PyArray1::from_vec(py, mask);
         if n_agents == 1 {
             return Ok(mask.into_any());
         }
@@ -169,4 +174,12 @@ fn bot_action<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAn
         return Ok(one.index().into_pyobject(py)?.into_any());
     }
     Ok(PyArray1::from_iter(py, actions.iter().map(|action| action.index() as i64)).into_any())
+}
+
+/// Writes which actions of a set can change something for an agent, 1 or 0; zeros for no such agent.
+pub(crate) fn write_mask(set: ActionSet, engine: &Engine, agent: usize, row: &mut [i8]) {
+    let Ok(mask) = observe::action_mask(engine.state(), agent) else { return row.fill(0) };
+    for (out, action) in row.iter_mut().zip(set.masked()) {
+        *out = i8::from(mask[action.index()]);
+    }
 }

@@ -9,6 +9,7 @@ mod live;
 mod observation;
 mod params;
 mod scenario;
+mod seats;
 
 /// Football scenarios from text files, and the engine that runs them.
 #[pyo3::pymodule]
@@ -16,14 +17,13 @@ mod _native {
     use crate::actions::ActionSet;
     use pyo3::prelude::*;
     use pyo3::types::IntoPyDict;
+    use setpiece::engine::control::continuous;
     use setpiece::scenario::Action;
 
     #[pymodule_export]
     use crate::environment::{AgentInfo, Environment};
     #[pymodule_export]
     use crate::live::Live;
-    #[pymodule_export]
-    use crate::observation::simple115v2_bounds;
     #[pymodule_export]
     use crate::params::Param;
     #[pymodule_export]
@@ -33,9 +33,11 @@ mod _native {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let actions: Vec<(&str, &str)> = Action::ALL.iter().map(|action| (action.name(), action.doc())).collect();
         module.add("ACTIONS", pyo3::types::PyTuple::new(module.py(), actions)?)?;
-        let sets = ActionSet::NAMED.map(|(name, set)| (name, set.size));
+        let sets = ActionSet::NAMED.map(|(name, set)| (name, set.masked().len()));
         module.add("ACTION_SETS", sets.into_py_dict(module.py())?)?;
-        module.add("SMM_SHAPE", crate::observation::SMM_SHAPE)?;
+        module.add("CONTINUOUS", (continuous::LOW.to_vec(), continuous::HIGH.to_vec()))?;
+        let kinds: Vec<&str> = continuous::KINDS.iter().map(|kind| kind.name()).collect();
+        module.add("KINDS", pyo3::types::PyTuple::new(module.py(), kinds)?)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 

@@ -7,79 +7,178 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use setpiece::engine::environment::Environment as Engine;
-use setpiece::engine::observe::layout::{SIMPLE115, simple115_bounds};
-use setpiece::engine::observe::{ObserveError, Raw, RawTeam, SMM_HEIGHT, SMM_WIDTH, raw, simple115, smm};
+use setpiece::engine::observe::{Floats, ObserveError, Raw, RawTeam, raw, smm};
 
-/// Rows, columns and planes of a super mini map.
-pub(crate) const SMM_SHAPE: (usize, usize, usize) = (SMM_HEIGHT, SMM_WIDTH, 4);
+/// Planes of a super mini map.
+const PLANES: usize = 4;
 
 /// What is observed.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
-    /// float32 `(115,)`.
-    Simple115v2,
-    /// uint8 `(72, 96, 4)`.
-    Smm,
+    /// float32 `(n,)`.
+    Floats(Floats),
+    /// uint8 `(height, width, 4)`.
+    Smm {
+        /// Pixels across.
+        width: usize,
+        /// Pixels down.
+        height: usize,
+    },
     /// A dict.
     Raw,
-    /// float32 `(n,)`: the scenario's own.
-    Vector,
 }
 
 impl Kind {
-    /// The kind of a name in `setpiece.make`.
-    pub(crate) fn from_name(name: &str) -> Option<Kind> {
-        match name {
-            "simple115v2" => Some(Kind::Simple115v2),
-            "smm" => Some(Kind::Smm),
-            "raw" => Some(Kind::Raw),
-            "vector" => Some(Kind::Vector),
-            _ => None,
+    /// The kind of a name in `setpiece.make`; `size` is a map's width and height.
+    pub(crate) fn from_name(name: &str, (width, height): (usize, usize)) -> Option<Kind> {
+        Some(match name {
+            "simple115" => Kind::Floats(Floats::Simple115),
+            "simple115v2" => Kind::Floats(Floats::Simple115v2),
+            "egocentric" => Kind::Floats(Floats::Egocentric),
+            "vector" => Kind::Floats(Floats::Vector),
+            "smm" => Kind::Smm { width, height },
+            "raw" => Kind::Raw,
+            _ => return None,
+        })
+    }
+
+    /// The shape of one agent's observation, `stack` of them on the last axis; empty for a dict.
+    pub(crate) fn shape(self, engine: &Engine, stack: usize) -> Vec<usize> {
+        match self {
+            Kind::Floats(floats) => vec![engine.layout(floats).len() * stack],
+            Kind::Smm { width, height } => vec![height, width, PLANES * stack],
+            Kind::Raw => Vec::new(),
         }
+    }
+
+    /// Numbers on the last axis of one observation.
+    pub(crate) fn planes(self, engine: &Engine) -> usize {
+        self.shape(engine, 1).last().copied().unwrap_or_default()
+    }
+}
+
+/// Writes the observation of one agent as floats.
+pub(crate) fn write_floats(
+    floats: Floats,
+    engine: &mut Engine,
+    agent: usize,
+    out: &mut [f32],
+) -> Result<(), ObserveError> {
+    engine.observe(floats, agent, out)
+}
+
+/// Writes the map of one agent.
+pub(crate) fn write_map(
+    (width, height): (usize, usize),
+    engine: &mut Engine,
+    agent: usize,
+    out: &mut [u8],
+) -> Result<(), ObserveError> {
+    smm(engine.state(), agent, width, height, out)
+}
+
+/// The last few observations of a number of agents, one behind the other on the last axis, the oldest first.
+#[derive(Clone)]
+pub(crate) struct Stack<T> {
+    depth: usize,
+    planes: usize,
+    fresh: Vec<T>,
+}
+
+impl<T: Element + Copy + Default> Stack<T> {
+    /// For observations of `one` numbers, `planes` of them on the last axis.
+    pub(crate) fn new(depth: usize, planes: usize, one: usize) -> Stack<T> {
+        Stack { depth, planes, fresh: if depth > 1 { vec![T::default(); one] } else { Vec::new() } }
+    }
+
+    /// Puts the newest observation behind those that `held` has, in the place of the oldest; the first one of an
+    /// episode fills all places.
+    pub(crate) fn push(
+        &mut self,
+        held: &mut [T],
+        first: bool,
+        write: impl FnOnce(&mut [T]) -> Result<(), ObserveError>,
+    ) -> Result<(), ObserveError> {
+        if self.depth == 1 {
+            return write(held);
+        }
+        write(&mut self.fresh)?;
+        let (planes, row) = (self.planes.max(1), self.planes.max(1) * self.depth);
+        for (pixel, fresh) in held.chunks_exact_mut(row).zip(self.fresh.chunks_exact(planes)) {
+            if first {
+                for place in pixel.chunks_exact_mut(planes) {
+                    place.copy_from_slice(fresh);
+                }
+            } else {
+                pixel.copy_within(planes.., 0);
+                pixel[row - planes..].copy_from_slice(fresh);
+            }
+        }
+        Ok(())
     }
 }
 
 /// Writes observations; with several agents an array has a leading axis, raw observations are a tuple.
 pub(crate) enum Observer {
-    Simple115v2(Buffer<f32>),
-    Smm(Buffer<u8>),
-    Raw,
-    Vector(Buffer<f32>),
+    /// Arrays of float32.
+    Floats(Floats, Film<f32>),
+    /// Arrays of uint8.
+    Map((usize, usize), Film<u8>),
+    /// Dicts, with so many held actions.
+    Raw(usize),
 }
 
-/// An array of a shape: the same one every time, or a new one.
-pub(crate) struct Buffer<T> {
+/// The arrays of an environment: the same one every time, or a new one.
+pub(crate) struct Film<T> {
     shape: Vec<usize>,
     shared: Option<Py<PyArrayDyn<T>>>,
+    stack: Stack<T>,
+    /// What a stack holds, all agents'; empty where there is none.
+    held: Vec<T>,
 }
 
 impl Observer {
     /// Prepares observations of every agent; without `copy` arrays are written over by the next step.
-    pub(crate) fn new(py: Python<'_>, kind: Kind, engine: &Engine, copy: bool) -> Observer {
-        let n_agents = engine.n_agents();
+    pub(crate) fn new(
+        py: Python<'_>,
+        kind: Kind,
+        engine: &Engine,
+        (stack, copy): (usize, bool),
+        held_actions: usize,
+    ) -> Observer {
+        let (shape, planes) = (kind.shape(engine, stack), kind.planes(engine));
         match kind {
-            Kind::Simple115v2 => Observer::Simple115v2(Buffer::new(py, n_agents, &[SIMPLE115], copy)),
-            Kind::Smm => Observer::Smm(Buffer::new(py, n_agents, &[SMM_SHAPE.0, SMM_SHAPE.1, SMM_SHAPE.2], copy)),
-            Kind::Raw => Observer::Raw,
-            Kind::Vector => Observer::Vector(Buffer::new(py, n_agents, &[engine.observed_names().len()], copy)),
+            Kind::Floats(floats) => {
+                Observer::Floats(floats, Film::new(py, engine.n_agents(), shape, (stack, planes), copy))
+            }
+            Kind::Smm { width, height } => {
+                Observer::Map((width, height), Film::new(py, engine.n_agents(), shape, (stack, planes), copy))
+            }
+            Kind::Raw => Observer::Raw(held_actions),
         }
     }
 
-    /// What the agents see of the match as it stands.
-    pub(crate) fn observe<'py>(&self, py: Python<'py>, engine: &mut Engine) -> PyResult<Bound<'py, PyAny>> {
+    /// What the agents see of the match as it stands; `first` in an episode.
+    pub(crate) fn observe<'py>(
+        &mut self,
+        py: Python<'py>,
+        engine: &mut Engine,
+        first: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let n_agents = engine.n_agents();
-        if let Observer::Vector(buffer) = self {
-            return buffer.fill(py, n_agents, |agent, out| engine.observe_vector(agent, out));
-        }
-        let game = engine.state();
         match self {
-            Observer::Vector(_) => Ok(py.None().into_bound(py)),
-            Observer::Simple115v2(buffer) => buffer.fill(py, n_agents, |agent, out| simple115(game, agent, out)),
-            Observer::Smm(buffer) => {
-                buffer.fill(py, n_agents, |agent, out| smm(game, agent, SMM_WIDTH, SMM_HEIGHT, out))
+            Observer::Floats(floats, film) => {
+                film.fill(py, n_agents, first, |agent, out| write_floats(*floats, engine, agent, out))
             }
-            Observer::Raw => {
-                let part = |agent| raw_to_python(py, &raw(game, agent).map_err(|why| from_observe(py, why))?);
+            Observer::Map(size, film) => {
+                film.fill(py, n_agents, first, |agent, out| write_map(*size, engine, agent, out))
+            }
+            Observer::Raw(held) => {
+                let game = engine.state();
+                let part = |agent| {
+                    let raw = raw(game, agent).map_err(|why| from_observe(py, why))?;
+                    raw_to_python(py, &raw, *held)
+                };
                 if n_agents == 1 {
                     return Ok(part(0)?.into_any());
                 }
@@ -88,22 +187,47 @@ impl Observer {
             }
         }
     }
+
+    /// What a stack holds, as bytes; empty where there is none.
+    pub(crate) fn frames(&self) -> Vec<u8> {
+        match self {
+            Observer::Floats(_, film) => film.held.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Observer::Map(_, film) => film.held.clone(),
+            Observer::Raw(_) => Vec::new(),
+        }
+    }
+
+    /// Puts back what a stack held; nothing where it is of another size.
+    pub(crate) fn set_frames(&mut self, bytes: &[u8]) {
+        match self {
+            Observer::Floats(_, film) if bytes.len() == 4 * film.held.len() => {
+                for (held, value) in film.held.iter_mut().zip(bytes.chunks_exact(4)) {
+                    *held = f32::from_le_bytes([value[0], value[1], value[2], value[3]]);
+                }
+            }
+            Observer::Map(_, film) if bytes.len() == film.held.len() => film.held.copy_from_slice(bytes),
+            _ => {}
+        }
+    }
 }
 
-impl<T: Element> Buffer<T> {
-    fn new(py: Python<'_>, n_agents: usize, one: &[usize], copy: bool) -> Buffer<T> {
-        let mut shape = one.to_vec();
+impl<T: Element + Copy + Default> Film<T> {
+    fn new(py: Python<'_>, n_agents: usize, one: Vec<usize>, (depth, planes): (usize, usize), copy: bool) -> Film<T> {
+        let numbers: usize = one.iter().product();
+        let mut shape = one;
         if n_agents != 1 {
             shape.insert(0, n_agents);
         }
         let shared = (!copy).then(|| PyArrayDyn::zeros(py, shape.clone(), false).unbind());
-        Buffer { shape, shared }
+        let held = if depth > 1 { vec![T::default(); numbers * n_agents] } else { Vec::new() };
+        Film { shape, shared, stack: Stack::new(depth, planes, numbers / depth.max(1)), held }
     }
 
     fn fill<'py>(
-        &self,
+        &mut self,
         py: Python<'py>,
         n_agents: usize,
+        first: bool,
         mut write: impl FnMut(usize, &mut [T]) -> Result<(), ObserveError>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let array = match &self.shared {
@@ -116,26 +240,41 @@ impl<T: Element> Buffer<T> {
         let locked = || errors::raise_plain(py, "SetpieceError", read_only);
         let mut guard = array.try_readwrite().map_err(|_| locked())?;
         let values = guard.as_slice_mut().map_err(|_| locked())?;
-        for (agent, out) in values.chunks_exact_mut((array.len() / n_agents.max(1)).max(1)).enumerate() {
-            write(agent, out).map_err(|why| from_observe(py, why))?;
+        let one = (array.len() / n_agents.max(1)).max(1);
+        let target = if self.held.is_empty() { &mut *values } else { &mut self.held };
+        for (agent, out) in target.chunks_exact_mut(one).enumerate() {
+            self.stack.push(out, first, |out| write(agent, out)).map_err(|why| from_observe(py, why))?;
+        }
+        if !self.held.is_empty() {
+            values.copy_from_slice(&self.held);
         }
         drop(guard);
         Ok(array.into_any())
     }
 }
 
-fn from_observe(py: Python<'_>, why: ObserveError) -> PyErr {
+/// The exception of an observation that can't be written.
+pub(crate) fn from_observe(py: Python<'_>, why: ObserveError) -> PyErr {
     errors::raise_plain(py, "SetpieceError", &why.to_string())
 }
 
-/// Least and greatest value of every number of `simple115v2`: two float32 `(115,)`.
-#[pyfunction]
-pub(crate) fn simple115v2_bounds(py: Python<'_>) -> (Bound<'_, PyArray1<f32>>, Bound<'_, PyArray1<f32>>) {
-    let (low, high) = simple115_bounds();
+/// The blocks of an observation of floats: start, length, meaning, unit; none for others.
+pub(crate) fn blocks(kind: Kind, engine: &Engine) -> Vec<(usize, usize, String, &'static str)> {
+    let Kind::Floats(floats) = kind else { return Vec::new() };
+    let blocks = engine.layout(floats).blocks.into_iter();
+    blocks.map(|block| (block.start, block.len, block.meaning, block.unit)).collect()
+}
+
+/// Least and greatest value of every number of one observation of floats, two float32 `(n,)`.
+pub(crate) type Bounds<'py> = (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>);
+
+/// The bounds of an observation of floats.
+pub(crate) fn bounds<'py>(py: Python<'py>, floats: Floats, engine: &Engine) -> Bounds<'py> {
+    let (low, high) = engine.layout(floats).bounds();
     (low.to_pyarray(py), high.to_pyarray(py))
 }
 
-fn raw_to_python<'py>(py: Python<'py>, raw: &Raw) -> PyResult<Bound<'py, PyDict>> {
+fn raw_to_python<'py>(py: Python<'py>, raw: &Raw, held: usize) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item(intern!(py, "ball"), raw.ball.to_pyarray(py))?;
     dict.set_item(intern!(py, "ball_direction"), raw.ball_direction.to_pyarray(py))?;
@@ -146,7 +285,10 @@ fn raw_to_python<'py>(py: Python<'py>, raw: &Raw) -> PyResult<Bound<'py, PyDict>
     write_team(&dict, "right_team", &raw.right)?;
     dict.set_item(intern!(py, "designated"), raw.designated)?;
     dict.set_item(intern!(py, "active"), raw.active)?;
-    dict.set_item(intern!(py, "sticky_actions"), raw.sticky_actions.to_pyarray(py))?;
+    dict.set_item(
+        intern!(py, "sticky_actions"),
+        raw.sticky_actions[..held.min(raw.sticky_actions.len())].to_pyarray(py),
+    )?;
     dict.set_item(intern!(py, "score"), raw.score.to_pyarray(py))?;
     dict.set_item(intern!(py, "steps_left"), arr0(raw.steps_left).to_pyarray(py))?;
     dict.set_item(intern!(py, "game_mode"), raw.game_mode)?;

@@ -41,7 +41,7 @@ fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> M
 fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
     let mut scratch = Scratch::default();
     let (mut masked, mut modes) = (0u32, [0u32; 7]);
-    let (mut open, mut mattered) = ([0u32; Action::V2_SET], [0u32; Action::V2_SET]);
+    let (mut open, mut mattered) = ([0u32; Action::FULL_SET], [0u32; Action::FULL_SET]);
     for (name, seed) in [
         ("academy_3_vs_1_with_keeper", 1),
         ("academy_corner", 2),
@@ -83,7 +83,7 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
             let actions: Vec<Action> = (0..agents)
                 .map(|_| {
                     let bot = stream.below(3) > 0;
-                    let random = Action::from_index(stream.below(Action::DEFAULT_SET as u32) as usize).unwrap();
+                    let random = Action::from_index(stream.below(Action::FULL_SET as u32) as usize).unwrap();
                     if bot { Action::BuiltinAi } else { random }
                 })
                 .collect();
@@ -93,8 +93,16 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
     }
     assert!(masked > 10_000);
     assert!(modes[GameMode::ThrowIn.index()] > 0 && modes[GameMode::GoalKick.index()] > 0, "{modes:?}");
-    for action in &Action::ALL[1..Action::DEFAULT_SET] {
+    // Keys that are let go by themselves have nothing to release.
+    let nothing = Action::ALL.iter().filter(|action| action.doc().starts_with("nothing"));
+    assert!(nothing.clone().count() == 6 && nothing.clone().all(|action| open[action.index()] == 0));
+    assert!(open[Action::Switch.index()] > 0);
+    for action in Action::ALL.iter().filter(|action| open[action.index()] > 0 && **action != Action::Idle) {
         let (open, mattered) = (open[action.index()], mattered[action.index()]);
-        assert!(mattered > open / 2, "{action:?} was open {open} times and mattered {mattered} times");
+        let rarely = *action == Action::BuiltinAi;
+        assert!(
+            mattered > if rarely { 0 } else { open / 2 },
+            "{action:?} was open {open} times and mattered {mattered} times"
+        );
     }
 }

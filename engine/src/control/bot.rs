@@ -155,7 +155,11 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     }
     let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
     if second == Some(id) {
-        press::second(game, view, id);
+        if game.play.team_pressure[view.team.index()] {
+            press::first(game, events, view, id);
+        } else {
+            press::second(game, view, id);
+        }
         return;
     }
     let was_on_ball = matches!(game.player(id).body.intent, Intent::Ball(_));

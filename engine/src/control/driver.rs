@@ -5,22 +5,46 @@ use crate::event::Events;
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
 use crate::football::{kick, slide, touch};
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, PlayerId, Steer};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, GameMode};
 
+/// A slower pace than this is standing, share of a sprint; chosen.
+const STILL: f32 = 0.1;
+
+/// What an agent holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Held {
+    /// Held keys.
+    pub sticky: u16,
+    /// A steered direction in the place of a held one.
+    pub steer: Option<Steer>,
+}
+
+impl Held {
+    /// The world direction, if one is held, and how fast it is run in, m/s.
+    fn run(self, side: f32, has_ball: bool) -> (Option<Vec2>, f32) {
+        if let Some(steer) = self.steer {
+            let pace = steer.way.length();
+            let direction = (pace > STILL).then(|| steer.way * (side / pace));
+            return (direction, pace.min(1.0) * SPRINT_MPS);
+        }
+        let gait = match (sticky::sprints(self.sticky), sticky::dribbles(self.sticky), has_ball) {
+            (true, ..) => SPRINT_MPS,
+            (_, true, true) => DRIBBLE_WITH_BALL_MPS,
+            (_, true, false) => DRIBBLE_MPS,
+            (_, _, true) => RUN_WITH_BALL_MPS,
+            _ => RUN_MPS,
+        };
+        (sticky::direction(self.sticky).map(|dir| dir * side), gait)
+    }
+}
+
 /// Sets the intent and the planned kick of an agent's player.
-pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: u16, action: Action) {
-    let side = id.team().side() as f32;
-    let direction = sticky::direction(held).map(|dir| dir * side);
+pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action) {
     let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
-    let gait = match (sticky::sprints(held), sticky::dribbles(held), has_ball) {
-        (true, ..) => SPRINT_MPS,
-        (_, true, true) => DRIBBLE_WITH_BALL_MPS,
-        (_, true, false) => DRIBBLE_MPS,
-        (_, _, true) => RUN_WITH_BALL_MPS,
-        _ => RUN_MPS,
-    };
+    let (direction, gait) = held.run(id.team().side() as f32, has_ball);
+    let chases = sticky::presses(held.sticky) && !may_play(game, id);
     let wish = direction.unwrap_or(Vec2::ZERO) * gait;
     let fetch = has_ball || game.player(id).body.kick.is_some() || assist::ball_is_his(game, id);
     let near = game.player(id).pos.distance_squared(game.ball.pos.truncate()) < kick::KICK_M * kick::KICK_M;
@@ -32,30 +56,45 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: u16, act
     body.dribble = wish;
     body.intent = if fetch {
         Intent::Ball(if has_ball { gait.max(if direction.is_some() { 0.0 } else { RUN_MPS }) } else { SPRINT_MPS })
+    } else if chases {
+        Intent::Ball(SPRINT_MPS)
     } else {
         Intent::Run(wish)
     };
+    let power = held.steer.map_or(0.0, |steer| steer.power);
     match action {
-        Action::ShortPass => arm(game, id, KickKind::Short, direction),
-        Action::LongPass => arm(game, id, KickKind::Long, direction),
-        Action::HighPass => arm(game, id, KickKind::High, direction),
-        Action::Shot => arm(game, id, KickKind::Shot, direction),
+        Action::ShortPass => arm(game, id, KickKind::Short, direction, power),
+        Action::LongPass => arm(game, id, KickKind::Long, direction, power),
+        Action::HighPass => arm(game, id, KickKind::High, direction, power),
+        Action::Shot => arm(game, id, KickKind::Shot, direction, power),
         Action::Sliding if may_slide(game, id) => slide::begin(game, events, id, direction),
         _ => {}
     }
 }
 
 /// Arms a kick, where the ball is his side's to play.
-fn arm(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>) {
+///
+/// A steered pass of some power goes to a point, so far along its direction; any other finds a mate.
+fn arm(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, power: f32) {
     if !may_arm(game, id, kind) {
         return;
     }
     let now = game.tick as i32;
+    let from = game.player(id).pos;
+    let point = dir.filter(|_| power > 0.0 && kind != KickKind::Shot).map(|dir| from + dir * (power * reach_m(kind)));
     let body = &mut game.players[id.index()].body;
     // A second press changes the kick, not its swing.
     let ready_at = body.kick.map_or(now + kick::swing(kind), |plan| plan.ready_at);
-    body.kick =
-        Some(KickPlan { kind, dir, mate: None, point: None, power: 0.0, ready_at, until: now + kick::PATIENCE_TICKS });
+    body.kick = Some(KickPlan { kind, dir, mate: None, point, power, ready_at, until: now + kick::PATIENCE_TICKS });
+}
+
+/// How far a steered pass of full power goes, metres; chosen.
+fn reach_m(kind: KickKind) -> f32 {
+    match kind {
+        KickKind::Short => 30.0,
+        KickKind::High => 60.0,
+        _ => 45.0,
+    }
 }
 
 /// Whether a kick can be asked for: the ball is his to play, and a throw-in is a pass to a mate.

@@ -1,4 +1,4 @@
-//! Held actions: directions, sprint and dribble last until changed.
+//! Held actions: directions, gaits and orders to the team last until changed.
 
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
@@ -7,6 +7,9 @@ use setpiece_scenario::vocabulary::{Action, StickyAction};
 const DIRECTIONS: u16 = 0xff;
 const SPRINT: u16 = 1 << StickyAction::Sprint.index();
 const DRIBBLE: u16 = 1 << StickyAction::Dribble.index();
+const KEEPER_RUSH: u16 = 1 << StickyAction::KeeperRush.index();
+const PRESSURE: u16 = 1 << StickyAction::Pressure.index();
+const TEAM_PRESSURE: u16 = 1 << StickyAction::TeamPressure.index();
 
 /// The held actions after an action.
 pub fn next(sticky: u16, action: Action) -> u16 {
@@ -25,10 +28,31 @@ pub fn next(sticky: u16, action: Action) -> u16 {
         Action::ReleaseDribble => sticky & !DRIBBLE,
         Action::ReleaseDirection => sticky & !DIRECTIONS,
         Action::BuiltinAi => 0,
-        Action::Idle | Action::LongPass | Action::HighPass | Action::ShortPass | Action::Shot | Action::Sliding => {
-            sticky
-        }
+        Action::KeeperRush => sticky | KEEPER_RUSH,
+        Action::ReleaseKeeperRush => sticky & !KEEPER_RUSH,
+        Action::Pressure => sticky | PRESSURE,
+        Action::ReleasePressure => sticky & !PRESSURE,
+        Action::TeamPressure => sticky | TEAM_PRESSURE,
+        Action::ReleaseTeamPressure => sticky & !TEAM_PRESSURE,
+        Action::Idle
+        | Action::LongPass
+        | Action::HighPass
+        | Action::ShortPass
+        | Action::Shot
+        | Action::Sliding
+        | Action::Switch
+        | Action::ReleaseLongPass
+        | Action::ReleaseHighPass
+        | Action::ReleaseShortPass
+        | Action::ReleaseShot
+        | Action::ReleaseSliding
+        | Action::ReleaseSwitch => sticky,
     }
+}
+
+/// Whether an action puts one of the eight directions, or none, in the place of a steered one.
+pub fn unsteers(action: Action) -> bool {
+    action.direction().is_some() || matches!(action, Action::ReleaseDirection | Action::BuiltinAi)
 }
 
 /// The held direction in the own frame.
@@ -49,6 +73,21 @@ pub fn holds(sticky: u16, direction: Action) -> bool {
 /// Whether sprint is held.
 pub fn sprints(sticky: u16) -> bool {
     sticky & SPRINT != 0
+}
+
+/// Whether the keeper is called out.
+pub fn rushes(sticky: u16) -> bool {
+    sticky & KEEPER_RUSH != 0
+}
+
+/// Whether the own player is told to chase.
+pub fn presses(sticky: u16) -> bool {
+    sticky & PRESSURE != 0
+}
+
+/// Whether a mate is told to press.
+pub fn team_presses(sticky: u16) -> bool {
+    sticky & TEAM_PRESSURE != 0
 }
 
 /// Whether dribble is held.

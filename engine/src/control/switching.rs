@@ -5,7 +5,14 @@
 
 use crate::football::touch;
 use crate::state::{Match, PlayerId};
+use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};
+use setpiece_scenario::{Ai, Others};
+
+/// How long a run lasts that is called for, steps. (The fact sheet's.)
+const RUN_STEPS: u32 = 40;
+/// Whoever is nearest to a point so far ahead of the caller runs, metres. (The fact sheet's.)
+const AHEAD_M: f32 = 26.0;
 
 /// Whether some slot controls the player.
 pub fn controlled(game: &Match, id: PlayerId) -> bool {
@@ -84,6 +91,59 @@ pub fn hand_to(game: &mut Match, id: PlayerId) {
         game.players[id.index()].body.kick = None;
         game.play.next_slot[team.index()] = ((slot + 1) % count) as u8;
     }
+}
+
+/// Presses `switch` for a slot: in possession a mate is sent on a run, else the slot takes the mate who is sooner at
+/// the ball. Nothing where there is none.
+pub fn press(game: &mut Match, slot: usize) {
+    if let Some(mate) = runner(game, slot) {
+        game.players[mate.index()].body.mind.run_until_step = game.step + RUN_STEPS;
+    } else if let Some(mate) = sooner(game, slot) {
+        if let Some(old) = game.agents[slot].player {
+            game.players[old.index()].body.kick = None;
+        }
+        game.agents[slot].player = Some(mate);
+        game.players[mate.index()].body.kick = None;
+    }
+}
+
+/// Whom `switch` would send on a run: the bot's man nearest to a point ahead of the slot's, where his team has the ball.
+pub fn runner(game: &Match, slot: usize) -> Option<PlayerId> {
+    let agent = game.agents.get(slot)?;
+    let id = agent.player.filter(|id| game.player(*id).active)?;
+    if !has_ball(game, agent.team) || game.play.set_piece.is_some() || game.play.others == Others::Hold {
+        return None;
+    }
+    let ahead = game.player(id).pos + Vec2::new(AHEAD_M * id.team().side() as f32, 0.0);
+    let bots = game.team(agent.team).filter(|(mate, player)| {
+        let runs = player.body.mind.run_until_step > game.step;
+        player.role != Role::GK && player.ai == Ai::Bot && !runs && !controlled(game, *mate)
+    });
+    nearest(bots.map(|(mate, player)| (player.pos.distance_squared(ahead), mate)))
+}
+
+/// Whom `switch` would give to a slot: the free man who is soonest at a ball that his team does not have, if he is sooner
+/// there than the slot's.
+pub fn sooner(game: &Match, slot: usize) -> Option<PlayerId> {
+    let agent = game.agents.get(slot)?;
+    if agent.fixed || has_ball(game, agent.team) || game.play.set_piece.is_some() {
+        return None;
+    }
+    let own = agent.player.map_or(f32::MAX, |id| game.player(id).body.meet_s);
+    let mates = game.team(agent.team).filter(|(mate, player)| player.role != Role::GK && free(game, *mate));
+    let soonest = nearest(mates.map(|(mate, player)| (player.body.meet_s, mate)))?;
+    (game.player(soonest).body.meet_s < own).then_some(soonest)
+}
+
+/// Whether a team has the ball, or has passed it.
+fn has_ball(game: &Match, team: Team) -> bool {
+    let owner = game.owner.or_else(|| touch::controller(game)).or_else(|| game.play.pass.map(|pass| pass.by));
+    owner.is_some_and(|id| id.team() == team)
+}
+
+/// The first of those with the least measure.
+fn nearest(measured: impl Iterator<Item = (f32, PlayerId)>) -> Option<PlayerId> {
+    measured.reduce(|best, next| if next.0 < best.0 { next } else { best }).map(|(_, id)| id)
 }
 
 /// Gives every slot without a player the free one nearest to the ball.

@@ -21,12 +21,12 @@ pub struct Roster {
 pub struct AgentsChoice {
     /// Left and right.
     pub sides: [SideChoice; 2],
-    /// Whether each agent keeps his player for ever.
-    pub fixed: bool,
+    /// Whether each agent keeps his player for ever; as the scenario says if absent.
+    pub fixed: Option<bool>,
 }
 
 /// The agents of a side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SideChoice {
     /// As the scenario says.
     Scenario,
@@ -34,25 +34,46 @@ pub enum SideChoice {
     Count(u32),
     /// One per controllable player.
     All,
+    /// One per player of these names, in this order.
+    Players(Vec<String>),
 }
 
-/// More agents were asked for than there are players for them.
+/// Agents were asked for that can't be.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{asked} agents on the {team} side, which has {controllable} controllable players")]
-pub struct RosterError {
-    /// The side.
-    pub team: Team,
-    /// How many were asked for.
-    pub asked: u32,
-    /// How many there may be.
-    pub controllable: u32,
+pub enum RosterError {
+    /// More than there are players for them.
+    #[error("{asked} agents on the {team} side, which has {controllable} controllable players")]
+    TooMany {
+        /// The side.
+        team: Team,
+        /// How many were asked for.
+        asked: u32,
+        /// How many there may be.
+        controllable: u32,
+    },
+    /// Somebody whom no agent can play.
+    #[error("no agent can play `{name}` of the {team} side: its controllable players are `{}`", .known.join("`, `"))]
+    Player {
+        /// The side.
+        team: Team,
+        /// Who was asked for.
+        name: String,
+        /// Who can be asked for.
+        known: Vec<String>,
+    },
+    /// Somebody twice.
+    #[error("`{name}` is asked for twice")]
+    Twice {
+        /// Who.
+        name: String,
+    },
 }
 
 impl Roster {
     /// The roster of a scenario under its parameters.
     ///
     /// # Errors
-    /// [`RosterError`] where more agents are asked for than there are controllable players.
+    /// [`RosterError`] where more agents are asked for than there are controllable players, or others.
     pub fn new(scenario: &Scenario, bindings: &Bindings, choice: Option<&AgentsChoice>) -> Result<Roster, RosterError> {
         let mut drawer = Drawer::new(scenario);
         // Presence and counts don't depend on draws: any seed tells them.
@@ -66,11 +87,13 @@ impl Roster {
             }
         }
         for team in Team::ALL {
-            let side = choice.map_or(SideChoice::Scenario, |choice| choice.sides[team.index()]);
-            let fixed = choice.map_or(scenario.agents.switching == Switching::Fixed, |choice| choice.fixed);
+            let side = choice.map_or(&SideChoice::Scenario, |choice| &choice.sides[team.index()]);
+            let asked = choice.and_then(|choice| choice.fixed);
+            let fixed = asked.unwrap_or(scenario.agents.switching == Switching::Fixed);
             let count = |asked| roster.counted(scenario, *team, asked, fixed);
             let agents = match (side, &scenario.agents.sides[team.index()]) {
-                (SideChoice::Count(n), _) => count(n)?,
+                (SideChoice::Count(n), _) => count(*n)?,
+                (SideChoice::Players(names), _) => roster.named(scenario, *team, names)?,
                 (SideChoice::Scenario, SideAgents::Count(n)) => count(libm::round(drawer.value(*n)) as u32)?,
                 (SideChoice::All, _) | (SideChoice::Scenario, SideAgents::All) => {
                     roster.controllable(scenario, *team).map(Some).collect()
@@ -95,6 +118,24 @@ impl Roster {
             .map(|(id, _)| PlayerId(id as u8))
     }
 
+    /// The players of these names.
+    fn named(&self, scenario: &Scenario, team: Team, names: &[String]) -> Result<Vec<Option<PlayerId>>, RosterError> {
+        let known: Vec<(String, PlayerId)> =
+            self.controllable(scenario, team).map(|id| (player_name(scenario, team, id), id)).collect();
+        let mut players = Vec::new();
+        for name in names {
+            let Some((_, id)) = known.iter().find(|(other, _)| other == name) else {
+                let known = known.into_iter().map(|(name, _)| name).collect();
+                return Err(RosterError::Player { team, name: name.clone(), known });
+            };
+            if players.contains(&Some(*id)) {
+                return Err(RosterError::Twice { name: name.clone() });
+            }
+            players.push(Some(*id));
+        }
+        Ok(players)
+    }
+
     /// So many agents: every controllable player's, or the first few with the keeper last.
     fn counted(
         &self,
@@ -105,7 +146,7 @@ impl Roster {
     ) -> Result<Vec<Option<PlayerId>>, RosterError> {
         let all: Vec<PlayerId> = self.controllable(scenario, team).collect();
         if asked as usize > all.len() {
-            return Err(RosterError { team, asked, controllable: all.len() as u32 });
+            return Err(RosterError::TooMany { team, asked, controllable: all.len() as u32 });
         }
         if asked as usize == all.len() {
             return Ok(all.into_iter().map(Some).collect());
@@ -118,4 +159,15 @@ impl Roster {
         let (keepers, outfield): (Vec<_>, Vec<_>) = all.into_iter().partition(keeper);
         Ok(outfield.into_iter().chain(keepers).take(asked as usize).map(Some).collect())
     }
+}
+
+/// A player's name, else his team, role and number among its players of that role.
+pub(crate) fn player_name(scenario: &Scenario, team: Team, player: PlayerId) -> String {
+    let Some((_, slot)) = scenario.team(team).find(|(id, _)| *id == player.index()) else {
+        return format!("{team}_{}", player.in_team());
+    };
+    slot.name.clone().unwrap_or_else(|| {
+        let before = scenario.team(team).filter(|(id, other)| *id <= player.index() && other.role == slot.role);
+        format!("{team}_{}_{}", slot.role, before.count())
+    })
 }

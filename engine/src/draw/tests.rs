@@ -138,7 +138,7 @@ fn agents_are_given_players() {
         |scenario: &Scenario, choice: Option<&AgentsChoice>| Roster::new(scenario, &bindings, choice).unwrap().agents;
     let left = |id: u8| (Team::Left, Some(PlayerId(id)));
     assert_eq!(roster(&scenario, None), [(Team::Left, None)]);
-    let count = |n, fixed| AgentsChoice { sides: [SideChoice::Count(n), SideChoice::Scenario], fixed };
+    let count = |n, fixed| AgentsChoice { sides: [SideChoice::Count(n), SideChoice::Scenario], fixed: Some(fixed) };
     // The keeper comes last.
     assert_eq!(roster(&scenario, Some(&count(2, true))), [left(1), left(2)]);
     // Everybody: in source order, whatever was asked of switching.
@@ -147,4 +147,13 @@ fn agents_are_given_players() {
     assert_eq!(roster(&scenario, None), [left(2), left(0)]);
     let error = Roster::new(&scenario, &bindings, Some(&count(4, true))).unwrap_err();
     assert_eq!(error.to_string(), "4 agents on the left side, which has 3 controllable players");
+    let named = |names: &[&str]| AgentsChoice {
+        sides: [SideChoice::Players(names.iter().map(|name| (*name).to_owned()).collect()), SideChoice::Scenario],
+        fixed: None,
+    };
+    assert_eq!(roster(&scenario, Some(&named(&["left_CF_1", "left_GK_1"]))), [left(2), left(0)]);
+    let refused = |names: &[&str]| Roster::new(&scenario, &bindings, Some(&named(names))).unwrap_err().to_string();
+    let known = "its controllable players are `left_GK_1`, `left_CM_1`, `left_CF_1`";
+    assert_eq!(refused(&["left_CB_1"]), format!("no agent can play `left_CB_1` of the left side: {known}"));
+    assert_eq!(refused(&["left_CM_1", "left_CM_1"]), "`left_CM_1` is asked for twice");
 }

@@ -54,6 +54,10 @@ pub struct Play {
     pub second_half: bool,
     /// Which teams are led by an agent in this step (not handed to the bot).
     pub led: [bool; 2],
+    /// Which teams' agents call their keeper out in this step.
+    pub rush: [bool; 2],
+    /// Which teams' agents have a mate press in this step.
+    pub team_pressure: [bool; 2],
     /// Players whom an agent drives in this step, a bit each.
     pub driven: u32,
     /// What everyone presses who is played by presses, by id.
@@ -154,6 +158,8 @@ impl Play {
             first_kickoff: Team::Left,
             second_half: false,
             led: [false; 2],
+            rush: [false; 2],
+            team_pressure: [false; 2],
             driven: 0,
             acting: [Acting { chosen: None, played: None, sticky: 0 }; PLAYERS_MAX],
             next_slot: [0; 2],

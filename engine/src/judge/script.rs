@@ -240,8 +240,10 @@ impl Scripts {
         let word = called?
             .into_string()
             .map_err(|found| self.wrong_type(script, HOOK, "the name of an action", found, seen))?;
-        Action::from_name(&word).ok_or_else(|| {
-            let names = Action::ALL.iter().map(|action| action.name());
+        // The rest of the full set are orders of whoever plays for a team.
+        let known = &Action::ALL[..Action::V2_SET];
+        known.iter().copied().find(|action| action.name() == word).ok_or_else(|| {
+            let names = known.iter().map(|action| action.name());
             let hint = check::suggest(&word, names).map(|hint| format!("; {hint}")).unwrap_or_default();
             compiled.error(HOOK, None, format!("no action is called `{word}`{hint}"), seen)
         })

@@ -1,66 +1,157 @@
-//! The layout of vector observations: one row per block, from which spaces and documentation are made.
+//! The layouts of array observations: one row per block, from which spaces and documentation are made.
 
-/// Length of `simple115v2`.
+use setpiece_scenario::pitch::TEAM_MAX;
+
+/// Length of `simple115` and `simple115v2`.
 pub const SIMPLE115: usize = 115;
+/// Numbers of one other player in `egocentric`.
+pub const OTHER: usize = 7;
+/// Where the other players begin in `egocentric`.
+pub const OTHERS: usize = 46;
 
-/// A block of a vector observation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A block of an observation: numbers that mean the like.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Block {
     /// Index of its first number.
     pub start: usize,
     /// How many numbers.
     pub len: usize,
     /// What they mean.
-    pub meaning: &'static str,
-    /// Least values, repeated over the block.
-    pub low: &'static [f32],
-    /// Greatest values, repeated over the block.
-    pub high: &'static [f32],
+    pub meaning: String,
     /// Their unit.
     pub unit: &'static str,
+    /// Least values, repeated over the block.
+    pub low: Vec<f32>,
+    /// Greatest values, repeated over the block.
+    pub high: Vec<f32>,
+}
+
+/// How the numbers of an observation lie.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layout {
+    /// The blocks, one after the other.
+    pub blocks: Vec<Block>,
+}
+
+impl Layout {
+    /// How many numbers.
+    pub fn len(&self) -> usize {
+        self.blocks.last().map_or(0, |block| block.start + block.len)
+    }
+
+    /// Whether it has no numbers.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Least and greatest value of every number; what is written is held between them.
+    pub fn bounds(&self) -> (Vec<f32>, Vec<f32>) {
+        let over = |bounds: fn(&Block) -> &Vec<f32>| {
+            self.blocks.iter().flat_map(|block| bounds(block).iter().copied().cycle().take(block.len)).collect()
+        };
+        (over(|block| &block.low), over(|block| &block.high))
+    }
+
+    /// Adds a block whose numbers lie within ± `bounds`, repeated.
+    fn around(self, len: usize, meaning: impl Into<String>, unit: &'static str, bounds: &[f32]) -> Layout {
+        self.block(len, meaning, unit, bounds.iter().map(|bound| -bound).collect(), bounds.to_vec())
+    }
+
+    /// Adds a block of shares or flags, 0..1.
+    fn shares(self, len: usize, meaning: impl Into<String>, unit: &'static str) -> Layout {
+        self.block(len, meaning, unit, vec![0.0], vec![1.0])
+    }
+
+    fn block(
+        mut self,
+        len: usize,
+        meaning: impl Into<String>,
+        unit: &'static str,
+        low: Vec<f32>,
+        high: Vec<f32>,
+    ) -> Layout {
+        let start = self.len();
+        self.blocks.push(Block { start, len, meaning: meaning.into(), unit, low, high });
+        self
+    }
+
+    /// What `simple115` and `simple115v2` end with: the ball, who has it, whom the agent plays, the game mode.
+    fn ball_and_modes(self) -> Layout {
+        self.block(3, "ball x, y, z", "normalised; z in metres", vec![-2.0, -1.5, 0.0], vec![2.0, 1.5, 100.0])
+            .around(3, "ball direction", "normalised per step; z in metres", &[1.0, 1.0, 10.0])
+            .shares(3, "who has the ball: nobody, we, they", "one-hot")
+            .shares(11, "the controlled player", "one-hot")
+            .shares(7, "game mode", "one-hot")
+    }
 }
 
 /// Bounds of a normalised place: the rim of the pitch and what lies behind it.
 const PLACE: [f32; 2] = [2.0, 1.5];
-const PLACE_LOW: [f32; 2] = [-2.0, -1.5];
 /// Bounds of a displacement in one step.
 const STRIDE: [f32; 2] = [1.0, 1.0];
-const STRIDE_LOW: [f32; 2] = [-1.0, -1.0];
 
-const fn block(start: usize, len: usize, meaning: &'static str, unit: &'static str) -> Block {
-    Block { start, len, meaning, low: &[0.0], high: &[1.0], unit }
+/// `simple115v2`; missing and sent-off players are -1 in all their numbers.
+pub fn simple115v2() -> Layout {
+    Layout::default()
+        .around(22, "own players' x, y", "normalised", &PLACE)
+        .around(22, "own players' direction", "normalised per step", &STRIDE)
+        .around(22, "opponents' x, y", "normalised", &PLACE)
+        .around(22, "opponents' direction", "normalised per step", &STRIDE)
+        .ball_and_modes()
 }
 
-/// The blocks of `simple115v2`; missing and sent-off players are -1 in all their numbers.
-pub const SIMPLE115_BLOCKS: &[Block] = &[
-    Block { low: &PLACE_LOW, high: &PLACE, ..block(0, 22, "own players' x, y", "normalised") },
-    Block { low: &STRIDE_LOW, high: &STRIDE, ..block(22, 22, "own players' direction", "normalised per step") },
-    Block { low: &PLACE_LOW, high: &PLACE, ..block(44, 22, "opponents' x, y", "normalised") },
-    Block { low: &STRIDE_LOW, high: &STRIDE, ..block(66, 22, "opponents' direction", "normalised per step") },
-    Block {
-        low: &[-2.0, -1.5, 0.0],
-        high: &[2.0, 1.5, 100.0],
-        ..block(88, 3, "ball x, y, z", "normalised; z in metres")
-    },
-    Block {
-        low: &[-1.0, -1.0, -10.0],
-        high: &[1.0, 1.0, 10.0],
-        ..block(91, 3, "ball direction", "normalised per step; z in metres")
-    },
-    block(94, 3, "who has the ball: nobody, we, they", "one-hot"),
-    block(97, 11, "the controlled player", "one-hot"),
-    block(108, 7, "game mode", "one-hot"),
-];
+/// `simple115`: as `simple115v2`, but that the four blocks of players follow each other without a gap, so that they lie
+/// elsewhere where players are missing; what is left of the 88 numbers is -1.
+pub fn simple115() -> Layout {
+    Layout::default()
+        .around(
+            4 * 2 * TEAM_MAX,
+            "own places, own directions, opponents' places, opponents' directions; then -1",
+            "normalised; directions per step",
+            &[PLACE[0], PLACE[0]],
+        )
+        .ball_and_modes()
+}
 
-/// Least and greatest value of every number of `simple115v2`; what is written is held between them.
-pub fn simple115_bounds() -> ([f32; SIMPLE115], [f32; SIMPLE115]) {
-    let (mut low, mut high) = ([0.0; SIMPLE115], [0.0; SIMPLE115]);
-    for block in SIMPLE115_BLOCKS {
-        let range = block.start..block.start + block.len;
-        let bounds = block.low.iter().cycle().zip(block.high.iter().cycle());
-        for ((low, high), (l, h)) in low[range.clone()].iter_mut().zip(&mut high[range]).zip(bounds) {
-            (*low, *high) = (*l, *h);
-        }
-    }
-    (low, high)
+/// `egocentric`, for teams of up to `team` players: what the agent's player sees from where he is, his mates and the
+/// opponents each nearest first.
+pub fn egocentric(team: usize) -> Layout {
+    let layout = Layout::default()
+        .around(2, "my x, y", "normalised", &PLACE)
+        .around(2, "my velocity", "10 m/s", &[2.0])
+        .around(2, "the way I face: cosine, sine", "", &[1.0])
+        .shares(1, "my tiredness", "0 fresh to 1")
+        .shares(10, "held actions", "flags of `sticky_actions`")
+        .around(2, "from me to the ball", "54.4 m", &[4.0])
+        .shares(1, "height of the ball", "10 m, at most 1")
+        .shares(1, "distance of the ball", "128 m")
+        .around(3, "velocity of the ball", "10 m/s", &[6.0])
+        .shares(5, "who has the ball: nobody, I, a mate, an opponent; whether it is in hands", "one-hot, flag")
+        .around(2, "from me to their goal", "54.4 m", &[4.0])
+        .around(2, "from me to our goal", "54.4 m", &[4.0])
+        .shares(7, "game mode", "one-hot")
+        .shares(1, "whether the set piece is ours", "flag")
+        .around(1, "goals ahead", "5 goals, at most 1", &[1.0])
+        .shares(1, "what is left of the episode", "share; 0 without a limit")
+        .around(1, "how far the line of offside is ahead of me", "54.4 m", &[4.0])
+        .shares(2, "whether I am the keeper; whether I am there", "flags");
+    let other = |layout: Layout, who: String| {
+        layout.block(
+            OTHER,
+            format!("{who}: there; from me x, y; velocity from mine x, y; distance; keeper"),
+            "flag; 54.4 m; 10 m/s; 128 m; flag",
+            vec![0.0, -4.0, -4.0, -4.0, -4.0, 0.0, 0.0],
+            vec![1.0, 4.0, 4.0, 4.0, 4.0, 1.0, 1.0],
+        )
+    };
+    let mates = (1..team).fold(layout, |layout, i| other(layout, format!("mate {i}")));
+    (1..=team).fold(mates, |layout, i| other(layout, format!("opponent {i}")))
+}
+
+/// Greatest size of a number of a scenario's own observation: what is beyond is held there.
+pub const DECLARED_MAX: f32 = 1.0e6;
+
+/// A scenario's own observation, a number each.
+pub fn declared(names: &[String]) -> Layout {
+    names.iter().fold(Layout::default(), |layout, name| layout.around(1, name, "as declared", &[DECLARED_MAX]))
 }

@@ -1,23 +1,23 @@
 //! Which actions can change anything.
 
 use super::{ObserveError, slot};
-use crate::control::driver;
+use crate::control::{driver, switching};
 use crate::football::body::KickKind;
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
-/// Which of the 20 actions of GRF's `v2` set can change something for agent `agent`; the first 19 are its `default` set.
-/// `idle` always may be chosen.
+/// Which of the 33 actions of GRF's `full` set can change something for agent `agent`; the first 19 are its `default`
+/// set, the first 20 its `v2` set. `idle` always may be chosen.
 ///
-/// Masked are: what is held already and the release of what isn't held; passes and shots while the ball is not the
+/// Masked are: what is held already and the release of what isn't held; a switch to nobody; passes and shots while the ball is not the
 /// player's to play, and sliding while it is; high passes and shots at a throw-in; everything but `idle` for an agent
 /// without a player on the pitch.
 ///
 /// # Errors
 /// [`ObserveError::Agent`] for no such agent.
-pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::V2_SET], ObserveError> {
+pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET], ObserveError> {
     let slot = slot(game, agent)?;
-    let mut mask = [false; Action::V2_SET];
+    let mut mask = [false; Action::FULL_SET];
     mask[Action::Idle.index()] = true;
     let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;
@@ -33,12 +33,25 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::V2_SET],
             | Action::Right
             | Action::BottomRight
             | Action::Bottom
-            | Action::BottomLeft => StickyAction::from_name(action.name()).is_some_and(|direction| !held(direction)),
+            | Action::BottomLeft
+            | Action::KeeperRush
+            | Action::Pressure
+            | Action::TeamPressure
+            | Action::Sprint
+            | Action::Dribble => StickyAction::from_name(action.name()).is_some_and(|key| !held(key)),
             Action::ReleaseDirection => directions.iter().any(|direction| held(*direction)),
-            Action::Sprint => !held(StickyAction::Sprint),
             Action::ReleaseSprint => held(StickyAction::Sprint),
-            Action::Dribble => !held(StickyAction::Dribble),
             Action::ReleaseDribble => held(StickyAction::Dribble),
+            Action::ReleaseKeeperRush => held(StickyAction::KeeperRush),
+            Action::ReleasePressure => held(StickyAction::Pressure),
+            Action::ReleaseTeamPressure => held(StickyAction::TeamPressure),
+            Action::Switch => switching::runner(game, agent).or_else(|| switching::sooner(game, agent)).is_some(),
+            Action::ReleaseLongPass
+            | Action::ReleaseHighPass
+            | Action::ReleaseShortPass
+            | Action::ReleaseShot
+            | Action::ReleaseSliding
+            | Action::ReleaseSwitch => false,
             Action::LongPass => kick(KickKind::Long),
             Action::HighPass => kick(KickKind::High),
             Action::ShortPass => kick(KickKind::Short),

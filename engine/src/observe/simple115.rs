@@ -1,19 +1,19 @@
-//! `simple115v2`: 115 numbers.
+//! `simple115v2`, and `simple115` before it: 115 numbers.
 
 use super::frame::Frame;
 use super::layout::SIMPLE115;
 use super::{ObserveError, check_size, slot};
-use crate::state::Match;
+use crate::state::{AgentSlot, Match};
 use setpiece_scenario::pitch::TEAM_MAX;
 
 /// What stands for a player who is missing.
 const MISSING: f32 = -1.0;
 
-/// Writes agent `agent`'s `simple115v2` observation; the blocks are [`super::layout::SIMPLE115_BLOCKS`].
+/// Writes agent `agent`'s `simple115v2` observation; the layout is [`super::layout::simple115v2`].
 ///
 /// # Errors
 /// [`ObserveError`] for no such agent, or a buffer that has not 115 numbers; nothing is written then.
-pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+pub fn simple115v2(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), SIMPLE115)?;
     let frame = Frame { game, us: slot.team };
@@ -28,6 +28,40 @@ pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), Obse
             write(&mut out[at..at + 2], &frame.stride_of(player.vel), &[1.0, 1.0]);
         }
     }
+    write_ball_and_modes(game, frame, slot, out);
+    Ok(())
+}
+
+/// Writes agent `agent`'s `simple115` observation: the four blocks of players without gaps; the layout is
+/// [`super::layout::simple115`].
+///
+/// # Errors
+/// [`ObserveError`] for no such agent, or a buffer that has not 115 numbers; nothing is written then.
+pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+    let slot = slot(game, agent)?;
+    check_size(out.len(), SIMPLE115)?;
+    let frame = Frame { game, us: slot.team };
+    out.fill(0.0);
+    out[..8 * TEAM_MAX].fill(MISSING);
+    let mut at = 0;
+    for team in frame.teams() {
+        for place in [true, false] {
+            for (_, player) in frame.roster(team) {
+                if player.active && place {
+                    write(&mut out[at..at + 2], &frame.place_of(player.pos), &[2.0, 1.5]);
+                } else if player.active {
+                    write(&mut out[at..at + 2], &frame.stride_of(player.vel), &[1.0, 1.0]);
+                }
+                at += 2;
+            }
+        }
+    }
+    write_ball_and_modes(game, frame, slot, out);
+    Ok(())
+}
+
+/// What stands behind the players in both.
+fn write_ball_and_modes(game: &Match, frame: Frame<'_>, slot: AgentSlot, out: &mut [f32]) {
     write(&mut out[88..91], &frame.ball(), &[2.0, 1.5, 100.0]);
     out[90] = out[90].max(0.0);
     write(&mut out[91..94], &frame.ball_stride(), &[1.0, 1.0, 10.0]);
@@ -36,7 +70,6 @@ pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), Obse
         out[97 + place] = 1.0;
     }
     out[108 + game.mode.index()] = 1.0;
-    Ok(())
 }
 
 /// Writes numbers, held within ± the bounds of their space.

@@ -17,7 +17,7 @@ fn game() -> Match {
     let mut game = Match::blank(&drawn);
     game.agents.clear();
     for (team, player) in [(Team::Left, 1), (Team::Right, 11)] {
-        game.agents.push(AgentSlot { team, player: Some(PlayerId(player)), fixed: true, sticky: 0 });
+        game.agents.push(AgentSlot { team, player: Some(PlayerId(player)), fixed: true, sticky: 0, steer: None });
     }
     game.players[1].vel = Vec2::new(5.44, -8.36);
     game.ball.pos = Vec3::new(27.2, -8.36, 0.5);
@@ -38,7 +38,7 @@ fn near(found: &[f32], expected: &[f32]) {
 #[test]
 fn simple115_has_its_blocks() {
     let mut out = [9.0; layout::SIMPLE115];
-    simple115(&game(), 0, &mut out).unwrap();
+    simple115v2(&game(), 0, &mut out).unwrap();
     near(&out[0..6], &[-1.0, 0.0, 0.5, 0.1, -1.0, -1.0]);
     near(&out[22..28], &[0.0, 0.0, 0.01, -0.01, -1.0, -1.0]);
     near(&out[44..48], &[1.0, 0.0, -1.0, -1.0]);
@@ -51,7 +51,7 @@ fn simple115_has_its_blocks() {
 #[test]
 fn the_right_team_sees_itself_on_the_left() {
     let mut out = [9.0; layout::SIMPLE115];
-    simple115(&game(), 1, &mut out).unwrap();
+    simple115v2(&game(), 1, &mut out).unwrap();
     near(&out[0..4], &[-1.0, 0.0, -1.0, -1.0]);
     near(&out[44..48], &[1.0, 0.0, -0.5, -0.1]);
     near(&out[66..70], &[0.0, 0.0, -0.01, 0.01]);
@@ -67,7 +67,7 @@ fn who_is_sent_off_is_missing() {
     let mut game = game();
     game.players[1].active = false;
     let mut out = [9.0; layout::SIMPLE115];
-    simple115(&game, 0, &mut out).unwrap();
+    simple115v2(&game, 0, &mut out).unwrap();
     near(&out[0..4], &[-1.0, 0.0, -1.0, -1.0]);
     let raw = raw(&game, 0).unwrap();
     assert_eq!(&raw.left.active[..], [true, false]);
@@ -76,18 +76,24 @@ fn who_is_sent_off_is_missing() {
 
 #[test]
 fn blocks_cover_the_vector_and_bounds_hold() {
-    let mut next = 0;
-    for block in layout::SIMPLE115_BLOCKS {
-        assert_eq!(block.start, next);
-        next += block.len;
+    for layout in [layout::simple115v2(), layout::simple115(), layout::egocentric(2), layout::egocentric(11)] {
+        let mut next = 0;
+        for block in &layout.blocks {
+            assert_eq!(block.start, next);
+            assert!(block.low.len() == block.high.len() && block.len.is_multiple_of(block.low.len()), "{block:?}");
+            next += block.len;
+        }
+        let (low, high) = layout.bounds();
+        assert!(next == layout.len() && low.len() == next && high.len() == next);
     }
-    assert_eq!(next, layout::SIMPLE115);
-    let (low, high) = layout::simple115_bounds();
+    assert_eq!((layout::simple115v2().len(), layout::simple115().len()), (115, 115));
+    assert_eq!(layout::egocentric(11).len(), egocentric_size(11));
+    let (low, high) = layout::simple115v2().bounds();
     let mut game = game();
     game.ball.pos = Vec3::new(1e6, -1e6, 1e6);
     game.ball.vel = Vec3::splat(-1e6);
     let mut out = [0.0; layout::SIMPLE115];
-    simple115(&game, 0, &mut out).unwrap();
+    simple115v2(&game, 0, &mut out).unwrap();
     for (at, value) in out.iter().enumerate() {
         assert!((low[at]..=high[at]).contains(value), "{at}: {value}");
     }
@@ -116,15 +122,15 @@ fn raw_tells_everything() {
     assert_eq!(raw.right.roles[0], 0);
     assert_eq!(raw.left.roles[1], 9);
     assert_eq!((raw.active, raw.designated, raw.game_mode, raw.steps_left), (1, 1, 4, 50));
-    assert_eq!(raw.sticky_actions, [0, 0, 0, 0, 0, 0, 0, 0, 1, 0]);
+    assert_eq!(raw.sticky_actions, [0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0]);
     assert!((raw.ball_direction[1] - 0.01).abs() < 1e-6 && (raw.ball_direction[2] - 0.2).abs() < 1e-6);
 }
 
 #[test]
 fn sizes_and_agents_are_checked() {
     let game = game();
-    assert_eq!(simple115(&game, 0, &mut [0.0; 3]), Err(ObserveError::Size { expected: 115, found: 3 }));
-    assert_eq!(simple115(&game, 2, &mut [0.0; 115]), Err(ObserveError::Agent { agent: 2, n_agents: 2 }));
+    assert_eq!(simple115v2(&game, 0, &mut [0.0; 3]), Err(ObserveError::Size { expected: 115, found: 3 }));
+    assert_eq!(simple115v2(&game, 2, &mut [0.0; 115]), Err(ObserveError::Agent { agent: 2, n_agents: 2 }));
     assert!(smm(&game, 0, 96, 72, &mut [0; 5]).is_err());
     assert!(raw(&game, 5).is_err() && action_mask(&game, 5).is_err());
 }
@@ -145,4 +151,54 @@ fn the_mask_leaves_what_can_matter() {
     assert!(!mask[Action::ShortPass.index()] && mask[Action::Sliding.index()]);
     game.players[1].active = false;
     assert_eq!(action_mask(&game, 0).unwrap().iter().filter(|open| **open).count(), 1);
+}
+
+#[test]
+fn simple115_has_no_gaps() {
+    let game = game();
+    let (mut old, mut new) = ([9.0; layout::SIMPLE115], [9.0; layout::SIMPLE115]);
+    simple115(&game, 0, &mut old).unwrap();
+    simple115v2(&game, 0, &mut new).unwrap();
+    let n = game.players[..11].iter().filter(|player| player.present).count();
+    let m = game.players[11..].iter().filter(|player| player.present).count();
+    assert_eq!(old[..2 * n], new[..2 * n]);
+    assert_eq!(old[2 * n..4 * n], new[22..22 + 2 * n]);
+    assert_eq!(old[4 * n..4 * n + 2 * m], new[44..44 + 2 * m]);
+    assert_eq!(old[4 * n + 2 * m..4 * (n + m)], new[66..66 + 2 * m]);
+    assert!(old[4 * (n + m)..88].iter().all(|value| *value == -1.0));
+    assert_eq!(old[88..], new[88..]);
+}
+
+#[test]
+fn egocentric_is_seen_from_the_player() {
+    let mut game = game();
+    let team = 2;
+    let mut out = vec![9.0; egocentric_size(team)];
+    egocentric(&game, 0, team, &mut out).unwrap();
+    let me = game.player(game.agents[0].player.unwrap());
+    let ball = (game.ball.pos.truncate() - me.pos) / 54.4;
+    near(&out[17..19], &ball.to_array());
+    // The nearest mate is `there`, and where he is.
+    let mate = game.team(Team::Left).find(|(id, _)| Some(*id) != game.agents[0].player).unwrap().1;
+    let way = (mate.pos - me.pos) / 54.4;
+    near(&out[46..49], &[1.0, way.x, way.y]);
+    let (low, high) = layout::egocentric(team).bounds();
+    let within =
+        |out: &[f32]| out.iter().zip(low.iter().zip(&high)).all(|(value, (low, high))| (low..=high).contains(&value));
+    assert!(within(&out));
+    game.ball.pos = Vec3::new(1e6, -1e6, 1e6);
+    game.ball.vel = Vec3::splat(-1e6);
+    egocentric(&game, 0, team, &mut out).unwrap();
+    assert!(within(&out));
+    // The turned match shows the other side's agent the same.
+    let mut other = out.clone();
+    egocentric(&game, 1, team, &mut other).unwrap();
+    assert_ne!(out, other);
+    game.agents[0].player = None;
+    egocentric(&game, 0, team, &mut out).unwrap();
+    assert!(out.iter().all(|value| *value == 0.0));
+    assert_eq!(
+        egocentric(&game, 0, team, &mut [0.0; 3]),
+        Err(ObserveError::Size { expected: egocentric_size(team), found: 3 })
+    );
 }

@@ -23,6 +23,7 @@ pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
     game.play.acting = fresh.play.acting;
     for slot in &mut game.agents {
         slot.sticky = 0;
+        slot.steer = None;
     }
     let half_time = game.rules[Rule::HalfTime.index()];
     game.play.second_half = half_time > 0.0 && f64::from(game.elapsed_at_start) >= half_time;

@@ -3,7 +3,7 @@
 use super::words;
 
 words! {
-    /// An action; the first 19 are GRF's `default` set, in its order, the 20th completes its `v2` set.
+    /// An action, in the order of GRF's `full` set; the first 19 are its `default` set, the 20th completes its `v2` set.
     Action {
         Idle = "idle", "no change; held directions, sprint and dribble go on";
         Left = "left", "run towards the own goal";
@@ -25,6 +25,19 @@ words! {
         Dribble = "dribble", "slow close control until released";
         ReleaseDribble = "release_dribble", "stop dribbling";
         BuiltinAi = "builtin_ai", "the bot plays this step; held actions are cleared";
+        KeeperRush = "keeper_rush", "the own keeper comes out to the ball until released";
+        Pressure = "pressure", "chase whoever has the ball until released";
+        TeamPressure = "team_pressure", "a team mate presses too until released";
+        Switch = "switch", "take the mate who is sooner at the ball; in possession send a mate on a run";
+        ReleaseLongPass = "release_long_pass", "nothing: a key that kicks is let go by itself";
+        ReleaseHighPass = "release_high_pass", "nothing: a key that kicks is let go by itself";
+        ReleaseShortPass = "release_short_pass", "nothing: a key that kicks is let go by itself";
+        ReleaseShot = "release_shot", "nothing: a key that kicks is let go by itself";
+        ReleaseKeeperRush = "release_keeper_rush", "call the keeper back";
+        ReleaseSliding = "release_sliding", "nothing: a key that slides is let go by itself";
+        ReleasePressure = "release_pressure", "stop chasing";
+        ReleaseTeamPressure = "release_team_pressure", "call the mate back";
+        ReleaseSwitch = "release_switch", "nothing: a key that switches is let go by itself";
     }
 }
 
@@ -33,6 +46,8 @@ impl Action {
     pub const DEFAULT_SET: usize = 19;
     /// Size of GRF's `v2` action set.
     pub const V2_SET: usize = 20;
+    /// Size of GRF's `full` action set.
+    pub const FULL_SET: usize = 33;
 
     /// The unit direction of a direction action in the own frame (+x forward, +y down the picture).
     pub fn direction(self) -> Option<(f64, f64)> {
@@ -52,7 +67,7 @@ impl Action {
 }
 
 words! {
-    /// A held action, in the order of GRF's `sticky_actions` vector.
+    /// A held action, in the order of GRF's `sticky_actions` vector; the first 10 are those of the `default` set.
     StickyAction {
         Left = "left", "held direction";
         TopLeft = "top_left", "held direction";
@@ -64,5 +79,13 @@ words! {
         BottomLeft = "bottom_left", "held direction";
         Sprint = "sprint", "held sprint";
         Dribble = "dribble", "held dribble";
+        KeeperRush = "keeper_rush", "held keeper rush";
+        Pressure = "pressure", "held pressure";
+        TeamPressure = "team_pressure", "held team pressure";
     }
+}
+
+impl StickyAction {
+    /// How many GRF's `default` and `v2` sets have.
+    pub const DEFAULT_SET: usize = 10;
 }

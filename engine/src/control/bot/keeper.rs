@@ -24,7 +24,8 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     if lone && player.pos.x * view.side > STRAYED_M {
         return false;
     }
-    if comes_out(game, view, id) {
+    let called = game.play.rush[view.team.index()] && !view.attacks(game);
+    if called || comes_out(game, view, id) {
         let body = &mut game.players[id.index()].body;
         body.intent = Intent::Ball(SPRINT_MPS);
         body.dribble = Vec2::ZERO;

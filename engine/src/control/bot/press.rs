@@ -47,7 +47,8 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     // Whoever has just lost it near the others' goal goes for it at once.
     let zeal = if view.ball.x > 12.0 { zeal * 1.6 } else { zeal };
     let goal_near = view.ball.x < -20.0;
-    if gap > zeal && !goal_near && deep < 95.0 {
+    let told = game.play.team_pressure[view.team.index()];
+    if gap > zeal && !goal_near && deep < 95.0 && !told {
         cover(game, view, id);
         return;
     }

@@ -20,7 +20,7 @@ impl Bench {
         ]);
         let choice = crate::draw::AgentsChoice {
             sides: [crate::draw::SideChoice::All, crate::draw::SideChoice::All],
-            fixed: true,
+            fixed: Some(true),
         };
         let bindings = setpiece_scenario::Bindings::default();
         let roster = crate::draw::Roster::new(&scenario, &bindings, Some(&choice)).unwrap();

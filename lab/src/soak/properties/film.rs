@@ -14,7 +14,7 @@ use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::pitch::{
     CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, GOAL_HEIGHT_M, HALF_LENGTH_M, PLAYERS_MAX,
 };
-use setpiece::scenario::vocabulary::Rule;
+use setpiece::scenario::vocabulary::{Action, Rule};
 
 const GOAL_X: f32 = HALF_LENGTH_M as f32;
 const REAR_X: f32 = (HALF_LENGTH_M + GOAL_DEPTH_M) as f32;
@@ -30,7 +30,7 @@ const LIFT_M: f32 = 0.05;
 /// The most that a player moves in a tick, metres.
 const STRIDE_M: f32 = 0.24;
 /// How near two men on their feet, who have stood apart, come to each other, metres: in a crowd, far into each other.
-const NEAREST_M: f32 = 0.12;
+const NEAREST_M: f32 = 0.1;
 /// How near a player's middle comes to a net or post, metres.
 const NET_M: f32 = 0.2;
 
@@ -45,8 +45,11 @@ impl Film {
     pub(super) fn watch(&mut self, before: &Match, step: &Step, scratch: &mut Scratch) -> Result<(), Failure> {
         let mut game = before.clone();
         let mut events = Events::new();
-        for (acting, done) in game.play.acting.iter_mut().zip(&step.judged.play.acting) {
-            acting.chosen = done.played;
+        // Whom a switch has left is the bot's for this step, whatever he is scripted to do.
+        let switched = before.agents.iter().zip(step.actions).filter(|(_, action)| **action == Action::Switch);
+        let left: Vec<PlayerId> = switched.filter_map(|(slot, _)| slot.player).collect();
+        for (i, (acting, done)) in game.play.acting.iter_mut().zip(&step.judged.play.acting).enumerate() {
+            acting.chosen = done.played.filter(|_| !left.contains(&PlayerId(i as u8)));
         }
         control::command(&mut game, step.actions, &mut events);
         while game.tick < step.judged.tick {

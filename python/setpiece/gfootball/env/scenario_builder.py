@@ -182,7 +182,7 @@ def find(level: object) -> Source | Script:
     if not isinstance(level, str) or not level:
         raise ParameterError("the level needs a name", name="level", help="for example `academy_3_vs_1_with_keeper`")
     if level.endswith(".py"):
-        return _script(load_script(level), level)
+        return script_of(load_script(level), level)
     if level.endswith(".pitch"):
         path = Path(level).resolve()
         return Source(setpiece.load(path).name, f'import "{path.name}"\n', str(path.parent))
@@ -190,7 +190,7 @@ def find(level: object) -> Source | Script:
     for name in [*names, level] if "." in level else names:
         module = _imported(name)
         if module is not None and (hasattr(module, "build_scenario") or name != level):
-            return _script(module, name)
+            return script_of(module, name)
     if level in all_scenarios():
         return Source(level)
     raise UnknownScenarioError(
@@ -232,7 +232,8 @@ def _imported(name: str) -> ModuleType | None:
         raise
 
 
-def _script(module: ModuleType, name: str) -> Script:
+def script_of(module: ModuleType, name: str) -> Script:
+    """Returns a module's `build_scenario`; `SetpieceError` where it has none."""
     script: Any = getattr(module, "build_scenario", None)
     if not callable(script):
         raise SetpieceError(

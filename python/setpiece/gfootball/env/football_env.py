@@ -163,10 +163,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         left, right = 0, self._config.number_of_left_players()
         made: list[tuple[PlayerBase, list[int], int]] = []
         counts: dict[str, int] = {}
-        for index, (name, settings) in enumerate(definitions):
+        for name, settings in definitions:
             ordinal = counts.get(name, 0)
             counts[name] = ordinal + 1
-            settings = {**settings, "index": index, f"player_{name}": ordinal}
+            settings = {**settings, "index": left if settings["left_players"] else right, f"player_{name}": ordinal}
             player = _player_class(name)(settings, self._config)
             lefts, rights = player.num_controlled_left_players(), player.num_controlled_right_players()
             slots = [*range(left, left + lefts), *range(right, right + rights)]

@@ -8,7 +8,7 @@ from typing import Any
 class PlayerBase:
     """Plays as many players as its definition says.
 
-    - `player_config`: the definition's settings: `left_players`, `right_players`, `index` among all definitions,
+    - `player_config`: the definition's settings: `left_players`, `right_players`, `index`, the first of its slots,
       `player_NAME` among those of its name, and whatever else the definition says.
     """
 

@@ -10,13 +10,17 @@ from setpiece.gfootball.env.player_base import PlayerBase
 
 
 class Player(PlayerBase):
-    """Repeats the actions of a dump, `path`, from the place that its own number, `index`, has in it."""
+    """Repeats the actions of a dump, `path`, from the place on that its first slot, `index`, has in it."""
 
     def __init__(self, player_config: dict[str, Any], env_config: Any) -> None:  # noqa: ARG002
         super().__init__(player_config)
         if "path" not in player_config:
             raise ParameterError(
                 "the player `replay` needs a dump", name="players", help="write `replay:path=FILE.dump,left_players=1`"
+            )
+        if self.num_controlled_left_players() and self.num_controlled_right_players():
+            raise ParameterError(
+                "a `replay` plays on one side", name="players", help="write one definition for each side"
             )
         self._path = str(player_config["path"])
         self._records = read_dump(self._path)

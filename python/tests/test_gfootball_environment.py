@@ -14,8 +14,9 @@ from setpiece.gfootball.env import create_environment, create_remote_environment
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env.config import Config
 from setpiece.gfootball.env.football_env import FootballEnv
+from setpiece.gfootball.env.observation_preprocessing import generate_smm
 from setpiece.gfootball.env.observation_rotation import flip_observation
-from setpiece.gfootball.env.wrappers import CheckpointRewardWrapper
+from setpiece.gfootball.env.wrappers import CheckpointRewardWrapper, Simple115StateWrapper
 
 CLOSE = "academy_empty_goal_close"
 THREE = "academy_3_vs_1_with_keeper"
@@ -428,6 +429,27 @@ def test_grf_bugs() -> None:
         first(["first_activ"])
     with pytest.raises(ParameterError):
         first(3)
+
+
+def test_players_who_were_sent_off() -> None:
+    raw = make(representation="raw").reset()[0]
+    raw["left_team_active"] = np.array([True, True, False, True])
+    numbers = Simple115StateWrapper.convert_observation([raw], fixed_positions=True)[0]
+    assert numbers[4:6].tolist() == numbers[26:28].tolist() == [-1, -1]
+    kept = Simple115StateWrapper.convert_observation([raw], fixed_positions=True, sent_off_stay=True)[0]
+    assert np.allclose(kept[4:6], raw["left_team"][2])
+    assert np.count_nonzero(generate_smm([raw])[0, :, :, 0]) == 3
+    config = Config({"level": THREE, "grf_bugs": ["sent_off"]})
+    assert np.count_nonzero(generate_smm([raw], config)[0, :, :, 0]) == 4
+
+
+def test_minimap_is_the_native_one() -> None:
+    scenario = setpiece.compile(f"scenario same extends {THREE} {{ end limit 401 steps }}")
+    native = setpiece.make(scenario, observation="smm", action_set="v2")
+    env = make()
+    assert np.array_equal(env.reset(), native.reset(seed=7, options={"episode": 0})[0])
+    for action in (5, 5, 13, 11, 0, 12, 3):
+        assert np.array_equal(env.step(action)[0], native.step(action)[0])
 
 
 def test_real_time_paces_the_steps() -> None:

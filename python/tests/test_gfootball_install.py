@@ -3,7 +3,6 @@
 import importlib
 import pkgutil
 import sys
-from collections.abc import Iterator
 from types import ModuleType
 
 import gymnasium
@@ -13,17 +12,7 @@ import setpiece
 from setpiece import InUseError, gfootball
 
 
-@pytest.fixture(autouse=True)
-def nothing_installed() -> Iterator[None]:
-    """Takes the aliases away, before and after."""
-
-    def take_away() -> None:
-        for name in [name for name in sys.modules if name.split(".")[0] == "gfootball"]:
-            del sys.modules[name]
-
-    take_away()
-    yield
-    take_away()
+pytestmark = pytest.mark.usefixtures("nothing_installed")
 
 
 def test_imports_of_grf_work() -> None:

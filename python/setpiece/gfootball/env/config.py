@@ -17,7 +17,7 @@ from setpiece.gfootball.env.scenario_config import ScenarioConfig
 
 SEED_MAX = 2_000_000_000
 """Greatest seed that is drawn for an episode."""
-BUGS = ("first_active", "kick_off_mode")
+BUGS = ("first_active", "kick_off_mode", "sent_off")
 """What `grf_bugs` can restore; see docs/gfootball.md."""
 OPTIONAL = ("game_engine_random_seed", "reverse_team_processing", "episode_number", "grf_bugs")
 """Settings without a default."""

@@ -44,15 +44,19 @@ def generate_smm(
 ) -> NDArray[np.uint8]:
     """Returns the minimaps of n raw observations: uint8 `(n, height, width, 4)`, 0 or 255.
 
+    - `config`: GRF marks players who were sent off too; with `grf_bugs` in the config they are here as well.
     - `channel_dimensions`: width and height.
     """
+    keep = config is not None and config.has_bug("sent_off")
     layers = get_smm_layers(config)
     width, height = channel_dimensions
     frames = np.zeros((len(observation), height, width, len(layers)), np.uint8)
     for frame, seen in zip(frames, observation, strict=True):
         for index, layer in enumerate(layers):
-            if layer != "active":
-                mark_points(frame[:, :, index], seen[layer][:2] if layer == "ball" else seen[layer])
+            if layer == "ball":
+                mark_points(frame[:, :, index], seen["ball"][:2])
+            elif layer != "active":
+                mark_points(frame[:, :, index], seen[layer] if keep else seen[layer][seen[f"{layer}_active"]])
             elif seen["active"] != -1:
                 mark_points(frame[:, :, index], seen["left_team"][seen["active"]])
     return frames

@@ -118,21 +118,31 @@ class Simple115StateWrapper(ObservationWrapper):
     def __init__(self, env: Env, fixed_positions: bool = False) -> None:
         super().__init__(env)
         self._fixed_positions = fixed_positions
+        self._sent_off_stay = env.unwrapped._config.has_bug("sent_off")  # type: ignore[attr-defined]
         self.observation_space = spaces.Box(-np.inf, np.inf, (_agents(env), SIMPLE), np.float32)
 
     def observation(self, observation: Any) -> NDArray[np.float32]:
         """Returns the numbers of raw observations."""
-        return Simple115StateWrapper.convert_observation(observation, self._fixed_positions)
+        return Simple115StateWrapper.convert_observation(observation, self._fixed_positions, self._sent_off_stay)
 
     @staticmethod
-    def convert_observation(observation: list[dict[str, Any]], fixed_positions: bool) -> NDArray[np.float32]:
-        """Returns the numbers of raw observations: float32 `(n, 115)`."""
+    def convert_observation(
+        observation: list[dict[str, Any]], fixed_positions: bool, sent_off_stay: bool = False
+    ) -> NDArray[np.float32]:
+        """Returns the numbers of raw observations: float32 `(n, 115)`.
+
+        - `sent_off_stay`: whether players who were sent off keep their last numbers, as in GRF, or have -1.
+        """
         result = np.zeros((len(observation), SIMPLE), np.float32)
         for row, seen in zip(result, observation, strict=True):
             row[: 4 * BLOCK] = -1.0
             at = 0
             for number, block in enumerate(BLOCKS):
-                values = seen[block].ravel()
+                values = seen[block]
+                if not sent_off_stay:
+                    playing = seen[f"{block.removesuffix('_direction')}_active"]
+                    values = np.where(playing[:, None], values, -1.0)
+                values = values.ravel()
                 at = number * BLOCK if fixed_positions else at
                 row[at : at + len(values)] = values
                 at += len(values)
@@ -167,7 +177,8 @@ class SMMWrapper(ObservationWrapper):
 
     def observation(self, observation: Any) -> NDArray[np.uint8]:
         """Returns the minimaps of raw observations."""
-        return observation_preprocessing.generate_smm(observation, channel_dimensions=self._channel_dimensions)
+        config = self.env.unwrapped._config  # type: ignore[attr-defined]
+        return observation_preprocessing.generate_smm(observation, config, self._channel_dimensions)
 
 
 class PixelsStateWrapper(ObservationWrapper):

@@ -51,6 +51,17 @@ def test_slots_are_dealt_out_in_order() -> None:
     assert np.flatnonzero(env._core.whole["right_agent_sticky_actions"][0]).tolist() == [6]
 
 
+def test_players_of_other_config_options_replace_all() -> None:
+    options = {"players": ["agent:left_players=2,right_players=1", "lazy:left_players=1"]}
+    env = create_environment(FULL, representation="simple115v2", other_config_options=options)
+    assert env.reset().shape == (3, 115)
+    assert env.step([0, 0, 0])[1].shape == (3,)
+    options = {"players": ["lazy:left_players=1"]}
+    env = create_environment(FULL, other_config_options=options)
+    assert "left_team" in env.reset()
+    env.step([])
+
+
 @pytest.mark.parametrize("name", ["lazy", "builtin_ai"])
 def test_extra_players_take_slots_of_their_own(name: str) -> None:
     env = create_environment(CLOSE, extra_players=[f"{name}:right_players=1"], representation="raw")

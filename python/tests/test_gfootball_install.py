@@ -11,7 +11,6 @@ import pytest
 import setpiece
 from setpiece import InUseError, gfootball
 
-
 pytestmark = pytest.mark.usefixtures("nothing_installed")
 
 

@@ -236,6 +236,37 @@ def test_places_that_take_turns_alternate(tmp_path: Path) -> None:
     assert "CB at own (-0.2, alternate(0.1, 0.3))" in text
 
 
+LIBRARY = """
+    config.game_duration = 300
+    config.right_team_difficulty = 0.6
+    back = [(-0.422, -0.19576, "LB"), (-0.5, -0.06356, "CB"), (-0.5, 0.063559, "CB"), (-0.422, 0.19576, "RB")]
+    middle = [(-0.184212, -0.10568, "CM"), (-0.267574, 0, "CM"), (-0.184212, 0.10568, "CM"), (-0.01, -0.2161, "LM")]
+    rest = back + middle
+    kicking = [(-1, 0, "GK"), (0, 0.02, "RM"), (0, -0.02, "CF"), *rest]
+    receiving = [(-1, 0, "GK"), (-0.05, 0, "RM"), (-0.01, 0.216102, "CF"), *rest]
+    teams = [Team.e_Left, Team.e_Right]
+    for team, layout in zip(teams[:: 1 if builder.EpisodeNumber() % 2 == 0 else -1], (kicking, receiving)):
+        builder.SetTeam(team)
+        for x, y, role in layout:
+            builder.AddPlayer(x, y, PlayerRole["e_PlayerRole_" + role])
+"""
+
+
+def test_a_script_of_a_full_match_plays_as_the_librarys(tmp_path: Path) -> None:
+    options = {"game_engine_random_seed": 5}
+    path = script_file(tmp_path, LIBRARY, "eleven")
+    envs = [
+        create_environment(name, representation="raw", other_config_options=options)
+        for name in (path, "11_vs_11_stochastic")
+    ]
+    for _ in range(2):
+        script, library = ({**env.reset()[0], "steps_left": 0} for env in envs)
+        assert same(script, library)
+        for step in range(300):
+            script, library = ({**env.step(step * 7 % 19)[0][0], "steps_left": 0} for env in envs)
+            assert same(script, library)
+
+
 CANT_SAY = {
     "seed": (
         "    config.deterministic = True\n    config.game_engine_random_seed = 7\n" + ONE_TEAM,

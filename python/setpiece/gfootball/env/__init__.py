@@ -95,17 +95,17 @@ def create_environment(
         "write_video": bool(write_video),
         **({"tracesdir": logdir} if logdir else {}),
     }
-    slots = _slots(env_name, left, right)
+    options = dict(other_config_options or {})
+    slots = _slots(options.get("level", env_name), left, right)
     agent = f"agent:left_players={slots[0]},right_players={slots[1]}"
-    settings = {**values, "players": [agent, *_check_players(extra_players)], **(other_config_options or {})}
-    env: Env = FootballEnv(Config(settings))
-    if slots != (left, right):
+    env: Env = FootballEnv(Config({**values, "players": [agent, *_check_players(extra_players)], **options}))
+    if slots != (left, right) and "players" not in options:
         env = wrappers.MultiAgentToSingleAgent(env, *slots)
     if frequency > 1:
         env = wrappers.PeriodicDumpWriter(env, frequency)
     if checkpoints:
         env = wrappers.CheckpointRewardWrapper(env)
-    return wrappers.GetStateWrapper(_shown(env, left + right, representation, channel_dimensions, stacked))
+    return wrappers.GetStateWrapper(_shown(env, wrappers.agents_of(env), representation, channel_dimensions, stacked))
 
 
 def _shown(env: Env, agents: int, representation: str, channel_dimensions: tuple[int, int], stacked: bool) -> Env:

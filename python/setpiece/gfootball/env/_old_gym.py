@@ -35,6 +35,11 @@ class Wrapper(gymnasium.Wrapper[Any, Any, Any, Any]):
         """Plays 100 ms and returns observation, reward, done and info."""
         return self.env.step(action)
 
+    def render(self, mode: str = "human") -> Any:
+        """Draws the match."""
+        env: Any = self.env
+        return env.render(mode)
+
     def _stepped(self, action: Any) -> Stepped:
         stepped: Any = self.env.step(action)
         observation, reward, done, info = stepped

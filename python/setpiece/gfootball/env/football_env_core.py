@@ -47,6 +47,8 @@ class FootballEnvCore:
 
     def __init__(self, config: Config) -> None:
         self._config = config
+        self._asked = config.number_of_left_players(), config.number_of_right_players()
+        self._played = (1, 0)
         self._env: setpiece.FootballEnv | None = None
         self._source: Source | None = None
         self._limit: int | None = None
@@ -101,7 +103,7 @@ class FootballEnvCore:
         return {
             "source": (source.name, source.text, source.folder),
             "limit": self._limit,
-            "agents": self._counts(),
+            "agents": self._asked,
             "snapshot": self._env.snapshot(),
             "waiting": self.waiting,
             "step_count": self.step_count,
@@ -111,40 +113,36 @@ class FootballEnvCore:
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Goes on from a state; `SnapshotError` for one of other slots or another scenario, and nothing has changed."""
-        if tuple(state["agents"]) != self._counts():
-            raise SnapshotError(f"the state has {state['agents']} played players, this environment {self._counts()}")
+        if tuple(state["agents"]) != self._asked:
+            raise SnapshotError(f"the state has {state['agents']} played players, this environment {self._asked}")
         source = Source(*state["source"])
         if self._source is None or source.name != self._source.name:
             raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
-        before = self._env, self._source, self._limit
+        before = self._env, self._source, self._limit, self._played
         try:
             self._enter(source, state["limit"])
             assert self._env is not None
             observed, info = self._env.restore(state["snapshot"])
         except setpiece.SetpieceError:
-            self._env, self._source, self._limit = before
+            self._env, self._source, self._limit, self._played = before
             raise
         self.waiting, self.step_count = state["waiting"], state["step_count"]
         self.cumulative_reward, self.done = state["cumulative_reward"], state["done"]
         self._see(observed, info)
 
-    def _counts(self) -> tuple[int, int]:
-        return self._config.number_of_left_players(), self._config.number_of_right_players()
-
     def _enter(self, source: Source, limit: int | None) -> None:
         """Makes the environment of a scenario, unless it is the one that is there."""
         if self._env is None or source != self._source or limit != self._limit:
-            left, right = self._played()
+            left, right = self._played = self._playable()
             scenario = source.compiled(str(left), str(right), limit)
             self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set=NATIVE_SET)
             self._source, self._limit = source, limit
 
-    def _played(self) -> tuple[int, int]:
+    def _playable(self) -> tuple[int, int]:
         """How many slots the engine has: one is always there, since somebody has to see the match."""
         recorded = self._config.ScenarioConfig()
-        asked = self._counts()
-        left = min(asked[0], recorded.controllable_left_players)
-        right = min(asked[1], recorded.controllable_right_players)
+        left = min(self._asked[0], recorded.controllable_left_players)
+        right = min(self._asked[1], recorded.controllable_right_players)
         if left + right == 0:
             return (1, 0) if recorded.controllable_left_players else (0, 1)
         return left, right
@@ -152,10 +150,10 @@ class FootballEnvCore:
     def _see(self, observed: Any, info: dict[str, Any]) -> None:
         """Takes over what the engine shows."""
         self.score = (info["score"][0], info["score"][1])
-        left = self._played()[0]
+        left = self._played[0]
         views = [self._view(each) for each in (observed if isinstance(observed, tuple) else (observed,))]
         first = views[0] if left else flip_observation(views[0], self._config)
-        asked_left, asked_right = self._counts()
+        asked_left, asked_right = self._asked
         own = views[:left][:asked_left]
         other = views[left:][:asked_right]
         nobody = {**first, "active": -1, "sticky_actions": _nothing_held(self._config)}
@@ -202,7 +200,7 @@ class FootballEnvCore:
         if self.waiting == STALLED:
             return [actions.action_short_pass] * len(chosen)
         hurried = [actions.action_idle] * len(chosen)
-        left = self._counts()[0]
+        left = self._asked[0]
         for number, slot in enumerate(self.slots):
             if slot["ball_owned_team"] == 0 and slot["active"] == slot["ball_owned_player"]:
                 onwards = (number < left) == (self.waiting < TURNING)
@@ -211,8 +209,8 @@ class FootballEnvCore:
 
     def _numbers(self, chosen: Sequence[CoreAction]) -> list[int]:
         """The engine's numbers of the actions of those slots that have a player, in their teams' own frames."""
-        left, right = self._played()
-        asked_left, asked_right = self._counts()
+        left, right = self._played
+        asked_left, asked_right = self._asked
         if asked_left + asked_right == 0 or not self.slots:
             return [NUMBERS["builtin_ai"]]
         own = list(chosen[:asked_left])[:left]
@@ -227,9 +225,8 @@ class FootballEnvCore:
 
     def _first_active(self, recorded: ScenarioConfig) -> None:
         """Shows in the first observation whom GRF shows: it deals the slots out by a layout that nobody stands in."""
-        asked = self._counts()
         teams = (recorded.left_team, recorded.right_team)
-        slots = [self.slots[: asked[0]], self.slots[asked[0] :]]
+        slots = [self.slots[: self._asked[0]], self.slots[self._asked[0] :]]
         for side, (entries, views) in enumerate(zip(teams, slots, strict=True)):
             playable = [number for number, entry in enumerate(entries) if entry.controllable]
             if not 0 < len(views) < len(playable):

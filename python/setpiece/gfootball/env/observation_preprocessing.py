@@ -32,8 +32,8 @@ def mark_points(frame: NDArray[np.uint8], points: Any) -> None:
     height, width = frame.shape
     across = (points[:, 0] - MINIMAP_NORM_X_MIN) / (MINIMAP_NORM_X_MAX - MINIMAP_NORM_X_MIN) * width
     down = (points[:, 1] - MINIMAP_NORM_Y_MIN) / (MINIMAP_NORM_Y_MAX - MINIMAP_NORM_Y_MIN) * height
-    columns = np.clip(across.astype(np.int64), 0, width - 1)
-    rows = np.clip(down.astype(np.int64), 0, height - 1)
+    columns = np.minimum(np.maximum(across.astype(np.int64), 0), width - 1)
+    rows = np.minimum(np.maximum(down.astype(np.int64), 0), height - 1)
     frame[rows, columns] = _MARKER_VALUE
 
 

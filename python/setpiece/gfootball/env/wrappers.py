@@ -23,7 +23,7 @@ BLOCKS = ("left_team", "left_team_direction", "right_team", "right_team_directio
 SIMPLE = 115
 
 
-def _agents(env: Env) -> int:
+def agents_of(env: Env) -> int:
     """How many actions a step of an environment takes."""
     space = env.action_space
     return 1 if isinstance(space, spaces.Discrete) else len(space.nvec)  # type: ignore[attr-defined]
@@ -119,7 +119,7 @@ class Simple115StateWrapper(ObservationWrapper):
         super().__init__(env)
         self._fixed_positions = fixed_positions
         self._sent_off_stay = env.unwrapped._config.has_bug("sent_off")  # type: ignore[attr-defined]
-        self.observation_space = spaces.Box(-np.inf, np.inf, (_agents(env), SIMPLE), np.float32)
+        self.observation_space = spaces.Box(-np.inf, np.inf, (agents_of(env), SIMPLE), np.float32)
 
     def observation(self, observation: Any) -> NDArray[np.float32]:
         """Returns the numbers of raw observations."""
@@ -173,7 +173,7 @@ class SMMWrapper(ObservationWrapper):
         self._channel_dimensions = _check_dimensions(channel_dimensions)
         width, height = self._channel_dimensions
         layers = len(observation_preprocessing.get_smm_layers())
-        self.observation_space = spaces.Box(0, 255, (_agents(env), height, width, layers), np.uint8)
+        self.observation_space = spaces.Box(0, 255, (agents_of(env), height, width, layers), np.uint8)
 
     def observation(self, observation: Any) -> NDArray[np.uint8]:
         """Returns the minimaps of raw observations."""

@@ -397,11 +397,13 @@ def test_the_command(tmp_path: Path) -> None:
         command = [sys.executable, "-m", "setpiece", *arguments]
         return subprocess.run(command, capture_output=True, text=True, env=environment, cwd=tmp_path, check=False)
 
-    text = PLAIN.replace("config.offsides", "builder.config().offsides")
+    text = "    print('hello')\n" + PLAIN
     (tmp_path / "drill.py").write_text("from gfootball.scenarios import *\n" + HEAD.split("\n", 1)[1] + text)
     shown = run("import", "grf", "drill.py")
     assert shown.returncode == 0, shown.stderr
     assert "scenario drill {" in shown.stdout
+    assert "hello" in shown.stderr
+    assert "hello" not in shown.stdout
     assert run("import", "grf", "drill.py", "-o", "drill.pitch").returncode == 0
     assert (tmp_path / "drill.pitch").read_text() == shown.stdout
     assert run("run", "drill.pitch", "--episodes", "1").returncode == 0
@@ -411,3 +413,20 @@ def test_the_command(tmp_path: Path) -> None:
     assert run("import").returncode == 2
     assert run("import", "unity", "x.py").returncode == 2
     assert run("import", "--help").returncode == 0
+
+
+def test_the_level_of_the_example_of_many_agents() -> None:
+    env = create_environment("test_example_multiagent", number_of_left_players_agent_controls=3)
+    assert env.reset().shape == (3, 72, 96, 4)
+    assert env.step([0, 0, 0])[1].shape == (3,)
+
+
+def test_a_state_of_an_episode_with_other_players_to_control(tmp_path: Path) -> None:
+    text = ONE_TEAM + "    builder.AddPlayer(0, 0, e_PlayerRole_CM, controllable=builder.EpisodeNumber() % 2 == 0)\n"
+    env = create_environment(script_file(tmp_path, text), number_of_left_players_agent_controls=2, representation="raw")
+    assert [seen["active"] for seen in env.reset()] == [0, 1]
+    state = env.get_state()
+    later = env.step([5, 5])
+    assert [seen["active"] for seen in env.reset()] == [0, -1]
+    env.set_state(state)
+    assert same(later, env.step([5, 5]))

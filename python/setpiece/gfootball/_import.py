@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from contextlib import redirect_stdout
 from pathlib import Path
 
 import setpiece
@@ -68,7 +69,9 @@ def main(arguments: Sequence[str]) -> int:
         return end.code if isinstance(end.code, int) else 2
     try:
         gfootball.install()
-        text = import_script(parsed.file)
+        # Standard output is the text's: what a script prints goes elsewhere.
+        with redirect_stdout(sys.stderr):
+            text = import_script(parsed.file)
         if parsed.output is None:
             sys.stdout.write(text)
         else:

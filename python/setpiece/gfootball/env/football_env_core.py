@@ -68,7 +68,7 @@ class FootballEnvCore:
         config = self._config
         config.NewScenario(inc)
         recorded = config.ScenarioConfig()
-        self._enter(config.Scenario().source, _length(recorded))
+        self._enter(config.Scenario().source, _length(recorded), self._playable(recorded))
         assert self._env is not None
         observed, info = self._env.reset(
             seed=recorded.game_engine_random_seed, options={"episode": config["episode_number"] % 2}
@@ -103,6 +103,7 @@ class FootballEnvCore:
         return {
             "source": (source.name, source.text, source.folder),
             "limit": self._limit,
+            "played": self._played,
             "agents": self._asked,
             "snapshot": self._env.snapshot(),
             "waiting": self.waiting,
@@ -120,7 +121,7 @@ class FootballEnvCore:
             raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
         before = self._env, self._source, self._limit, self._played
         try:
-            self._enter(source, state["limit"])
+            self._enter(source, state["limit"], state["played"])
             assert self._env is not None
             observed, info = self._env.restore(state["snapshot"])
         except setpiece.SetpieceError:
@@ -130,17 +131,15 @@ class FootballEnvCore:
         self.cumulative_reward, self.done = state["cumulative_reward"], state["done"]
         self._see(observed, info)
 
-    def _enter(self, source: Source, limit: int | None) -> None:
+    def _enter(self, source: Source, limit: int | None, played: tuple[int, int]) -> None:
         """Makes the environment of a scenario, unless it is the one that is there."""
-        if self._env is None or source != self._source or limit != self._limit:
-            left, right = self._played = self._playable()
-            scenario = source.compiled(str(left), str(right), limit)
+        if self._env is None or (source, limit, played) != (self._source, self._limit, self._played):
+            scenario = source.compiled(str(played[0]), str(played[1]), limit)
             self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set=NATIVE_SET)
-            self._source, self._limit = source, limit
+            self._source, self._limit, self._played = source, limit, played
 
-    def _playable(self) -> tuple[int, int]:
+    def _playable(self, recorded: ScenarioConfig) -> tuple[int, int]:
         """How many slots the engine has: one is always there, since somebody has to see the match."""
-        recorded = self._config.ScenarioConfig()
         left = min(self._asked[0], recorded.controllable_left_players)
         right = min(self._asked[1], recorded.controllable_right_players)
         if left + right == 0:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import setpiece
 from setpiece import ActionError, ParameterError
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env import observation_preprocessing as preprocessing
@@ -74,3 +75,8 @@ def test_minimap_edges() -> None:
     assert np.argwhere(frame).tolist() == [[0, 0], [0, 95], [71, 95]]
     assert (preprocessing.SMM_WIDTH, preprocessing.SMM_HEIGHT) == (96, 72)
     assert preprocessing.get_smm_layers() == ["left_team", "right_team", "ball", "active"]
+
+
+def test_the_engines_actions_have_the_same_numbers() -> None:
+    native = [name for name, _ in setpiece._native.ACTIONS]
+    assert native == [action.name for action in actions.action_set_full][: len(native)]

@@ -30,8 +30,8 @@ TURNING = 30
 """Steps after which its taker is sent the other way."""
 NATIVE_SET = "full" if "full" in _native.ACTION_SETS else "v2"
 
-# Where GRF thinks that the players of a team stand when it deals out the slots of the first observation: squared
-# distances of its 4-3-3 from the centre spot, by place in the team.
+# Where GRF thinks that the players of a team stand, by place in the team, when it deals out the slots of the first
+# observation: to whoever is nearest the centre spot.
 _TEMPLATE = (
     *((-1.0, 0.0), (-0.74, 0.77), (-1.0, 0.25), (-1.0, -0.25), (-0.74, -0.77), (0.05, 0.42)),
     *((-0.23, 0.0), (0.05, -0.42), (0.36, 0.85), (1.0, 0.0), (0.36, -0.85)),

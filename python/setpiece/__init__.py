@@ -27,6 +27,7 @@ from setpiece._errors import (
     ScriptError,
     SetpieceError,
     SnapshotError,
+    UnavailableError,
     UnknownScenarioError,
 )
 from setpiece._library import Entry, list, register_envs
@@ -56,6 +57,7 @@ __all__ = [
     "ScriptError",
     "SetpieceError",
     "SnapshotError",
+    "UnavailableError",
     "UnknownScenarioError",
     "__version__",
     "compile",

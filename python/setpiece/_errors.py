@@ -142,3 +142,13 @@ class ActionError(SetpieceError, ValueError):
 
 class InUseError(SetpieceError, RuntimeError):
     """Two threads use one environment at the same time; each needs its own."""
+
+
+class UnavailableError(SetpieceError, NotImplementedError):
+    """What is asked for is no part of this version; `name` says what."""
+
+    name: str
+
+    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+        super().__init__(message, code=code, help=help)
+        self.name = name

@@ -1,5 +1,6 @@
 import random
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,19 @@ def pitch_file(tmp_path: Path) -> Callable[[str], Path]:
         return path
 
     return write
+
+
+@pytest.fixture
+def nothing_installed() -> Iterator[None]:
+    """Takes away what `gfootball.install()` puts into `sys.modules`, before and after."""
+
+    def take_away() -> None:
+        for name in [name for name in sys.modules if name.split(".")[0] == "gfootball"]:
+            del sys.modules[name]
+
+    take_away()
+    yield
+    take_away()
 
 
 def play(

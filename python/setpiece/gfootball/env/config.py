@@ -1,0 +1,243 @@
+"""The settings of an environment, and the definitions of its players."""
+
+from __future__ import annotations
+
+import random
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from setpiece import _native
+from setpiece._errors import ParameterError
+from setpiece.gfootball._words import check_word, similar, unavailable
+from setpiece.gfootball.env.football_action_set import action_set_dict
+from setpiece.gfootball.env.scenario_builder import Scenario
+from setpiece.gfootball.env.scenario_config import ScenarioConfig
+
+SEED_MAX = 2_000_000_000
+"""Greatest seed that is drawn for an episode."""
+BUGS = ("first_active", "kick_off_mode", "sent_off")
+"""What `grf_bugs` can restore; see docs/gfootball.md."""
+OPTIONAL = ("game_engine_random_seed", "reverse_team_processing", "episode_number", "grf_bugs")
+"""Settings without a default."""
+
+PlayerDefinition = tuple[str, dict[str, Any]]
+
+
+def parse_player_definition(definition: str) -> PlayerDefinition:
+    """Returns a player's name and settings.
+
+    >>> parse_player_definition("lazy:right_players=2")
+    ('lazy', {'left_players': 0, 'right_players': 2})
+    >>> parse_player_definition("bot")
+    ('bot', {'left_players': 1, 'right_players': 0})
+    """
+    if not isinstance(definition, str) or not definition:
+        raise ParameterError(f"expected a player's definition, found `{definition!r}`", name="players")
+    name, _, rest = definition.partition(":")
+    settings: dict[str, Any] = {"left_players": 0, "right_players": 0}
+    for part in filter(None, rest.split(",")):
+        key, equals, value = part.partition("=")
+        if not equals:
+            raise ParameterError(
+                f"`{part}` in `{definition}` is no setting", name="players", help="write `agent:left_players=1`"
+            )
+        settings[key] = value
+    # GRF compares with the number 0: a zero that is written counts as given.
+    if settings["left_players"] == 0 and settings["right_players"] == 0:
+        settings["left_players"] = 1
+    for key in ("left_players", "right_players"):
+        if not str(settings[key]).isdecimal():
+            raise ParameterError(f"`{key}` in `{definition}` is no count", name="players")
+        settings[key] = int(settings[key])
+    return name, settings
+
+
+def count_left_players(definition: str) -> int:
+    """Returns how many players of the left team a definition plays."""
+    return int(parse_player_definition(definition)[1]["left_players"])
+
+
+def count_right_players(definition: str) -> int:
+    """Returns how many players of the right team a definition plays."""
+    return int(parse_player_definition(definition)[1]["right_players"])
+
+
+def count_players(definition: str) -> int:
+    """Returns how many players a definition plays."""
+    return count_left_players(definition) + count_right_players(definition)
+
+
+def get_agent_number_of_players(players: list[str]) -> int:
+    """Returns how many players the `agent` among some definitions plays."""
+    return sum(count_players(each) for each in players if parse_player_definition(each)[0] == "agent")
+
+
+def _defaults() -> dict[str, Any]:
+    return {
+        "action_set": "default",
+        "custom_display_stats": None,
+        "display_game_stats": True,
+        "dump_full_episodes": False,
+        "dump_scores": False,
+        "players": ["agent:left_players=1"],
+        "level": "11_vs_11_stochastic",
+        "physics_steps_per_frame": 10,
+        "render_resolution_x": 1280,
+        "render_resolution_y": 720,
+        "real_time": False,
+        "tracesdir": str(Path(tempfile.gettempdir(), "dumps")),
+        "video_format": "avi",
+        "video_quality_level": 0,
+        "write_video": False,
+        "grf_bugs": False,
+    }
+
+
+class Config:
+    """The settings by name, `config["level"]`, with GRF's defaults, and the scenario of the current episode.
+
+    Settings beside GRF's: `grf_bugs`, True or a list of names out of `BUGS`. Raises `ParameterError` for a setting that
+    is not there or a value that it can't have, `UnavailableError` for one that this version can't follow.
+    """
+
+    def __init__(self, values: dict[str, Any] | None = None) -> None:
+        self._values = _defaults()
+        self._scenario_values: dict[str, Any] = {}
+        self._scenario: Scenario
+        # Where the seeds of episodes come from; `FootballEnv.seed` gives it a stream of its own.
+        self.draw: Callable[[int, int], int] = random.randint
+        values = dict(values or {})
+        if "render_resolution_x" in values and "render_resolution_y" not in values:
+            values["render_resolution_y"] = int(0.5625 * values["render_resolution_x"])
+        number = values.pop("episode_number", 0)
+        self.update(values)
+        self._values["episode_number"] = number
+        self.NewScenario()
+
+    def __getitem__(self, key: str) -> Any:
+        if key in self._scenario_values:
+            return self._scenario_values[key]
+        if key not in self._values:
+            raise ParameterError(f"no setting `{key}`", name=str(key), help=similar(key, self._values))
+        return self._values[key]
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        _check(key, value)
+        self._values[key] = value
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._scenario_values or key in self._values
+
+    def __repr__(self) -> str:
+        return f"Config({self.get_dictionary()})"
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Returns a setting, or `default` where it has no value."""
+        return self.get_dictionary().get(key, default)
+
+    def get_dictionary(self) -> dict[str, Any]:
+        """Returns all settings, as they are in this episode."""
+        return {**self._values, **self._scenario_values}
+
+    def update(self, values: dict[str, Any]) -> None:
+        """Takes over settings."""
+        for key, value in values.items():
+            self[key] = value
+
+    def set_scenario_value(self, key: str, value: Any) -> None:
+        """Sets a value for this episode alone."""
+        self._scenario_values[key] = value
+
+    def number_of_left_players(self) -> int:
+        """Returns how many players of the left team are played by somebody."""
+        return sum(count_left_players(each) for each in self["players"])
+
+    def number_of_right_players(self) -> int:
+        """Returns how many players of the right team are played by somebody."""
+        return sum(count_right_players(each) for each in self["players"])
+
+    def number_of_players_agent_controls(self) -> int:
+        """Returns how many players the `agent` plays."""
+        return get_agent_number_of_players(self["players"])
+
+    def has_bug(self, name: str) -> bool:
+        """Whether a bug of GRF is wished back."""
+        bugs = self["grf_bugs"]
+        return bugs if isinstance(bugs, bool) else name in ([bugs] if isinstance(bugs, str) else bugs)
+
+    def Scenario(self) -> Scenario:  # noqa: N802  # GRF's names
+        """Returns the scenario of this episode."""
+        return self._scenario
+
+    def ScenarioConfig(self) -> ScenarioConfig:  # noqa: N802
+        """Returns what the scenario of this episode sets."""
+        return self._scenario.config()
+
+    def NewScenario(self, inc: int = 1) -> None:  # noqa: N802
+        """Builds the scenario of the next episode, or the same one again with `inc=0`; draws its seed."""
+        self._scenario_values = {}
+        self._values["episode_number"] += inc
+        self._scenario = Scenario(self)
+        recorded = self._scenario.config()
+        if recorded.reverse_team_processing:
+            raise _no_reverse()
+        recorded.real_time = bool(self["real_time"])
+        recorded.left_agents = self.number_of_left_players()
+        recorded.right_agents = self.number_of_right_players()
+        seed = self._values.get("game_engine_random_seed")
+        if seed is None:
+            seed = self.draw(0, SEED_MAX)
+        if not recorded.deterministic:
+            recorded.game_engine_random_seed = seed
+        self._scenario_values["game_engine_random_seed"] = recorded.game_engine_random_seed
+
+
+def _no_reverse() -> Exception:
+    return unavailable("reverse_team_processing", "an order in which the teams are moved", "leave it out, or False")
+
+
+def _check(key: str, value: Any) -> None:
+    """Raises where a setting is not there, can't have a value, or asks for what this version has not."""
+    known = (*_defaults(), *OPTIONAL)
+    if key not in known:
+        raise ParameterError(f"no setting `{key}`", name=str(key), help=similar(key, known))
+    if key == "action_set":
+        check_word(key, value, tuple(action_set_dict))
+        if value == "full" and "full" not in _native.ACTION_SETS:
+            raise unavailable(key, "the action set `full`", "`default` has 19 actions, `v2` 20")
+    elif key == "level":
+        if not isinstance(value, str) or not value:
+            raise ParameterError("the level needs a name", name=key, help="for example `academy_3_vs_1_with_keeper`")
+    elif key == "players":
+        _check_players(value)
+    elif key == "physics_steps_per_frame" and value != 10:
+        raise unavailable(key, "another length of a step than 100 ms", "leave it at 10")
+    elif key == "write_video" and value:
+        raise no_pictures(key)
+    elif key == "reverse_team_processing" and value:
+        raise _no_reverse()
+    elif key == "video_format":
+        check_word(key, value, ("avi", "webm"))
+    elif key == "game_engine_random_seed":
+        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+            raise ParameterError(f"`{key}` is {value!r}; it is an integer from 0 on", name=key)
+    elif key == "grf_bugs" and not isinstance(value, bool):
+        names = [value] if isinstance(value, str) else value
+        if not isinstance(names, (list, tuple)):
+            raise ParameterError(f"`{key}` is {value!r}; it is True, False or a list of names", name=key)
+        for name in names:
+            check_word(key, name, BUGS)
+
+
+def _check_players(definitions: Any) -> None:
+    if isinstance(definitions, str) or not isinstance(definitions, (list, tuple)):
+        raise ParameterError(f"expected a list of players' definitions, found `{definitions!r}`", name="players")
+    if sum(parse_player_definition(each)[0] == "agent" for each in definitions) > 1:
+        raise ParameterError("there is at most one `agent` among the players", name="players")
+
+
+def no_pictures(name: str) -> Exception:
+    """Returns the error of everything that needs a picture of the pitch."""
+    return unavailable(name, "a picture of the pitch", "`setpiece render` draws an episode of a scenario from above")

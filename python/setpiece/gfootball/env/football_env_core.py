@@ -1,0 +1,253 @@
+"""The match itself: episodes of a config's scenario on the engine, seen as a whole and by each played slot."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import gymnasium
+import numpy as np
+
+import setpiece
+from setpiece import _native
+from setpiece._errors import SnapshotError
+from setpiece.gfootball._translation import LIMIT_MAX
+from setpiece.gfootball._words import unavailable
+from setpiece.gfootball.env import football_action_set as actions
+from setpiece.gfootball.env.football_action_set import NUMBERS, CoreAction, get_sticky_actions
+from setpiece.gfootball.env.observation_rotation import flip_observation, flip_single_action
+from setpiece.gfootball.env.scenario_builder import Source
+from setpiece.gfootball.env.scenario_config import ScenarioConfig
+
+if TYPE_CHECKING:
+    from setpiece.gfootball.env.config import Config
+
+STEP_S = 0.1
+STALLED = 20
+"""Steps after which a set piece that waits is taken for the agents."""
+TURNING = 30
+"""Steps after which its taker is sent the other way."""
+NATIVE_SET = "full" if "full" in _native.ACTION_SETS else "v2"
+
+# Where GRF thinks that the players of a team stand, by place in the team, when it deals out the slots of the first
+# observation: to whoever is nearest the centre spot.
+_TEMPLATE = (
+    *((-1.0, 0.0), (-0.74, 0.77), (-1.0, 0.25), (-1.0, -0.25), (-0.74, -0.77), (0.05, 0.42)),
+    *((-0.23, 0.0), (0.05, -0.42), (0.36, 0.85), (1.0, 0.0), (0.36, -0.85)),
+)
+_CENTRAL = [x * x + y * y for x, y in _TEMPLATE]
+
+
+class FootballEnvCore:
+    """A match with a slot for each played player, the left team's first.
+
+    Slots beyond the players whom agents may play stay without one: they see the match with `active` -1.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._asked = config.number_of_left_players(), config.number_of_right_players()
+        self._played = (1, 0)
+        self._env: setpiece.FootballEnv | None = None
+        self._source: Source | None = None
+        self._limit: int | None = None
+        self.slots: list[dict[str, Any]] = []
+        """What each slot sees, in its team's own frame."""
+        self.whole: dict[str, Any] = {}
+        """The whole match, in the frame of the pitch."""
+        self.score = (0, 0)
+        self.waiting = 0
+        self.step_count = -1
+        self.cumulative_reward = 0.0
+        self.done = True
+        self._next_frame = 0.0
+
+    def reset(self, inc: int = 1) -> None:
+        """Begins the next episode, or with `inc=0` the same one anew."""
+        config = self._config
+        config.NewScenario(inc)
+        recorded = config.ScenarioConfig()
+        self._enter(config.Scenario().source, _length(recorded), self._playable(recorded))
+        assert self._env is not None
+        observed, info = self._env.reset(
+            seed=recorded.game_engine_random_seed, options={"episode": config["episode_number"] % 2}
+        )
+        self.waiting, self.step_count, self.cumulative_reward, self.done = 0, -1, 0.0, False
+        self._see(observed, info)
+        if config.has_bug("first_active"):
+            self._first_active(recorded)
+
+    def step(self, chosen: Sequence[CoreAction]) -> float:
+        """Plays 100 ms with an action for each slot, as on the pitch; returns how the left team's lead has changed."""
+        if self.done or self._env is None:
+            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+        numbers = self._numbers(self._hurried(chosen))
+        observed, _, terminated, truncated, info = self._env.step(numbers[0] if len(numbers) == 1 else numbers)
+        lead = self.score[0] - self.score[1]
+        self._see(observed, info)
+        reward = float(self.score[0] - self.score[1] - lead)
+        self.step_count += 1
+        self.cumulative_reward += reward
+        self.waiting = self.waiting + 1 if self.whole["game_mode"] != 0 else 0
+        self.done = terminated or truncated
+        if self._config["real_time"]:
+            self._pace()
+        return reward
+
+    def state(self) -> dict[str, Any]:
+        """Returns all that the match goes on from."""
+        assert self._env is not None
+        assert self._source is not None
+        source = self._source
+        return {
+            "source": (source.name, source.text, source.folder),
+            "limit": self._limit,
+            "played": self._played,
+            "agents": self._asked,
+            "snapshot": self._env.snapshot(),
+            "waiting": self.waiting,
+            "step_count": self.step_count,
+            "cumulative_reward": self.cumulative_reward,
+            "done": self.done,
+        }
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Goes on from a state; `SnapshotError` for one of other slots or another scenario, and nothing has changed."""
+        if tuple(state["agents"]) != self._asked:
+            raise SnapshotError(f"the state has {state['agents']} played players, this environment {self._asked}")
+        source = Source(*state["source"])
+        if self._source is None or source.name != self._source.name:
+            raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
+        before = self._env, self._source, self._limit, self._played
+        try:
+            self._enter(source, state["limit"], state["played"])
+            assert self._env is not None
+            observed, info = self._env.restore(state["snapshot"])
+        except setpiece.SetpieceError:
+            self._env, self._source, self._limit, self._played = before
+            raise
+        self.waiting, self.step_count = state["waiting"], state["step_count"]
+        self.cumulative_reward, self.done = state["cumulative_reward"], state["done"]
+        self._see(observed, info)
+
+    def _enter(self, source: Source, limit: int | None, played: tuple[int, int]) -> None:
+        """Makes the environment of a scenario, unless it is the one that is there."""
+        if self._env is None or (source, limit, played) != (self._source, self._limit, self._played):
+            scenario = source.compiled(str(played[0]), str(played[1]), limit)
+            self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set=NATIVE_SET)
+            self._source, self._limit, self._played = source, limit, played
+
+    def _playable(self, recorded: ScenarioConfig) -> tuple[int, int]:
+        """How many slots the engine has: one is always there, since somebody has to see the match."""
+        left = min(self._asked[0], recorded.controllable_left_players)
+        right = min(self._asked[1], recorded.controllable_right_players)
+        if left + right == 0:
+            return (1, 0) if recorded.controllable_left_players else (0, 1)
+        return left, right
+
+    def _see(self, observed: Any, info: dict[str, Any]) -> None:
+        """Takes over what the engine shows."""
+        self.score = (info["score"][0], info["score"][1])
+        left = self._played[0]
+        views = [self._view(each) for each in (observed if isinstance(observed, tuple) else (observed,))]
+        first = views[0] if left else flip_observation(views[0], self._config)
+        asked_left, asked_right = self._asked
+        own = views[:left][:asked_left]
+        other = views[left:][:asked_right]
+        nobody = {**first, "active": -1, "sticky_actions": _nothing_held(self._config)}
+        if len(own) < asked_left:
+            own += [nobody] * (asked_left - len(own))
+        if len(other) < asked_right:
+            designated = other[0]["designated"] if other else -1
+            turned = {**flip_observation(nobody, self._config), "designated": designated}
+            other += [turned] * (asked_right - len(other))
+        self.slots = own + other
+        self.whole = self._whole(first, own, other, left > 0)
+
+    def _view(self, native: dict[str, Any]) -> dict[str, Any]:
+        """A slot's observation with GRF's types."""
+        held = len(get_sticky_actions(self._config))
+        view = {
+            **native,
+            "score": [int(goals) for goals in native["score"]],
+            "steps_left": int(native["steps_left"]),
+            "sticky_actions": native["sticky_actions"][:held],
+        }
+        if view["game_mode"] == 1 and self._config.has_bug("kick_off_mode"):
+            view["game_mode"] = 0
+        return view
+
+    def _whole(
+        self, first: dict[str, Any], left: list[dict[str, Any]], right: list[dict[str, Any]], seen_by_left: bool
+    ) -> dict[str, Any]:
+        """The whole match, out of a left player's view and of who is played by whom."""
+        whole = {key: value for key, value in first.items() if key not in ("active", "designated", "sticky_actions")}
+        for side, views in (("left", left), ("right", right)):
+            whole[f"{side}_agent_controlled_player"] = [view["active"] for view in views]
+            whole[f"{side}_team_designated_player"] = views[0]["designated"] if views else -1
+        if seen_by_left:
+            whole["left_team_designated_player"] = first["designated"]
+        whole["left_agent_sticky_actions"] = [view["sticky_actions"] for view in left]
+        whole["right_agent_sticky_actions"] = [flip_observation(view, self._config)["sticky_actions"] for view in right]
+        return whole
+
+    def _hurried(self, chosen: Sequence[CoreAction]) -> list[CoreAction]:
+        """The actions, or what takes a set piece that has waited for too long."""
+        if self.waiting < STALLED:
+            return list(chosen)
+        if self.waiting == STALLED:
+            return [actions.action_short_pass] * len(chosen)
+        hurried = [actions.action_idle] * len(chosen)
+        left = self._asked[0]
+        for number, slot in enumerate(self.slots):
+            if slot["ball_owned_team"] == 0 and slot["active"] == slot["ball_owned_player"]:
+                onwards = (number < left) == (self.waiting < TURNING)
+                hurried[number] = actions.action_right if onwards else actions.action_left
+        return hurried
+
+    def _numbers(self, chosen: Sequence[CoreAction]) -> list[int]:
+        """The engine's numbers of the actions of those slots that have a player, in their teams' own frames."""
+        left, right = self._played
+        asked_left, asked_right = self._asked
+        if asked_left + asked_right == 0 or not self.slots:
+            return [NUMBERS["builtin_ai"]]
+        own = list(chosen[:asked_left])[:left]
+        other = [flip_single_action(action, self._config) for action in chosen[asked_left:]][:right]
+        if not own and not other:
+            return [NUMBERS["builtin_ai"]]
+        numbers = [NUMBERS[action.name] for action in (*own, *other)]
+        for number, action in zip(numbers, (*own, *other), strict=True):
+            if number >= _native.ACTION_SETS[NATIVE_SET]:
+                raise unavailable("action", f"the action `{action.name}`")
+        return numbers
+
+    def _first_active(self, recorded: ScenarioConfig) -> None:
+        """Shows in the first observation whom GRF shows: it deals the slots out by a layout that nobody stands in."""
+        teams = (recorded.left_team, recorded.right_team)
+        slots = [self.slots[: self._asked[0]], self.slots[self._asked[0] :]]
+        for side, (entries, views) in enumerate(zip(teams, slots, strict=True)):
+            playable = [number for number, entry in enumerate(entries) if entry.controllable]
+            if not 0 < len(views) < len(playable):
+                continue
+            dealt = sorted(sorted(playable, key=lambda number: _CENTRAL[number])[: len(views)])
+            slots[side] = [{**view, "active": number} for view, number in zip(views, dealt, strict=True)]
+            self.whole[f"{('left', 'right')[side]}_agent_controlled_player"] = dealt
+        self.slots = slots[0] + slots[1]
+
+    def _pace(self) -> None:
+        """Waits until the step's time has passed."""
+        now = time.monotonic()
+        if self._next_frame < now - STEP_S:
+            self._next_frame = now
+        self._next_frame += STEP_S
+        time.sleep(max(0.0, self._next_frame - now))
+
+
+def _nothing_held(config: Config) -> Any:
+    return np.zeros(len(get_sticky_actions(config)), np.uint8)
+
+
+def _length(recorded: ScenarioConfig) -> int | None:
+    """The steps of an episode: GRF plays one more than it says."""
+    return recorded.game_duration + 1 if recorded.game_duration < LIMIT_MAX else None

@@ -1,0 +1,106 @@
+"""Dumps: what happened in an episode, written down as pickled dicts, one behind the other.
+
+A record has `debug` (`action`: what was played, in the frame of the pitch; `frame_cnt`, `reward`, `time`; the first
+record also `config`), `observation` (of the whole match), `reward` and `cumulative_reward`.
+"""
+
+from __future__ import annotations
+
+import pickle
+import time
+from collections import deque
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from setpiece._errors import FileError, FormatError
+
+if TYPE_CHECKING:
+    from setpiece.gfootball.env.config import Config
+
+LAST = 100
+"""Steps before the moment that a dump shows."""
+EPISODE_MAX = 10_000
+"""Steps of a whole episode that are kept."""
+SCORE_PAUSE_S = 600.0
+"""Seconds between two dumps of goals of the same kind."""
+
+Trace = dict[str, Any]
+
+
+class ObservationProcessor:
+    """Keeps the last steps of an episode and writes the dumps that the settings ask for."""
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._last: deque[Trace] = deque(maxlen=LAST + 1)
+        self._episode: deque[Trace] = deque(maxlen=EPISODE_MAX)
+        self._pending: str | None = None
+        self._written: dict[str, float] = {}
+
+    def add(self, trace: Trace, reward: float, done: bool) -> list[dict[str, str]]:
+        """Takes a step down; returns the dumps that it completed."""
+        finished = []
+        self._last.append(trace)
+        if self._config["dump_full_episodes"]:
+            self._episode.append(trace)
+        if self._pending is not None:
+            finished += self._score_dump(self._pending)
+            self._pending = None
+        if reward and self._config["dump_scores"]:
+            self._pending = "score" if reward > 0 else "lost_score"
+        if done:
+            if self._pending is not None:
+                finished += self._score_dump(self._pending)
+                self._pending = None
+            if self._config["dump_full_episodes"]:
+                finished.append(self._write("episode_done", list(self._episode)))
+        return finished
+
+    def write_dump(self, name: str) -> str | None:
+        """Writes the last steps under a name and returns the path; None where that was done or nothing was played."""
+        if name in self._written or not self._last:
+            return None
+        self._written[name] = time.monotonic()
+        return self._write(name, list(self._last)[-LAST:])["dump"]
+
+    def _score_dump(self, name: str) -> list[dict[str, str]]:
+        now = time.monotonic()
+        if name in self._written and now - self._written[name] < SCORE_PAUSE_S:
+            return []
+        self._written[name] = now
+        return [self._write(name, list(self._last))]
+
+    def _write(self, name: str, traces: list[Trace]) -> dict[str, str]:
+        folder = Path(self._config["tracesdir"])
+        path = folder / f"{name}_{datetime.now():%Y%m%d-%H%M%S%f}.dump"
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with path.open("wb") as file:
+                for number, trace in enumerate(traces):
+                    debug = dict(trace["debug"])
+                    if number == 0:
+                        debug["config"] = self._config.get_dictionary()
+                    pickle.dump({**trace, "debug": debug}, file)
+        except OSError as error:
+            raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from error
+        return {"name": name, "dump": str(path)}
+
+
+def read_dump(path: str) -> list[Trace]:
+    """Returns the records of a dump. Unpickling runs what a file says: read dumps that you trust.
+
+    Raises `FileError` where the file can't be read, `FormatError` where it is no dump.
+    """
+    records = []
+    try:
+        with Path(path).open("rb") as file:
+            while file.peek(1):
+                records.append(pickle.load(file))
+    except OSError as error:
+        raise FileError(f"`{path}` can't be read: {error.strerror}", path=path) from error
+    except Exception as error:
+        raise FormatError(f"`{path}` is no dump, or cut off") from error
+    if not records or not all(isinstance(each, dict) and "debug" in each for each in records):
+        raise FormatError(f"`{path}` is no dump, or cut off")
+    return records

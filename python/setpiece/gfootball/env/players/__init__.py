@@ -1,0 +1,1 @@
+"""The players that a definition can name; each module has a class `Player`."""

@@ -1,0 +1,15 @@
+"""A person at the gamepad: needs a window, which this version has not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from setpiece.gfootball._words import unavailable
+from setpiece.gfootball.env.player_base import PlayerBase
+
+
+class Player(PlayerBase):
+    """Raises `UnavailableError`."""
+
+    def __init__(self, player_config: dict[str, Any], env_config: Any) -> None:  # noqa: ARG002
+        raise unavailable("players", "a player at the gamepad", "`bot`, `builtin_ai`, `lazy` and `replay` play alone")

@@ -1,0 +1,243 @@
+"""Finds a scenario by its level's name and runs its script, if it is one in Google Research Football's form."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import re
+import sys
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import setpiece
+from setpiece import _native
+from setpiece._errors import FileError, ParameterError, SetpieceError, UnknownScenarioError
+from setpiece.gfootball import scenarios
+from setpiece.gfootball._translation import identifier, to_pitch
+from setpiece.gfootball._words import similar
+from setpiece.gfootball.env.scenario_config import NEVER, FormationEntry, ScenarioConfig
+from setpiece.gfootball.scenarios import PlayerRole, Team
+
+if TYPE_CHECKING:
+    from setpiece.gfootball.env.config import Config
+
+PACKAGES = ("setpiece.gfootball.scenarios", "gfootball.scenarios")
+Script = Callable[["Recorder"], object]
+
+
+def all_scenarios() -> list[str]:
+    """Returns the levels of the library."""
+    return [entry.name for entry in setpiece.list()]
+
+
+@dataclass
+class Recorder:
+    """The `builder` of a script: it takes down what the script says.
+
+    >>> recorder = Recorder(episode_number=2)
+    >>> recorder.SetTeam(Team.e_Right)
+    >>> recorder.AddPlayer(-1.0, 0.0, PlayerRole.e_PlayerRole_GK, lazy=True)
+    >>> recorder.config().right_team[0].lazy
+    True
+    """
+
+    episode_number: int
+    recorded: ScenarioConfig = field(default_factory=ScenarioConfig)
+    team: Team = Team.e_Left
+
+    def config(self) -> ScenarioConfig:
+        """Returns what the script sets directly."""
+        return self.recorded
+
+    def ScenarioConfig(self) -> ScenarioConfig:  # noqa: N802  # GRF's names
+        """Returns what `config` returns."""
+        return self.recorded
+
+    def SetTeam(self, team: Team) -> None:  # noqa: N802
+        """Says whose players are added from now on."""
+        try:
+            self.team = Team(team)
+        except ValueError:
+            raise ParameterError(
+                f"no team `{team!r}`", name="team", help="there are `Team.e_Left` and `Team.e_Right`"
+            ) from None
+
+    def AddPlayer(  # noqa: N802
+        self, x: float, y: float, role: PlayerRole, lazy: bool = False, controllable: bool = True
+    ) -> None:
+        """Adds a player, in his team's own frame: his own goal is at x = -1."""
+        try:
+            entry = FormationEntry((float(x), float(y)), PlayerRole(role), bool(lazy), bool(controllable))
+        except (TypeError, ValueError):
+            raise ParameterError(
+                f"AddPlayer({x!r}, {y!r}, {role!r}) is no player",
+                name="AddPlayer",
+                help="write two numbers and a role such as `e_PlayerRole_CM`",
+            ) from None
+        (self.recorded.left_team if self.team == Team.e_Left else self.recorded.right_team).append(entry)
+
+    def SetBallPosition(self, x: float, y: float) -> None:  # noqa: N802
+        """Lays the ball down, in the left team's frame."""
+        self.recorded.ball_position[:2] = [float(x), float(y)]
+
+    def EpisodeNumber(self) -> int:  # noqa: N802
+        """Returns the number of the episode; that of the first `reset` is 2."""
+        return self.episode_number
+
+
+def record(script: Script, episode_number: int) -> ScenarioConfig:
+    """Runs a script for one episode and returns what it set; a team without players gets a lazy keeper, as in GRF."""
+    recorder = Recorder(episode_number)
+    script(recorder)
+    for team in (recorder.recorded.left_team, recorder.recorded.right_team):
+        if not team:
+            team.append(FormationEntry((-1.0, 0.42), PlayerRole.e_PlayerRole_GK, lazy=True))
+    return recorder.recorded
+
+
+@dataclass(frozen=True)
+class Source:
+    """A scenario as text: `text` makes `name` known to whoever extends it; `folder` is where imports are read from."""
+
+    name: str
+    text: str = ""
+    folder: str = ""
+
+    def compiled(self, left: str, right: str, steps: int | None) -> setpiece.Scenario:
+        """Returns the scenario with so many agents on each side (`all` for everybody) and so many steps."""
+        return _compiled(self, left, right, steps)
+
+
+@lru_cache(maxsize=256)
+def _compiled(source: Source, left: str, right: str, steps: int | None) -> setpiece.Scenario:
+    name = f"{source.name}_in_gfootball"
+    limit = "" if steps is None else f" end limit {steps} steps"
+    text = f"scenario {name} extends {source.name} {{ agents {{ left: {left}, right: {right} }}{limit} }}\n"
+    return setpiece.compile(source.text + text, str(Path(source.folder, f"{name}.pitch")))
+
+
+@lru_cache(maxsize=256)
+def _measured(source: Source) -> ScenarioConfig:
+    """Returns of a scenario that is no script what can be seen from outside: players, agents and length."""
+    scenario = source.compiled("all", "all", None)
+    native = _native.Environment(
+        scenario, observation="raw", rewards=[], events=False, copy=True, action_set="v2", bot_action=False
+    )
+    observed, _ = native.reset(0, 0, {}, None)
+    views = observed if isinstance(observed, tuple) else (observed,)
+    teams = [agent.team for agent in native.agents]
+    if not teams:
+        raise ParameterError(f"nobody of `{source.name}` can be played by an agent", name="level")
+    first, turned = views[0], teams[0] == 1
+    recorded = ScenarioConfig()
+    recorded.game_duration = int(first["steps_left"]) if first["steps_left"] >= 0 else NEVER
+    recorded.ball_position = [float(number) for number in first["ball"]]
+    if turned:
+        recorded.ball_position[:2] = [-number for number in recorded.ball_position[:2]]
+    for team, entries in enumerate((recorded.left_team, recorded.right_team)):
+        own = (team == 1) == turned
+        block, sign = ("left_team", 1.0) if own else ("right_team", -1.0)
+        played = {view["active"] for view, side in zip(views, teams, strict=True) if side == team}
+        for number, (place, role) in enumerate(zip(first[block], first[f"{block}_roles"], strict=True)):
+            position = (sign * float(place[0]), sign * float(place[1]))
+            entries.append(FormationEntry(position, PlayerRole(int(role)), False, number in played))
+    return recorded
+
+
+class Scenario:
+    """The scenario of one episode: what its script says for it, or what the library says."""
+
+    source: Source
+    """The text that is played."""
+
+    def __init__(self, config: Config) -> None:
+        """Builds the scenario of `config["level"]` for the episode `config["episode_number"]`."""
+        level = config["level"]
+        found = find(level)
+        if isinstance(found, Source):
+            self.source = found
+            self._recorded = deepcopy(_measured(found))
+        else:
+            self._recorded = record(found, config["episode_number"])
+            name = identifier(level)
+            self.source = Source(name, to_pitch(self._recorded, name))
+
+    def config(self) -> ScenarioConfig:
+        """Returns what is known of the scenario."""
+        return self._recorded
+
+    ScenarioConfig = config
+
+
+def find(level: object) -> Source | Script:
+    """Returns the scenario of a level's name: the text of one of the library or of a `.pitch` file, or a script.
+
+    Raises `UnknownScenarioError`, or `FileError` for a path that can't be read.
+    """
+    if not isinstance(level, str) or not level:
+        raise ParameterError("the level needs a name", name="level", help="for example `academy_3_vs_1_with_keeper`")
+    if level.endswith(".py"):
+        return script_of(load_script(level), level)
+    if level.endswith(".pitch"):
+        path = Path(level).resolve()
+        return Source(setpiece.load(path).name, f'import "{path.name}"\n', str(path.parent))
+    names = [f"{package}.{level}" for package in PACKAGES if package in sys.modules]
+    for name in [*names, level] if "." in level else names:
+        module = _imported(name)
+        if module is not None and (hasattr(module, "build_scenario") or name != level):
+            return script_of(module, name)
+    if level in all_scenarios():
+        return Source(level)
+    raise UnknownScenarioError(
+        f"no scenario `{level}`",
+        name=level,
+        help=similar(level, all_scenarios()) or "a module of your own goes by its dotted name or its path",
+    )
+
+
+def load_script(path: str) -> ModuleType:
+    """Runs the file of a script as a module of the package of scenarios, so that `from . import *` works in it.
+
+    Raises `FileError` where there is no such file.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise FileError(f"no file `{path}`", path=path)
+    return _load_script(str(file.resolve()), file.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=64)
+def _load_script(path: str, _changed: int) -> ModuleType:
+    name = f"{scenarios.__name__}.{re.sub(r'[^0-9a-zA-Z_]', '_', Path(path).stem)}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise FileError(f"`{path}` is no Python file", path=path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _imported(name: str) -> ModuleType | None:
+    """Returns a module, or None where there is none of this name; an error inside it stays an error."""
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name is not None and (name == error.name or name.startswith(f"{error.name}.")):
+            return None
+        raise
+
+
+def script_of(module: ModuleType, name: str) -> Script:
+    """Returns a module's `build_scenario`; `SetpieceError` where it has none."""
+    script: Any = getattr(module, "build_scenario", None)
+    if not callable(script):
+        raise SetpieceError(
+            f"`{name}` has no `build_scenario`", help="write `def build_scenario(builder):`, as scenarios of GRF do"
+        )
+    found: Script = script
+    return found

@@ -1,0 +1,96 @@
+"""Reads dumps: as records, as text, and as matches played again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from pprint import pformat
+from typing import Any
+
+from setpiece._errors import FileError, FormatError, ParameterError
+from setpiece.gfootball._words import unavailable
+from setpiece.gfootball.env.config import Config, no_pictures
+from setpiece.gfootball.env.football_env import FootballEnv
+from setpiece.gfootball.env.observation_processor import read_dump
+
+FPS = 10
+
+
+class ScriptHelpers:
+    """What GRF's scripts for dumps do, as methods."""
+
+    def load_dump(self, dump_file: str) -> list[dict[str, Any]]:
+        """Returns the records of a dump; unpickling runs what a file says, so read dumps that you trust."""
+        return read_dump(dump_file)
+
+    def dump_to_txt(self, dump_file: str, output: str, include_debug: bool = True) -> None:
+        """Writes the records of a dump as text.
+
+        - `include_debug`: whether what only helps to find errors, such as actions and times, is written too.
+        """
+        records = read_dump(dump_file)
+        if not include_debug:
+            records = [{key: value for key, value in record.items() if key != "debug"} for record in records]
+        try:
+            Path(output).write_text("".join(f"{pformat(record)}\n" for record in records), encoding="utf-8")
+        except OSError as error:
+            raise FileError(f"`{output}` can't be written: {error.strerror}", path=output) from error
+
+    def build_players(self, dump_file: str, spec: list[str] | None = None) -> list[str]:
+        """Returns a definition for each player whose actions a dump has: `replay`, or in order what `spec` says."""
+        config = _config_of(dump_file)
+        left, right = config.number_of_left_players(), config.number_of_right_players()
+        sides = ["left_players"] * left + ["right_players"] * right
+        given = list(spec or [])
+        if len(given) > len(sides):
+            raise ParameterError(f"{len(given)} players are given, the dump has {len(sides)}", name="spec")
+        return [*given, *(f"replay:path={dump_file},{side}=1" for side in sides[len(given) :])]
+
+    def replay(
+        self,
+        dump: str,
+        fps: int = FPS,
+        config_update: dict[str, Any] | None = None,
+        directory: str | None = None,
+        render: bool = True,
+    ) -> list[dict[str, Any]]:
+        """Plays the match of a whole episode's dump again, action by action; returns its info of every step.
+
+        - `config_update`: settings that differ from the dump's.
+        - `directory`: where dumps of the repetition go.
+
+        Raises `UnavailableError` for `render=True` and for other `fps` than 10.
+        """
+        if render:
+            raise no_pictures("render")
+        if fps != FPS:
+            raise unavailable("fps", "another length of a step than 100 ms", f"leave `fps` at {FPS}")
+        config = _config_of(dump)
+        config["players"] = self.build_players(dump)
+        config.update(config_update or {})
+        if directory is not None:
+            config["tracesdir"] = directory
+        env = FootballEnv(config)
+        env.reset()
+        infos = []
+        for _ in read_dump(dump):
+            _, _, done, info = env.step([])
+            infos.append(info)
+            if done:
+                break
+        return infos
+
+    def dump_to_video(self, dump_file: str) -> None:
+        """Raises `UnavailableError`: there are no pictures in this version."""
+        del dump_file
+        raise no_pictures("dump_to_video")
+
+
+def _config_of(dump_file: str) -> Config:
+    """Returns the settings with which an episode was dumped, so that the next `reset` begins that episode."""
+    debug = read_dump(dump_file)[0]["debug"]
+    if "config" not in debug:
+        raise FormatError(f"`{dump_file}` has no settings in its first record")
+    values = dict(debug["config"])
+    # Making a config counts one episode, and `reset` another.
+    values["episode_number"] -= 2
+    return Config(values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -49,15 +50,18 @@ def action_space(n_agents: int, action_set: str) -> spaces.Discrete | spaces.Mul
     return spaces.MultiDiscrete(np.full(n_agents, n_actions, np.int64))
 
 
-def observation_space(native: _native.Environment, observation: str) -> spaces.Space[Any]:
-    """Returns the space of what `reset` and `step` observe.
+def observation_space(
+    native: _native.Environment, observation: str, agents: Sequence[_native.AgentInfo] | None = None
+) -> spaces.Space[Any]:
+    """Returns the space of what `reset` and `step` observe: all agents of an environment, or some of them.
 
     With several agents, or none, an array gains a leading axis, and a raw observation becomes a tuple with one part per
     agent.
     """
-    n_agents = len(native.agents)
+    agents = native.agents if agents is None else agents
+    n_agents = len(agents)
     if observation == "raw":
-        parts = [_raw_space(native.players, agent.team) for agent in native.agents]
+        parts = [_raw_space(native.players, agent.team) for agent in agents]
         return parts[0] if n_agents == 1 else spaces.Tuple(parts)
     if observation == "smm":
         shape = _native.SMM_SHAPE if n_agents == 1 else (n_agents, *_native.SMM_SHAPE)

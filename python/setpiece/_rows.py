@@ -1,0 +1,57 @@
+"""Observations and infos of many agents, taken apart: what some of them, or one, would have been given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+Pick = Callable[[Any], Any]
+
+
+def picker(n_agents: int, who: int | Sequence[int]) -> Pick:
+    """Returns what takes from a value of n agents the part of one (a number) or of several (a list).
+
+    A value of several agents has a leading axis (arrays) or a part for each (tuples, lists); that of one has none, and
+    so has what is taken for one.
+    """
+    if isinstance(who, int):
+        return _identity if n_agents == 1 else lambda value: _plain(value[who])
+    several = list(who)
+
+    def pick(value: Any) -> Any:
+        rows = _listed(value) if n_agents == 1 else value
+        if isinstance(rows, np.ndarray):
+            return rows[several]
+        return type(rows)(rows[at] for at in several)
+
+    return pick
+
+
+def pick_info(info: dict[str, Any], pick: Pick, n_agents: int, n_actions: int) -> dict[str, Any]:
+    """Returns the info with what tells of agents picked; masks are those of the first `n_actions` actions."""
+    picked = {**info, "reward_terms": {name: pick(paid) for name, paid in info["reward_terms"].items()}}
+    picked["action_mask"] = pick(info["action_mask"])[..., :n_actions]
+    if "bot_action" in info:
+        picked["bot_action"] = pick(info["bot_action"])
+    if "setpiece" in info:
+        returns = {name: pick(paid) for name, paid in info["setpiece"]["return"].items()}
+        picked["setpiece"] = {**info["setpiece"], "return": returns}
+    if "records" in info and n_agents != 1:
+        # Only what depends on the agent is a list.
+        picked["records"] = {k: pick(v) if isinstance(v, list) else v for k, v in info["records"].items()}
+    return picked
+
+
+def _identity(value: Any) -> Any:
+    return value
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _listed(value: Any) -> Any:
+    """The value of one agent as that of a list of one."""
+    return (value,) if isinstance(value, dict) else np.asarray(value)[None]

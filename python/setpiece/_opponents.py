@@ -13,7 +13,7 @@ import numpy as np
 from setpiece._errors import ActionError, OpponentError, ParameterError
 from setpiece._native import AgentInfo
 from setpiece._onnx import onnx_policy
-from setpiece._rows import Pick, pick_info, picker
+from setpiece._rows import Picker, pick_info
 from setpiece._spaces import check_observation
 from setpiece._vocabulary import Action
 
@@ -70,7 +70,7 @@ class _Seat:
 
     agents: tuple[str, ...]
     at: list[int]
-    pick: Pick
+    pick: Picker
     policy: Policy
     play: Callable[[Any], Any]
     side: Literal["left", "right"] | None
@@ -88,7 +88,7 @@ class Table:
         self._n, self._n_actions, self._kind = len(agents), n_actions, observation
         owner = _owners(agents, _read(opponents))
         self.mine = [at for at in range(self._n) if at not in owner]
-        self._pick = picker(self._n, self.mine[0] if len(self.mine) == 1 else self.mine)
+        self._pick = Picker(self._n, self.mine[0] if len(self.mine) == 1 else self.mine)
         self._seats = []
         for who, opponent in opponents.items():
             at = [slot for slot, key in owner.items() if key == who]
@@ -98,7 +98,7 @@ class Table:
             ids = tuple(agents[slot].id for slot in at)
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
-            self._seats.append(_Seat(ids, at, picker(self._n, at), policy, _function(policy), side))
+            self._seats.append(_Seat(ids, at, Picker(self._n, at), policy, _function(policy), side))
         self._seen: Any = None
 
     def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:

@@ -18,7 +18,7 @@ from setpiece._environment import RESET_OPTIONS, FootballEnv
 from setpiece._errors import ActionError, ParameterError
 from setpiece._native import ACTION_SETS, Scenario
 from setpiece._opponents import integers
-from setpiece._rows import pick_info, picker
+from setpiece._rows import Picker, pick_info
 from setpiece._spaces import observation_space
 from setpiece._state import state, state_space
 from setpiece._vocabulary import Action
@@ -74,7 +74,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         }
         self.state_space = state_space(env._native.players)
         n_agents = len(self.possible_agents)
-        self._pickers = {agent: picker(n_agents, at) for at, agent in enumerate(self.possible_agents)}
+        self._pickers = {agent: Picker(n_agents, at) for at, agent in enumerate(self.possible_agents)}
         self._cycles = 0
 
     @property

@@ -2,34 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-Pick = Callable[[Any], Any]
 
-
-def picker(n_agents: int, who: int | Sequence[int]) -> Pick:
-    """Returns what takes from a value of n agents the part of one (a number) or of several (a list).
+@dataclass(frozen=True)
+class Picker:
+    """Takes from a value of n agents the part of one (a number) or of several (a list).
 
     A value of several agents has a leading axis (arrays) or a part for each (tuples, lists); that of one has none, and
     so has what is taken for one.
     """
-    if isinstance(who, int):
-        return _identity if n_agents == 1 else lambda value: _plain(value[who])
-    several = list(who)
 
-    def pick(value: Any) -> Any:
-        rows = _listed(value) if n_agents == 1 else value
+    n_agents: int
+    who: int | list[int]
+
+    def __call__(self, value: Any) -> Any:
+        """Returns the part of those picked."""
+        if isinstance(self.who, int):
+            return value if self.n_agents == 1 else _plain(value[self.who])
+        rows = _listed(value) if self.n_agents == 1 else value
         if isinstance(rows, np.ndarray):
-            return rows[several]
-        return type(rows)(rows[at] for at in several)
-
-    return pick
+            return rows[self.who]
+        return type(rows)(rows[at] for at in self.who)
 
 
-def pick_info(info: dict[str, Any], pick: Pick, n_agents: int, n_actions: int) -> dict[str, Any]:
+def pick_info(info: dict[str, Any], pick: Picker, n_agents: int, n_actions: int) -> dict[str, Any]:
     """Returns the info with what tells of agents picked; masks are those of the first `n_actions` actions."""
     picked = {**info, "reward_terms": {name: pick(paid) for name, paid in info["reward_terms"].items()}}
     picked["action_mask"] = pick(info["action_mask"])[..., :n_actions]
@@ -42,10 +42,6 @@ def pick_info(info: dict[str, Any], pick: Pick, n_agents: int, n_actions: int) -
         # Only what depends on the agent is a list.
         picked["records"] = {k: pick(v) if isinstance(v, list) else v for k, v in info["records"].items()}
     return picked
-
-
-def _identity(value: Any) -> Any:
-    return value
 
 
 def _plain(value: Any) -> Any:

@@ -50,10 +50,10 @@ def seated(
     base = load(fspath(scenario))
     words = [f"{side}: {value}" for side, value in seats.items()] + ["switching: fixed"] * fixed
     teams = [f"team {side} {{ each all {{ ai: {who} }} }}" for side, who in ai.items()]
-    origin, parent = _origin(scenario, base)
+    origin, name, parent = _origin(scenario, base)
     doc = f"/// {base.title}\n" if base.title else ""
     body = "\n".join([f"agents {{ {' '.join(words)} }}", *teams] if words else teams)
-    text = f"{origin}\n{doc}scenario {base.name}_seated extends {parent} {{\n{body}\n}}"
+    text = f"{origin}\n{doc}scenario {name} extends {parent} {{\n{body}\n}}"
     try:
         return compile(text, base.name)
     except CompileError as error:
@@ -64,14 +64,14 @@ def seated(
         ) from None
 
 
-def _origin(scenario: str | PathLike[str], base: Scenario) -> tuple[str, str]:
-    """The import that brings a scenario, and what it is called then."""
+def _origin(scenario: str | PathLike[str], base: Scenario) -> tuple[str, str, str]:
+    """The import that brings a scenario, what its child is called, and what it is called itself."""
     if fspath(scenario) in _library.list():
-        return "", base.name
+        return "", f"{base.name}_seated", base.name
     path = Path(scenario).resolve().as_posix()
     if '"' in path or "\n" in path:
         raise ParameterError(f"the path of the scenario can't be imported: {path!r}", name="scenario")
-    return f'import "{path}" as origin', f"origin.{base.name}"
+    return f'import "{path}" as origin', base.name, f"origin.{base.name}"
 
 
 def _options(seats: Mapping[str, str], ai: Mapping[str, str]) -> str:

@@ -71,7 +71,8 @@ def _origin(scenario: str | PathLike[str], base: Scenario) -> tuple[str, str, st
     path = Path(scenario).resolve().as_posix()
     if '"' in path or "\n" in path:
         raise ParameterError(f"the path of the scenario can't be imported: {path!r}", name="scenario")
-    return f'import "{path}" as origin', base.name, f"origin.{base.name}"
+    # Twice: `origin` brings the scenario under another name than its child's, the other what `ai:` may name.
+    return f'import "{path}" as origin\nimport "{path}"', base.name, f"origin.{base.name}"
 
 
 def _options(seats: Mapping[str, str], ai: Mapping[str, str]) -> str:

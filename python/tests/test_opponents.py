@@ -60,7 +60,7 @@ def last(env: Any, seed: int = 1, action: int = Action.IDLE) -> dict[str, Any]:
 def test_the_caller_has_what_the_opponents_leave() -> None:
     env = setpiece.make(THREE, left="all", right="all", opponents={"right": forward, "left_GK_1": "bot"})
     assert env.agents == ("left_CM_1", "left_CM_2", "left_CM_3")
-    assert [agent.id for agent in env.slots][0] == "left_GK_1"
+    assert env.slots[0].id == "left_GK_1"
     assert env.action_space == gymnasium.spaces.MultiDiscrete([19] * 3)
     observation, info = env.reset(seed=1)
     assert observation.shape == (3, 115)
@@ -101,8 +101,11 @@ def test_a_match_is_that_of_a_caller_who_presses_the_same() -> None:
     """Who presses makes no difference to the match."""
     alone = setpiece.make(DUEL, right=1)
     opposed = setpiece.make(DUEL, right=1, opponents={"right": forward})
-    assert last(alone, action=[Action.RIGHT] * 2)["setpiece"]["digest"] == (  # type: ignore[arg-type]
-        last(opposed, action=Action.RIGHT)["setpiece"]["digest"]
+    assert (
+        last(alone, action=[Action.RIGHT] * 2)["setpiece"]["digest"]
+        == (  # type: ignore[arg-type]
+            last(opposed, action=Action.RIGHT)["setpiece"]["digest"]
+        )
     )
 
 
@@ -110,8 +113,11 @@ def test_the_bot_is_the_builtin_ai() -> None:
     alone = setpiece.make(DUEL, right=1, action_set="v2")
     opposed = setpiece.make(DUEL, right=1, opponents={"right": "bot"})
     pressed = [int(Action.RIGHT), int(Action.BUILTIN_AI)]
-    assert last(alone, action=pressed)["setpiece"]["digest"] == (  # type: ignore[arg-type]
-        last(opposed, action=Action.RIGHT)["setpiece"]["digest"]
+    assert (
+        last(alone, action=pressed)["setpiece"]["digest"]
+        == (  # type: ignore[arg-type]
+            last(opposed, action=Action.RIGHT)["setpiece"]["digest"]
+        )
     )
 
 

@@ -10,10 +10,13 @@ import setpiece
 from setpiece import Action
 
 pytest.importorskip("stable_baselines3")
+pytest.importorskip("torch")
 
-import stable_baselines3
+import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.wrappers import TimeLimit
+from stable_baselines3 import PPO
+from stable_baselines3.common.logger import configure
 from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
 
 from setpiece.sb3 import Sb3VecEnv, make_vec
@@ -106,29 +109,36 @@ def test_what_it_can_not_be_made_of() -> None:
 
 
 def test_ppo_learns_to_score(tmp_path: Path) -> None:
-    vec = VecMonitor(make_vec(CLOSE, 4, seed=0, rewards="scoring,checkpoints"))
-    model = stable_baselines3.PPO("MlpPolicy", vec, n_steps=256, batch_size=256, seed=0, device="cpu")
-    model.set_logger(stable_baselines3.common.logger.configure(str(tmp_path), ["tensorboard"]))
-    model.learn(30_000)
-    assert len(model.ep_info_buffer) > 10
-    returns = [episode["r"] for episode in model.ep_info_buffer]
-    first = [_random_return(seed) for seed in range(30)]
-    assert np.mean(returns) > np.mean(first)
-    # And what has been learnt can be somebody's opponent.
+    """A random agent scores in one episode of five."""
+    torch.set_num_threads(1)
+    vec = VecMonitor(make_vec(CLOSE, 16, seed=0))
+    model = PPO(
+        "MlpPolicy",
+        vec,
+        n_steps=64,
+        batch_size=256,
+        n_epochs=4,
+        gamma=0.98,
+        ent_coef=0.01,
+        learning_rate=1e-3,
+        seed=0,
+        device="cpu",
+    )
+    model.set_logger(configure(str(tmp_path), ["tensorboard"]))
+    model.learn(60_000)
+    assert np.mean([episode["r"] for episode in model.ep_info_buffer]) > 0.9
+    assert list(tmp_path.glob("events*"))
+    # And what has been learnt can play for somebody else.
     env = setpiece.make(CLOSE, opponents={"left": model})
-    env.reset(seed=1)
-    env.step([])
-
-
-def _random_return(seed: int) -> float:
-    env = setpiece.make(CLOSE, rewards="scoring,checkpoints")
-    env.action_space.seed(seed)
-    env.reset(seed=seed)
-    total, done = 0.0, False
-    while not done:
-        _, reward, terminated, truncated, _ = env.step(env.action_space.sample())
-        total, done = total + reward, terminated or truncated
-    return total
+    scored = 0
+    for seed in range(10):
+        env.reset(seed=seed)
+        done = False
+        while not done:
+            _, _, terminated, truncated, info = env.step([])
+            done = terminated or truncated
+        scored += info["score"][0]
+    assert scored >= 8
 
 
 def test_maskable_ppo_presses_nothing_that_is_masked() -> None:

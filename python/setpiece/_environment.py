@@ -132,6 +132,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             n_actions = _native.ACTION_SETS[self._options["action_set"]]
             self._table = Table(agents, self._opponents, self._observation, n_actions)
             agents = [agents[at] for at in self._table.mine]
+            for kind in self._table.observations:
+                self._look().prepare(kind)
         self.agents = tuple(agent.id for agent in agents)
         self.action_space = action_space(len(agents), self._options["action_set"])
         self.observation_space = observation_space(self._native, self._observation, agents)
@@ -272,10 +274,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """
         if self._native.episode is None:
             raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
-        if self._looks is None or not self._looks.sees(self._native, self.scenario):
-            self._looks = Look(self._native, self.scenario, self._options["rewards"])
         with _one_thread():
-            return self._looks(check_observation(observation))
+            return self._look()(check_observation(observation))
 
     def clone(self) -> FootballEnv:
         """Returns an independent environment in the same state; it watches no files.
@@ -305,6 +305,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """The match of all agents; opponents may hand a step over to the bot, whatever the caller may."""
         opposed = {} if self._opponents is None else {"action_set": "v2"}
         return _native.Environment(scenario, **{**self._options, **opposed})
+
+    def _look(self) -> Look:
+        if self._looks is None or not self._looks.sees(self._native, self.scenario):
+            self._looks = Look(self._native, self.scenario, self._options["rewards"])
+        return self._looks
 
     def _follow(self, live: Live) -> None:
         """Takes over what has changed in the scenario's files since the last reset."""
@@ -429,7 +434,8 @@ def make(
     - `params`: parameters to bind: SI units, or strings as the language writes them.
     - `seed`: the seed of the first `reset` that gets none.
     - `events`: whether `info["events"]` lists what happened in each step.
-    - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one.
+    - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one; several agents
+      beside opponents get copies.
     - `render_mode`: None or `"ansi"`.
     - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; with `"now"`
       every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one

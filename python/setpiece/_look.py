@@ -22,9 +22,13 @@ class Look:
 
     def __call__(self, observation: str) -> Any:
         """Returns the observation of all agents; raises `SnapshotError` where a script's memory holds a function."""
-        twin = self._twins.get(observation)
-        if twin is None:
-            twin = self._twins[observation] = _native.Environment(
+        self.prepare(observation)
+        return self._twins[observation].restore(self._native.snapshot())[0]
+
+    def prepare(self, observation: str) -> None:
+        """Raises `ParameterError` for an observation that the scenario hasn't got."""
+        if observation not in self._twins:
+            self._twins[observation] = _native.Environment(
                 self._scenario,
                 observation=observation,
                 rewards=self._rewards,
@@ -33,4 +37,3 @@ class Look:
                 action_set="default",
                 bot_action=False,
             )
-        return twin.restore(self._native.snapshot())[0]

@@ -101,6 +101,11 @@ class Table:
             self._seats.append(_Seat(ids, at, Picker(self._n, at), policy, _function(policy), side))
         self._seen: Any = None
 
+    @property
+    def observations(self) -> set[str]:
+        """What the opponents see beside the caller's own observation."""
+        return {seat.policy.observation for seat in self._seats if seat.policy.observation} - {self._kind}
+
     def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
         """Returns the caller's part of what all agents see, and keeps the rest for the opponents."""
         self._seen = observation

@@ -34,7 +34,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
 
     metadata: dict[str, Any]
     env: FootballEnv
-    """The same match with all agents in one array: for `snapshot`, `restore`, `played`."""
+    """The same match with all agents in one array: for `played`, `look`."""
     possible_agents: list[str]
     agents: list[str]
     max_cycles: int | None
@@ -104,10 +104,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         self.agents = []
         observation, info = self.env.reset(seed=seed, options=options)
         self._cycles = 0
-        infos = self._infos(info, self.possible_agents)
-        # From a snapshot an episode may begin without a man.
-        self.agents = [agent for agent in self.possible_agents if not _is_gone(infos[agent])]
-        return self._parts(observation, self.agents), {agent: infos[agent] for agent in self.agents}
+        return self._begun(observation, info)
 
     def step(self, actions: dict[str, int]) -> Step:
         """Plays 100 ms; `actions` has one for each of `agents`.
@@ -134,6 +131,16 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         seen = self.env.look("raw")
         return state(seen if len(slots) == 1 else seen[0], slots[0].team)
 
+    def snapshot(self) -> bytes:
+        """Returns the whole episode as it stands: see `FootballEnv.snapshot`."""
+        return self.env.snapshot()
+
+    def restore(self, snapshot: bytes) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+        """Goes on where a snapshot was taken: see `FootballEnv.restore`. `max_cycles` are counted from here."""
+        observation, info = self.env.restore(snapshot)
+        self._cycles = 0
+        return self._begun(observation, info)
+
     def render(self) -> Any:
         """Returns what `FootballEnv.render` does."""
         return self.env.render()
@@ -152,6 +159,14 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             name="agent",
             help=f"did you mean `{similar[0]}`?" if similar else None,
         )
+
+    def _begun(self, observation: Any, info: dict[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+        """What `reset` and `restore` return; from a snapshot an episode may begin without a man, or at its end."""
+        infos = self._infos(info, self.possible_agents)
+        over = "outcome" in info
+        self.agents = [agent for agent in self.possible_agents if not (over or _is_gone(infos[agent]))]
+        shown = self.possible_agents if over else self.agents
+        return self._parts(observation, shown), {agent: infos[agent] for agent in shown}
 
     def _parts(self, value: Any, agents: list[str]) -> dict[str, Any]:
         return {agent: self._pickers[agent](value) for agent in agents}

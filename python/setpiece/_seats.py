@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
 from os import PathLike, fspath
 from pathlib import Path
 
@@ -88,8 +89,11 @@ def _written(side: str, value: object) -> str:
             if not isinstance(name, str) or not NAME.fullmatch(name):
                 raise ParameterError(f"`{side}` lists {name!r}, which is no player's name", name=side)
         return f"[{', '.join(value)}]"
+    meant = None
+    if isinstance(value, str) and NAME.fullmatch(value):
+        meant = "'all'" if get_close_matches(value, ["all"]) else f"`{side}=['{value}']`"
     raise ParameterError(
         f"`{side}` is {value!r}; it can be a count, 'all' or a list of players' names",
         name=side,
-        help=f"did you mean `{side}=['{value}']`?" if isinstance(value, str) and NAME.fullmatch(value) else None,
+        help=f"did you mean {meant}?" if meant else None,
     )

@@ -20,7 +20,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 from numpy.typing import NDArray
 
-from setpiece._environment import make
+from setpiece._environment import FootballEnv, make
 from setpiece._errors import ParameterError
 from setpiece._native import Scenario
 from setpiece._optional import need
@@ -29,6 +29,8 @@ need("stable_baselines3", "sb3", "`setpiece.sb3`")
 from stable_baselines3.common.vec_env import VecEnv  # noqa: E402
 
 __all__ = ["Sb3VecEnv", "make_vec"]
+
+FINAL = ("final_info", "final_obs")
 
 Indices = int | Iterable[int] | None
 
@@ -60,8 +62,8 @@ class Sb3VecEnv(VecEnv):
         options = self._options[0]
         if any(other != options for other in self._options):
             raise ParameterError("environments of one batch share their reset options", name="options")
-        seeds = None if all(seed is None for seed in self._seeds) else self._seeds
-        observation, infos = self.envs.reset(seed=seeds, options=options or None)
+        # One after the other, as `seed` gives them out and vector environments do too.
+        observation, infos = self.envs.reset(seed=self._seeds[0], options=options or None)
         self._reset_seeds()
         self._reset_options()
         self._masks = infos.get("action_mask")
@@ -76,14 +78,12 @@ class Sb3VecEnv(VecEnv):
         """Plays 100 ms; returns observations, rewards float32 `(n,)`, dones bool `(n,)` and a list of n infos."""
         observation, rewards, terminations, truncations, infos = self.envs.step(self._actions)
         self._masks = infos.get("action_mask")
-        finals = infos.pop("final_info", {})
-        final_observations = infos.pop("final_obs", None)
         dones = terminations | truncations
-        listed = _listed(infos, self.num_envs)
+        listed = _listed({key: infos[key] for key in infos if key not in FINAL}, self.num_envs)
         for at in np.flatnonzero(dones).tolist():
             self.reset_infos[at] = listed[at]
-            listed[at] = _one(finals, at)
-            listed[at]["terminal_observation"] = _at(final_observations, at)
+            listed[at] = _one(infos["final_info"], at)
+            listed[at]["terminal_observation"] = _at(infos["final_obs"], at)
         for at, info in enumerate(listed):
             info["TimeLimit.truncated"] = bool(truncations[at] and not terminations[at])
         return observation, np.asarray(rewards, np.float32), dones, listed
@@ -147,16 +147,28 @@ def make_vec(
 
     - `seed`: that of the first environment's first episode; each other one has the next higher one.
 
-    Each needs one agent, or a `MultiDiscrete` action: Stable-Baselines3 knows no teams.
-    Wrap it in `VecMonitor` for the mean return and length in its log.
+    Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
+    `ParameterError` for a scenario that leaves the caller none or several, and else what `setpiece.make` does.
     """
     if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
         raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
-    envs = [lambda: make(scenario, **kwargs) for _ in range(num_envs)]
-    vec = Sb3VecEnv(SyncVectorEnv(envs, autoreset_mode=AutoresetMode.SAME_STEP))
+    vec = Sb3VecEnv(
+        SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)
+    )
     if seed is not None:
         vec.seed(seed)
     return vec
+
+
+def _alone(scenario: Scenario | str | PathLike[str], kwargs: dict[str, Any]) -> FootballEnv:
+    env = make(scenario, **kwargs)
+    if len(env.agents) != 1:
+        raise ParameterError(
+            f"Stable-Baselines3 trains one agent, `{env.scenario.name}` has {len(env.agents)} for it",
+            name="scenario",
+            help="seat one with `left=1`, or let `opponents` play the others",
+        )
+    return env
 
 
 def _listed(infos: dict[str, Any], n: int) -> list[dict[str, Any]]:

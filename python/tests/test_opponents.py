@@ -233,6 +233,8 @@ def test_opponents_that_are_not_there() -> None:
         ({"right": 1, "opponents": {"right": 7}}, r"`opponents\['right'\]` is 7"),
         ({"right": 1, "opponents": {"right": "bott"}}, "can't be played with"),
         ({"right": 1, "opponents": {"right": Policy(forward, observation="sm")}}, "did you mean `smm`"),
+        ({"right": 1, "opponents": {"right": Policy(forward, observation="vector")}}, "declares no observation"),
+        ({"right": 1, "opponents": {"right": Policy(7)}}, "a policy can't be played by 7"),
         ({"right": 1, "opponents": ["bot"]}, "expected `opponents` as a mapping"),
     ]:
         with pytest.raises(setpiece.ParameterError, match=message):

@@ -207,7 +207,7 @@ def test_an_agent_whose_player_is_sent_off_is_terminated(pitch_file: PitchFile) 
     assert set(observations) == set(rewards) == set(infos) == set(agents), "the last step is everyone's"
     with pytest.raises(setpiece.ActionError, match="`hothead`, who plays no more"):
         env.step({"hothead": 0, "mate": 0, "victim": 0})
-    snapshot = env.env.snapshot()
+    snapshot = env.snapshot()
     observations, *_ = act(env)
     assert list(observations) == ["mate", "victim"]
     while env.agents:
@@ -306,7 +306,8 @@ def test_actions_that_are_none_leave_the_episode_untouched() -> None:
 def test_seats_that_are_not_there() -> None:
     for kwargs, message in [
         ({"left": 9}, "9 of the left team's players are asked for, 4 can be controlled"),
-        ({"right": "al"}, "it can be a count, 'all' or a list"),
+        ({"right": "al"}, "it can be a count, 'all' or a list.*\n.*did you mean 'all'"),
+        ({"right": "anna"}, r"did you mean `right=\['anna'\]`"),
         ({"left": -1}, "`left` is -1"),
         ({"left": True}, "`left` is True"),
         ({"left": ["nobody"]}, "no player of the left team is called `nobody`"),
@@ -342,6 +343,20 @@ def test_without_pettingzoo_the_error_says_what_to_install(monkeypatch: pytest.M
         parallel_env(THREE)
     assert caught.value.name == "pettingzoo"
     assert isinstance(caught.value, ImportError)
+
+
+def test_goes_on_from_a_snapshot() -> None:
+    env = parallel_env(THREE, left=2, right=1)
+    env.reset(seed=8)
+    act(env, Action.RIGHT)
+    snapshot, other = env.snapshot(), parallel_env(THREE, left=2, right=1)
+    observations, _ = other.restore(snapshot)
+    assert list(observations) == other.agents == env.agents
+    while env.agents:
+        assert same(act(env, Action.SHOT), act(other, Action.SHOT))
+    observations, infos = other.restore(env.snapshot())
+    assert other.agents == []
+    assert infos["left_CM_1"]["outcome"]
 
 
 def test_can_be_pickled_in_the_middle_of_an_episode() -> None:

@@ -106,6 +106,11 @@ def test_what_it_can_not_be_made_of() -> None:
         Sb3VecEnv(SyncVectorEnv([lambda: setpiece.make(CLOSE)]))
     with pytest.raises(setpiece.ParameterError, match="`num_envs` is 0"):
         make_vec(CLOSE, 0)
+    with pytest.raises(setpiece.ParameterError, match="trains one agent"):
+        make_vec(THREE, 2, left=3)
+    assert (
+        make_vec(THREE, 2, left=3, right=1, opponents={"right": "bot", "left_0": "bot", "left_1": "bot"}).num_envs == 2
+    )
 
 
 def test_ppo_learns_to_score(tmp_path: Path) -> None:

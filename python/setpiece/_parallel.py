@@ -18,7 +18,7 @@ from setpiece._environment import RESET_OPTIONS, FootballEnv
 from setpiece._errors import ActionError, ParameterError
 from setpiece._native import ACTION_SETS, Scenario
 from setpiece._opponents import integers
-from setpiece._rows import Picker, pick_info
+from setpiece._rows import Picker, split_info
 from setpiece._spaces import observation_space
 from setpiece._state import state, state_space
 from setpiece._vocabulary import Action
@@ -119,10 +119,12 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         if self.max_cycles is not None and self._cycles >= self.max_cycles and not terminated:
             truncated = True
         infos = self._infos(info, acting)
-        terminations = {agent: terminated or _is_gone(infos[agent]) for agent in acting}
+        gone = self._gone(info)
+        terminations = {agent: terminated or agent in gone for agent in acting}
         truncations = {agent: truncated and not terminations[agent] for agent in acting}
         self.agents = [agent for agent in acting if not (terminations[agent] or truncations[agent])]
-        rewards = {agent: float(paid) for agent, paid in self._parts(reward, acting).items()}
+        paid = dict(zip(self.possible_agents, np.atleast_1d(reward).tolist(), strict=True))
+        rewards = {agent: paid[agent] for agent in acting}
         return self._parts(observation, acting), rewards, terminations, truncations, infos
 
     def state(self) -> NDArray[np.float32]:
@@ -163,8 +165,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     def _begun(self, observation: Any, info: dict[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
         """What `reset` and `restore` return; from a snapshot an episode may begin without a man, or at its end."""
         infos = self._infos(info, self.possible_agents)
-        over = "outcome" in info
-        self.agents = [agent for agent in self.possible_agents if not (over or _is_gone(infos[agent]))]
+        over, gone = "outcome" in info, self._gone(info)
+        self.agents = [agent for agent in self.possible_agents if not (over or agent in gone)]
         shown = self.possible_agents if over else self.agents
         return self._parts(observation, shown), {agent: infos[agent] for agent in shown}
 
@@ -172,8 +174,13 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         return {agent: self._pickers[agent](value) for agent in agents}
 
     def _infos(self, info: dict[str, Any], agents: list[str]) -> dict[str, dict[str, Any]]:
-        n_agents = len(self.possible_agents)
-        return {agent: pick_info(info, self._pickers[agent], n_agents, self._n_actions) for agent in agents}
+        infos = dict(zip(self.possible_agents, split_info(info, len(self.possible_agents)), strict=True))
+        return {agent: infos[agent] for agent in agents}
+
+    def _gone(self, info: dict[str, Any]) -> set[str]:
+        """The agents whose players have been sent off: only then can one do nothing but `idle`."""
+        able: list[bool] = np.atleast_2d(info["action_mask"])[:, 1:].any(axis=1).tolist()
+        return {agent for agent, can in zip(self.possible_agents, able, strict=True) if not can}
 
     def _joined(self, actions: Any) -> Any:
         """Everyone's action, from those of the agents that are left."""
@@ -187,21 +194,18 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
                     f"an action for `{agent}`, who {'plays no more' if gone else 'is no agent'}",
                     help=f"did you mean `{similar[0]}`?" if similar and not gone else None,
                 )
-        joined = [int(Action.IDLE)] * len(self.possible_agents)
-        for at, agent in enumerate(self.possible_agents):
-            if agent not in self.agents:
-                continue
+        for agent in self.agents:
             if agent not in actions:
                 raise ActionError(f"no action for `{agent}`")
-            one = integers(actions[agent], 1, self._n_actions, alone=True)
-            if one is None:
-                raise ActionError(
-                    f"expected an integer in 0..{self._n_actions - 1} for `{agent}`, found `{actions[agent]!r}`"
-                )
-            joined[at] = one[0]
+        given = {agent: actions.get(agent, int(Action.IDLE)) for agent in self.possible_agents}
+        joined = integers(list(given.values()), len(given), self._n_actions)
+        if joined is None:
+            joined = [self._read(agent, action) for agent, action in given.items()]
         return joined[0] if len(joined) == 1 else joined
 
-
-def _is_gone(info: dict[str, Any]) -> bool:
-    """Whether an agent's player has been sent off: only then can it do nothing but `idle`."""
-    return not info["action_mask"][1:].any()
+    def _read(self, agent: str, action: Any) -> int:
+        """One agent's action; says whose is wrong."""
+        read = integers(action, 1, self._n_actions, alone=True)
+        if read is None:
+            raise ActionError(f"expected an integer in 0..{self._n_actions - 1} for `{agent}`, found `{action!r}`")
+        return read[0]

@@ -278,7 +278,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return self._look()(check_observation(observation))
 
     def clone(self) -> FootballEnv:
-        """Returns an independent environment in the same state; it watches no files.
+        """Returns an independent environment in the same state; it watches no files, and its opponents are the same.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
@@ -300,6 +300,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         }
         snapshot = None if self._native.episode is None else self.snapshot()
         return _revived, (kwargs, snapshot, self.spec, self._np_random, self._np_random_seed)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
+        """A copy shares its opponents: they may be large, or hold what can't be copied."""
+        kwargs, *state = self.__reduce__()[1]
+        return _revived(kwargs, *deepcopy(state, memo))
 
     def _environment(self, scenario: Scenario) -> _native.Environment:
         """The match of all agents; opponents may hand a step over to the bot, whatever the caller may."""

@@ -179,8 +179,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
 
     def _gone(self, info: dict[str, Any]) -> set[str]:
         """The agents whose players have been sent off: only then can one do nothing but `idle`."""
-        able: list[bool] = np.atleast_2d(info["action_mask"])[:, 1:].any(axis=1).tolist()
-        return {agent for agent, can in zip(self.possible_agents, able, strict=True) if not can}
+        able = np.atleast_2d(info["action_mask"])[:, 1:].max(axis=1)
+        return {agent for agent, can in zip(self.possible_agents, able.tolist(), strict=True) if not can}
 
     def _joined(self, actions: Any) -> Any:
         """Everyone's action, from those of the agents that are left."""

@@ -263,6 +263,19 @@ def test_copies_snapshots_and_pickles_keep_their_opponents(pitch_file: PitchFile
         assert same([other.step(Action.RIGHT) for _ in range(10)], expected)
 
 
+def test_a_clone_has_the_same_opponents() -> None:
+    class Handle:
+        def __call__(self, _observation: Any) -> int:
+            return Action.RIGHT
+
+        def __deepcopy__(self, memo: Any) -> Any:
+            raise TypeError("there is only one of it")
+
+    env = setpiece.make(DUEL, right=1, opponents={"right": Handle()})
+    env.reset(seed=1)
+    assert same(env.clone().step(0), env.step(0))
+
+
 def test_the_same_opponents_of_many_agents() -> None:
     """`parallel_env` and `make` seat the same opponents alike."""
     recorder = Recorder()

@@ -303,8 +303,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
         """A copy shares its opponents: they may be large, or hold what can't be copied."""
-        kwargs, *state = self.__reduce__()[1]
-        return _revived(kwargs, *deepcopy(state, memo))
+        kwargs, snapshot, spec, random, random_seed = self.__reduce__()[1]
+        return _revived(kwargs, snapshot, spec, deepcopy(random, memo), random_seed)
 
     def _environment(self, scenario: Scenario) -> _native.Environment:
         """The match of all agents; opponents may hand a step over to the bot, whatever the caller may."""

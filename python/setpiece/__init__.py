@@ -22,6 +22,8 @@ from setpiece._errors import (
     FormatError,
     InUseError,
     Label,
+    MissingPackageError,
+    OpponentError,
     ParameterError,
     RewardError,
     ScriptError,
@@ -32,6 +34,10 @@ from setpiece._errors import (
 )
 from setpiece._library import Entry, list, register_envs
 from setpiece._native import Param, Scenario, __version__, compile, load
+from setpiece._onnx import onnx_policy
+from setpiece._opponents import Policy
+from setpiece._pettingzoo import parallel_env, register_pettingzoo
+from setpiece._play import Played, play
 from setpiece._reload import Reload
 from setpiece._vocabulary import Action, GameMode, Role
 
@@ -48,8 +54,12 @@ __all__ = [
     "GameMode",
     "InUseError",
     "Label",
+    "MissingPackageError",
+    "OpponentError",
     "Param",
     "ParameterError",
+    "Played",
+    "Policy",
     "Reload",
     "RewardError",
     "Role",
@@ -64,7 +74,11 @@ __all__ = [
     "list",
     "load",
     "make",
+    "onnx_policy",
+    "parallel_env",
+    "play",
     "register_envs",
+    "register_pettingzoo",
 ]
 
 register_envs()

@@ -15,9 +15,12 @@ from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import InUseError, ParameterError, ScriptError, SetpieceError
-from setpiece._native import Live, Scenario, load
+from setpiece._errors import InUseError, OpponentError, ParameterError, ScriptError, SetpieceError
+from setpiece._look import Look
+from setpiece._native import Live, Scenario
+from setpiece._opponents import Opponent, Table, behaviors, revivable
 from setpiece._reload import Reload
+from setpiece._seats import Seats, seated
 from setpiece._spaces import action_space, check_action_set, check_observation, observation_space
 
 ParamValue = bool | int | float | str
@@ -51,6 +54,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
       side with agents, `faults`: payments that were impossible (a division by zero) and left out, and `scenario`: the
       scenario's digest.
 
+    With `opponents` some of the scenario's agents are played by others; the caller's are what is left, and all that is
+    said above is said of those. (`success` is still told from the left side where both sides have agents.)
+
     With `watch=True` every `reset` looks whether the scenario's file, an import or a script has changed, and begins the
     episode under the new scenario; its `info` has `scenario`, the digest of what is played. With `watch="now"` every
     `step` looks too, and where nothing but scripts has changed it goes on with them at once, and with their memory.
@@ -61,7 +67,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     scenario: Scenario
     """The scenario, with the parameters it was made with."""
     agents: tuple[str, ...]
-    """The agents in order: a player's name, `left_CM_1`, or `left_0` for one that changes players."""
+    """The caller's agents in order: a player's name, `left_CM_1`, or `left_0` for one that changes players."""
     last_reload: Reload | None
     """What became of the last change of the scenario's files; None before the first."""
 
@@ -69,6 +75,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self,
         scenario: Scenario | str | PathLike[str],
         *,
+        left: Seats = None,
+        right: Seats = None,
+        opponents: Mapping[str, Opponent] | None = None,
         observation: str = "simple115v2",
         rewards: str | Sequence[str] | None = None,
         params: Mapping[str, ParamValue] | None = None,
@@ -88,16 +97,21 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if watch not in (False, True, "now"):
             raise ParameterError(f"`watch` is {watch!r}; it can be False, True or 'now'", name="watch")
         self._live: Live | None = None
+        self._table: Table | None = None
+        self._looks: Look | None = None
         self._at_once = watch == "now"
         self._waiting: Scenario | None = None
-        if isinstance(scenario, Scenario):
-            if watch:
+        scripted = behaviors(opponents)
+        self._opponents = revivable(opponents)
+        if watch:
+            if isinstance(scenario, Scenario):
                 raise ParameterError("a `Scenario` has no file to watch: give its path", name="watch")
-        elif watch:
+            if scripted or not (left is None and right is None):
+                raise ParameterError("a watched file says itself who plays: write it there", name="watch")
             self._live = Live(fspath(scenario))
             scenario = self._live.scenario
         else:
-            scenario = load(fspath(scenario))
+            scenario = seated(scenario, left, right, ai=scripted)
         self._on_reload = on_reload
         self.last_reload = None
         self._bound = dict(params or {})
@@ -111,11 +125,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             "bot_action": bool(bot_action),
         }
         self.scenario = scenario.with_params(**self._bound)
-        self._native = _native.Environment(self.scenario, **self._options)
+        self._native = self._environment(self.scenario)
         self._digest = self.scenario.digest
-        self.agents = _agents(self._native)
-        self.action_space = action_space(len(self.agents), self._options["action_set"])
-        self.observation_space = observation_space(self._native, self._observation)
+        agents = self._native.agents
+        if self._opponents is not None:
+            n_actions = _native.ACTION_SETS[self._options["action_set"]]
+            self._table = Table(agents, self._opponents, self._observation, n_actions)
+            agents = [agents[at] for at in self._table.mine]
+            for kind in self._table.observations:
+                self._look().prepare(kind)
+        self.agents = tuple(agent.id for agent in agents)
+        self.action_space = action_space(len(agents), self._options["action_set"])
+        self.observation_space = observation_space(self._native, self._observation, agents)
         self._first_seed = None if seed is None else _check_number("seed", seed)
         self._seed: int | None = None
         self._index = 0
@@ -152,6 +173,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self._follow(self._live)
         with _one_thread():
             observation, info = self._native.reset(number, at, params, snapshot)
+        if self._table is not None:
+            observation, info = self._table.shown(observation, info)
         if self._live is not None:
             info["scenario"] = self._digest
         # A reset that fails leaves no trace but that nothing is being played.
@@ -165,15 +188,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         - `action`: an integer 0..18 (0..19 with `action_set="v2"`), or for n agents n of them.
 
         `terminated` is an ending of the scenario (a goal, the ball lost), `truncated` its time limit. Raises
-        `ActionError` for another action, `ScriptError` where a script of the scenario fails.
+        `ActionError` for another action, `ScriptError` where a script of the scenario fails, `OpponentError` where an
+        opponent does; after these two a `reset` begins anew.
         """
         if not self._playing:
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
         if self._at_once and self._live is not None:
             self._follow_scripts(self._live)
         try:
+            if self._table is not None:
+                action = self._table.actions(action, self.look)
             result = self._native.step(action)
-        except ScriptError:
+        except (ScriptError, OpponentError):
             self._playing = False
             raise
         except RuntimeError as error:
@@ -184,6 +210,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._playing = not (result[2] or result[3])
         if not self._playing:
             result[4]["setpiece"]["scenario"] = self._digest
+        if self._table is not None:
+            observation, reward, terminated, truncated, info = result
+            observation, info = self._table.shown(observation, info)
+            return observation, self._table.paid(reward), terminated, truncated, info
         return result
 
     def snapshot(self) -> bytes:
@@ -200,7 +230,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Goes on where a snapshot was taken, by whichever environment of this scenario, rewards and agents.
 
         Returns the observation and `info` of the step after which it was taken; every later step is that of the
-        straight run. Raises `SnapshotError` for anything else, and nothing has changed then.
+        straight run, but for what opponents remember. Raises `SnapshotError` for anything else, and nothing has changed
+        then.
         """
         snapshot = _check_snapshot(snapshot)
         with _one_thread():
@@ -212,10 +243,42 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._playing = self._native.running
         if "setpiece" in info:
             info["setpiece"]["scenario"] = self._digest
-        return observation, info
+        return (observation, info) if self._table is None else self._table.shown(observation, info)
+
+    @property
+    def slots(self) -> list[_native.AgentInfo]:
+        """All agents of the scenario in order, the opponents' too: `id` and `team` (0 left, 1 right)."""
+        return self._native.agents
+
+    @property
+    def observation(self) -> str:
+        """What the caller's agents see: `"simple115v2"`, `"smm"`, `"raw"` or `"vector"`."""
+        return self._observation
+
+    @property
+    def action_set(self) -> str:
+        """The caller's actions: `"default"` or `"v2"`."""
+        action_set: str = self._options["action_set"]
+        return action_set
+
+    def look(self, observation: str) -> Any:
+        """Returns what all of `slots` see now in an observation of any kind, whatever the environment's own.
+
+        Looking changes nothing. Raises `ResetNeeded` before the first episode.
+
+        >>> import setpiece
+        >>> env = setpiece.make("academy_corner")
+        >>> _ = env.reset(seed=1)
+        >>> env.look("raw")["steps_left"].item()
+        400
+        """
+        if self._native.episode is None:
+            raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
+        with _one_thread():
+            return self._look()(check_observation(observation))
 
     def clone(self) -> FootballEnv:
-        """Returns an independent environment in the same state; it watches no files.
+        """Returns an independent environment in the same state; it watches no files, and its opponents are the same.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
@@ -228,9 +291,30 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Makes copies and pickles of the scenario and a snapshot."""
-        kwargs = {**self._options, "scenario": self.scenario, "seed": self._first_seed, "render_mode": self.render_mode}
+        kwargs = {
+            **self._options,
+            "scenario": self.scenario,
+            "seed": self._first_seed,
+            "render_mode": self.render_mode,
+            "opponents": self._opponents,
+        }
         snapshot = None if self._native.episode is None else self.snapshot()
         return _revived, (kwargs, snapshot, self.spec, self._np_random, self._np_random_seed)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
+        """A copy shares its opponents: they may be large, or hold what can't be copied."""
+        kwargs, snapshot, spec, random, random_seed = self.__reduce__()[1]
+        return _revived(kwargs, snapshot, spec, deepcopy(random, memo), random_seed)
+
+    def _environment(self, scenario: Scenario) -> _native.Environment:
+        """The match of all agents; opponents may hand a step over to the bot, whatever the caller may."""
+        opposed = {} if self._opponents is None else {"action_set": "v2"}
+        return _native.Environment(scenario, **{**self._options, **opposed})
+
+    def _look(self) -> Look:
+        if self._looks is None or not self._looks.sees(self._native, self.scenario):
+            self._looks = Look(self._native, self.scenario, self._options["rewards"])
+        return self._looks
 
     def _follow(self, live: Live) -> None:
         """Takes over what has changed in the scenario's files since the last reset."""
@@ -240,14 +324,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._waiting = None
         try:
             scenario = fresh.with_params(**self._bound)
-            native = _native.Environment(scenario, **self._options)
+            native = self._environment(scenario)
         except SetpieceError as error:
             self._tell(Reload("held back", fresh, error, f"no environment can be made of it: {error}"))
             return
-        if _agents(native) != self.agents:
-            why = f"the agents would change from {', '.join(self.agents)} to {', '.join(_agents(native))}"
+        before = self._native
+        if _agents(native) != _agents(before):
+            why = f"the agents would change from {', '.join(_agents(before))} to {', '.join(_agents(native))}"
             self._tell(Reload("held back", fresh, None, why))
-        elif observation_space(native, self._observation) != self.observation_space:
+        elif observation_space(native, self._observation) != observation_space(before, self._observation):
             self._tell(Reload("held back", fresh, None, "the observation space would change"))
         else:
             self.scenario, self._native, self._digest = scenario, native, scenario.digest
@@ -284,7 +369,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
-        return self._native.action_mask()
+        mask = self._native.action_mask()
+        return mask if self._table is None else self._table.mask(mask)
 
     def played(self) -> dict[str, int]:
         """Returns what every player pressed in the last step, by his name: `Action` numbers in his own frame.
@@ -316,6 +402,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 def make(
     scenario: Scenario | str | PathLike[str],
     *,
+    left: Seats = None,
+    right: Seats = None,
+    opponents: Mapping[str, Opponent] | None = None,
     observation: str = "simple115v2",
     rewards: str | Sequence[str] | None = None,
     params: Mapping[str, ParamValue] | None = None,
@@ -331,13 +420,27 @@ def make(
     """Makes an environment of a scenario.
 
     - `scenario`: a name of the library, the path of a `.pitch` or `.pitchc` file, or a `Scenario`.
+    - `left`, `right`: how many agents play on each side: a count, `"all"`, a list of players' names; None: as the
+      scenario says.
+    - `opponents`: who plays some of these agents instead of the caller: by side (`"left"`, `"right"`) or by agent,
+      who wins over his side:
+      - `"bot"`: the built-in bot, or the player's own `ai` where the scenario gives him one;
+      - a behaviour of the scenario, as `ai:` says it (`"marker(3m)"`, `"lazy"`), for a side: it plays all players of
+        the side that have no agent of the caller's and no `ai` of their own;
+      - a function of one agent's observation that returns its action, called agent by agent;
+      - a `Policy`: with its own observation, over one agent or a batch of them;
+      - an object with the `predict` of Stable-Baselines3, called with a batch;
+      - the path of an `.onnx` file: see `setpiece.onnx_policy`.
+
+      Everyone sees himself attack towards +x. An opponent that fails raises `OpponentError`.
     - `observation`: `"simple115v2"` (float32 `(115,)`), `"smm"` (uint8 `(72, 96, 4)`), `"raw"` (a dict) or
       `"vector"` (float32 `(n,)`: what the scenario's `observe vector` declares).
     - `rewards`: names that replace the scenario's own choice: `"scoring,checkpoints"` or a list.
     - `params`: parameters to bind: SI units, or strings as the language writes them.
     - `seed`: the seed of the first `reset` that gets none.
     - `events`: whether `info["events"]` lists what happened in each step.
-    - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one.
+    - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one; several agents
+      beside opponents get copies.
     - `render_mode`: None or `"ansi"`.
     - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; with `"now"`
       every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one
@@ -357,6 +460,9 @@ def make(
     """
     kwargs: dict[str, Any] = {
         "scenario": scenario,
+        "left": left,
+        "right": right,
+        "opponents": opponents,
         "observation": observation,
         "rewards": rewards,
         "params": params,

@@ -144,6 +144,38 @@ class InUseError(SetpieceError, RuntimeError):
     """Two threads use one environment at the same time; each needs its own."""
 
 
+class OpponentError(SetpieceError, RuntimeError):
+    """A player that isn't the caller's failed: it raised (`__cause__`) or gave something that is no action.
+
+    `slots` names whom it plays, `side` their team where it is one.
+    """
+
+    slots: tuple[str, ...]
+    side: Literal["left", "right"] | None
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        slots: tuple[str, ...] = (),
+        side: Literal["left", "right"] | None = None,
+        code: str | None = None,
+        help: str | None = None,
+    ) -> None:
+        super().__init__(message, code=code, help=help)
+        self.slots, self.side = slots, side
+
+
+class MissingPackageError(SetpieceError, ImportError):
+    """An optional package isn't installed; `name` says which, `help` how to get it."""
+
+    name: str
+
+    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+        super().__init__(message, code=code, help=help)
+        self.name = name
+
+
 class UnavailableError(SetpieceError, NotImplementedError):
     """What is asked for is no part of this version; `name` says what."""
 

@@ -127,34 +127,32 @@ def action_space(n_agents: int, action_set: str) -> spaces.Space[Any]:
     return spaces.MultiDiscrete(np.full(n_agents, one.n, np.int64))
 
 
-def observation_space(native: Observing, observation: str) -> spaces.Space[Any]:
-    """Returns the space of what `reset` and `step` observe.
+def observation_space(
+    native: Observing, observation: str, agents: Sequence[_native.AgentInfo] | None = None
+) -> spaces.Space[Any]:
+    """Returns the space of what `reset` and `step` observe: all agents of an environment, or some of them.
 
     With several agents, or none, an array gains a leading axis, and a raw observation becomes a tuple with one part per
     agent.
     """
-    n_agents = len(native.agents)
-    parts = [one_observation_space(native, observation, agent.team) for agent in native.agents[: None if observation == "raw" else 1]]
+    agents = native.agents if agents is None else agents
+    n_agents = len(agents)
     if observation == "raw":
+        parts = [one_observation_space(native, observation, agent.team) for agent in agents]
         return parts[0] if n_agents == 1 else spaces.Tuple(parts)
-    one = parts[0] if parts else one_observation_space(native, observation, 0)
-    if n_agents == 1:
-        return one
-    assert isinstance(one, spaces.Box)
-    low, high = (np.broadcast_to(bound, (n_agents, *one.shape)) for bound in (one.low, one.high))
-    return spaces.Box(low, high, dtype=one.dtype.type)  # type: ignore[union-attr]
+    shape = tuple(native.observation_shape) if n_agents == 1 else (n_agents, *native.observation_shape)
+    if native.bounds is None:
+        return spaces.Box(0, 255, shape, np.uint8)
+    # A stack repeats the bounds, and every agent has the same.
+    low, high = (np.tile(bound, (*shape[:-1], shape[-1] // len(bound))) for bound in native.bounds)
+    return spaces.Box(low, high, dtype=np.float32)
 
 
 def one_observation_space(native: Observing, observation: str, team: int) -> spaces.Space[Any]:
     """Returns the space of the observation of one agent of a team, 0 left, 1 right."""
     if observation == "raw":
         return _raw_space(native.players, team, native.held_actions)
-    shape = tuple(native.observation_shape)
-    if native.bounds is None:
-        return spaces.Box(0, 255, shape, np.uint8)
-    # A stack repeats the bounds.
-    low, high = (np.tile(bound, shape[0] // len(bound)) for bound in native.bounds)
-    return spaces.Box(low, high, dtype=np.float32)
+    return observation_space(native, observation, native.agents[:1])
 
 
 def observation_layout(native: Observing, observation: str, stack: int) -> Layout:

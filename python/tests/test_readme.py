@@ -1,13 +1,19 @@
-"""The Python examples of the README run as they stand."""
+"""The Python examples of the READMEs run as they stand, one after the other."""
 
 import pathlib
 import re
 
-README = pathlib.Path(__file__).parents[2] / "README.md"
+import pytest
+
+import setpiece
+
+ROOT = pathlib.Path(__file__).parents[2]
 
 
-def test_every_python_example_runs() -> None:
-    blocks = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+@pytest.mark.parametrize("readme", [ROOT / "README.md", ROOT / "python" / "README.md"], ids=["project", "package"])
+def test_every_python_example_runs(readme: pathlib.Path) -> None:
+    blocks = re.findall(r"```python\n(.*?)```", readme.read_text(encoding="utf-8"), re.DOTALL)
     assert blocks
+    names = {"setpiece": setpiece}
     for block in blocks:
-        exec(compile(block, str(README), "exec"), {})
+        exec(compile(block, str(readme), "exec"), names)

@@ -1,0 +1,52 @@
+"""Policies from ONNX files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from setpiece._errors import FileError, FormatError
+from setpiece._optional import need
+
+TYPES = {"tensor(float)": np.float32, "tensor(double)": np.float64, "tensor(uint8)": np.uint8}
+ACTION_COUNTS = (19, 20)
+
+
+def onnx_policy(path: str | PathLike[str]) -> Callable[[NDArray[Any]], NDArray[np.int64]]:
+    """Returns what plays an ONNX model: observations `(n, …)` to the actions int64 `(n,)` of greatest logit.
+
+    The model has one input, the observation with a batch axis before it (`(batch, 115)` for `simple115v2`, `(batch, 72,
+    96, 4)` for `smm`; the batch free, or 1) as float, double or uint8, and as its first output the logits `(batch, 19)`
+    or `(batch, 20)`. Of equal logits the first wins. It runs on the CPU in one thread, and so always alike.
+
+    Raises `FileError`, `FormatError`, `MissingPackageError`.
+    """
+    runtime = need("onnxruntime", "onnx", "a policy from an `.onnx` file")
+    if not Path(path).is_file():
+        raise FileError(f"there is no file `{fspath(path)}`", path=fspath(path))
+    options = runtime.SessionOptions()
+    options.intra_op_num_threads = options.inter_op_num_threads = 1
+    try:
+        session = runtime.InferenceSession(fspath(path), options, providers=["CPUExecutionProvider"])
+    except Exception as error:
+        raise FormatError(f"`{fspath(path)}` is no ONNX model that can be run: {error}") from error
+    inputs = session.get_inputs()
+    if len(inputs) != 1 or inputs[0].type not in TYPES:
+        found = ", ".join(f"{one.name}: {one.type}" for one in inputs)
+        raise FormatError(f"`{fspath(path)}` has the inputs {found}; expected one: {', '.join(TYPES)}")
+    name, dtype, alone = inputs[0].name, TYPES[inputs[0].type], inputs[0].shape[:1] == [1]
+
+    def play(observation: NDArray[Any]) -> NDArray[np.int64]:
+        batches = observation[:, None] if alone else [observation]
+        logits = np.concatenate([session.run(None, {name: np.asarray(one, dtype)})[0] for one in batches])
+        if logits.ndim != 2 or logits.shape[1] not in ACTION_COUNTS:
+            raise FormatError(f"`{fspath(path)}` returns {logits.shape}; expected logits (batch, 19) or (batch, 20)")
+        actions: NDArray[np.int64] = logits.argmax(axis=1)
+        return actions
+
+    return play

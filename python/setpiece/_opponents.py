@@ -1,0 +1,268 @@
+"""Who plays: the caller some of the agents, opponents of all kinds the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from os import PathLike, fspath
+from typing import Any, Literal, TypeGuard
+
+import numpy as np
+
+from setpiece._errors import ActionError, OpponentError, ParameterError
+from setpiece._native import AgentInfo
+from setpiece._onnx import onnx_policy
+from setpiece._rows import Picker, pick_info
+from setpiece._spaces import check_observation
+from setpiece._vocabulary import Action
+
+SIDES: tuple[Literal["left"], Literal["right"]] = ("left", "right")
+BOT = "bot"
+
+
+@dataclass(frozen=True)
+class Policy:
+    """Something that plays agents of an environment, with what it wants to see.
+
+    - `play`: a function of observations that returns actions, the path of an `.onnx` file, or an object with the
+      `predict` of Stable-Baselines3.
+    - `observation`: what it sees: `"simple115v2"`, `"smm"`, `"raw"` or `"vector"`; None: what the caller sees.
+    - `batched`: True: it gets the observations of all its n agents at once, an array with a leading axis n (a tuple of
+      n dicts for `"raw"`), and returns n actions. False: it gets one agent's and returns one, agent by agent.
+
+    Every agent sees itself attack towards +x. Actions are integers 0..19; 19 hands the step over to the bot.
+    """
+
+    play: Callable[[Any], Any] | str | PathLike[str] | Any
+    observation: str | None = None
+    batched: bool = True
+
+
+Opponent = Policy | Callable[[Any], Any] | str | PathLike[str] | Any
+"""Who plays agents instead of the caller; the forms are told in `setpiece.make`."""
+
+
+def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
+    """Returns the sides that behaviours of the scenario play, with what stands behind `ai:`."""
+    found: dict[str, str] = {}
+    for who, opponent in _read(opponents).items():
+        if _is_word(opponent) and opponent != BOT:
+            if who not in SIDES:
+                raise ParameterError(
+                    f"`{opponent}` can't play `{who}` alone: behaviours play the whole of a side",
+                    name="opponents",
+                    help=f"write `{who}: … {{ ai: {opponent} }}` in the scenario, and play it with 'bot'",
+                )
+            found[who] = opponent
+    return found
+
+
+def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] | None:
+    """Returns the opponents for a scenario that has its behaviours already."""
+    scripted = behaviors(opponents)
+    return {who: BOT if who in scripted else one for who, one in _read(opponents).items()} or None
+
+
+@dataclass(frozen=True)
+class _Seat:
+    """Agents that one opponent plays."""
+
+    agents: tuple[str, ...]
+    at: list[int]
+    pick: Picker
+    policy: Policy
+    play: Callable[[Any], Any]
+    side: Literal["left", "right"] | None
+
+
+class Table:
+    """The agents of a match, some of them the caller's, each other one with the opponent who plays it."""
+
+    mine: list[int]
+    """The caller's agents, among all."""
+
+    def __init__(
+        self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], observation: str, n_actions: int
+    ) -> None:
+        self._n, self._n_actions, self._kind = len(agents), n_actions, observation
+        owner = _owners(agents, _read(opponents))
+        self.mine = [at for at in range(self._n) if at not in owner]
+        self._pick = Picker(self._n, self.mine[0] if len(self.mine) == 1 else self.mine)
+        self._seats = []
+        for who, opponent in opponents.items():
+            at = [slot for slot, key in owner.items() if key == who]
+            if not at or _is_word(opponent):
+                continue
+            policy = _policy(who, opponent)
+            ids = tuple(agents[slot].id for slot in at)
+            teams = {agents[slot].team for slot in at}
+            side = SIDES[teams.pop()] if len(teams) == 1 else None
+            self._seats.append(_Seat(ids, at, Picker(self._n, at), policy, _function(policy), side))
+        self._seen: Any = None
+
+    @property
+    def observations(self) -> set[str]:
+        """What the opponents see beside the caller's own observation."""
+        return {seat.policy.observation for seat in self._seats if seat.policy.observation} - {self._kind}
+
+    def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
+        """Returns the caller's part of what all agents see, and keeps the rest for the opponents."""
+        self._seen = observation
+        return self._pick(observation), pick_info(info, self._pick, self._n, self._n_actions)
+
+    def paid(self, reward: Any) -> Any:
+        """Returns the caller's part of the rewards."""
+        paid = self._pick(reward)
+        return paid.astype(np.float32, copy=False) if isinstance(paid, np.ndarray) else paid
+
+    def mask(self, mask: Any) -> Any:
+        """Returns the caller's part of everyone's masks."""
+        return self._pick(mask)[..., : self._n_actions]
+
+    def actions(self, action: Any, look: Callable[[str], Any]) -> list[int]:
+        """Returns everyone's action: the caller's, and what the opponents say to the last thing shown.
+
+        `look` observes the match in another observation. Raises `ActionError` for the caller's action, `OpponentError`
+        where an opponent fails.
+        """
+        all_actions = [int(Action.BUILTIN_AI)] * self._n
+        for at, one in zip(self.mine, self._read_actions(action), strict=True):
+            all_actions[at] = one
+        looks = {self._kind: self._seen}
+        for seat in self._seats:
+            kind = seat.policy.observation or self._kind
+            if kind not in looks:
+                looks[kind] = look(kind)
+            for at, one in zip(seat.at, _ask(seat, seat.pick(looks[kind])), strict=True):
+                all_actions[at] = one
+        return all_actions
+
+    def _read_actions(self, action: Any) -> list[int]:
+        actions = integers(action, len(self.mine), self._n_actions, alone=len(self.mine) == 1)
+        if actions is None:
+            n = len(self.mine)
+            what = "an integer" if n == 1 else f"{n} actions, integers"
+            raise ActionError(f"expected {what} in 0..{self._n_actions - 1}, found `{action!r}`")
+        return actions
+
+
+def integers(value: Any, n: int, n_actions: int, *, alone: bool = False) -> list[int] | None:
+    """Reads n actions, where `alone` a single one without an axis; None where they are something else."""
+    try:
+        array = np.asarray(value)
+    except (ValueError, TypeError):
+        return None
+    if alone and array.ndim == 0:
+        array = array[None]
+    elif alone:
+        return None
+    if array.shape != (n,) or (n and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() >= n_actions)):
+        return None
+    actions: list[int] = array.astype(np.int64).tolist()
+    return actions
+
+
+def _ask(seat: _Seat, seen: Any) -> list[int]:
+    """Lets an opponent play its agents."""
+    try:
+        given = seat.play(seen) if seat.policy.batched else [seat.play(one) for one in seen]
+    except Exception as error:
+        why = f"failed: {type(error).__name__}: {error}"
+        raise OpponentError(f"the opponent {_whose(seat)} {why}", slots=seat.agents, side=seat.side) from error
+    actions = integers(given, len(seat.at), len(Action))
+    if actions is None:
+        found = given if seat.policy.batched or len(given) != 1 else given[0]
+        what = f"{len(seat.at)} actions, integers" if seat.policy.batched else "an integer"
+        raise OpponentError(
+            f"the opponent {_whose(seat)} gave no action: expected {what} in 0..{len(Action) - 1}, found `{found!r}`",
+            slots=seat.agents,
+            side=seat.side,
+        )
+    return actions
+
+
+def _whose(seat: _Seat) -> str:
+    return f"of {', '.join(f'`{agent}`' for agent in seat.agents)}"
+
+
+def _read(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opponent]:
+    if opponents is None:
+        return {}
+    if not isinstance(opponents, Mapping):
+        raise ParameterError(f"expected `opponents` as a mapping, found `{opponents!r}`", name="opponents")
+    return opponents
+
+
+def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> dict[int, str]:
+    """Who of the opponents plays which agent: one named himself, else his side's."""
+    ids = [agent.id for agent in agents]
+    owner: dict[int, str] = {}
+    for who, opponent in opponents.items():
+        if who in SIDES:
+            at = [slot for slot, agent in enumerate(agents) if SIDES[agent.team] == who and agent.id not in opponents]
+            if not any(SIDES[agent.team] == who for agent in agents) and not _is_word(opponent):
+                raise ParameterError(
+                    f"the {who} side has no agent that an opponent could play",
+                    name="opponents",
+                    help=f"give it some: `{who}='all'`, or a count",
+                )
+            owner.update(dict.fromkeys(at, who))
+        elif who in ids:
+            owner[ids.index(who)] = who
+        else:
+            similar = get_close_matches(str(who), [*SIDES, *ids], n=1)
+            raise ParameterError(
+                f"no agent `{who}`; opponents play `left`, `right` or one of {', '.join(f'`{one}`' for one in ids)}",
+                name="opponents",
+                help=f"did you mean `{similar[0]}`?" if similar else None,
+            )
+    return dict(sorted(owner.items()))
+
+
+def _policy(who: str, opponent: Opponent) -> Policy:
+    if isinstance(opponent, Policy):
+        if opponent.observation is not None:
+            check_observation(opponent.observation)
+        return opponent
+    if is_onnx(opponent) or callable(getattr(opponent, "predict", None)):
+        return Policy(opponent)
+    if callable(opponent):
+        return Policy(opponent, batched=False)
+    raise ParameterError(
+        f"`opponents[{who!r}]` is {opponent!r}; it can be 'bot', a behaviour's name, a function, a `setpiece.Policy`, "
+        "an object with `predict`, or the path of an `.onnx` file",
+        name="opponents",
+    )
+
+
+def _function(policy: Policy) -> Callable[[Any], Any]:
+    """What is called with observations."""
+    if is_onnx(policy.play):
+        return onnx_policy(policy.play)
+    predict = getattr(policy.play, "predict", None)
+    if callable(predict):
+        return _Predictor(predict)
+    if callable(policy.play):
+        return policy.play
+    raise ParameterError(f"a policy can't be played by {policy.play!r}", name="opponents")
+
+
+@dataclass(frozen=True)
+class _Predictor:
+    """The `predict` of Stable-Baselines3: deterministic, and it returns actions and a state."""
+
+    predict: Callable[..., Any]
+
+    def __call__(self, observation: Any) -> Any:
+        return self.predict(observation, deterministic=True)[0]
+
+
+def _is_word(opponent: object) -> TypeGuard[str]:
+    """Whether it is the bot or a behaviour: the engine plays it."""
+    return isinstance(opponent, str) and not is_onnx(opponent)
+
+
+def is_onnx(opponent: object) -> TypeGuard[str | PathLike[str]]:
+    """Whether it is the path of an ONNX file."""
+    return isinstance(opponent, str | PathLike) and str(fspath(opponent)).endswith(".onnx")

@@ -1,0 +1,211 @@
+"""A scenario as a PettingZoo environment, in which every agent keeps its player."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Mapping
+from difflib import get_close_matches
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+from pettingzoo import ParallelEnv
+
+from setpiece._environment import RESET_OPTIONS, FootballEnv
+from setpiece._errors import ActionError, ParameterError
+from setpiece._native import ACTION_SETS, Scenario
+from setpiece._opponents import integers
+from setpiece._rows import Picker, split_info
+from setpiece._spaces import observation_space
+from setpiece._state import state, state_space
+from setpiece._vocabulary import Action
+
+SWITCHING = re.compile(r"(left|right)_\d+")
+"""The id of an agent that changes players."""
+
+Step = tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]]
+
+
+class ParallelFootballEnv(ParallelEnv[str, Any, int]):
+    """One match whose agents act at once: `setpiece.parallel_env` tells what there is to it."""
+
+    metadata: dict[str, Any]
+    env: FootballEnv
+    """The same match with all agents in one array: for `played`, `look`."""
+    possible_agents: list[str]
+    agents: list[str]
+    max_cycles: int | None
+    render_mode: str | None
+    state_space: spaces.Box
+
+    def __init__(self, env: FootballEnv, max_cycles: int | None = None) -> None:
+        """Takes an environment whose agents keep their players."""
+        if not env.agents:
+            raise ParameterError(
+                f"`{env.scenario.name}` leaves the caller no agent", name="left", help="seat some: `left='all'`"
+            )
+        for slot in env.slots:
+            if SWITCHING.fullmatch(slot.id):
+                raise ParameterError(
+                    f"the agent `{slot.id}` of `{env.scenario.name}` changes players: here everyone keeps his",
+                    name="scenario",
+                    help="give the scenario's name or path, or write `agents { … switching: fixed }` in the text",
+                )
+        if max_cycles is not None:
+            counts = integers(max_cycles, 1, 2**31, alone=True)
+            if counts is None or counts == [0]:
+                raise ParameterError(f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles")
+        self.env = env
+        self.max_cycles = max_cycles
+        self.metadata = {**env.metadata, "name": f"setpiece/{env.scenario.name}-v0", "is_parallelizable": True}
+        self.render_mode = env.render_mode
+        self.possible_agents = list(env.agents)
+        self.agents = []
+        self._n_actions = ACTION_SETS[env.action_set]
+        slots = {agent.id: agent for agent in env.slots}
+        self.observation_spaces = {
+            agent: observation_space(env._native, env.observation, [slots[agent]]) for agent in self.possible_agents
+        }
+        self.action_spaces: dict[str, spaces.Space[Any]] = {
+            agent: spaces.Discrete(self._n_actions) for agent in self.possible_agents
+        }
+        self.state_space = state_space(env._native.players)
+        n_agents = len(self.possible_agents)
+        self._pickers = {agent: Picker(n_agents, at) for at, agent in enumerate(self.possible_agents)}
+        self._cycles = 0
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario, with the parameters it was made with."""
+        return self.env.scenario
+
+    def observation_space(self, agent: str) -> spaces.Space[Any]:
+        """Returns the space of what an agent sees, always the same object."""
+        return self.observation_spaces[self._known(agent)]
+
+    def action_space(self, agent: str) -> spaces.Space[Any]:
+        """Returns the space of an agent's actions, always the same object."""
+        return self.action_spaces[self._known(agent)]
+
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+        """Draws a new start; `seed` and `options` are those of `FootballEnv.reset`.
+
+        An option that isn't there is warned of and left alone: PettingZoo's wrappers and tests hand in their own.
+        """
+        if isinstance(options, Mapping):
+            for unknown in [key for key in options if key not in RESET_OPTIONS]:
+                warnings.warn(f"no reset option `{unknown}`: it does nothing", stacklevel=2)
+            options = {key: value for key, value in options.items() if key in RESET_OPTIONS}
+        self.agents = []
+        observation, info = self.env.reset(seed=seed, options=options)
+        self._cycles = 0
+        return self._begun(observation, info)
+
+    def step(self, actions: dict[str, int]) -> Step:
+        """Plays 100 ms; `actions` has one for each of `agents`.
+
+        Raises `ActionError` for an action that is none, one too few or one too many; the episode is untouched then.
+        """
+        if not self.agents:
+            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no agent is playing")
+        acting = self.agents
+        observation, reward, terminated, truncated, info = self.env.step(self._joined(actions))
+        self._cycles += 1
+        if self.max_cycles is not None and self._cycles >= self.max_cycles and not terminated:
+            truncated = True
+        infos = self._infos(info, acting)
+        gone = self._gone(info)
+        terminations = {agent: terminated or agent in gone for agent in acting}
+        truncations = {agent: truncated and not terminations[agent] for agent in acting}
+        self.agents = [agent for agent in acting if not (terminations[agent] or truncations[agent])]
+        paid = dict(zip(self.possible_agents, np.atleast_1d(reward).tolist(), strict=True))
+        rewards = {agent: paid[agent] for agent in acting}
+        return self._parts(observation, acting), rewards, terminations, truncations, infos
+
+    def state(self) -> NDArray[np.float32]:
+        """Returns the global state, float32 `(n,)`, in the world's frame: see `parallel_env`."""
+        slots = self.env.slots
+        seen = self.env.look("raw")
+        return state(seen if len(slots) == 1 else seen[0], slots[0].team)
+
+    def snapshot(self) -> bytes:
+        """Returns the whole episode as it stands: see `FootballEnv.snapshot`."""
+        return self.env.snapshot()
+
+    def restore(self, snapshot: bytes) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+        """Goes on where a snapshot was taken: see `FootballEnv.restore`. `max_cycles` are counted from here."""
+        observation, info = self.env.restore(snapshot)
+        self._cycles = 0
+        return self._begun(observation, info)
+
+    def render(self) -> Any:
+        """Returns what `FootballEnv.render` does."""
+        return self.env.render()
+
+    def close(self) -> None:
+        """Ends the episode."""
+        self.agents = []
+        self.env.close()
+
+    def _known(self, agent: str) -> str:
+        if agent in self._pickers:
+            return agent
+        similar = get_close_matches(str(agent), self.possible_agents, n=1)
+        raise ParameterError(
+            f"no agent `{agent}`; there are {', '.join(f'`{one}`' for one in self.possible_agents)}",
+            name="agent",
+            help=f"did you mean `{similar[0]}`?" if similar else None,
+        )
+
+    def _begun(self, observation: Any, info: dict[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+        """What `reset` and `restore` return; from a snapshot an episode may begin without a man, or at its end."""
+        infos = self._infos(info, self.possible_agents)
+        over, gone = "outcome" in info, self._gone(info)
+        self.agents = [agent for agent in self.possible_agents if not (over or agent in gone)]
+        shown = self.possible_agents if over else self.agents
+        return self._parts(observation, shown), {agent: infos[agent] for agent in shown}
+
+    def _parts(self, value: Any, agents: list[str]) -> dict[str, Any]:
+        return {agent: self._pickers[agent](value) for agent in agents}
+
+    def _infos(self, info: dict[str, Any], agents: list[str]) -> dict[str, dict[str, Any]]:
+        infos = dict(zip(self.possible_agents, split_info(info, len(self.possible_agents)), strict=True))
+        return {agent: infos[agent] for agent in agents}
+
+    def _gone(self, info: dict[str, Any]) -> set[str]:
+        """The agents whose players have been sent off: only then can one do nothing but `idle`."""
+        able = np.atleast_2d(info["action_mask"])[:, 1:].max(axis=1)
+        return {agent for agent, can in zip(self.possible_agents, able.tolist(), strict=True) if not can}
+
+    def _joined(self, actions: Any) -> Any:
+        """Everyone's action, from those of the agents that are left."""
+        if not isinstance(actions, Mapping):
+            raise ActionError(f"expected a mapping of agents to actions, found `{actions!r}`")
+        for agent in actions:
+            if agent not in self.agents:
+                gone = agent in self._pickers
+                similar = get_close_matches(str(agent), self.agents, n=1)
+                raise ActionError(
+                    f"an action for `{agent}`, who {'plays no more' if gone else 'is no agent'}",
+                    help=f"did you mean `{similar[0]}`?" if similar and not gone else None,
+                )
+        for agent in self.agents:
+            if agent not in actions:
+                raise ActionError(f"no action for `{agent}`")
+        given = {agent: actions.get(agent, int(Action.IDLE)) for agent in self.possible_agents}
+        joined = integers(list(given.values()), len(given), self._n_actions)
+        if joined is None:
+            joined = [self._read(agent, action) for agent, action in given.items()]
+        return joined[0] if len(joined) == 1 else joined
+
+    def _read(self, agent: str, action: Any) -> int:
+        """One agent's action; says whose is wrong."""
+        read = integers(action, 1, self._n_actions, alone=True)
+        if read is None:
+            raise ActionError(f"expected an integer in 0..{self._n_actions - 1} for `{agent}`, found `{action!r}`")
+        return read[0]

@@ -1,0 +1,102 @@
+"""PettingZoo: environments of many agents, and their names in its registry."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import TYPE_CHECKING
+
+from setpiece import _library
+from setpiece._environment import FootballEnv, ParamValue
+from setpiece._errors import MissingPackageError
+from setpiece._native import Scenario
+from setpiece._opponents import Opponent, behaviors, revivable
+from setpiece._optional import need
+from setpiece._seats import Seats, seated
+
+if TYPE_CHECKING:
+    from setpiece._parallel import ParallelFootballEnv
+
+
+def parallel_env(
+    scenario: Scenario | str | PathLike[str],
+    *,
+    left: Seats = None,
+    right: Seats = None,
+    opponents: Mapping[str, Opponent] | None = None,
+    observation: str = "simple115v2",
+    rewards: str | Sequence[str] | None = None,
+    params: Mapping[str, ParamValue] | None = None,
+    seed: int | None = None,
+    events: bool = False,
+    render_mode: str | None = None,
+    action_set: str = "default",
+    bot_action: bool = False,
+    max_cycles: int | None = None,
+) -> ParallelFootballEnv:
+    """Makes a PettingZoo `ParallelEnv` of a scenario: any number of agents on each side, each with a player of its own.
+
+    The arguments are those of `setpiece.make`, and `max_cycles`: every agent is truncated after so many steps, if the
+    scenario has not ended before; None leaves it to the scenario.
+
+    - Agents are named as their players (`anna`, `left_CM_1`) and keep them. Everyone sees himself attack towards +x;
+      observations, actions 0..18 and spaces are those of one agent of `FootballEnv`, rewards floats.
+    - `info` of an agent: its `action_mask` (int8 `(19,)`), `reward_terms`, `return` and `bot_action`; `score` [left,
+      right] and `events` are everyone's.
+    - An agent whose player is sent off is terminated and leaves `agents` for the rest of the episode; the others play
+      on. When the scenario ends all terminate, at its limit all are truncated, and `agents` is empty.
+    - `state()`: float32, one view of the whole match in the world's frame, in which left attacks towards +x. For
+      every player, the left team's first in source order: x, y, dx, dy (as in raw observations), tiredness, booked, on
+      the pitch, has the ball (8 numbers); then the ball: x, y, z, dx, dy, dz, spin x, y, z; one-hot game mode (7);
+      score left, right; steps left / 1000 (0 without a limit). Its space is `state_space`.
+
+    Raises what `setpiece.make` does, and `MissingPackageError` without the package `pettingzoo`.
+
+    >>> import setpiece
+    >>> env = setpiece.parallel_env("academy_3_vs_1_with_keeper", left=3, right="all")
+    >>> observations, infos = env.reset(seed=1)
+    >>> env.agents
+    ['left_CM_1', 'left_CM_2', 'left_CM_3', 'right_GK_1', 'right_CB_1']
+    >>> observations, rewards, *_ = env.step({agent: setpiece.Action.RIGHT for agent in env.agents})
+    >>> rewards["right_CB_1"]
+    0.0
+    """
+    need("pettingzoo", "pettingzoo", "`parallel_env`")
+    from setpiece._parallel import ParallelFootballEnv
+
+    env = FootballEnv(
+        seated(scenario, left, right, fixed=True, ai=behaviors(opponents)),
+        opponents=revivable(opponents),
+        observation=observation,
+        rewards=rewards,
+        params=params,
+        seed=seed,
+        events=events,
+        render_mode=render_mode,
+        action_set=action_set,
+        bot_action=bot_action,
+    )
+    return ParallelFootballEnv(env, max_cycles)
+
+
+def register_pettingzoo() -> None:
+    """Registers every scenario of the library with PettingZoo, as with Gymnasium: `setpiece/NAME-v0`.
+
+    `pettingzoo.make("parallel", "setpiece/academy_corner-v0", left=3)` makes it then. Raises `MissingPackageError`
+    without a PettingZoo that has a registry (1.27).
+
+    >>> import pettingzoo, setpiece
+    >>> setpiece.register_pettingzoo()
+    >>> pettingzoo.make("parallel", "setpiece/academy_corner-v0").possible_agents
+    ['left_LB_1']
+    """
+    pettingzoo = need("pettingzoo", "pettingzoo", "`register_pettingzoo`")
+    if not hasattr(pettingzoo, "parallel_registry"):
+        raise MissingPackageError(
+            "this PettingZoo has no registry", name="pettingzoo", help="pip install 'pettingzoo>=1.27'"
+        )
+    for name in _library.list():
+        env_id = f"{_library.NAMESPACE}/{name}-v0"
+        if env_id not in pettingzoo.parallel_registry:
+            kwargs = {"scenario": name.name}
+            pettingzoo.register("parallel", env_id, entry_point="setpiece._pettingzoo:parallel_env", kwargs=kwargs)

@@ -1,0 +1,168 @@
+"""A match between two Kaggle-style agents."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from setpiece._environment import FootballEnv, ParamValue
+from setpiece._errors import OpponentError, ParameterError
+from setpiece._native import Scenario
+from setpiece._opponents import SIDES, Opponent, Policy, Table, behaviors, is_onnx, revivable
+from setpiece._seats import Seats, seated
+from setpiece._vocabulary import Action
+
+Agent = Callable[[Any], Any] | Opponent
+
+
+@dataclass(frozen=True)
+class Played:
+    """What became of a match between two agents.
+
+    - `score`: goals of left and right; `winner`: who has more, or whose opponent failed; None for a draw.
+    - `rewards`: what the agents of each side were paid in all, on average over a side's agents.
+    - `length`: steps played; `outcome`: the ending's name, None where an agent failed.
+    - `seed`, `digest`: the same agents on the same seed end in the same state, and this is its hash; None where an
+      agent failed.
+    - `actions`: int8 `(length, n)`: what the n agents of `slots` pressed, from which the match can be played again.
+    - `errors`: by side, the error of an agent that failed.
+    """
+
+    score: tuple[int, int]
+    winner: Literal["left", "right"] | None
+    rewards: tuple[float, float]
+    length: int
+    outcome: str | None
+    seed: int
+    digest: str | None
+    slots: tuple[str, ...]
+    actions: NDArray[np.int8]
+    errors: dict[str, OpponentError]
+
+
+class KaggleObservation(dict[str, Any]):
+    """An observation as Kaggle's football environment gives it: a dict whose keys are attributes too."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+
+def play(
+    scenario: Scenario | str | PathLike[str],
+    left_agent: Agent,
+    right_agent: Agent,
+    *,
+    left: Seats = None,
+    right: Seats = None,
+    seed: int = 0,
+    params: Mapping[str, ParamValue] | None = None,
+    rewards: str | Sequence[str] | None = None,
+    on_error: Literal["raise", "lose"] = "raise",
+) -> Played:
+    """Plays one match between two agents and returns a `Played`.
+
+    - `left_agent`, `right_agent`: a function as Kaggle's football environment calls it. It gets `players_raw`, a raw
+      observation for each of its n players with lists in the place of arrays; `controlled_players`, n; and `step`,
+      how many have been played. It returns a list of n actions 0..19, or one action where n is 1. Both see themselves
+      as the left team. Else anything that `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, an
+      `.onnx` file; a policy sees `simple115v2` where it doesn't say.
+    - `left`, `right`: how many play on each side, as in `setpiece.make`; None: as the scenario says, or where it leaves
+      a side without agents, one on each, who is always the player nearest the ball.
+    - `seed`, `params`, `rewards`: as in `setpiece.make`.
+    - `on_error`: `"raise"` raises the `OpponentError` of an agent that fails; with `"lose"` it loses, and the error
+      stands in `errors`.
+
+    >>> import setpiece
+    >>> def runner(observation):
+    ...     return [5] * observation["controlled_players"]
+    >>> played = setpiece.play("1_vs_1_easy", runner, "bot", seed=3)
+    >>> played.length == len(played.actions) > 0
+    True
+    """
+    if on_error not in ("raise", "lose"):
+        raise ParameterError(f"`on_error` is {on_error!r}; it can be 'raise' or 'lose'", name="on_error")
+    clock = _Clock()
+    agents = {side: _opponent(agent, clock) for side, agent in zip(SIDES, (left_agent, right_agent), strict=True)}
+    scripted = behaviors(agents)
+    chosen = seated(scenario, left, right, ai=scripted)
+    if left is None and right is None and {agent.team for agent in FootballEnv(chosen).slots} != {0, 1}:
+        chosen = seated(scenario, 1, 1, ai=scripted)
+    env = FootballEnv(chosen, observation="raw", params=params, rewards=rewards, action_set="v2")
+    table = Table(env.slots, revivable(agents) or {}, "raw", len(Action))
+    return _played(env, table, seed, clock, on_error)
+
+
+class _Clock:
+    """Steps that have been played."""
+
+    steps = 0
+
+
+def _played(env: FootballEnv, table: Table, seed: int, clock: _Clock, on_error: str) -> Played:
+    observation, info = env.reset(seed=seed)
+    actions: list[list[int]] = []
+    paid = np.zeros(len(env.slots))
+    errors: dict[str, OpponentError] = {}
+    while "outcome" not in info and not errors:
+        table.shown(observation, info)
+        try:
+            actions.append(table.actions([], env.look))
+        except OpponentError as error:
+            if on_error == "raise" or error.side is None:
+                raise
+            errors[error.side] = error
+        else:
+            observation, reward, _, _, info = env.step(actions[-1] if len(actions[-1]) > 1 else actions[-1][0])
+            paid += reward
+            clock.steps += 1
+    left, right = (float(paid[[agent.team == team for agent in env.slots]].mean()) for team in (0, 1))
+    score = (info["score"][0], info["score"][1])
+    return Played(
+        score=score,
+        winner=_winner(score, errors),
+        rewards=(left, right),
+        length=len(actions),
+        outcome=info.get("outcome"),
+        seed=seed,
+        digest=info["setpiece"]["digest"] if "setpiece" in info else None,
+        slots=env.agents,
+        actions=np.array(actions, np.int8).reshape(len(actions), len(env.slots)),
+        errors=errors,
+    )
+
+
+def _winner(score: tuple[int, int], errors: Mapping[str, OpponentError]) -> Literal["left", "right"] | None:
+    if errors:
+        return "right" if "left" in errors else "left"
+    if score[0] == score[1]:
+        return None
+    return "left" if score[0] > score[1] else "right"
+
+
+def _opponent(agent: Agent, clock: _Clock) -> Opponent:
+    """An agent as an opponent: a plain function is Kaggle's, all else sees what environments show by default."""
+    if isinstance(agent, Policy):
+        return agent if agent.observation else replace(agent, observation="simple115v2")
+    if callable(getattr(agent, "predict", None)) or is_onnx(agent):
+        return Policy(agent, "simple115v2")
+    if not callable(agent):
+        return agent
+
+    def act(raws: Sequence[dict[str, Any]]) -> Any:
+        seen = [{key: _jsonable(value) for key, value in raw.items()} for raw in raws]
+        given = agent(KaggleObservation(players_raw=seen, controlled_players=len(seen), step=clock.steps))
+        return [given] if np.ndim(given) == 0 else given
+
+    return Policy(act, observation="raw")
+
+
+def _jsonable(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -1,0 +1,56 @@
+"""The global state of a match: what a centralised critic sees."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from setpiece import _native
+from setpiece._spaces import COUNT_MAX
+from setpiece._vocabulary import GameMode
+
+PER_PLAYER = 8
+AFTER_PLAYERS = 9 + len(GameMode) + 3
+STEPS_UNIT = 1000.0
+
+
+def state_space(players: tuple[int, int]) -> spaces.Box:
+    """Returns the space of the state of so many players, left and right."""
+    low, high = (bound.astype(np.float32) for bound in _native.simple115v2_bounds())
+    place, stride, ball = slice(0, 2), slice(22, 24), slice(88, 94)
+    n_players, n_modes = sum(players), len(GameMode)
+    spin, count, time = 1.0, float(COUNT_MAX), COUNT_MAX / STEPS_UNIT
+    bounds = [
+        np.concatenate([np.tile([*bound[place], *bound[stride], *flags], n_players), bound[ball], rest])
+        for bound, flags, rest in (
+            (low, [0.0] * 4, [-spin] * 3 + [0.0] * n_modes + [0.0, 0.0, 0.0]),
+            (high, [1.0] * 4, [spin] * 3 + [1.0] * n_modes + [count, count, time]),
+        )
+    ]
+    return spaces.Box(bounds[0].astype(np.float32), bounds[1].astype(np.float32), dtype=np.float32)
+
+
+def state(raw: dict[str, Any], team: int) -> NDArray[np.float32]:
+    """Returns the state, float32, from a raw observation of an agent of a team; the layout is `parallel_env`'s."""
+    sides = ("left_team", "right_team") if team == 0 else ("right_team", "left_team")
+    # The right team's agents see the pitch turned by half a turn.
+    turn = 1.0 if team == 0 else -1.0
+    parts: list[NDArray[Any]] = []
+    for number, side in enumerate(sides):
+        n_players = len(raw[side])
+        has_ball = np.zeros(n_players)
+        if raw["ball_owned_team"] == (number if team == 0 else 1 - number):
+            has_ball[raw["ball_owned_player"]] = 1.0
+        flags = [raw[f"{side}_{flag}"] for flag in ("tired_factor", "yellow_card", "active")]
+        rows = [*(turn * raw[side]).T, *(turn * raw[f"{side}_direction"]).T, *flags, has_ball]
+        parts.append(np.stack(rows, axis=1).ravel())
+    for vector in (raw["ball"], raw["ball_direction"], raw["ball_rotation"]):
+        parts.append(vector * (turn, turn, 1.0))
+    mode = np.zeros(len(GameMode))
+    mode[raw["game_mode"]] = 1.0
+    score = raw["score"] if team == 0 else raw["score"][::-1]
+    parts += [mode, score, np.array([max(0.0, raw["steps_left"] / STEPS_UNIT)])]
+    return np.concatenate(parts).astype(np.float32)

@@ -1,0 +1,197 @@
+"""Scenarios for Stable-Baselines3.
+
+```python
+import setpiece.sb3
+from stable_baselines3 import PPO
+
+envs = setpiece.sb3.make_vec("academy_3_vs_1_with_keeper", 8, rewards="scoring,checkpoints")
+PPO("MlpPolicy", envs).learn(100_000)
+```
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from os import PathLike
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
+from numpy.typing import NDArray
+
+from setpiece._environment import FootballEnv, make
+from setpiece._errors import ParameterError
+from setpiece._native import Scenario
+from setpiece._optional import need
+
+need("stable_baselines3", "sb3", "`setpiece.sb3`")
+from stable_baselines3.common.vec_env import VecEnv  # noqa: E402
+
+__all__ = ["Sb3VecEnv", "make_vec"]
+
+FINAL = ("final_info", "final_obs")
+
+Indices = int | Iterable[int] | None
+
+
+class Sb3VecEnv(VecEnv):
+    """A Gymnasium vector environment as a `VecEnv` of Stable-Baselines3.
+
+    It takes any `gymnasium.vector.VectorEnv` that resets an environment in the step in which its episode ends
+    (`AutoresetMode.SAME_STEP`). Infos of such a step are those of the last step, with `terminal_observation` and
+    `TimeLimit.truncated`; the infos of the reset stand in `reset_infos`. `env_method("action_masks")` gives the masks
+    that `MaskablePPO` of sb3-contrib asks for.
+    """
+
+    def __init__(self, envs: VectorEnv[Any, Any, Any]) -> None:
+        """Takes the vector environment over."""
+        if envs.metadata.get("autoreset_mode") != AutoresetMode.SAME_STEP:
+            raise ParameterError(
+                "Stable-Baselines3 resets in the step in which an episode ends",
+                name="envs",
+                help="make the vector environment with `autoreset_mode=AutoresetMode.SAME_STEP`",
+            )
+        self.envs = envs
+        self._masks: NDArray[np.int8] | None = None
+        self._actions: Any = None
+        super().__init__(envs.num_envs, envs.single_observation_space, envs.single_action_space)
+
+    def reset(self) -> Any:
+        """Begins an episode in every environment, with the seeds and options that were set."""
+        options = self._options[0]
+        if any(other != options for other in self._options):
+            raise ParameterError("environments of one batch share their reset options", name="options")
+        # One after the other, as `seed` gives them out and vector environments do too.
+        observation, infos = self.envs.reset(seed=self._seeds[0], options=options or None)
+        self._reset_seeds()
+        self._reset_options()
+        self._masks = infos.get("action_mask")
+        self.reset_infos = _listed(infos, self.num_envs)
+        return observation
+
+    def step_async(self, actions: Any) -> None:
+        """Takes everyone's actions."""
+        self._actions = actions
+
+    def step_wait(self) -> tuple[Any, NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
+        """Plays 100 ms; returns observations, rewards float32 `(n,)`, dones bool `(n,)` and a list of n infos."""
+        observation, rewards, terminations, truncations, infos = self.envs.step(self._actions)
+        self._masks = infos.get("action_mask")
+        dones = terminations | truncations
+        listed = _listed({key: infos[key] for key in infos if key not in FINAL}, self.num_envs)
+        for at in np.flatnonzero(dones).tolist():
+            self.reset_infos[at] = listed[at]
+            listed[at] = _one(infos["final_info"], at)
+            listed[at]["terminal_observation"] = _at(infos["final_obs"], at)
+        for at, info in enumerate(listed):
+            info["TimeLimit.truncated"] = bool(truncations[at] and not terminations[at])
+        return observation, np.asarray(rewards, np.float32), dones, listed
+
+    def close(self) -> None:
+        """Closes the vector environment."""
+        self.envs.close()
+
+    def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
+        """Returns an attribute of each environment; a batch has it for all at once."""
+        if attr_name == "action_masks" and self._masks is not None:
+            return [lambda at=at: self._mask(at) for at in self._get_indices(indices)]
+        if isinstance(self.envs, SyncVectorEnv):
+            return [self.envs.envs[at].get_wrapper_attr(attr_name) for at in self._get_indices(indices)]
+        return [getattr(self.envs, attr_name)] * len(list(self._get_indices(indices)))
+
+    def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
+        """Sets an attribute of environments; that of a batch can only be set for all at once."""
+        at = list(self._get_indices(indices))
+        if isinstance(self.envs, SyncVectorEnv):
+            for one in at:
+                self.envs.envs[one].set_wrapper_attr(attr_name, value)
+        elif len(at) == self.num_envs:
+            setattr(self.envs, attr_name, value)
+        else:
+            raise ParameterError(f"`{attr_name}` of a batch can only be set for all environments", name="indices")
+
+    def env_method(self, method_name: str, *args: Any, indices: Indices = None, **kwargs: Any) -> list[Any]:
+        """Calls a method of each environment."""
+        return [method(*args, **kwargs) for method in self.get_attr(method_name, indices)]
+
+    def env_is_wrapped(
+        self, wrapper_class: type[gymnasium.Wrapper[Any, Any, Any, Any]], indices: Indices = None
+    ) -> list[bool]:
+        """Whether each environment is wrapped so; those of a batch never are."""
+        at = list(self._get_indices(indices))
+        if not isinstance(self.envs, SyncVectorEnv):
+            return [False] * len(at)
+        return [_is_wrapped(self.envs.envs[one], wrapper_class) for one in at]
+
+    def get_images(self) -> Sequence[Any]:
+        """Returns what each environment renders."""
+        images = self.envs.render()
+        return [None] * self.num_envs if images is None else list(images)
+
+    def action_masks(self) -> NDArray[np.int8]:
+        """Returns where an action can change something now: int8 `(num_envs, 19)`, 20 with `action_set="v2"`."""
+        if self._masks is None:
+            raise gymnasium.error.ResetNeeded("call `reset` before `action_masks`")
+        return self._masks
+
+    def _mask(self, at: int) -> NDArray[np.int8]:
+        mask: NDArray[np.int8] = self.action_masks()[at]
+        return mask
+
+
+def make_vec(
+    scenario: Scenario | str | PathLike[str], num_envs: int, *, seed: int | None = None, **kwargs: Any
+) -> Sb3VecEnv:
+    """Makes a `VecEnv` of n environments; `kwargs` are those of `setpiece.make`.
+
+    - `seed`: that of the first environment's first episode; each other one has the next higher one.
+
+    Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
+    `ParameterError` for a scenario that leaves the caller none or several, and else what `setpiece.make` does.
+    """
+    if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
+        raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
+    vec = Sb3VecEnv(
+        SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)
+    )
+    if seed is not None:
+        vec.seed(seed)
+    return vec
+
+
+def _alone(scenario: Scenario | str | PathLike[str], kwargs: dict[str, Any]) -> FootballEnv:
+    env = make(scenario, **kwargs)
+    if len(env.agents) != 1:
+        raise ParameterError(
+            f"Stable-Baselines3 trains one agent, `{env.scenario.name}` has {len(env.agents)} for it",
+            name="scenario",
+            help="seat one with `left=1`, or let `opponents` play the others",
+        )
+    return env
+
+
+def _listed(infos: dict[str, Any], n: int) -> list[dict[str, Any]]:
+    """The infos of a vector environment as one dict for each."""
+    return [_one(infos, at) for at in range(n)]
+
+
+def _one(infos: dict[str, Any], at: int) -> dict[str, Any]:
+    """What the infos of a vector environment say of one: a key `k` is its own where `_k` says so."""
+    return {
+        key: _at(value, at)
+        for key, value in infos.items()
+        if not key.startswith("_") and (f"_{key}" not in infos or infos[f"_{key}"][at])
+    }
+
+
+def _at(value: Any, at: int) -> Any:
+    return _one(value, at) if isinstance(value, dict) else value[at]
+
+
+def _is_wrapped(env: gymnasium.Env[Any, Any], wrapper_class: type[gymnasium.Wrapper[Any, Any, Any, Any]]) -> bool:
+    while isinstance(env, gymnasium.Wrapper):
+        if isinstance(env, wrapper_class):
+            return True
+        env = env.env
+    return False

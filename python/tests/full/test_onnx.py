@@ -1,0 +1,105 @@
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import play, same
+
+import setpiece
+from setpiece import Action, Policy, parallel_env
+
+pytest.importorskip("onnxruntime")
+onnx = pytest.importorskip("onnx")
+
+from onnx import TensorProto, helper, numpy_helper
+
+DUEL = "1_vs_1_easy"
+
+pytestmark = pytest.mark.filterwarnings("default")
+
+
+def save(
+    path: Path,
+    shape: tuple[int, ...] = (115,),
+    favourite: int = Action.RIGHT,
+    n_actions: int = 19,
+    batch: Any = "batch",
+    kind: int = TensorProto.FLOAT,
+) -> Path:
+    """Writes a linear model with one favourite action."""
+    size = int(np.prod(shape))
+    bias = np.zeros(n_actions, np.float32)
+    bias[favourite] = 1e6
+    weights = np.random.default_rng(0).normal(size=(size, n_actions)).astype(np.float32)
+    graph = helper.make_graph(
+        [
+            helper.make_node("Cast", ["observation"], ["cast"], to=TensorProto.FLOAT),
+            helper.make_node("Flatten", ["cast"], ["flat"]),
+            helper.make_node("Gemm", ["flat", "weights", "bias"], ["logits"]),
+        ],
+        "policy",
+        [helper.make_tensor_value_info("observation", kind, [batch, *shape])],
+        [helper.make_tensor_value_info("logits", TensorProto.FLOAT, [batch, n_actions])],
+        [numpy_helper.from_array(weights, "weights"), numpy_helper.from_array(bias, "bias")],
+    )
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
+    onnx.checker.check_model(model)
+    onnx.save(model, path)
+    return path
+
+
+def test_a_model_plays_what_it_likes_best(tmp_path: Path) -> None:
+    model = save(tmp_path / "policy.onnx")
+    trained = setpiece.make(DUEL, right=1, opponents={"right": str(model)})
+    simple = setpiece.make(DUEL, right=1, opponents={"right": lambda _: Action.RIGHT})
+    assert same(play(trained, 1, lambda: Action.LEFT), play(simple, 1, lambda: Action.LEFT))
+
+
+@pytest.mark.parametrize("batch", ["batch", 1])
+def test_it_plays_every_agent_of_its_side(tmp_path: Path, batch: Any) -> None:
+    model = save(tmp_path / "policy.onnx", batch=batch)
+    env = parallel_env("academy_3_vs_1_with_keeper", left=3, right="all", opponents={"right": model})
+    env.reset(seed=1)
+    env.step(dict.fromkeys(env.agents, 0))
+    played = env.env.played()
+    assert played["right_GK_1"] == played["right_CB_1"] == Action.RIGHT
+
+
+@pytest.mark.parametrize("kind", [TensorProto.UINT8, TensorProto.FLOAT, TensorProto.DOUBLE])
+def test_it_can_see_another_observation_than_the_caller(tmp_path: Path, kind: int) -> None:
+    model = save(tmp_path / "pixels.onnx", shape=(72, 96, 4), kind=kind, n_actions=20, favourite=Action.BUILTIN_AI)
+    env = setpiece.make(DUEL, right=1, opponents={"right": Policy(model, observation="smm")})
+    bot = setpiece.make(DUEL, right=1, opponents={"right": "bot"})
+    assert same(play(env, 1, lambda: Action.LEFT, steps=50), play(bot, 1, lambda: Action.LEFT, steps=50))
+
+
+def test_the_greatest_logit_wins(tmp_path: Path) -> None:
+    policy = setpiece.onnx_policy(save(tmp_path / "policy.onnx", favourite=Action.SHOT))
+    actions = policy(np.zeros((5, 115), np.float32))
+    assert actions.tolist() == [Action.SHOT] * 5
+    assert actions.dtype == np.int64
+
+
+def test_a_match_of_two_models(tmp_path: Path) -> None:
+    model = save(tmp_path / "policy.onnx")
+    played = setpiece.play(DUEL, str(model), "bot", seed=2)
+    assert set(played.actions[:, 0]) == {Action.RIGHT}
+
+
+def test_files_that_are_no_policies(tmp_path: Path) -> None:
+    with pytest.raises(setpiece.FileError, match="there is no file"):
+        setpiece.onnx_policy(tmp_path / "nowhere.onnx")
+    (tmp_path / "text.onnx").write_text("no model")
+    with pytest.raises(setpiece.FormatError, match="no ONNX model"):
+        setpiece.onnx_policy(tmp_path / "text.onnx")
+    seven = setpiece.make(DUEL, right=1, opponents={"right": save(tmp_path / "seven.onnx", n_actions=7, favourite=1)})
+    seven.reset(seed=1)
+    with pytest.raises(setpiece.OpponentError, match=r"\(batch, 19\)") as caught:
+        seven.step(0)
+    assert isinstance(caught.value.__cause__, setpiece.FormatError)
+    with pytest.raises(setpiece.FormatError, match="expected one"):
+        setpiece.onnx_policy(save(tmp_path / "int.onnx", kind=TensorProto.INT32))
+    wide = setpiece.make(DUEL, right=1, opponents={"right": save(tmp_path / "wide.onnx", shape=(116,))})
+    wide.reset(seed=1)
+    with pytest.raises(setpiece.OpponentError, match="of `right_GK_1` failed"):
+        wide.step(0)

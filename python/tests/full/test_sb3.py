@@ -1,0 +1,159 @@
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from conftest import same
+
+import setpiece
+from setpiece import Action
+
+pytest.importorskip("stable_baselines3")
+pytest.importorskip("torch")
+
+import torch
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.wrappers import TimeLimit
+from stable_baselines3 import PPO
+from stable_baselines3.common.logger import configure
+from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
+
+from setpiece.sb3 import Sb3VecEnv, make_vec
+
+CLOSE = "academy_empty_goal_close"
+THREE = "academy_3_vs_1_with_keeper"
+
+pytestmark = pytest.mark.filterwarnings("default")
+
+
+@pytest.mark.parametrize("observation", ["simple115v2", "smm"])
+def test_is_step_by_step_what_dummy_vec_env_is(observation: str) -> None:
+    """The reference is Stable-Baselines3's own vector environment over the same environments."""
+    ours = make_vec(CLOSE, 3, observation=observation)
+    theirs = DummyVecEnv([lambda: setpiece.make(CLOSE, observation=observation)] * 3)
+    assert ours.observation_space == theirs.observation_space
+    assert ours.action_space == theirs.action_space
+    for vec in (ours, theirs):
+        vec.seed(5)
+    np.testing.assert_array_equal(ours.reset(), theirs.reset())
+    generator, ends = np.random.default_rng(0), 0
+    for _ in range(400):
+        actions = generator.integers(0, 19, 3)
+        mine, other = ours.step(actions), theirs.step(actions)
+        assert same(mine[0], other[0])
+        assert same(mine[1], other[1])
+        assert same(mine[2], other[2])
+        for info, expected in zip(mine[3], other[3], strict=True):
+            assert info.keys() == expected.keys()
+            assert info["TimeLimit.truncated"] == expected["TimeLimit.truncated"]
+            np.testing.assert_array_equal(info["action_mask"], expected["action_mask"])
+            if "terminal_observation" in expected:
+                ends += 1
+                np.testing.assert_array_equal(info["terminal_observation"], expected["terminal_observation"])
+                assert info["setpiece"]["digest"] == expected["setpiece"]["digest"]
+                assert info["outcome"] == expected["outcome"]
+        for info, expected in zip(ours.reset_infos, theirs.reset_infos, strict=True):
+            assert info.keys() == expected.keys()
+    assert ends > 3
+
+
+def test_a_limit_is_told_from_an_ending() -> None:
+    envs = [lambda: TimeLimit(setpiece.make(CLOSE), 4)] * 2
+    vec = Sb3VecEnv(SyncVectorEnv(envs, autoreset_mode=AutoresetMode.SAME_STEP))
+    vec.seed(1)
+    vec.reset()
+    for _ in range(4):
+        _, _, dones, infos = vec.step(np.array([Action.IDLE] * 2))
+    assert dones.all()
+    assert all(info["TimeLimit.truncated"] for info in infos)
+    assert vec.env_is_wrapped(TimeLimit) == [True, True]
+    assert vec.env_is_wrapped(gymnasium.wrappers.FlattenObservation) == [False, False]
+
+
+def test_seeds_and_options_of_the_next_reset() -> None:
+    first, again = make_vec(THREE, 2, seed=3), make_vec(THREE, 2)
+    assert again.seed(3) == [3, 4]
+    assert same(first.reset(), again.reset())
+    again.seed(3)
+    again.set_options({"params": {"difficulty": 0.9}})
+    again.reset()
+    again.set_options([{"params": {"difficulty": 0.9}}, {}])
+    with pytest.raises(setpiece.ParameterError, match="share their reset options"):
+        again.reset()
+
+
+def test_attributes_and_methods_of_the_environments() -> None:
+    vec = make_vec(THREE, 3)
+    vec.seed(1)
+    vec.reset()
+    assert vec.get_attr("agents") == [("left_0",)] * 3
+    assert vec.get_attr("agents", indices=[0]) == [("left_0",)]
+    masks = vec.env_method("action_masks")
+    assert same(np.stack(masks), vec.action_masks())
+    assert len(vec.env_method("snapshot", indices=1)) == 1
+    assert vec.has_attr("action_masks")
+    assert not vec.has_attr("nothing")
+    vec.set_attr("mine", 7, indices=[2])
+    assert vec.get_attr("mine", indices=2) == [7]
+    with pytest.raises(AttributeError):
+        vec.get_attr("mine", indices=0)
+    vec.close()
+
+
+def test_what_it_can_not_be_made_of() -> None:
+    with pytest.raises(setpiece.ParameterError, match="SAME_STEP"):
+        Sb3VecEnv(SyncVectorEnv([lambda: setpiece.make(CLOSE)]))
+    with pytest.raises(setpiece.ParameterError, match="`num_envs` is 0"):
+        make_vec(CLOSE, 0)
+    with pytest.raises(setpiece.ParameterError, match="trains one agent"):
+        make_vec(THREE, 2, left=3)
+    assert (
+        make_vec(THREE, 2, left=3, right=1, opponents={"right": "bot", "left_0": "bot", "left_1": "bot"}).num_envs == 2
+    )
+
+
+def test_ppo_learns_to_score(tmp_path: Path) -> None:
+    """A random agent scores in one episode of five."""
+    torch.set_num_threads(1)
+    vec = VecMonitor(make_vec(CLOSE, 16, seed=0))
+    model = PPO(
+        "MlpPolicy",
+        vec,
+        n_steps=64,
+        batch_size=256,
+        n_epochs=4,
+        gamma=0.98,
+        ent_coef=0.01,
+        learning_rate=1e-3,
+        seed=0,
+        device="cpu",
+    )
+    model.set_logger(configure(str(tmp_path), ["tensorboard"]))
+    model.learn(60_000)
+    assert np.mean([episode["r"] for episode in model.ep_info_buffer]) > 0.9
+    assert list(tmp_path.glob("events*"))
+    # And what has been learnt can play for somebody else.
+    env = setpiece.make(CLOSE, opponents={"left": model})
+    scored = 0
+    for seed in range(10):
+        env.reset(seed=seed)
+        done = False
+        while not done:
+            _, _, terminated, truncated, info = env.step([])
+            done = terminated or truncated
+        scored += info["score"][0]
+    assert scored >= 8
+
+
+def test_maskable_ppo_presses_nothing_that_is_masked() -> None:
+    contrib = pytest.importorskip("sb3_contrib")
+    vec = make_vec(THREE, 2, seed=0)
+    model = contrib.MaskablePPO("MlpPolicy", vec, n_steps=64, batch_size=64, seed=0, device="cpu")
+    model.learn(256)
+    observation: Any = vec.reset()
+    for _ in range(50):
+        masks = vec.action_masks()
+        actions, _ = model.predict(observation, action_masks=masks)
+        assert masks[np.arange(2), actions].all()
+        observation, *_ = vec.step(actions)

@@ -1,0 +1,309 @@
+import pickle
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from conftest import play, same
+from gymnasium.utils.env_checker import check_env
+
+import setpiece
+from setpiece import Action, Policy, parallel_env
+
+THREE = "academy_3_vs_1_with_keeper"
+DUEL = "1_vs_1_easy"
+PitchFile = Callable[..., Path]
+
+MARKED = """
+/// Runs at the ball, whatever happens.
+behavior chaser(pace: length = 1m in 0m..5m) { repeat { do move_to(ball) } }
+
+scenario marked extends academy {
+    agents { left: [anna] right: [carla, dora] }
+    ball at (-0.2, 0)
+    team left { anna: CF at (-0.5, 0) bea: CM at (-0.6, 0.2) }
+    team right { carla: CB at (0.3, 0) dora: CB at (0.3, 0.2) { ai: hold } }
+    remove end possession
+    end limit 40 steps
+}
+"""
+
+
+def forward(_observation: Any) -> int:
+    return Action.RIGHT
+
+
+class Recorder:
+    """An opponent that remembers what it has seen."""
+
+    def __init__(self, action: int = Action.IDLE) -> None:
+        self.seen: list[Any] = []
+        self.action = action
+
+    def __call__(self, observation: Any) -> Any:
+        self.seen.append(observation)
+        if isinstance(observation, dict) or observation.shape in ((115,), (72, 96, 4)):
+            return self.action
+        return np.full(len(observation), self.action)
+
+
+def last(env: Any, seed: int = 1, action: int = Action.IDLE) -> dict[str, Any]:
+    """Plays to the end and returns the last info."""
+    info: dict[str, Any] = play(env, seed, lambda: action)[-1][4]
+    return info
+
+
+def test_the_caller_has_what_the_opponents_leave() -> None:
+    env = setpiece.make(THREE, left="all", right="all", opponents={"right": forward, "left_GK_1": "bot"})
+    assert env.agents == ("left_CM_1", "left_CM_2", "left_CM_3")
+    assert env.slots[0].id == "left_GK_1"
+    assert env.action_space == gymnasium.spaces.MultiDiscrete([19] * 3)
+    observation, info = env.reset(seed=1)
+    assert observation.shape == (3, 115)
+    assert info["action_mask"].shape == env.action_masks().shape == (3, 19)
+    observation, reward, _, _, info = env.step([0, 0, 0])
+    assert reward.shape == (3,)
+    assert reward.dtype == np.float32
+    assert info["reward_terms"]["scoring/goal"].shape == (3,)
+
+
+@pytest.mark.parametrize("observation", ["simple115v2", "smm", "raw"])
+@pytest.mark.parametrize("opponents", [{"right": forward}, {"right": "bot"}])
+def test_passes_the_checker_of_gymnasium(opponents: dict[str, Any], observation: str) -> None:
+    check_env(setpiece.make(DUEL, right=1, opponents=opponents, observation=observation, bot_action=True))
+
+
+def test_one_agent_left_is_a_single_agent() -> None:
+    env = setpiece.make(DUEL, right=1, opponents={"right": forward}, observation="raw", bot_action=True)
+    observation, info = env.reset(seed=1)
+    assert isinstance(observation, dict)
+    assert isinstance(info["bot_action"], int)
+    _, reward, _, _, info = env.step(Action.RIGHT)
+    assert type(reward) is float
+    assert type(info["reward_terms"]["scoring/goal"]) is float
+    for wrong in (19, [0], 1.5, None):
+        with pytest.raises(setpiece.ActionError, match=r"expected an integer in 0\.\.18"):
+            env.step(wrong)
+    env.step(np.int64(3))
+
+
+def test_nobody_left_plays_by_itself() -> None:
+    env = setpiece.make(DUEL, right=1, opponents={"left": "bot", "right": forward})
+    assert env.agents == ()
+    assert last(env, action=[])["setpiece"]["length"] > 0  # type: ignore[arg-type]
+
+
+def test_a_match_is_that_of_a_caller_who_presses_the_same() -> None:
+    """Who presses makes no difference to the match."""
+    alone = setpiece.make(DUEL, right=1)
+    opposed = setpiece.make(DUEL, right=1, opponents={"right": forward})
+    assert (
+        last(alone, action=[Action.RIGHT] * 2)["setpiece"]["digest"]
+        == (  # type: ignore[arg-type]
+            last(opposed, action=Action.RIGHT)["setpiece"]["digest"]
+        )
+    )
+
+
+def test_the_bot_is_the_builtin_ai() -> None:
+    alone = setpiece.make(DUEL, right=1, action_set="v2")
+    opposed = setpiece.make(DUEL, right=1, opponents={"right": "bot"})
+    pressed = [int(Action.RIGHT), int(Action.BUILTIN_AI)]
+    assert (
+        last(alone, action=pressed)["setpiece"]["digest"]
+        == (  # type: ignore[arg-type]
+            last(opposed, action=Action.RIGHT)["setpiece"]["digest"]
+        )
+    )
+
+
+@pytest.mark.parametrize("kind", ["simple115v2", "smm", "raw"])
+def test_opponents_see_themselves_from_the_left_in_their_own_observation(kind: str) -> None:
+    """An opponent sees exactly what a caller in its place would."""
+    recorder = Recorder(Action.RIGHT)
+    opposed = setpiece.make(DUEL, right=1, opponents={"right": Policy(recorder, observation=kind, batched=False)})
+    caller = setpiece.make(DUEL, right=1, observation=kind)
+    opposed.reset(seed=2, options={"params": {"difficulty": 0.3}})
+    expected = [caller.reset(seed=2, options={"params": {"difficulty": 0.3}})[0][1]]
+    for _ in range(40):
+        opposed.step(Action.RIGHT)
+        expected.append(caller.step([Action.RIGHT, Action.RIGHT])[0][1])
+    assert same(recorder.seen, expected[:-1])
+
+
+def test_a_function_sees_one_agent_and_a_policy_a_batch() -> None:
+    function, policy = Recorder(), Recorder()
+    env = setpiece.make(THREE, left="all", right="all", opponents={"right": function, "left": Policy(policy)})
+    env.reset(seed=1)
+    env.step([])
+    assert [seen.shape for seen in function.seen] == [(115,), (115,)]
+    assert [seen.shape for seen in policy.seen] == [(4, 115)]
+
+
+def test_one_named_himself_wins_over_his_side() -> None:
+    side, keeper = Recorder(), Recorder()
+    env = setpiece.make(THREE, right="all", opponents={"right": side, "right_GK_1": keeper})
+    env.reset(seed=1)
+    env.step(0)
+    assert (len(side.seen), len(keeper.seen)) == (1, 1)
+    assert not same(side.seen, keeper.seen)
+
+
+def test_what_stable_baselines_predicts() -> None:
+    class Model:
+        def predict(self, observation: Any, deterministic: bool = False) -> tuple[Any, None]:
+            assert deterministic
+            return np.full(len(observation), Action.RIGHT), None
+
+    digests = {
+        last(setpiece.make(DUEL, right=1, opponents={"right": one}), action=Action.RIGHT)["setpiece"]["digest"]
+        for one in (Model(), Policy(Model()), forward)
+    }
+    assert len(digests) == 1
+
+
+def test_behaviours_play_a_side(pitch_file: PitchFile) -> None:
+    path = pitch_file(MARKED)
+    env = setpiece.make(path, opponents={"right": "chaser(2m)"}, observation="raw")
+    assert env.agents == ("anna",)
+    first, _ = env.reset(seed=1)
+    for _ in range(20):
+        after, *_ = env.step(Action.IDLE)
+    moved = np.hypot(*(after["right_team"] - first["right_team"]).T)
+    assert moved[0] > 0.05, "carla chases the ball"
+    assert moved[1] < 0.01, "dora has an `ai` of her own"
+    lazy = setpiece.make(path, right=0, opponents={"right": "lazy", "left": "bot"})
+    assert lazy.agents == ()
+    with pytest.raises(setpiece.ParameterError, match="`chaser` can't play `carla` alone"):
+        setpiece.make(path, opponents={"carla": "chaser"})
+    with pytest.raises(setpiece.ParameterError, match="can't be played with `chase`") as caught:
+        setpiece.make(path, opponents={"right": "chase"})
+    assert caught.value.help
+    with pytest.raises(setpiece.ParameterError, match="a compiled scenario keeps its agents"):
+        setpiece.make(setpiece.load(path), opponents={"right": "chaser"})
+
+
+def test_an_opponent_that_fails_is_named_and_the_next_episode_plays() -> None:
+    failing = True
+
+    def moody(_observation: Any) -> Any:
+        if failing:
+            raise ZeroDivisionError("no idea")
+        return Action.RIGHT
+
+    env = setpiece.make(DUEL, right=1, opponents={"right": moody})
+    env.reset(seed=1)
+    with pytest.raises(setpiece.OpponentError, match="of `right_GK_1` failed: ZeroDivisionError: no idea") as caught:
+        env.step(0)
+    assert caught.value.slots == ("right_GK_1",)
+    assert caught.value.side == "right"
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(0)
+    failing = False
+    env.reset(seed=1)
+    env.step(0)
+
+
+@pytest.mark.parametrize("given", [20, -1, 1.5, None, "right", [3], np.array([1, 2])])
+def test_an_opponent_must_give_an_action(given: Any) -> None:
+    env = setpiece.make(DUEL, right=1, opponents={"right": lambda _: given})
+    env.reset(seed=1)
+    with pytest.raises(setpiece.OpponentError, match=r"gave no action: expected an integer in 0\.\.19"):
+        env.step(0)
+
+
+@pytest.mark.parametrize("given", [[20], [1.5], [[1]], [1, 2], None, 3, {"right_GK_1": 3}])
+def test_a_policy_must_give_as_many_actions(given: Any) -> None:
+    env = setpiece.make(DUEL, right=1, opponents={"right": Policy(lambda _: given)})
+    env.reset(seed=1)
+    with pytest.raises(setpiece.OpponentError, match=r"gave no action: expected 1 actions, integers in 0\.\.19"):
+        env.step(0)
+
+
+def test_opponents_that_are_not_there() -> None:
+    for kwargs, message in [
+        ({"opponents": {"rigth": "bot"}}, "did you mean `right`"),
+        ({"opponents": {"right_GK_1": forward}}, "no agent `right_GK_1`"),
+        ({"opponents": {"right": forward}}, "the right side has no agent that an opponent could play"),
+        ({"right": 1, "opponents": {"right": 7}}, r"`opponents\['right'\]` is 7"),
+        ({"right": 1, "opponents": {"right": "bott"}}, "can't be played with"),
+        ({"right": 1, "opponents": {"right": Policy(forward, observation="sm")}}, "did you mean `smm`"),
+        ({"right": 1, "opponents": {"right": Policy(forward, observation="vector")}}, "declares no observation"),
+        ({"right": 1, "opponents": {"right": Policy(7)}}, "a policy can't be played by 7"),
+        ({"right": 1, "opponents": ["bot"]}, "expected `opponents` as a mapping"),
+    ]:
+        with pytest.raises(setpiece.ParameterError, match=message):
+            setpiece.make(DUEL, **kwargs)
+    for missing in ("nowhere.onnx", Path("nowhere.onnx")):
+        with pytest.raises((setpiece.FileError, setpiece.MissingPackageError)):
+            setpiece.make(DUEL, right=1, opponents={"right": missing})
+
+
+def test_without_onnxruntime_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "onnxruntime", None)
+    with pytest.raises(setpiece.MissingPackageError, match=r"pip install 'setpiece\[onnx\]'"):
+        setpiece.make(DUEL, right=1, opponents={"right": "policy.onnx"})
+
+
+def test_copies_snapshots_and_pickles_keep_their_opponents(pitch_file: PitchFile) -> None:
+    opponents = {"right": "chaser", "dora": forward}
+    env = setpiece.make(pitch_file(MARKED), opponents=opponents)
+    env.reset(seed=3)
+    env.step(Action.RIGHT)
+    others = [env.clone(), pickle.loads(pickle.dumps(env)), setpiece.make(pitch_file(MARKED), opponents=opponents)]
+    others[2].restore(env.snapshot())
+    expected = [env.step(Action.RIGHT) for _ in range(10)]
+    for other in others:
+        assert other.agents == ("anna",)
+        assert same([other.step(Action.RIGHT) for _ in range(10)], expected)
+
+
+def test_a_clone_has_the_same_opponents() -> None:
+    class Handle:
+        def __call__(self, _observation: Any) -> int:
+            return Action.RIGHT
+
+        def __deepcopy__(self, memo: Any) -> Any:
+            raise TypeError("there is only one of it")
+
+    env = setpiece.make(DUEL, right=1, opponents={"right": Handle()})
+    env.reset(seed=1)
+    assert same(env.clone().step(0), env.step(0))
+
+
+def test_the_same_opponents_of_many_agents() -> None:
+    """`parallel_env` and `make` seat the same opponents alike."""
+    recorder = Recorder()
+    env = parallel_env(THREE, left=3, right="all", opponents={"right": recorder, "left_CM_2": "bot"})
+    assert env.possible_agents == ["left_CM_1", "left_CM_3"]
+    env.reset(seed=1)
+    observations, rewards, *_, infos = env.step({"left_CM_1": 0, "left_CM_3": 5})
+    assert list(observations) == list(rewards) == list(infos) == env.agents
+    assert len(recorder.seen) == 2
+    assert infos["left_CM_1"]["action_mask"].shape == (19,)
+    single = setpiece.make(env.scenario, opponents={"right": recorder, "left_CM_2": "bot"})
+    single.reset(seed=1)
+    joint = single.step([0, 5])[0]
+    assert same([observations["left_CM_1"], observations["left_CM_3"]], list(joint))
+
+
+def test_watched_files_say_who_plays(pitch_file: PitchFile) -> None:
+    path = pitch_file(MARKED)
+    env = setpiece.make(path, watch=True, opponents={"right": forward})
+    env.reset(seed=1)
+    env.step(0)
+    path.write_text(MARKED.replace("40 steps", "3 steps"))
+    end = time.monotonic() + 20
+    while env.last_reload is None and time.monotonic() < end:
+        env.reset(seed=1)
+        time.sleep(0.02)
+    assert env.last_reload is not None
+    assert env.last_reload.state == "applied"
+    assert last(env)["setpiece"]["length"] == 3
+    with pytest.raises(setpiece.ParameterError, match="a watched file says itself who plays"):
+        setpiece.make(path, watch=True, left=1)

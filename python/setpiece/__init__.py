@@ -39,6 +39,7 @@ from setpiece._opponents import Policy
 from setpiece._pettingzoo import parallel_env, register_pettingzoo
 from setpiece._play import Played, play
 from setpiece._reload import Reload
+from setpiece._vector import FootballVectorEnv, make_vec
 from setpiece._vocabulary import Action, GameMode, Role
 
 __all__ = [
@@ -50,6 +51,7 @@ __all__ = [
     "Entry",
     "FileError",
     "FootballEnv",
+    "FootballVectorEnv",
     "FormatError",
     "GameMode",
     "InUseError",
@@ -74,6 +76,7 @@ __all__ = [
     "list",
     "load",
     "make",
+    "make_vec",
     "onnx_policy",
     "parallel_env",
     "play",

@@ -16,12 +16,20 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._errors import InUseError, OpponentError, ParameterError, ScriptError, SetpieceError
-from setpiece._look import Look
 from setpiece._native import Live, Scenario
 from setpiece._opponents import Opponent, Table, behaviors, revivable
 from setpiece._reload import Reload
-from setpiece._seats import Seats, seated
-from setpiece._spaces import action_space, check_action_set, check_observation, observation_space
+from setpiece._seats import Seats, scripted_scenario
+from setpiece._spaces import (
+    Layout,
+    action_space,
+    check_action_set,
+    check_observation,
+    check_size,
+    check_stack,
+    observation_layout,
+    observation_space,
+)
 
 ParamValue = bool | int | float | str
 """A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
@@ -45,8 +53,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     player) plays this step, and what the agent held is released.
 
     `info` has in every step `score` [left, right], `reward_terms` {"reward/label": paid in this step} and `action_mask`
-    (int8 `(19,)`, or `(n, 19)`; 20 with `v2`); with `events=True` also `events`; with `bot_action=True` also
-    `bot_action`: what the bot would press in the state that is observed (an int, or int64 `(n,)`), going on from what
+    (int8 `(19,)`, or `(n, 19)`; 20 with `v2`, 33 with `full`, the 6 kinds with `continuous`); with `events=True` also
+    `events`; with `bot_action=True` also `bot_action`: what the bot would press in the state that is observed (an int,
+    or int64 `(n,)`), going on from what
     the agent holds. In the last step it has also:
 
     - `outcome`: the ending's name; `records`: the scenario's own records.
@@ -89,6 +98,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         on_reload: Callable[[Reload], object] | None = None,
         action_set: str = "default",
         bot_action: bool = False,
+        stack: int = 1,
+        size: tuple[int, int] = (96, 72),
+        switching: Literal["auto", "fixed"] | None = None,
     ) -> None:
         """Makes an environment; the arguments are those of `setpiece.make`."""
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
@@ -98,7 +110,6 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             raise ParameterError(f"`watch` is {watch!r}; it can be False, True or 'now'", name="watch")
         self._live: Live | None = None
         self._table: Table | None = None
-        self._looks: Look | None = None
         self._at_once = watch == "now"
         self._waiting: Scenario | None = None
         scripted = behaviors(opponents)
@@ -106,12 +117,12 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if watch:
             if isinstance(scenario, Scenario):
                 raise ParameterError("a `Scenario` has no file to watch: give its path", name="watch")
-            if scripted or not (left is None and right is None):
+            if scripted:
                 raise ParameterError("a watched file says itself who plays: write it there", name="watch")
             self._live = Live(fspath(scenario))
             scenario = self._live.scenario
         else:
-            scenario = seated(scenario, left, right, ai=scripted)
+            scenario = scripted_scenario(scenario, scripted)
         self._on_reload = on_reload
         self.last_reload = None
         self._bound = dict(params or {})
@@ -123,19 +134,28 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             "copy": copy,
             "action_set": check_action_set(action_set),
             "bot_action": bool(bot_action),
+            "stack": check_stack(stack, self._observation),
+            "size": check_size(size),
+            "left": left,
+            "right": right,
+            "switching": switching,
         }
         self.scenario = scenario.with_params(**self._bound)
         self._native = self._environment(self.scenario)
         self._digest = self.scenario.digest
         agents = self._native.agents
         if self._opponents is not None:
-            n_actions = _native.ACTION_SETS[self._options["action_set"]]
+            if self.action_set == "continuous":
+                raise ParameterError(
+                    "beside opponents the caller presses keys: continuous actions are for all agents", name="action_set"
+                )
+            n_actions = _native.ACTION_SETS[self.action_set]
             self._table = Table(agents, self._opponents, self._observation, n_actions)
             agents = [agents[at] for at in self._table.mine]
             for kind in self._table.observations:
-                self._look().prepare(kind)
+                self._native.look(kind)
         self.agents = tuple(agent.id for agent in agents)
-        self.action_space = action_space(len(agents), self._options["action_set"])
+        self.action_space = action_space(len(agents), self.action_set)
         self.observation_space = observation_space(self._native, self._observation, agents)
         self._first_seed = None if seed is None else _check_number("seed", seed)
         self._seed: int | None = None
@@ -185,7 +205,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Plays 100 ms and returns observation, reward, terminated, truncated and `info`.
 
-        - `action`: an integer 0..18 (0..19 with `action_set="v2"`), or for n agents n of them.
+        - `action`: an integer 0..18 (0..19 with `action_set="v2"`, 0..32 with `"full"`), or for n agents n of
+          them; with `"continuous"` four numbers, or `(n, 4)`.
 
         `terminated` is an ending of the scenario (a goal, the ball lost), `truncated` its time limit. Raises
         `ActionError` for another action, `ScriptError` where a script of the scenario fails, `OpponentError` where an
@@ -252,12 +273,22 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     @property
     def observation(self) -> str:
-        """What the caller's agents see: `"simple115v2"`, `"smm"`, `"raw"` or `"vector"`."""
+        """What the caller's agents see: a name of `setpiece.make`."""
         return self._observation
 
     @property
+    def observation_layout(self) -> Layout:
+        """How one agent's observation lies: the blocks of an array's last axis, or the keys of a dict.
+
+        >>> import setpiece
+        >>> setpiece.make("academy_corner").observation_layout[4]
+        Block(start=88, length=3, meaning='ball x, y, z', unit='normalised; z in metres')
+        """
+        return observation_layout(self._native, self._observation, self._options["stack"])
+
+    @property
     def action_set(self) -> str:
-        """The caller's actions: `"default"` or `"v2"`."""
+        """The caller's actions: `"default"`, `"v2"`, `"full"` or `"continuous"`."""
         action_set: str = self._options["action_set"]
         return action_set
 
@@ -275,7 +306,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if self._native.episode is None:
             raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
         with _one_thread():
-            return self._look()(check_observation(observation))
+            return self._native.look(check_observation(observation))
 
     def clone(self) -> FootballEnv:
         """Returns an independent environment in the same state; it watches no files, and its opponents are the same.
@@ -298,7 +329,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             "render_mode": self.render_mode,
             "opponents": self._opponents,
         }
-        snapshot = None if self._native.episode is None else self.snapshot()
+        snapshot = None if self._native.episode is None else (self.snapshot(), self._native.frames())
         return _revived, (kwargs, snapshot, self.spec, self._np_random, self._np_random_seed)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
@@ -308,13 +339,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _environment(self, scenario: Scenario) -> _native.Environment:
         """The match of all agents; opponents may hand a step over to the bot, whatever the caller may."""
-        opposed = {} if self._opponents is None else {"action_set": "v2"}
+        narrow = self._opponents is not None and self.action_set == "default"
+        opposed = {"action_set": "v2"} if narrow else {}
         return _native.Environment(scenario, **{**self._options, **opposed})
-
-    def _look(self) -> Look:
-        if self._looks is None or not self._looks.sees(self._native, self.scenario):
-            self._looks = Look(self._native, self.scenario, self._options["rewards"])
-        return self._looks
 
     def _follow(self, live: Live) -> None:
         """Takes over what has changed in the scenario's files since the last reset."""
@@ -416,6 +443,9 @@ def make(
     on_reload: Callable[[Reload], object] | None = None,
     action_set: str = "default",
     bot_action: bool = False,
+    stack: int = 1,
+    size: tuple[int, int] = (96, 72),
+    switching: Literal["auto", "fixed"] | None = None,
 ) -> FootballEnv:
     """Makes an environment of a scenario.
 
@@ -433,8 +463,15 @@ def make(
       - the path of an `.onnx` file: see `setpiece.onnx_policy`.
 
       Everyone sees himself attack towards +x. An opponent that fails raises `OpponentError`.
-    - `observation`: `"simple115v2"` (float32 `(115,)`), `"smm"` (uint8 `(72, 96, 4)`), `"raw"` (a dict) or
-      `"vector"` (float32 `(n,)`: what the scenario's `observe vector` declares).
+    - `observation`: `"simple115v2"` or its forerunner `"simple115"` (float32 `(115,)`), `"smm"` (GRF's `extracted`;
+      uint8 `(72, 96, 4)`), `"raw"` (a dict), `"egocentric"` (float32 `(n,)`: what the player sees from where he is, for
+      any number of players) or `"vector"` (float32 `(n,)`: what the scenario's `observe vector` declares).
+      `env.observation_layout` tells what stands where.
+    - `stack`: how many observations are shown at once, on the last axis, the oldest first; the first one of an episode,
+      or after `restore`, is shown so many times.
+    - `size`: width and height of `"smm"`.
+    - `switching`: whether the agents of a count change players (`"auto"`) or keep them (`"fixed"`); None: as the
+      scenario says.
     - `rewards`: names that replace the scenario's own choice: `"scoring,checkpoints"` or a list.
     - `params`: parameters to bind: SI units, or strings as the language writes them.
     - `seed`: the seed of the first `reset` that gets none.
@@ -446,7 +483,10 @@ def make(
       every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one
       that would change the spaces is held back.
     - `on_reload`: called with the `Reload` of every change; see also `env.unwrapped.last_reload`.
-    - `action_set`: `"default"` (19 actions) or `"v2"` (20: `Action.BUILTIN_AI` hands the step over to the bot).
+    - `action_set`: `"default"` (19 actions), `"v2"` (20: `Action.BUILTIN_AI` hands the step over to the bot), `"full"`
+      (33: orders to team mates too) or `"continuous"` (a `Box` of float32 `(4,)`: x and y of the way to run, whose
+      length is the pace; what to do with the ball, six kinds in equal parts of -1..1: nothing, short, long, high pass,
+      shot, slide; and the power of a kick, 0..1: how hard a shot is and how far a pass goes, 0 as a key's).
     - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.
@@ -473,6 +513,9 @@ def make(
         "on_reload": on_reload,
         "action_set": action_set,
         "bot_action": bot_action,
+        "stack": stack,
+        "size": size,
+        "switching": switching,
     }
     env = FootballEnv(**kwargs, render_mode=render_mode)
     # So that `env.spec.make()` gives another one, as for environments that Gymnasium made.
@@ -485,12 +528,17 @@ def make(
 
 
 def _revived(
-    kwargs: dict[str, Any], snapshot: bytes | None, spec: EnvSpec | None, random: Any, random_seed: int | None
+    kwargs: dict[str, Any],
+    snapshot: tuple[bytes, bytes] | None,
+    spec: EnvSpec | None,
+    random: Any,
+    random_seed: int | None,
 ) -> FootballEnv:
     """Returns the environment of a copy or pickle."""
     env = FootballEnv(**kwargs)
     if snapshot is not None:
-        env.restore(snapshot)
+        env.restore(snapshot[0])
+        env._native.set_frames(snapshot[1])
     env.spec = spec
     env._np_random, env._np_random_seed = random, random_seed
     return env

@@ -54,4 +54,9 @@ def register_envs() -> None:
     for name in _entries():
         env_id = f"{NAMESPACE}/{name}-v0"
         if env_id not in gymnasium.registry:
-            gymnasium.register(env_id, entry_point="setpiece._environment:FootballEnv", kwargs={"scenario": name.name})
+            gymnasium.register(
+                env_id,
+                entry_point="setpiece._environment:FootballEnv",
+                vector_entry_point="setpiece._vector:FootballVectorEnv",
+                kwargs={"scenario": name.name},
+            )

@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeGuard
 import numpy as np
 
 from setpiece._errors import ActionError, OpponentError, ParameterError
-from setpiece._native import AgentInfo
+from setpiece._native import ACTION_SETS, AgentInfo
 from setpiece._onnx import onnx_policy
 from setpiece._rows import Picker, pick_info
 from setpiece._spaces import check_observation
@@ -170,12 +170,13 @@ def _ask(seat: _Seat, seen: Any) -> list[int]:
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
         raise OpponentError(f"the opponent {_whose(seat)} {why}", slots=seat.agents, side=seat.side) from error
-    actions = integers(given, len(seat.at), len(Action))
+    actions = integers(given, len(seat.at), ACTION_SETS["v2"])
     if actions is None:
         found = given if seat.policy.batched or len(given) != 1 else given[0]
         what = f"{len(seat.at)} actions, integers" if seat.policy.batched else "an integer"
+        last = ACTION_SETS["v2"] - 1
         raise OpponentError(
-            f"the opponent {_whose(seat)} gave no action: expected {what} in 0..{len(Action) - 1}, found `{found!r}`",
+            f"the opponent {_whose(seat)} gave no action: expected {what} in 0..{last}, found `{found!r}`",
             slots=seat.agents,
             side=seat.side,
         )

@@ -19,7 +19,7 @@ from setpiece._errors import ActionError, ParameterError
 from setpiece._native import ACTION_SETS, Scenario
 from setpiece._opponents import integers
 from setpiece._rows import Picker, split_info
-from setpiece._spaces import observation_space
+from setpiece._spaces import observation_space, one_action_space
 from setpiece._state import state, state_space
 from setpiece._vocabulary import Action
 
@@ -52,7 +52,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
                 raise ParameterError(
                     f"the agent `{slot.id}` of `{env.scenario.name}` changes players: here everyone keeps his",
                     name="scenario",
-                    help="give the scenario's name or path, or write `agents { … switching: fixed }` in the text",
+                    help='make it with `switching="fixed"`',
                 )
         if max_cycles is not None:
             counts = integers(max_cycles, 1, 2**31, alone=True)
@@ -70,7 +70,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             agent: observation_space(env._native, env.observation, [slots[agent]]) for agent in self.possible_agents
         }
         self.action_spaces: dict[str, spaces.Space[Any]] = {
-            agent: spaces.Discrete(self._n_actions) for agent in self.possible_agents
+            agent: one_action_space(env.action_set) for agent in self.possible_agents
         }
         self.state_space = state_space(env._native.players)
         n_agents = len(self.possible_agents)

@@ -10,9 +10,9 @@ from setpiece import _library
 from setpiece._environment import FootballEnv, ParamValue
 from setpiece._errors import MissingPackageError
 from setpiece._native import Scenario
-from setpiece._opponents import Opponent, behaviors, revivable
+from setpiece._opponents import Opponent
 from setpiece._optional import need
-from setpiece._seats import Seats, seated
+from setpiece._seats import Seats
 
 if TYPE_CHECKING:
     from setpiece._parallel import ParallelFootballEnv
@@ -65,8 +65,11 @@ def parallel_env(
     from setpiece._parallel import ParallelFootballEnv
 
     env = FootballEnv(
-        seated(scenario, left, right, fixed=True, ai=behaviors(opponents)),
-        opponents=revivable(opponents),
+        scenario,
+        left=left,
+        right=right,
+        switching="fixed",
+        opponents=opponents,
         observation=observation,
         rewards=rewards,
         params=params,

@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 
 from setpiece._environment import FootballEnv, ParamValue
 from setpiece._errors import OpponentError, ParameterError
-from setpiece._native import Scenario
+from setpiece._native import ACTION_SETS, Scenario
 from setpiece._opponents import SIDES, Opponent, Policy, Table, behaviors, is_onnx, revivable
-from setpiece._seats import Seats, seated
-from setpiece._vocabulary import Action
+from setpiece._seats import Seats, scripted_scenario
 
 Agent = Callable[[Any], Any] | Opponent
 
@@ -92,11 +91,13 @@ def play(
     clock = _Clock()
     agents = {side: _opponent(agent, clock) for side, agent in zip(SIDES, (left_agent, right_agent), strict=True)}
     scripted = behaviors(agents)
-    chosen = seated(scenario, left, right, ai=scripted)
+    chosen = scripted_scenario(scenario, scripted)
     if left is None and right is None and {agent.team for agent in FootballEnv(chosen).slots} != {0, 1}:
-        chosen = seated(scenario, 1, 1, ai=scripted)
-    env = FootballEnv(chosen, observation="raw", params=params, rewards=rewards, action_set="v2")
-    table = Table(env.slots, revivable(agents) or {}, "raw", len(Action))
+        left = right = 1
+    env = FootballEnv(
+        chosen, left=left, right=right, observation="raw", params=params, rewards=rewards, action_set="v2"
+    )
+    table = Table(env.slots, revivable(agents) or {}, "raw", ACTION_SETS["v2"])
     return _played(env, table, seed, clock, on_error)
 
 

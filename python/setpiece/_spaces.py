@@ -159,7 +159,10 @@ def observation_layout(native: Observing, observation: str, stack: int) -> Layou
     """Returns how one agent's observation lies: the blocks of its last axis, or the keys of a dict."""
     if observation == "raw":
         space = _raw_space(native.players, 0, native.held_actions)
-        return tuple(Key(name, *_typed(part), RAW_MEANINGS[name.removeprefix("left_team").removeprefix("right_team") or name]) for name, part in space.items())
+        return tuple(
+            Key(name, *_typed(part), RAW_MEANINGS[name.removeprefix("left_team").removeprefix("right_team") or name])
+            for name, part in space.items()
+        )
     if observation == "smm":
         planes = ("own team", "opponents", "the ball", "the controlled player")
         blocks = [Block(i, 1, meaning, "0 or 255") for i, meaning in enumerate(planes)]

@@ -8,7 +8,6 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from setpiece import _native
 from setpiece._spaces import COUNT_MAX
 from setpiece._vocabulary import GameMode
 
@@ -19,16 +18,14 @@ STEPS_UNIT = 1000.0
 
 def state_space(players: tuple[int, int]) -> spaces.Box:
     """Returns the space of the state of so many players, left and right."""
-    low, high = (bound.astype(np.float32) for bound in _native.simple115v2_bounds())
-    place, stride, ball = slice(0, 2), slice(22, 24), slice(88, 94)
     n_players, n_modes = sum(players), len(GameMode)
     spin, count, time = 1.0, float(COUNT_MAX), COUNT_MAX / STEPS_UNIT
+    player, flags, ball = [2.0, 1.5, 1.0, 1.0], [1.0] * 4, [1.0, 1.0, 10.0]
+    low = [*([-bound for bound in player] + [0.0] * 4) * n_players, -2.0, -1.5, 0.0, *(-bound for bound in ball)]
+    high = [*(player + flags) * n_players, 2.0, 1.5, 100.0, *ball]
     bounds = [
-        np.concatenate([np.tile([*bound[place], *bound[stride], *flags], n_players), bound[ball], rest])
-        for bound, flags, rest in (
-            (low, [0.0] * 4, [-spin] * 3 + [0.0] * n_modes + [0.0, 0.0, 0.0]),
-            (high, [1.0] * 4, [spin] * 3 + [1.0] * n_modes + [count, count, time]),
-        )
+        np.array(low + [-spin] * 3 + [0.0] * (n_modes + 3)),
+        np.array(high + [spin] * 3 + [1.0] * n_modes + [count, count, time]),
     ]
     return spaces.Box(bounds[0].astype(np.float32), bounds[1].astype(np.float32), dtype=np.float32)
 

@@ -14,11 +14,14 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 use setpiece::Error;
 use setpiece::engine::batch::EpisodeError;
 use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, ResetError, Scratch};
-use setpiece::engine::observe::Floats;
+use setpiece::engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH};
 use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::pitch::TEAM_MAX;
 use setpiece::scenario::{Action, Team};
+
+/// Width and height of GRF's super mini map.
+const SMM_SIZE: (usize, usize) = (SMM_WIDTH, SMM_HEIGHT);
 
 /// Who acts: an agent of an environment.
 #[pyclass(frozen, module = "setpiece._native")]
@@ -50,7 +53,7 @@ impl Environment {
     #[new]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments of one call in Python")]
     #[pyo3(signature = (scenario, *, observation, rewards, events, copy, action_set, bot_action,
-        stack = 1, size = (96, 72), left = None, right = None, switching = None))]
+        stack, size, left, right, switching))]
     fn new(
         py: Python<'_>,
         scenario: &Scenario,
@@ -84,8 +87,7 @@ impl Environment {
     /// The agents, left before right.
     #[getter]
     fn agents(&self) -> Vec<AgentInfo> {
-        let teams = self.engine.roster().agents.iter().map(|(team, _)| team.index());
-        self.engine.agent_ids().iter().zip(teams).map(|(id, team)| AgentInfo { id: id.clone(), team }).collect()
+        agents_of(&self.engine)
     }
 
     /// The names of the numbers of the scenario's own observation, in order; empty without one.
@@ -119,6 +121,13 @@ impl Environment {
         Some(observation::bounds(py, floats, &self.engine))
     }
 
+    /// What all agents see now in an observation of any kind; looking changes nothing.
+    fn look<'py>(&mut self, py: Python<'py>, observation: &str) -> PyResult<Bound<'py, PyAny>> {
+        let kind = observable(py, &self.engine, observation, SMM_SIZE)?;
+        let mut observer = Observer::new(py, kind, &self.engine, (1, true), self.action_set.held());
+        observer.observe(py, &mut self.engine, true)
+    }
+
     /// What a stack of observations holds, as bytes.
     fn frames<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.observer.frames())
@@ -132,9 +141,7 @@ impl Environment {
     /// Players of the left and the right team, as raw observations count them.
     #[getter]
     fn players(&self) -> (usize, usize) {
-        let present = self.engine.roster().present;
-        let count = |team: Team| (0..TEAM_MAX).filter(|&place| present[PlayerId::new(team, place).index()]).count();
-        (count(Team::Left), count(Team::Right))
+        players_of(&self.engine)
     }
 
     /// Goes on with another version of the scenario's scripts at once; False, and nothing done, where anything else is
@@ -247,6 +254,19 @@ impl Environment {
     }
 }
 
+/// The agents of an engine, left before right.
+pub(crate) fn agents_of(engine: &Engine) -> Vec<AgentInfo> {
+    let teams = engine.roster().agents.iter().map(|(team, _)| team.index());
+    engine.agent_ids().iter().zip(teams).map(|(id, team)| AgentInfo { id: id.clone(), team }).collect()
+}
+
+/// Players of the left and the right team, as raw observations count them.
+pub(crate) fn players_of(engine: &Engine) -> (usize, usize) {
+    let present = engine.roster().present;
+    let count = |team: Team| (0..TEAM_MAX).filter(|&place| present[PlayerId::new(team, place).index()]).count();
+    (count(Team::Left), count(Team::Right))
+}
+
 /// The engine of a scenario with its agents, what is observed and how it is acted, checked.
 pub(crate) fn prepare(
     py: Python<'_>,
@@ -258,16 +278,22 @@ pub(crate) fn prepare(
 ) -> PyResult<(Engine, Kind, ActionSet)> {
     let options = EnvironmentOptions { rewards, agents: read_seats(py, seats)?, ..EnvironmentOptions::default() };
     let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
-    let kind = Kind::from_name(observation, size)
-        .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
+    let kind = observable(py, &engine, observation, size)?;
     let action_set = ActionSet::from_name(action_set)
         .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{action_set}`")))?;
+    Ok((engine, kind, action_set))
+}
+
+/// The observation of a name, if the scenario has it.
+fn observable(py: Python<'_>, engine: &Engine, observation: &str, size: (usize, usize)) -> PyResult<Kind> {
+    let kind = Kind::from_name(observation, size)
+        .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
     if kind == Kind::Floats(Floats::Vector) && engine.observed_names().is_empty() {
         let name = &engine.scenario().name;
         let message = format!("`{name}` declares no observation: it has no `observe vector {{ … }}`");
         return Err(errors::parameter(py, "observation", &message));
     }
-    Ok((engine, kind, action_set))
+    Ok(kind)
 }
 
 pub(crate) fn from_snapshot(py: Python<'_>, why: SnapshotError) -> PyErr {

@@ -6,6 +6,7 @@ use pyo3::types::PyDict;
 use setpiece::Error;
 use setpiece::dsl::problem::{Code, nearest};
 use setpiece::engine::batch::EpisodeError;
+use setpiece::engine::draw::RosterError;
 use setpiece::engine::environment::{EnvironmentError, StepError};
 use setpiece::engine::judge::ScriptError;
 use setpiece::scenario::{Param, ParamError};
@@ -70,6 +71,15 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
             if let EnvironmentError::Param(why) = why {
                 fields.set_item("name", param_name(why))?;
             }
+            if let EnvironmentError::Agents(RosterError::TooMany { team, .. } | RosterError::Player { team, .. }) = why
+            {
+                fields.set_item("name", team.name())?;
+            }
+            if let EnvironmentError::Agents(RosterError::Player { name, known, .. }) = why
+                && let Some(similar) = nearest(name, known.iter().map(String::as_str))
+            {
+                fields.set_item("help", format!("did you mean `{similar}`?"))?;
+            }
             environment_class(why)
         }
         Error::Episode(why) => match &**why {
@@ -89,9 +99,12 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
 fn environment_class(why: &EnvironmentError) -> &'static str {
     match why {
         EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => "RewardError",
-        EnvironmentError::Param(_) | EnvironmentError::Bindings { .. } | EnvironmentError::Roster => "ParameterError",
+        EnvironmentError::Param(_)
+        | EnvironmentError::Bindings { .. }
+        | EnvironmentError::Agents(_)
+        | EnvironmentError::Roster => "ParameterError",
         EnvironmentError::Snapshot(_) => "SnapshotError",
-        EnvironmentError::Agents(_) | EnvironmentError::Script(_) => "SetpieceError",
+        EnvironmentError::Script(_) => "SetpieceError",
     }
 }
 

@@ -1,6 +1,7 @@
 //! The Python module `setpiece._native`: conversions between Python and the facade, nothing else.
 
 mod actions;
+mod batch;
 mod diagnostics;
 mod environment;
 mod errors;
@@ -20,6 +21,8 @@ mod _native {
     use setpiece::engine::control::continuous;
     use setpiece::scenario::Action;
 
+    #[pymodule_export]
+    use crate::batch::{Arrays, Batch};
     #[pymodule_export]
     use crate::environment::{AgentInfo, Environment};
     #[pymodule_export]

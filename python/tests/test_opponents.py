@@ -183,7 +183,7 @@ def test_behaviours_play_a_side(pitch_file: PitchFile) -> None:
     with pytest.raises(setpiece.ParameterError, match="can't be played with `chase`") as caught:
         setpiece.make(path, opponents={"right": "chase"})
     assert caught.value.help
-    with pytest.raises(setpiece.ParameterError, match="a compiled scenario keeps its agents"):
+    with pytest.raises(setpiece.ParameterError, match="a compiled scenario keeps who plays its players"):
         setpiece.make(setpiece.load(path), opponents={"right": "chaser"})
 
 
@@ -286,7 +286,9 @@ def test_the_same_opponents_of_many_agents() -> None:
     assert list(observations) == list(rewards) == list(infos) == env.agents
     assert len(recorder.seen) == 2
     assert infos["left_CM_1"]["action_mask"].shape == (19,)
-    single = setpiece.make(env.scenario, opponents={"right": recorder, "left_CM_2": "bot"})
+    single = setpiece.make(
+        THREE, left=3, right="all", switching="fixed", opponents={"right": recorder, "left_CM_2": "bot"}
+    )
     single.reset(seed=1)
     joint = single.step([0, 5])[0]
     assert same([observations["left_CM_1"], observations["left_CM_3"]], list(joint))
@@ -306,4 +308,4 @@ def test_watched_files_say_who_plays(pitch_file: PitchFile) -> None:
     assert env.last_reload.state == "applied"
     assert last(env)["setpiece"]["length"] == 3
     with pytest.raises(setpiece.ParameterError, match="a watched file says itself who plays"):
-        setpiece.make(path, watch=True, left=1)
+        setpiece.make(path, watch=True, opponents={"right": "lazy"})

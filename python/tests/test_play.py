@@ -134,7 +134,6 @@ def test_options_that_are_not_there() -> None:
         setpiece.play(DUEL, runner, runner, on_error="win")  # type: ignore[arg-type]
     with pytest.raises(setpiece.ParameterError, match="opponents"):
         setpiece.play(DUEL, runner, 7)
-    with pytest.raises(setpiece.ParameterError, match="a compiled scenario keeps its agents"):
-        setpiece.play(setpiece.load(DUEL), runner, runner)
+    assert setpiece.play(setpiece.load(DUEL), runner, runner).length > 0
     with pytest.raises(setpiece.UnknownScenarioError):
         setpiece.play("1_vs_1_eazy", runner, runner)

@@ -28,7 +28,7 @@ pub fn decode(values: [f32; WIDTH]) -> Option<(Steer, Action)> {
         *value = value.clamp(low, high);
     }
     let [x, y, kind, power] = held;
-    let part = ((kind + 1.0) / 2.0 * KINDS.len() as f32) as usize;
+    let part = ((0.5 * kind + 0.5) * KINDS.len() as f32) as usize;
     let steer = Steer { way: Vec2::new(x, y).clamp_length_max(1.0), power };
     Some((steer, KINDS[part.min(KINDS.len() - 1)]))
 }

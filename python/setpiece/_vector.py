@@ -1,0 +1,367 @@
+"""Many matches of a scenario at once, as a Gymnasium vector environment."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from os import PathLike, fspath
+from typing import Any, Literal
+
+import gymnasium
+import numpy as np
+from gymnasium.envs.registration import EnvSpec
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from setpiece import _native
+from setpiece._environment import ParamValue, _check_number, _one_thread, _reward_names
+from setpiece._errors import ParameterError
+from setpiece._native import Scenario, load
+from setpiece._seats import Seats
+from setpiece._spaces import (
+    Layout,
+    action_space,
+    check_action_set,
+    check_observation,
+    check_size,
+    check_stack,
+    observation_layout,
+    observation_space,
+)
+
+ENVS_MAX = 65_536
+"""Most environments of a vector."""
+
+THREADS_MAX = 1_024
+"""Most threads of a vector."""
+
+RESET_OPTIONS = ("reset_mask", "params", "episode")
+
+
+class FootballVectorEnv(VectorEnv[Any, Any, Any]):
+    """`num_envs` matches of one scenario, stepped together on a few threads.
+
+    Every array has a leading axis `num_envs`; with several agents in a match a second one follows. What is shown is
+    written in place: with `copy=False` the same arrays are returned every time.
+
+    - `step(actions)`: actions `(num_envs,)` or `(num_envs, agents)`; returns observations, rewards (float64
+      `(num_envs,)`; float32 is what one environment of several agents pays, `(num_envs, agents)`), terminations,
+      truncations (bool `(num_envs,)`) and infos.
+    - `infos`, in Gymnasium's form, always: `action_mask` (int8), `score` (int64 `(num_envs, 2)`), `reward_terms`
+      {"reward/label": float64}. Where episodes have ended also `setpiece`, `outcome` and their masks `_setpiece`,
+      `_outcome`.
+    - `metadata["autoreset_mode"]`: `NEXT_STEP` begins the next episode in the step after the last, whose action is left
+      alone; `SAME_STEP` at once, with the last observation in `infos["final_obs"]` and the last infos in
+      `infos["final_info"]`; `DISABLED` when `reset(options={"reset_mask": …})` asks for it.
+    - `reset(seed=s)` gives environment k the seed s + k; a list gives each its own, None leaves one as it is. Each
+      counts its episodes from there, so a vector plays what `num_envs` single environments would.
+    """
+
+    metadata = {"render_modes": ["ansi"], "render_fps": 10, "autoreset_mode": AutoresetMode.NEXT_STEP}
+
+    def __init__(
+        self,
+        scenario: Scenario | str | PathLike[str],
+        num_envs: int = 1,
+        *,
+        threads: int | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        observation: str = "simple115v2",
+        rewards: str | Sequence[str] | None = None,
+        params: Mapping[str, ParamValue] | None = None,
+        seed: int | None = None,
+        copy: bool = True,
+        action_set: str = "default",
+        stack: int = 1,
+        size: tuple[int, int] = (96, 72),
+        left: Seats = None,
+        right: Seats = None,
+        switching: Literal["auto", "fixed"] | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        """Makes the environments; the arguments are those of `setpiece.make_vec`."""
+        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
+            raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
+        self.render_mode = render_mode
+        self.num_envs = _count("num_envs", num_envs, ENVS_MAX)
+        threads = (
+            min(os.cpu_count() or 1, self.num_envs) if threads is None else _count("threads", threads, THREADS_MAX)
+        )
+        self.autoreset_mode = _mode(autoreset_mode)
+        self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
+        scenario = scenario if isinstance(scenario, Scenario) else load(fspath(scenario))
+        self.scenario = scenario.with_params(**dict(params or {}))
+        self._observation = check_observation(observation)
+        self._stack = check_stack(stack, self._observation)
+        self._batch = _native.Batch(
+            self.scenario,
+            self.num_envs,
+            threads,
+            observation=self._observation,
+            rewards=_reward_names(rewards),
+            action_set=check_action_set(action_set),
+            next_step=self.autoreset_mode == AutoresetMode.NEXT_STEP,
+            stack=self._stack,
+            size=check_size(size),
+            left=left,
+            right=right,
+            switching=switching,
+        )
+        self._agents = len(self._batch.agents)
+        self.agents = tuple(agent.id for agent in self._batch.agents)
+        self.single_observation_space = observation_space(self._batch, self._observation)
+        self.single_action_space = action_space(self._agents, action_set)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+        self._arrays = self._batch.arrays()
+        self._copy = copy
+        self._first_seed = None if seed is None else _check_number("seed", seed)
+        self._begun = False
+        self._over = np.ones(self.num_envs, bool)
+        self._views = self._viewed()
+        self._terms = self._batch.terms
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Draws new starts and returns their observations and infos.
+
+        - `seed`: an integer s (environment k gets s + k), or one for each environment.
+        - `options`: `{"reset_mask": bool array}` begins episodes of those marked alone; `{"params": {…}}` binds
+          parameters of all, from their next episodes on; `{"episode": n}` sets the index.
+
+        Raises `ParameterError` for other options, `DrawError` where no start meets the scenario's requirements.
+        """
+        mask, params, episode = self._read_options(options)
+        if seed is None and not self._begun:
+            seed = self._first_seed
+            if seed is None:
+                seed = int(self.np_random.integers(2**62))
+        seeds = self._seeds(seed)
+        super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
+        with _one_thread():
+            if params is not None:
+                self._batch.bind(params)
+            self._batch.reset(self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False)
+        self._begun = True
+        self._over &= ~mask
+        return self._shown(), self._infos()
+
+    def step(self, actions: Any) -> tuple[Any, Any, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """Plays 100 ms of every match.
+
+        Raises `ActionError` for actions of another shape or number, and nothing has been played then; `ScriptError`
+        where a script of the scenario fails: its episode has ended, the others have been played.
+        """
+        if not self._begun:
+            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+        if self._over.any() and self.autoreset_mode == AutoresetMode.DISABLED:
+            at = int(np.flatnonzero(self._over)[0])
+            raise gymnasium.error.ResetNeeded(
+                f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
+            )
+        with _one_thread():
+            self._batch.step(self._arrays, actions)
+        over = self._arrays.terminated | self._arrays.truncated
+        infos = self._infos()
+        if over.any():
+            self._tell(infos, over)
+            if self.autoreset_mode == AutoresetMode.SAME_STEP:
+                infos = self._begin_again(infos, over)
+                self._over[:] = False
+                return self._shown(), *self._outcomes(), infos
+        self._over = over
+        return self._shown(), *self._outcomes(), infos
+
+    @property
+    def observation_layout(self) -> Layout:
+        """How one agent's observation lies: the blocks of its last axis."""
+        return observation_layout(self._batch, self._observation, self._stack)
+
+    def action_masks(self) -> NDArray[np.int8]:
+        """Returns what `infos["action_mask"]` shows now."""
+        masks: NDArray[np.int8] = self._of_agents(self._arrays.masks).copy()
+        return masks
+
+    def render(self) -> tuple[str, ...] | None:
+        """Returns a drawing of every pitch in text, for `render_mode="ansi"`; None without a render mode."""
+        if self.render_mode is None:
+            return None
+        return tuple(self._batch.drawing(at) for at in range(self.num_envs))
+
+    def _begin_again(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> dict[str, Any]:
+        """Begins the next episode of those that have ended, and puts the end of the last into `final_obs`."""
+        final = {key: value.copy() if isinstance(value, np.ndarray) else value for key, value in infos.items()}
+        final["reward_terms"] = {name: paid.copy() for name, paid in infos["reward_terms"].items()}
+        last = np.full(self.num_envs, None, dtype=object)
+        for at in np.flatnonzero(over):
+            last[at] = self._of_agents(self._arrays.observations)[at].copy()
+        with _one_thread():
+            none = [None] * self.num_envs
+            self._batch.reset(self._arrays, over.tolist(), none, none, True)
+        fresh = self._infos()
+        fresh.update({"final_obs": last, "_final_obs": over.copy(), "final_info": final, "_final_info": over.copy()})
+        return fresh
+
+    def _tell(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> None:
+        """Adds how episodes have ended."""
+        outcomes = np.full(self.num_envs, None, dtype=object)
+        summaries: dict[str, Any] = {}
+        for at in np.flatnonzero(over):
+            summary = self._batch.summary(int(at))
+            if summary is None:
+                continue
+            outcomes[at] = summary.pop("outcome")
+            paid = np.array(summary.pop("return"), np.float64).reshape(self._agents, len(self._terms))
+            returns = summaries.setdefault("return", {})
+            for term, name in enumerate(self._terms):
+                shape = self.num_envs if self._agents == 1 else (self.num_envs, self._agents)
+                returns.setdefault(name, np.zeros(shape))[at] = paid[0, term] if self._agents == 1 else paid[:, term]
+            for key, value in summary.items():
+                dtype = object if isinstance(value, str) else np.uint64 if key in ("seed", "index") else None
+                column = summaries.setdefault(key, np.zeros(self.num_envs, dtype or np.array(value).dtype))
+                column[at] = value
+        infos["outcome"], infos["_outcome"] = outcomes, over.copy()
+        infos["setpiece"], infos["_setpiece"] = summaries, over.copy()
+
+    def _infos(self) -> dict[str, Any]:
+        marks = self._marks
+        terms = {name: self._of_agents(self._arrays.terms)[..., at].copy() for at, name in enumerate(self._terms)}
+        return {
+            "score": self._arrays.score.copy(),
+            "_score": marks,
+            "reward_terms": terms,
+            "_reward_terms": marks,
+            "action_mask": self._of_agents(self._arrays.masks).copy(),
+            "_action_mask": marks,
+        }
+
+    def _viewed(self) -> tuple[NDArray[Any], NDArray[np.float64]]:
+        self._marks = np.ones(self.num_envs, bool)
+        return self._of_agents(self._arrays.observations), self._of_agents(self._arrays.rewards)
+
+    def _shown(self) -> Any:
+        return self._views[0].copy() if self._copy else self._views[0]
+
+    def _outcomes(self) -> tuple[Any, NDArray[np.bool_], NDArray[np.bool_]]:
+        arrays = self._arrays
+        return self._views[1].copy(), arrays.terminated.copy(), arrays.truncated.copy()
+
+    def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
+        """The array without the axis of agents where there is one agent."""
+        return array[:, 0] if self._agents == 1 else array
+
+    def _read_options(
+        self, options: dict[str, Any] | None
+    ) -> tuple[NDArray[np.bool_], dict[str, ParamValue] | None, int | None]:
+        options = {} if options is None else options
+        if not isinstance(options, Mapping):
+            raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
+        for key in options:
+            if key not in RESET_OPTIONS:
+                raise ParameterError(
+                    f"no reset option `{key}`; there are `{'`, `'.join(RESET_OPTIONS)}`", name=str(key)
+                )
+        mask = options.get("reset_mask")
+        if mask is None:
+            mask = np.ones(self.num_envs, bool)
+        elif not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (self.num_envs,):
+            raise ParameterError(f"`reset_mask` is an array of {self.num_envs} truth values", name="reset_mask")
+        elif not mask.any():
+            raise ParameterError("`reset_mask` marks no environment", name="reset_mask")
+        elif not self._begun and not mask.all():
+            raise ParameterError("the first `reset` begins an episode of every environment", name="reset_mask")
+        params = options.get("params")
+        if params is not None and not isinstance(params, Mapping):
+            raise ParameterError(f"expected `params` as a mapping, found `{params!r}`", name="params")
+        episode = options.get("episode")
+        return (
+            mask,
+            None if params is None else dict(params),
+            None if episode is None else _check_number("episode", episode),
+        )
+
+    def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
+        if seed is None:
+            return [None] * self.num_envs
+        if isinstance(seed, Sequence | np.ndarray):
+            if len(seed) != self.num_envs:
+                raise ParameterError(f"expected {self.num_envs} seeds, found {len(seed)}", name="seed")
+            return [None if one is None else _check_number("seed", one) for one in seed]
+        first = _check_number("seed", seed)
+        return [(first + at) % 2**64 for at in range(self.num_envs)]
+
+
+def make_vec(
+    scenario: Scenario | str | PathLike[str],
+    num_envs: int = 1,
+    *,
+    threads: int | None = None,
+    autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+    observation: str = "simple115v2",
+    rewards: str | Sequence[str] | None = None,
+    params: Mapping[str, ParamValue] | None = None,
+    seed: int | None = None,
+    copy: bool = True,
+    action_set: str = "default",
+    stack: int = 1,
+    size: tuple[int, int] = (96, 72),
+    left: Seats = None,
+    right: Seats = None,
+    switching: Literal["auto", "fixed"] | None = None,
+    render_mode: str | None = None,
+) -> FootballVectorEnv:
+    """Makes `num_envs` environments of a scenario that are stepped together.
+
+    - `threads`: how many play; None: one per core. Results don't depend on them.
+    - `autoreset_mode`: when an episode that has ended is followed by the next: see `FootballVectorEnv`.
+    - `copy`: False returns the same array of observations every time, overwritten by the next `step`.
+    - The rest is as in `setpiece.make`; raw observations are for single environments.
+
+    >>> import numpy, setpiece
+    >>> envs = setpiece.make_vec("academy_3_vs_1_with_keeper", 4, seed=7)
+    >>> observations, infos = envs.reset()
+    >>> observations, rewards, *_ = envs.step(numpy.full(4, setpiece.Action.SHORT_PASS))
+    >>> observations.shape, rewards.shape, infos["action_mask"].shape
+    ((4, 115), (4,), (4, 19))
+    """
+    kwargs: dict[str, Any] = {
+        "scenario": scenario,
+        "threads": threads,
+        "autoreset_mode": autoreset_mode,
+        "observation": observation,
+        "rewards": rewards,
+        "params": params,
+        "seed": seed,
+        "copy": copy,
+        "action_set": action_set,
+        "stack": stack,
+        "size": size,
+        "left": left,
+        "right": right,
+        "switching": switching,
+        "render_mode": render_mode,
+    }
+    envs = FootballVectorEnv(num_envs=num_envs, **kwargs)
+    envs.spec = EnvSpec(
+        id=f"setpiece/{envs.scenario.name}-v0",
+        entry_point="setpiece._environment:FootballEnv",
+        vector_entry_point="setpiece._vector:FootballVectorEnv",
+        kwargs=kwargs,
+    )
+    return envs
+
+
+def _count(name: str, value: object, most: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 1 <= value <= most:
+        raise ParameterError(f"`{name}` is {value!r}; it can be an integer in 1..{most}", name=name)
+    return int(value)
+
+
+def _mode(mode: object) -> AutoresetMode:
+    for known in AutoresetMode:
+        if mode is known or (isinstance(mode, str) and mode.lower() in (known.name.lower(), known.value.lower())):
+            return known
+    names = "`, `".join(known.name for known in AutoresetMode)
+    raise ParameterError(f"no autoreset mode `{mode}`; there are `{names}`", name="autoreset_mode")

@@ -1,0 +1,517 @@
+//! Many matches in one: what `setpiece.FootballVectorEnv` is made of.
+//!
+//! Everything that an agent is shown lies in arrays with a row for each environment, which are written in place, on a
+//! few threads, without the interpreter.
+
+use crate::actions::{self, Act, ActionSet};
+use crate::environment::{AgentInfo, agents_of, from_episode, players_of, prepare};
+use crate::errors;
+use crate::info::write_mask;
+use crate::observation::{self, Kind, Stack, write_floats, write_map};
+use crate::params::bind;
+use crate::scenario::Scenario;
+use crate::seats::Seats;
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use setpiece::engine::environment::{Environment as Engine, ResetError, Scratch, StepError};
+use setpiece::engine::observe::ObserveError;
+use setpiece::scenario::{Action, Verdict};
+
+/// One of the matches.
+struct Lane {
+    engine: Engine,
+    film: Film,
+    /// The episode has ended and no other has begun.
+    over: bool,
+    /// What failed in the last step.
+    fault: Option<ResetError>,
+    broken: Option<StepError>,
+}
+
+/// The newest observations of a match.
+enum Film {
+    Floats(Stack<f32>),
+    Map(Stack<u8>),
+}
+
+/// What a match writes into in a step.
+struct Row<'a> {
+    observation: Rows<'a>,
+    rewards: &'a mut [f64],
+    terms: &'a mut [f64],
+    mask: &'a mut [i8],
+    score: &'a mut [i64],
+    terminated: &'a mut bool,
+    truncated: &'a mut bool,
+    /// Whether the row shows the first moment of an episode that this step has begun.
+    begun: &'a mut bool,
+}
+
+enum Rows<'a> {
+    Floats(&'a mut [f32]),
+    Map(&'a mut [u8]),
+}
+
+/// A number of matches of one scenario that are stepped together.
+#[pyclass(module = "setpiece._native")]
+pub(crate) struct Batch {
+    lanes: Vec<Lane>,
+    scratches: Vec<Scratch>,
+    pool: ThreadPool,
+    kind: Kind,
+    stack: usize,
+    action_set: ActionSet,
+    /// Whether a step begins the next episode where the last one has ended.
+    next_step: bool,
+    acts: Vec<Act>,
+}
+
+/// The arrays of a batch, a row for each environment: rewards (n, agents), terms (n, agents, terms), masks
+/// (n, agents, actions), score (n, 2), terminated, truncated, begun (n).
+#[pyclass(module = "setpiece._native", frozen)]
+pub(crate) struct Arrays {
+    #[pyo3(get)]
+    observations: Py<PyAny>,
+    #[pyo3(get)]
+    rewards: Py<PyArray2<f64>>,
+    #[pyo3(get)]
+    terms: Py<PyArrayDyn<f64>>,
+    #[pyo3(get)]
+    masks: Py<PyArrayDyn<i8>>,
+    #[pyo3(get)]
+    score: Py<PyArray2<i64>>,
+    #[pyo3(get)]
+    terminated: Py<PyArray1<bool>>,
+    #[pyo3(get)]
+    truncated: Py<PyArray1<bool>>,
+    #[pyo3(get)]
+    begun: Py<PyArray1<bool>>,
+}
+
+#[pymethods]
+impl Batch {
+    #[new]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments of one call in Python")]
+    #[pyo3(signature = (scenario, n, threads, *, observation, rewards, action_set, next_step,
+        stack, size, left, right, switching))]
+    fn new(
+        py: Python<'_>,
+        scenario: &Scenario,
+        n: usize,
+        threads: usize,
+        observation: &str,
+        rewards: Option<Vec<String>>,
+        action_set: &str,
+        next_step: bool,
+        stack: usize,
+        size: (usize, usize),
+        left: Option<&Bound<'_, PyAny>>,
+        right: Option<&Bound<'_, PyAny>>,
+        switching: Option<&str>,
+    ) -> PyResult<Batch> {
+        let seats = Seats { left, right, switching };
+        let (engine, kind, action_set) = prepare(py, scenario, rewards, (observation, size), action_set, &seats)?;
+        if kind == Kind::Raw {
+            let message = "raw observations are dicts, which a vector environment doesn't stack";
+            return Err(errors::parameter(py, "observation", message));
+        }
+        let (planes, one) = (kind.planes(&engine), kind.shape(&engine, 1).iter().product());
+        let film = || match kind {
+            Kind::Smm { .. } => Film::Map(Stack::new(stack, planes, one)),
+            _ => Film::Floats(Stack::new(stack, planes, one)),
+        };
+        let threads = threads.clamp(1, n.max(1));
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|why| errors::raise_plain(py, "SetpieceError", &format!("no threads: {why}")))?;
+        let acts = vec![Act::IDLE; n * engine.n_agents()];
+        let lane = || Lane { engine: engine.clone(), film: film(), over: true, fault: None, broken: None };
+        Ok(Batch {
+            lanes: (0..n).map(|_| lane()).collect(),
+            scratches: std::iter::repeat_with(Scratch::default).take(threads).collect(),
+            pool,
+            kind,
+            stack,
+            action_set,
+            next_step,
+            acts,
+        })
+    }
+
+    /// The agents of each environment, left before right.
+    #[getter]
+    fn agents(&self) -> Vec<AgentInfo> {
+        self.lanes.first().map(|lane| agents_of(&lane.engine)).unwrap_or_default()
+    }
+
+    /// Players of the left and the right team.
+    #[getter]
+    fn players(&self) -> (usize, usize) {
+        self.lanes.first().map(|lane| players_of(&lane.engine)).unwrap_or_default()
+    }
+
+    /// How many held actions raw observations would show.
+    #[getter]
+    fn held_actions(&self) -> usize {
+        self.action_set.held()
+    }
+
+    /// The shape of one agent's observation.
+    #[getter]
+    fn observation_shape(&self) -> Vec<usize> {
+        self.lanes.first().map(|lane| self.kind.shape(&lane.engine, self.stack)).unwrap_or_default()
+    }
+
+    /// The blocks of an observation of floats: (start, length, meaning, unit).
+    #[getter]
+    fn blocks(&self) -> Vec<(usize, usize, String, &'static str)> {
+        self.lanes.first().map(|lane| observation::blocks(self.kind, &lane.engine)).unwrap_or_default()
+    }
+
+    /// Least and greatest value of every number of one observation of floats; none for others.
+    #[getter]
+    fn bounds<'py>(&self, py: Python<'py>) -> Option<observation::Bounds<'py>> {
+        let (Kind::Floats(floats), Some(lane)) = (self.kind, self.lanes.first()) else { return None };
+        Some(observation::bounds(py, floats, &lane.engine))
+    }
+
+    /// The names of the terms of rewards, in the order of the arrays.
+    #[getter]
+    fn terms(&self) -> Vec<String> {
+        self.lanes.first().map(|lane| lane.engine.term_names().to_vec()).unwrap_or_default()
+    }
+
+    /// New arrays for what this batch shows.
+    fn arrays(&self, py: Python<'_>) -> PyResult<Arrays> {
+        let n = self.lanes.len();
+        let Some(lane) = self.lanes.first() else {
+            return Err(errors::parameter(py, "num_envs", "a batch has at least one environment"));
+        };
+        let agents = lane.engine.n_agents();
+        let shape: Vec<usize> = [n, agents].into_iter().chain(self.kind.shape(&lane.engine, self.stack)).collect();
+        let observations = match self.kind {
+            Kind::Smm { .. } => PyArrayDyn::<u8>::zeros(py, shape, false).into_any(),
+            _ => PyArrayDyn::<f32>::zeros(py, shape, false).into_any(),
+        };
+        let terms = lane.engine.term_names().len();
+        Ok(Arrays {
+            observations: observations.unbind(),
+            rewards: PyArray2::zeros(py, [n, agents], false).unbind(),
+            terms: PyArrayDyn::zeros(py, vec![n, agents, terms], false).unbind(),
+            masks: PyArrayDyn::zeros(py, vec![n, agents, self.action_set.masked().len()], false).unbind(),
+            score: PyArray2::zeros(py, [n, 2], false).unbind(),
+            terminated: PyArray1::zeros(py, n, false).unbind(),
+            truncated: PyArray1::zeros(py, n, false).unbind(),
+            begun: PyArray1::zeros(py, n, false).unbind(),
+        })
+    }
+
+    /// Binds parameters for all environments, from their next episodes on.
+    fn bind(&mut self, py: Python<'_>, params: &Bound<'_, PyDict>) -> PyResult<()> {
+        for lane in &mut self.lanes {
+            let bindings = bind(py, &lane.engine.scenario().params, params)?;
+            lane.engine.set_bindings(&bindings).map_err(|error| crate::environment::from_engine(py, error))?;
+        }
+        Ok(())
+    }
+
+    /// Begins episodes: of the environments that `which` marks, each with its seed, or with its next index. With `keep`
+    /// the arrays go on telling how the last episode ended, beside the first observation of the new one.
+    fn reset(
+        &mut self,
+        py: Python<'_>,
+        arrays: &Arrays,
+        which: Vec<bool>,
+        seeds: Vec<Option<u64>>,
+        episodes: Vec<Option<u64>>,
+        keep: bool,
+    ) -> PyResult<()> {
+        let order: Vec<(bool, Option<u64>, Option<u64>)> =
+            which.into_iter().zip(seeds).zip(episodes).map(|((which, seed), index)| (which, seed, index)).collect();
+        if order.len() != self.lanes.len() {
+            return Err(errors::parameter(py, "reset_mask", &format!("expected {} entries", self.lanes.len())));
+        }
+        let (kind, set) = (self.kind, self.action_set);
+        self.each(py, arrays, |at, lane, row, _| {
+            let (which, seed, index) = order[at];
+            if which {
+                lane.begin(seed, index, (kind, set, keep), row);
+            }
+        })?;
+        self.told(py)
+    }
+
+    /// Plays a step of every environment; those whose episode has ended begin the next, as their mode says.
+    fn step(&mut self, py: Python<'_>, arrays: &Arrays, action: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.read(action)?;
+        let agents = self.acts.len() / self.lanes.len().max(1);
+        let (kind, set, next_step) = (self.kind, self.action_set, self.next_step);
+        if !next_step && let Some(at) = self.lanes.iter().position(|lane| lane.over) {
+            let message =
+                format!("the episode of environment {at} has ended: call `reset` with a `reset_mask` that names it");
+            return Err(errors::raise_plain(py, "SetpieceError", &message));
+        }
+        let acts = std::mem::take(&mut self.acts);
+        let played = self.each(py, arrays, |at, lane, row, scratch| {
+            lane.step(&acts[at * agents..(at + 1) * agents], next_step, (kind, set), row, scratch);
+        });
+        self.acts = acts;
+        played?;
+        self.told(py)
+    }
+
+    /// What became of the episode of an environment that has ended: outcome, success, length, seed, index, digest,
+    /// faults, return by term and agent.
+    fn summary<'py>(&self, py: Python<'py>, at: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(lane) = self.lanes.get(at) else { return Ok(None) };
+        let engine = &lane.engine;
+        let Some(outcome) = engine.outcome() else { return Ok(None) };
+        let dict = PyDict::new(py);
+        dict.set_item("outcome", &*outcome.label)?;
+        dict.set_item("success", outcome.verdict == Some(Verdict::Success))?;
+        dict.set_item("length", engine.steps())?;
+        dict.set_item("seed", engine.seed())?;
+        dict.set_item("index", engine.index())?;
+        dict.set_item("digest", format!("{:016x}", engine.digest()))?;
+        dict.set_item("faults", engine.faults())?;
+        let sums: PyResult<Vec<_>> =
+            (0..engine.n_agents()).map(|agent| PyList::new(py, engine.term_sums(agent))).collect();
+        dict.set_item("return", PyList::new(py, sums?)?)?;
+        Ok(Some(dict))
+    }
+
+    /// A drawing of an environment's pitch in text.
+    fn drawing(&self, at: usize) -> String {
+        self.lanes.get(at).map(|lane| setpiece::drawing::draw(lane.engine.state())).unwrap_or_default()
+    }
+}
+
+impl Batch {
+    /// Reads everyone's actions: integers `(n,)` or `(n, agents)`; with continuous actions a last axis of four.
+    fn read(&mut self, given: &Bound<'_, PyAny>) -> PyResult<()> {
+        let py = given.py();
+        let flat = given.call_method1("reshape", (-1,)).ok();
+        if let (ActionSet::Keys(size), Some(array)) = (self.action_set, flat)
+            && let Ok(array) = array.cast::<PyArray1<i64>>()
+        {
+            let numbers = array.readonly();
+            let numbers = numbers.as_array();
+            if numbers.len() == self.acts.len() {
+                for (at, (act, &number)) in self.acts.iter_mut().zip(numbers.iter()).enumerate() {
+                    let known = usize::try_from(number).ok().filter(|&number| number < size);
+                    let Some(action) = known.and_then(Action::from_index) else {
+                        let message = format!("expected actions 0..{}, found {number} at {at}", size - 1);
+                        return Err(errors::raise_plain(py, "ActionError", &message));
+                    };
+                    *act = Act { action, steer: None };
+                }
+                return Ok(());
+            }
+        }
+        let numpy = py.import("numpy")?;
+        let given = numpy.call_method1("asarray", (given,))?;
+        let rows = match self.action_set {
+            ActionSet::Keys(_) => given.call_method1("reshape", (self.acts.len(),)),
+            ActionSet::Continuous => given.call_method1("reshape", (self.acts.len(), 4)),
+        };
+        match rows {
+            Ok(rows) if self.acts.len() == 1 && self.action_set != ActionSet::Continuous => {
+                actions::read(&rows.get_item(0)?, self.action_set, &mut self.acts)
+            }
+            Ok(rows) => actions::read(&rows, self.action_set, &mut self.acts),
+            Err(_) => actions::read(&given, self.action_set, &mut self.acts),
+        }
+    }
+
+    /// Does something with every match and its row, on the threads.
+    fn each(
+        &mut self,
+        py: Python<'_>,
+        arrays: &Arrays,
+        work: impl Fn(usize, &mut Lane, Row<'_>, &mut Scratch) + Sync,
+    ) -> PyResult<()> {
+        let n = self.lanes.len();
+        let lost = || errors::raise_plain(py, "SetpieceError", "an array of the batch is in use or read-only");
+        macro_rules! write {
+            ($guard:ident, $values:ident, $array:expr) => {
+                let mut $guard = $array.bind(py).try_readwrite().map_err(|_| lost())?;
+                let $values = $guard.as_slice_mut().map_err(|_| lost())?;
+            };
+        }
+        write!(a, rewards, arrays.rewards);
+        write!(b, terms, arrays.terms);
+        write!(c, masks, arrays.masks);
+        write!(d, score, arrays.score);
+        write!(e, terminated, arrays.terminated);
+        write!(f, truncated, arrays.truncated);
+        write!(g, begun, arrays.begun);
+        let observations = arrays.observations.bind(py);
+        let (mut floats, mut bytes);
+        let mut shown: Vec<Rows<'_>> = if let Ok(array) = observations.cast::<PyArrayDyn<f32>>() {
+            floats = array.try_readwrite().map_err(|_| lost())?;
+            chunks(floats.as_slice_mut().map_err(|_| lost())?, n).into_iter().map(Rows::Floats).collect()
+        } else {
+            let array = observations.cast::<PyArrayDyn<u8>>().map_err(|_| lost())?;
+            bytes = array.try_readwrite().map_err(|_| lost())?;
+            chunks(bytes.as_slice_mut().map_err(|_| lost())?, n).into_iter().map(Rows::Map).collect()
+        };
+        let mut rows = Vec::with_capacity(n);
+        let flags = terminated.iter_mut().zip(truncated).zip(begun);
+        let numbers = chunks(rewards, n).into_iter().zip(chunks(terms, n)).zip(chunks(masks, n)).zip(chunks(score, n));
+        for ((((rewards, terms), mask), score), (((terminated, truncated), begun), observation)) in
+            numbers.zip(flags.zip(shown.drain(..)))
+        {
+            rows.push(Row { observation, rewards, terms, mask, score, terminated, truncated, begun });
+        }
+        let chunk = n.div_ceil(self.scratches.len()).max(1);
+        let (pool, lanes, scratches) = (&self.pool, &mut self.lanes, &mut self.scratches);
+        py.detach(|| {
+            let mut parts: Vec<Vec<Row<'_>>> = Vec::new();
+            let mut rows = rows.into_iter();
+            while parts.len() < scratches.len() {
+                parts.push(rows.by_ref().take(chunk).collect());
+            }
+            let all = lanes.par_chunks_mut(chunk).zip(parts.into_par_iter()).zip(scratches.par_iter_mut()).enumerate();
+            pool.install(|| {
+                all.for_each(|(part, ((lanes, rows), scratch))| {
+                    for (i, (lane, row)) in lanes.iter_mut().zip(rows).enumerate() {
+                        work(part * chunk + i, lane, row, scratch);
+                    }
+                });
+            });
+        });
+        Ok(())
+    }
+
+    /// Raises what has failed in a step, the first environment's; it has ended then, the others have been played.
+    fn told(&mut self, py: Python<'_>) -> PyResult<()> {
+        let mut first = None;
+        for lane in &mut self.lanes {
+            let broken = lane.broken.take().map(|why| from_episode(py, why.into()));
+            let fault = lane.fault.take().map(|why| match why {
+                ResetError::Draw(why) => from_episode(py, why.into()),
+                ResetError::Snapshot(why) => crate::environment::from_snapshot(py, why),
+            });
+            first = first.or(broken).or(fault);
+        }
+        first.map_or(Ok(()), Err)
+    }
+}
+
+/// A slice in n equal parts.
+fn chunks<T>(values: &mut [T], n: usize) -> Vec<&mut [T]> {
+    let one = values.len() / n.max(1);
+    let mut rest = values;
+    let mut parts = Vec::with_capacity(n);
+    for _ in 0..n {
+        let (part, more) = rest.split_at_mut(one);
+        parts.push(part);
+        rest = more;
+    }
+    parts
+}
+
+impl Lane {
+    /// Begins an episode and shows its first moment.
+    fn begin(
+        &mut self,
+        seed: Option<u64>,
+        index: Option<u64>,
+        (kind, set, keep): (Kind, ActionSet, bool),
+        mut row: Row<'_>,
+    ) {
+        if let Err(why) = self.engine.reset(seed, index) {
+            self.fault = Some(why.into());
+            self.over = true;
+            return;
+        }
+        self.over = false;
+        *row.begun = true;
+        if !keep {
+            row.rewards.fill(0.0);
+            row.terms.fill(0.0);
+            (*row.terminated, *row.truncated) = (false, false);
+        }
+        self.show(kind, set, &mut row, true);
+    }
+
+    /// Plays a step, or begins the next episode.
+    fn step(
+        &mut self,
+        acts: &[Act],
+        next_step: bool,
+        (kind, set): (Kind, ActionSet),
+        mut row: Row<'_>,
+        scratch: &mut Scratch,
+    ) {
+        if self.over && next_step {
+            return self.begin(None, None, (kind, set, false), row);
+        }
+        let mut pressed = [Action::Idle; setpiece::scenario::pitch::PLAYERS_MAX];
+        for (agent, (act, action)) in acts.iter().zip(&mut pressed).enumerate() {
+            *action = act.action;
+            if act.steer.is_some() {
+                self.engine.steer(agent, act.steer);
+            }
+        }
+        let result = match self.engine.step(&pressed[..acts.len()], scratch) {
+            Ok(result) => result,
+            Err(why) => {
+                (self.broken, self.over) = (Some(why), true);
+                return;
+            }
+        };
+        (*row.terminated, *row.truncated, *row.begun) = (result.terminated, result.truncated, false);
+        for (out, paid) in row.rewards.iter_mut().zip(self.engine.rewards()) {
+            *out = f64::from(*paid);
+        }
+        let n_terms = self.engine.term_names().len();
+        for (agent, out) in row.terms.chunks_exact_mut(n_terms.max(1)).enumerate() {
+            out.copy_from_slice(self.engine.terms(agent));
+        }
+        self.over = result.terminated || result.truncated;
+        self.show(kind, set, &mut row, false);
+    }
+
+    /// Writes what is seen of the match as it stands.
+    fn show(&mut self, kind: Kind, set: ActionSet, row: &mut Row<'_>, first: bool) {
+        let n_agents = self.engine.n_agents();
+        // The buffers have the sizes that the engine asked for: what can't be written is left as it is.
+        let _ = observe(&mut self.engine, &mut self.film, kind, &mut row.observation, n_agents, first);
+        let size = set.masked().len();
+        for (agent, mask) in row.mask.chunks_exact_mut(size).enumerate() {
+            write_mask(set, &self.engine, agent, mask);
+        }
+        for (out, goals) in row.score.iter_mut().zip(self.engine.score()) {
+            *out = goals.into();
+        }
+    }
+}
+
+fn observe(
+    engine: &mut Engine,
+    film: &mut Film,
+    kind: Kind,
+    rows: &mut Rows<'_>,
+    n_agents: usize,
+    first: bool,
+) -> Result<(), ObserveError> {
+    match (kind, film, rows) {
+        (Kind::Floats(floats), Film::Floats(stack), Rows::Floats(out)) => {
+            let one = (out.len() / n_agents.max(1)).max(1);
+            for (agent, out) in out.chunks_exact_mut(one).enumerate() {
+                stack.push(out, first, |out| write_floats(floats, engine, agent, out))?;
+            }
+        }
+        (Kind::Smm { width, height }, Film::Map(stack), Rows::Map(out)) => {
+            let one = (out.len() / n_agents.max(1)).max(1);
+            for (agent, out) in out.chunks_exact_mut(one).enumerate() {
+                stack.push(out, first, |out| write_map((width, height), engine, agent, out))?;
+            }
+        }
+        _ => {}
+    }
+    Ok(())
+}

@@ -1,0 +1,205 @@
+"""Many matches at once: a vector plays what as many single environments would."""
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from conftest import same
+from gymnasium.vector import AutoresetMode
+
+import setpiece
+
+THREE = "academy_3_vs_1_with_keeper"
+CLOSE = "academy_empty_goal_close"
+KINDS = ["simple115v2", "simple115", "egocentric", "smm"]
+
+
+def actions(rng: np.random.Generator, envs: setpiece.FootballVectorEnv) -> Any:
+    shape = envs.action_space.shape
+    return rng.integers(19, size=shape)
+
+
+@pytest.mark.parametrize("observation", KINDS)
+@pytest.mark.parametrize("stack", [1, 4])
+def test_a_vector_plays_what_single_environments_play(observation: str, stack: int) -> None:
+    kwargs: dict[str, Any] = {"observation": observation, "stack": stack, "left": 2, "switching": "fixed"}
+    envs = setpiece.make_vec(THREE, 5, threads=2, **kwargs)
+    singles = [setpiece.make(THREE, **kwargs) for _ in range(5)]
+    rng = np.random.default_rng(1)
+    observations, infos = envs.reset(seed=3)
+    seen = [env.reset(seed=3 + at) for at, env in enumerate(singles)]
+    over = [False] * 5
+    for _ in range(120):
+        for at in range(5):
+            assert np.array_equal(observations[at], seen[at][0])
+            assert np.array_equal(infos["action_mask"][at], seen[at][-1]["action_mask"])
+            assert infos["score"][at].tolist() == seen[at][-1]["score"]
+        acts = actions(rng, envs)
+        observations, rewards, terminated, truncated, infos = envs.step(acts)
+        for at, env in enumerate(singles):
+            if over[at]:
+                seen[at] = env.reset()
+                over[at] = False
+                assert not rewards[at].any()
+                assert not terminated[at]
+                continue
+            result = env.step(acts[at])
+            assert np.array_equal(rewards[at].astype(np.float32), result[1])
+            assert (terminated[at], truncated[at]) == result[2:4]
+            for name, paid in result[4]["reward_terms"].items():
+                assert np.array_equal(infos["reward_terms"][name][at], paid)
+            seen[at] = result
+            over[at] = result[2] or result[3]
+            if over[at]:
+                summary, own = infos["setpiece"], result[4]["setpiece"]
+                assert infos["_outcome"][at]
+                assert infos["outcome"][at] == result[4]["outcome"]
+                for key in ("length", "seed", "index", "digest", "success", "faults"):
+                    assert summary[key][at] == own[key], key
+                for name, paid in own["return"].items():
+                    assert np.array_equal(summary["return"][name][at], paid)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 64])
+def test_threads_change_nothing(threads: int) -> None:
+    envs = setpiece.make_vec(THREE, 7, threads=threads)
+    rng = np.random.default_rng(2)
+    envs.reset(seed=1)
+    total = np.zeros(115)
+    for _ in range(60):
+        total += envs.step(actions(rng, envs))[0].sum(axis=0)
+    other = setpiece.make_vec(THREE, 7, threads=1)
+    rng = np.random.default_rng(2)
+    other.reset(seed=1)
+    expected = np.zeros(115)
+    for _ in range(60):
+        expected += other.step(actions(rng, other))[0].sum(axis=0)
+    assert np.array_equal(total, expected)
+
+
+def test_the_same_step_begins_the_next_episode() -> None:
+    envs = setpiece.make_vec(CLOSE, 3, autoreset_mode="same_step")
+    assert envs.metadata["autoreset_mode"] is AutoresetMode.SAME_STEP
+    single = setpiece.make(CLOSE)
+    envs.reset(seed=5)
+    single.reset(seed=5)
+    ended = 0
+    for _ in range(200):
+        observations, rewards, terminated, truncated, infos = envs.step(np.full(3, setpiece.Action.SHOT))
+        result = single.step(setpiece.Action.SHOT)
+        assert (rewards[0], terminated[0], truncated[0]) == result[1:4]
+        if result[2] or result[3]:
+            ended += 1
+            assert infos["_final_obs"][0]
+            assert np.array_equal(infos["final_obs"][0], result[0])
+            final = infos["final_info"]
+            assert final["outcome"][0] == result[4]["outcome"]
+            assert final["setpiece"]["digest"][0] == result[4]["setpiece"]["digest"]
+            first, info = single.reset()
+            assert np.array_equal(observations[0], first)
+            assert np.array_equal(infos["action_mask"][0], info["action_mask"])
+        else:
+            assert np.array_equal(observations[0], result[0])
+            assert "final_obs" not in infos or not infos["_final_obs"][0]
+    assert ended > 3
+
+
+def test_a_disabled_autoreset_waits_to_be_asked() -> None:
+    envs = setpiece.make_vec(CLOSE, 3, autoreset_mode=AutoresetMode.DISABLED)
+    envs.reset(seed=5)
+    over = np.zeros(3, bool)
+    while not over.any():
+        observations, _, terminated, truncated, _ = envs.step(np.full(3, setpiece.Action.SHOT))
+        over = terminated | truncated
+    with pytest.raises(gymnasium.error.ResetNeeded, match="reset_mask"):
+        envs.step(np.zeros(3, int))
+    fresh, _ = envs.reset(options={"reset_mask": over})
+    assert np.array_equal(fresh[~over], observations[~over])
+    assert not np.array_equal(fresh[over], observations[over])
+    envs.step(np.zeros(3, int))
+    for mask in (np.ones(2, bool), [True] * 3, np.zeros(3, bool), np.ones(3, int)):
+        with pytest.raises(setpiece.ParameterError, match="reset_mask"):
+            envs.reset(options={"reset_mask": mask})
+
+
+def test_gymnasium_makes_it() -> None:
+    envs = gymnasium.make_vec(f"setpiece/{THREE}-v0", 4, vectorization_mode="vector_entry_point", stack=2)
+    assert envs.observation_space.shape == (4, 230)
+    recorded = gymnasium.wrappers.vector.RecordEpisodeStatistics(envs)
+    recorded.reset(seed=1)
+    ends = 0
+    for _ in range(150):
+        infos = recorded.step(recorded.action_space.sample())[4]
+        ends += "episode" in infos
+    assert ends > 0
+    assert gymnasium.make_vec(envs.spec).observation_space.shape[1] == 230
+    recorded.close()
+
+
+def test_spaces_hold_what_is_shown() -> None:
+    for observation in [*KINDS]:
+        envs = setpiece.make_vec(THREE, 3, observation=observation, left="all", right="all", size=(48, 36))
+        seen, _ = envs.reset(seed=1)
+        assert envs.observation_space.contains(seen)
+        assert envs.single_observation_space.contains(seen[0])
+        for _ in range(20):
+            seen = envs.step(envs.action_space.sample())[0]
+            assert envs.observation_space.contains(seen)
+
+
+def test_continuous_actions_of_a_vector() -> None:
+    envs = setpiece.make_vec(THREE, 3, action_set="continuous")
+    single = setpiece.make(THREE, action_set="continuous")
+    assert same(envs.reset(seed=1)[0][0], single.reset(seed=1)[0])
+    rng = np.random.default_rng(0)
+    for _ in range(15):
+        acts = rng.uniform(envs.action_space.low, envs.action_space.high).astype(np.float32)
+        assert np.array_equal(envs.step(acts)[0][0], single.step(acts[0])[0])
+
+
+def test_one_array_where_no_copies_are_asked_for() -> None:
+    envs = setpiece.make_vec(THREE, 3, copy=False)
+    seen, _ = envs.reset(seed=1)
+    assert all(envs.step(np.zeros(3, int))[0] is seen for _ in range(3))
+    copies = setpiece.make_vec(THREE, 3)
+    before, _ = copies.reset(seed=1)
+    kept = before.copy()
+    copies.step(np.full(3, 5))
+    assert np.array_equal(before, kept)
+
+
+def test_what_is_wrong_is_named_and_nothing_is_played() -> None:
+    envs = setpiece.make_vec(THREE, 3)
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        envs.step(np.zeros(3, int))
+    envs.reset(seed=1)
+    other = setpiece.make_vec(THREE, 3)
+    other.reset(seed=1)
+    for wrong in ([0, 0], [0, 0, 19], np.zeros(3), [0, -1, 0], "abc", None, [[0, 0, 0], [0, 0, 0]]):
+        with pytest.raises(setpiece.ActionError):
+            envs.step(wrong)
+    assert np.array_equal(envs.step([1, 2, 3])[0], other.step(np.array([1, 2, 3]))[0])
+    for kwargs, match in [
+        ({"num_envs": 0}, "`num_envs` is 0"),
+        ({"num_envs": 2.5}, "`num_envs` is 2.5"),
+        ({"threads": 0}, "`threads` is 0"),
+        ({"autoreset_mode": "later"}, "no autoreset mode `later`"),
+        ({"observation": "raw"}, "dicts"),
+        ({"observation": "vector"}, "declares no observation"),
+        ({"stack": 0}, "`stack` is 0"),
+        ({"size": (0, 3)}, "`size` is"),
+        ({"left": 77}, "77 agents on the left side"),
+    ]:
+        with pytest.raises(setpiece.ParameterError, match=match):
+            setpiece.make_vec(THREE, **kwargs)
+    for seed in (-1, "one", [1, 2], 2**64):
+        with pytest.raises(setpiece.ParameterError):
+            envs.reset(seed=seed)
+
+
+def test_parameters_of_a_vector() -> None:
+    envs = setpiece.make_vec("11_vs_11_stochastic", 2, params={"difficulty": 0.1})
+    envs.reset(seed=1, options={"params": {"difficulty": 0.9}})
+    with pytest.raises(setpiece.ParameterError, match="did you mean `difficulty`"):
+        envs.reset(options={"params": {"dificulty": 0.9}})

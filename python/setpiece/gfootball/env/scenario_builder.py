@@ -15,7 +15,6 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import setpiece
-from setpiece import _native
 from setpiece._errors import FileError, ParameterError, SetpieceError, UnknownScenarioError
 from setpiece.gfootball import scenarios
 from setpiece.gfootball._translation import identifier, to_pitch
@@ -125,12 +124,10 @@ def _compiled(source: Source, left: str, right: str, steps: int | None) -> setpi
 def _measured(source: Source) -> ScenarioConfig:
     """Returns of a scenario that is no script what can be seen from outside: players, agents and length."""
     scenario = source.compiled("all", "all", None)
-    native = _native.Environment(
-        scenario, observation="raw", rewards=[], events=False, copy=True, action_set="v2", bot_action=False
-    )
-    observed, _ = native.reset(0, 0, {}, None)
+    env = setpiece.FootballEnv(scenario, observation="raw", rewards=[])
+    observed, _ = env.reset(seed=0)
     views = observed if isinstance(observed, tuple) else (observed,)
-    teams = [agent.team for agent in native.agents]
+    teams = [agent.team for agent in env.slots]
     if not teams:
         raise ParameterError(f"nobody of `{source.name}` can be played by an agent", name="level")
     first, turned = views[0], teams[0] == 1

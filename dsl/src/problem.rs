@@ -163,6 +163,7 @@ codes! {
     NoPicture = 11 Error "a picture can't be made";
     NoStep = 12 Error "an episode has no such step";
     BadSnapshot = 13 Error "a snapshot can't be used";
+    BadReplay = 14 Error "a replay can't be played";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

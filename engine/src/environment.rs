@@ -47,7 +47,7 @@ pub struct EnvironmentOptions {
 }
 
 /// How the ball's contacts are found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Physics {
     /// Rapier is asked where the ball comes near something hard.
     Gated,
@@ -274,6 +274,11 @@ impl Environment {
     /// The scenario.
     pub fn scenario(&self) -> &Arc<Scenario> {
         &self.scenario
+    }
+
+    /// What was asked for beside it.
+    pub fn options(&self) -> &EnvironmentOptions {
+        &self.options
     }
 
     /// The parameters.

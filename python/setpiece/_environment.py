@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from copy import deepcopy
 from operator import index
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any, Literal
 
 import gymnasium
@@ -18,6 +19,7 @@ from setpiece import _native
 from setpiece._errors import InUseError, OpponentError, ParameterError, ScriptError, SetpieceError
 from setpiece._native import Live, Scenario
 from setpiece._opponents import Opponent, Table, behaviors, revivable
+from setpiece._record import Record, When, write
 from setpiece._reload import Reload
 from setpiece._seats import Seats, scripted_scenario
 from setpiece._spaces import (
@@ -101,6 +103,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         stack: int = 1,
         size: tuple[int, int] = (96, 72),
         switching: Literal["auto", "fixed"] | None = None,
+        record: str | PathLike[str] | None = None,
+        record_when: When = "always",
     ) -> None:
         """Makes an environment; the arguments are those of `setpiece.make`."""
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
@@ -108,6 +112,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self.render_mode = render_mode
         if watch not in (False, True, "now"):
             raise ParameterError(f"`watch` is {watch!r}; it can be False, True or 'now'", name="watch")
+        self._record = None if record is None else Record(record, record_when)
         self._live: Live | None = None
         self._table: Table | None = None
         self._at_once = watch == "now"
@@ -231,11 +236,21 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._playing = not (result[2] or result[3])
         if not self._playing:
             result[4]["setpiece"]["scenario"] = self._digest
+            if self._record is not None:
+                result[4]["setpiece"]["replay"] = self._record.end(self._native, self.scenario.name, result[4])
         if self._table is not None:
             observation, reward, terminated, truncated, info = result
             observation, info = self._table.shown(observation, info)
             return observation, self._table.paid(reward), terminated, truncated, info
         return result
+
+    def save_replay(self, path: str | PathLike[str]) -> None:
+        """Writes the episode as far as it has been played: `setpiece replay FILE` plays it again, bit for bit.
+
+        Raises `ReplayError` before the first episode and after `restore`, `FileError` where it can't be written.
+        """
+        with _one_thread():
+            write(Path(path), self._native.replay())
 
     def snapshot(self) -> bytes:
         """Returns the whole episode as it stands, in some kilobytes: see `restore`.
@@ -446,6 +461,8 @@ def make(
     stack: int = 1,
     size: tuple[int, int] = (96, 72),
     switching: Literal["auto", "fixed"] | None = None,
+    record: str | PathLike[str] | None = None,
+    record_when: When = "always",
 ) -> FootballEnv:
     """Makes an environment of a scenario.
 
@@ -487,6 +504,9 @@ def make(
       (33: orders to team mates too) or `"continuous"` (a `Box` of float32 `(4,)`: x and y of the way to run, whose
       length is the pace; what to do with the ball, six kinds in equal parts of -1..1: nothing, short, long, high pass,
       shot, slide; and the power of a kick, 0..1: how hard a shot is and how far a pass goes, 0 as a key's).
+    - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr`: of all, of those with a goal
+      (`record_when="goal"`), or of the first and each n-th after it (`record_when=n`). The last `info["setpiece"]` has
+      `replay`, the path or None; `setpiece replay FILE` plays one again.
     - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.
@@ -516,6 +536,8 @@ def make(
         "stack": stack,
         "size": size,
         "switching": switching,
+        "record": record,
+        "record_when": record_when,
     }
     env = FootballEnv(**kwargs, render_mode=render_mode)
     # So that `env.spec.make()` gives another one, as for environments that Gymnasium made.

@@ -140,6 +140,10 @@ class ActionError(SetpieceError, ValueError):
     """An action is of another type or shape, or out of range; the episode is untouched."""
 
 
+class ReplayError(SetpieceError, ValueError):
+    """An episode can't be recorded: nothing has been played, or it went on from a snapshot in its middle."""
+
+
 class InUseError(SetpieceError, RuntimeError):
     """Two threads use one environment at the same time; each needs its own."""
 

@@ -17,6 +17,7 @@ use setpiece::engine::environment::{Environment as Engine, EnvironmentError, Env
 use setpiece::engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH};
 use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
+use setpiece::replay::{Recorder, Replay};
 use setpiece::scenario::pitch::TEAM_MAX;
 use setpiece::scenario::{Action, Team};
 
@@ -46,6 +47,7 @@ pub(crate) struct Environment {
     stack: usize,
     acts: Vec<Act>,
     actions: Vec<Action>,
+    recorder: Recorder,
 }
 
 #[pymethods]
@@ -80,6 +82,7 @@ impl Environment {
             acts: vec![Act::IDLE; engine.n_agents()],
             actions: vec![Action::Idle; engine.n_agents()],
             scratch: Scratch::default(),
+            recorder: Recorder::default(),
             engine,
         })
     }
@@ -162,6 +165,7 @@ impl Environment {
         snapshot: Option<&[u8]>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         let bindings = bind(py, &self.engine.scenario().params, params)?;
+        self.recorder.lose();
         self.engine.set_bindings(&bindings).map_err(|error| from_engine(py, error))?;
         let engine = &mut self.engine;
         py.detach(|| match snapshot {
@@ -172,6 +176,7 @@ impl Environment {
             ResetError::Snapshot(why) => from_snapshot(py, why),
             ResetError::Draw(why) => from_episode(py, why.into()),
         })?;
+        self.recorder.begin(snapshot);
         self.seen(py)
     }
 
@@ -185,6 +190,7 @@ impl Environment {
     fn restore<'py>(&mut self, py: Python<'py>, snapshot: &[u8]) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         let engine = &mut self.engine;
         py.detach(|| engine.restore(snapshot)).map_err(|why| from_snapshot(py, why))?;
+        self.recorder.lose();
         self.seen(py)
     }
 
@@ -218,9 +224,14 @@ impl Environment {
             if act.steer.is_some() {
                 self.engine.steer(agent, act.steer);
             }
+            self.recorder.note(act.action, act.steer);
         }
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
-        let result = py.detach(|| engine.step(actions, scratch)).map_err(|why| from_episode(py, why.into()))?;
+        let played = py.detach(|| engine.step(actions, scratch));
+        let result = played.map_err(|why| {
+            self.recorder.keep(self.engine.steps(), self.actions.len());
+            from_episode(py, why.into())
+        })?;
         let observation = self.observer.observe(py, &mut self.engine, false)?;
         let reward = match self.engine.rewards() {
             [one] => f64::from(*one).into_pyobject(py)?.into_any(),
@@ -228,6 +239,12 @@ impl Environment {
         };
         let info = self.info.write(py, &self.engine)?;
         (observation, reward, result.terminated, result.truncated, info).into_pyobject(py)
+    }
+
+    /// The episode as far as it has been played, as bytes that play it again.
+    fn replay<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = Replay::of(&self.engine, &self.recorder).and_then(|replay| replay.to_bytes());
+        Ok(PyBytes::new(py, &bytes.map_err(|why| errors::from_facade(py, &why))?))
     }
 
     /// What every player pressed in the last step, by name.

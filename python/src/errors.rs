@@ -67,6 +67,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
             "ParameterError"
         }
         Error::Snapshot(_) => "SnapshotError",
+        Error::Replay(_) => "ReplayError",
         Error::Environment(why) => {
             if let EnvironmentError::Param(why) = why {
                 fields.set_item("name", param_name(why))?;

@@ -11,6 +11,7 @@ mod play;
 mod playing;
 #[cfg(feature = "render")]
 mod render;
+mod replay;
 mod snapshot;
 mod summary;
 
@@ -117,6 +118,11 @@ enum Command {
   setpiece snapshot 11_vs_11_stochastic --step 1500 -o half_time.pitchs
   setpiece snapshot corner.pitch --agent run_and_shoot --seed 3 --step 12 -o shot.pitchs")]
     Snapshot(snapshot::SnapshotArgs),
+    /// Play a recorded episode again, bit for bit, and tell what it was
+    #[command(after_help = "Examples:
+  setpiece replay runs/academy_corner_7_0.pitchr
+  setpiece replay goal.pitchr --format jsonl | head -1")]
+    Replay(replay::ReplayArgs),
 }
 
 /// How a compiled scenario is written.
@@ -166,6 +172,7 @@ fn run(args: Args) -> u8 {
         #[cfg(feature = "render")]
         Command::Render(args) => render::render(&args, &out),
         Command::Snapshot(args) => snapshot::snapshot(&args, &out),
+        Command::Replay(args) => replay::replay(&args, &out),
     };
     match result {
         Ok(_) if out.failed() => {

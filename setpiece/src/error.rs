@@ -1,5 +1,6 @@
 //! What can go wrong before an episode runs: each with a stable code and a help line.
 
+use crate::replay::ReplayError;
 use setpiece_dsl::problem::{Code, Problem, nearest};
 use setpiece_dsl::source::Sources;
 use setpiece_engine::batch::EpisodeError;
@@ -36,6 +37,8 @@ pub enum Error {
     },
     /// A snapshot can't be taken, restored or begun from.
     Snapshot(SnapshotError),
+    /// A replay can't be read or played.
+    Replay(ReplayError),
     /// An environment can't be made of the scenario.
     Environment(EnvironmentError),
     /// An episode broke off: no start was found, a script's hook failed, or nothing ended it.
@@ -119,6 +122,7 @@ impl Error {
                 EnvironmentError::Snapshot(_) => Code::BadSnapshot,
             },
             Error::Snapshot(_) => Code::BadSnapshot,
+            Error::Replay(_) => Code::BadReplay,
             Error::Episode(why) => match **why {
                 EpisodeError::Draw(_) => Code::DrawFailed,
                 EpisodeError::Step(_) => Code::ScriptFailed,
@@ -150,6 +154,9 @@ impl Error {
             }
             Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
             Error::Snapshot(why) | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
+            Error::Replay(ReplayError::NotAReplay) => {
+                Some("`setpiece.make(…, record=\"runs\")` writes them, and `env.unwrapped.save_replay`".to_owned())
+            }
             _ => None,
         }
     }
@@ -195,6 +202,7 @@ impl std::fmt::Display for Error {
             Error::Format { path, why } => write!(f, "`{}`: {why}", path.display()),
             Error::Param { why, .. } => why.fmt(f),
             Error::Snapshot(why) => why.fmt(f),
+            Error::Replay(why) => why.fmt(f),
             Error::Environment(why) => why.fmt(f),
             Error::Episode(why) => why.fmt(f),
             Error::NoStep { step, length: 1 } => write!(f, "there is no step {step}: the episode has 1 step"),

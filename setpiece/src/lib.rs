@@ -18,6 +18,7 @@ pub mod picture;
 pub mod probe;
 #[cfg(feature = "render")]
 pub mod render;
+pub mod replay;
 pub mod run;
 pub mod script_api;
 mod stdlib;

@@ -17,7 +17,7 @@ pub struct Roster {
 }
 
 /// Agents asked for instead of the scenario's.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct AgentsChoice {
     /// Left and right.
     pub sides: [SideChoice; 2],
@@ -26,7 +26,7 @@ pub struct AgentsChoice {
 }
 
 /// The agents of a side.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SideChoice {
     /// As the scenario says.
     Scenario,

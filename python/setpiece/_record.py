@@ -1,0 +1,51 @@
+"""Recording episodes as files that play them again."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from setpiece import _native
+from setpiece._errors import FileError, ParameterError
+
+When = Literal["always", "goal"] | int
+"""Which episodes are recorded: all, those with a goal, or each n-th."""
+
+
+class Record:
+    """A folder, and which episodes are written there."""
+
+    def __init__(self, folder: str | PathLike[str], when: When) -> None:
+        count = isinstance(when, int | np.integer) and not isinstance(when, bool) and when >= 1
+        if not count and when not in ("always", "goal"):
+            raise ParameterError(
+                f"`record_when` is {when!r}; it can be 'always', 'goal' or a count", name="record_when"
+            )
+        self._folder, self._when = Path(folder), when
+        self._ended = 0
+
+    def end(self, native: _native.Environment, name: str, info: dict[str, Any]) -> str | None:
+        """Writes the episode that has just ended, if it is one of those; returns where."""
+        if self._when == "goal":
+            wanted = any(info["score"])
+        else:
+            wanted = self._when == "always" or self._ended % int(self._when) == 0
+        self._ended += 1
+        if not wanted:
+            return None
+        summary = info["setpiece"]
+        path = self._folder / f"{name}_{summary['seed']}_{summary['index']}.pitchr"
+        write(path, native.replay())
+        return str(path)
+
+
+def write(path: Path, replay: bytes) -> None:
+    """Writes a replay and the folders it lies in."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(replay)
+    except OSError as error:
+        raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from None

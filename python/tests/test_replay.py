@@ -1,0 +1,92 @@
+"""Episodes are recorded, and played again by the command."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import play
+
+import setpiece
+from setpiece._native import run_command
+
+CLOSE = "academy_empty_goal_close"
+THREE = "academy_3_vs_1_with_keeper"
+
+
+def replayed(path: str | Path, capfd: pytest.CaptureFixture[str], *options: str) -> str:
+    assert run_command(["replay", str(path), *options]) == 0
+    return capfd.readouterr().out
+
+
+def test_a_recorded_episode_is_played_again(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    env = setpiece.make(THREE, record=tmp_path / "runs")
+    for _ in range(2):
+        end = play(env, 7)[-1][4]["setpiece"]
+        assert end["replay"] == str(tmp_path / "runs" / f"{THREE}_7_0.pitchr")
+        told = replayed(end["replay"], capfd)
+        assert f"digest {end['digest']}, as it was" in told
+        assert f"after {end['length']} steps" in told
+
+
+def test_each_step_is_a_line_of_json(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    env = setpiece.make(CLOSE, record=tmp_path, observation="raw")
+    trajectory = play(env, 3, lambda: setpiece.Action.SHOT)
+    lines = replayed(trajectory[-1][4]["setpiece"]["replay"], capfd, "--format", "jsonl").splitlines()
+    moments: list[dict[str, Any]] = [json.loads(line) for line in lines]
+    assert [moment["step"] for moment in moments] == list(range(len(trajectory)))
+    for moment, (seen, *_rest) in zip(moments, trajectory, strict=True):
+        assert moment["ball"] == pytest.approx(seen["ball"], abs=1e-4)
+    assert moments[1]["actions"] == {"left_0": "shot"} or moments[1]["actions"] == {env.agents[0]: "shot"}
+    assert moments[-1]["outcome"] == trajectory[-1][4]["outcome"]
+
+
+def test_actions_of_numbers_and_opponents_are_recorded(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    env = setpiece.make(THREE, action_set="continuous", record=tmp_path)
+    rng = np.random.default_rng(1)
+    end = play(env, 5, lambda: rng.uniform(-1, 1, 4))[-1][4]["setpiece"]
+    assert end["digest"] in replayed(end["replay"], capfd)
+    rival = setpiece.make(THREE, right=1, opponents={"right": lambda _: int(rng.integers(20))}, record=tmp_path)
+    end = play(rival, 6)[-1][4]["setpiece"]
+    assert end["digest"] in replayed(end["replay"], capfd)
+
+
+def test_which_episodes_are_recorded(tmp_path: Path) -> None:
+    every = setpiece.make(CLOSE, record=tmp_path / "third", record_when=3)
+    goals = setpiece.make(CLOSE, record=tmp_path / "goals", record_when="goal")
+    third, scored = [], []
+    for at in range(8):
+        third.append(play(every, 1 if at == 0 else None)[-1][4]["setpiece"]["replay"] is not None)
+        info = play(goals, 1 if at == 0 else None)[-1][4]
+        scored.append((info["setpiece"]["replay"] is not None, any(info["score"])))
+    assert third == [True, False, False, True, False, False, True, False]
+    assert all(written == goal for written, goal in scored)
+    assert len(list((tmp_path / "third").iterdir())) == 3
+
+
+def test_an_episode_under_way_is_saved(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    env = setpiece.make(THREE)
+    with pytest.raises(setpiece.ReplayError, match="nothing has been played"):
+        env.save_replay(tmp_path / "none.pitchr")
+    env.reset(seed=1)
+    for _ in range(5):
+        env.step(setpiece.Action.RIGHT)
+    with pytest.raises(setpiece.ActionError):
+        env.step(99)
+    env.save_replay(tmp_path / "five.pitchr")
+    assert "not ended after 5 steps" in replayed(tmp_path / "five.pitchr", capfd)
+    env.restore(env.snapshot())
+    with pytest.raises(setpiece.ReplayError):
+        env.save_replay(tmp_path / "none.pitchr")
+
+
+def test_what_can_not_be_recorded_is_named(tmp_path: Path) -> None:
+    for when in ("sometimes", 0, -1, True, 2.5):
+        with pytest.raises(setpiece.ParameterError, match="`record_when` is"):
+            setpiece.make(THREE, record=tmp_path, record_when=when)  # type: ignore[arg-type]
+    (tmp_path / "file").write_text("in the way")
+    env = setpiece.make(CLOSE)
+    env.reset(seed=1)
+    with pytest.raises(setpiece.FileError, match="can't be written"):
+        env.save_replay(tmp_path / "file" / "x.pitchr")

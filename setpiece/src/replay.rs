@@ -1,0 +1,255 @@
+//! Replays: an episode as a file, which plays it again bit for bit.
+//!
+//! A replay holds the scenario, who played, the key of the draw and what every agent did; everything else follows. It
+//! begins with a head (mark, version, checksum, length), as a compiled scenario's compact form does; what follows is
+//! CBOR, deflated.
+
+use crate::error::Error;
+use flate2::Compression;
+use flate2::read::DeflateDecoder;
+use flate2::write::DeflateEncoder;
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+use setpiece_engine::batch::EpisodeError;
+use setpiece_engine::environment::{AgentsChoice, Environment, EnvironmentOptions, Physics, ResetError, Scratch};
+use setpiece_engine::state::Steer;
+use setpiece_scenario::file::{binary, fnv1a};
+use setpiece_scenario::{Action, Bindings};
+use std::io::{Read as _, Write as _};
+use std::sync::Arc;
+
+/// The version of replays that this build writes and plays.
+pub const REPLAY_VERSION: u32 = 1;
+/// Largest replay, bytes.
+pub const REPLAY_MAX_BYTES: u64 = 64 << 20;
+/// Most bytes behind the head, inflated.
+const BODY_MAX_BYTES: u64 = 256 << 20;
+/// What a replay begins with: no text does.
+const MAGIC: &[u8; 8] = b"\x8bpitchr\n";
+/// Mark, version, checksum, length.
+const HEAD: usize = 8 + 4 + 8 + 8;
+
+/// Why a replay can't be read or played.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReplayError {
+    /// It is something else.
+    #[error("not a replay: it doesn't begin as one")]
+    NotAReplay,
+    /// It was written by another version.
+    #[error("the replay has version {0}; this build plays version {REPLAY_VERSION}")]
+    Version(u32),
+    /// It ends before it should.
+    #[error("the replay is cut off: its end is missing")]
+    Truncated,
+    /// It has been changed.
+    #[error("the replay was changed after it was written: its checksum differs")]
+    Checksum,
+    /// It says what can't be.
+    #[error("the replay is damaged: {0}")]
+    Corrupt(String),
+    /// It has no episode.
+    #[error("nothing has been played yet")]
+    NotBegun,
+    /// This build plays it otherwise.
+    #[error("step {step}: this build plays the episode otherwise than the one that wrote it")]
+    Differs {
+        /// The step after which it was compared.
+        step: u32,
+    },
+}
+
+/// What is written down while an episode is played.
+#[derive(Clone, Debug, Default)]
+pub struct Recorder {
+    from: Option<Vec<u8>>,
+    acts: Vec<u8>,
+    steers: Vec<Option<Steer>>,
+    whole: bool,
+}
+
+impl Recorder {
+    /// Begins an episode; in the state of a snapshot, where it begins in one.
+    pub fn begin(&mut self, from: Option<&[u8]>) {
+        self.from = from.map(<[u8]>::to_vec);
+        self.acts.clear();
+        self.steers.clear();
+        self.whole = true;
+    }
+
+    /// The episode goes on from elsewhere: what it was before is not known.
+    pub fn lose(&mut self) {
+        *self = Recorder::default();
+    }
+
+    /// Writes down what an agent does in the step to come; agent by agent, step by step.
+    pub fn note(&mut self, action: Action, steer: Option<Steer>) {
+        self.acts.push(action.index() as u8);
+        self.steers.push(steer);
+    }
+
+    /// Takes back what was noted for steps beyond `steps` of `n_agents`: one that was refused.
+    pub fn keep(&mut self, steps: u32, n_agents: usize) {
+        self.acts.truncate(steps as usize * n_agents);
+        self.steers.truncate(steps as usize * n_agents);
+    }
+}
+
+/// An episode that can be played again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Replay {
+    scenario: Vec<u8>,
+    rewards: Option<Vec<String>>,
+    physics: Option<Physics>,
+    agents: Option<AgentsChoice>,
+    params: Bindings,
+    /// The seed of its draw.
+    pub seed: u64,
+    /// The index of its draw.
+    pub index: u64,
+    from: Option<Vec<u8>>,
+    /// Steps.
+    pub length: u32,
+    /// The fingerprint of its last state.
+    pub digest: u64,
+    acts: Vec<u8>,
+    /// Way and power, where agents steered.
+    steers: Vec<Option<[f32; 3]>>,
+}
+
+impl Replay {
+    /// The episode of an environment as far as it has been played.
+    ///
+    /// # Errors
+    /// [`Error::Replay`] where no episode has begun, or what came before is not known.
+    pub fn of(environment: &Environment, recorder: &Recorder) -> Result<Replay, Error> {
+        let noted = environment.steps() as usize * environment.n_agents();
+        if !recorder.whole || recorder.acts.len() != noted {
+            return Err(Error::Replay(ReplayError::NotBegun));
+        }
+        let scenario = binary::to_bytes(environment.scenario())
+            .map_err(|why| Error::Replay(ReplayError::Corrupt(why.to_string())))?;
+        let options = environment.options();
+        let steered = recorder.steers.iter().any(Option::is_some);
+        let numbers = |steer: &Option<Steer>| steer.map(|steer| [steer.way.x, steer.way.y, steer.power]);
+        Ok(Replay {
+            scenario,
+            rewards: options.rewards.clone(),
+            physics: options.physics,
+            agents: options.agents.clone(),
+            params: environment.bindings().clone(),
+            seed: environment.seed(),
+            index: environment.index(),
+            from: recorder.from.clone().or_else(|| options.from.as_ref().map(|from| from.to_vec())),
+            length: environment.steps(),
+            digest: environment.digest(),
+            acts: recorder.acts.clone(),
+            steers: if steered { recorder.steers.iter().map(numbers).collect() } else { Vec::new() },
+        })
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// [`Error::Replay`] where it can't be written.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        let corrupt = |why: String| Error::Replay(ReplayError::Corrupt(why));
+        let mut body = Vec::new();
+        ciborium::into_writer(self, &mut body).map_err(|why| corrupt(why.to_string()))?;
+        let mut deflated = DeflateEncoder::new(Vec::new(), Compression::default());
+        deflated.write_all(&body).map_err(|why| corrupt(why.to_string()))?;
+        let body = deflated.finish().map_err(|why| corrupt(why.to_string()))?;
+        let mut file = Vec::with_capacity(HEAD + body.len());
+        file.extend_from_slice(MAGIC);
+        file.extend_from_slice(&REPLAY_VERSION.to_le_bytes());
+        file.extend_from_slice(&fnv1a(&body).to_le_bytes());
+        file.extend_from_slice(&(body.len() as u64).to_le_bytes());
+        file.extend_from_slice(&body);
+        Ok(file)
+    }
+
+    /// Reads one.
+    ///
+    /// # Errors
+    /// [`Error::Replay`] for anything but an unchanged replay of this version.
+    pub fn from_bytes(file: &[u8]) -> Result<Replay, Error> {
+        read(file).map_err(Error::Replay)
+    }
+
+    /// Plays it: `each` is shown the start, and the environment after every step.
+    ///
+    /// # Errors
+    /// [`Error::Replay`] where it can't be played here, or comes to another end than it did.
+    pub fn play(&self, mut each: impl FnMut(&Environment, &[Action])) -> Result<Environment, Error> {
+        let corrupt = |why: &dyn std::fmt::Display| Error::Replay(ReplayError::Corrupt(why.to_string()));
+        let scenario = binary::from_bytes(&self.scenario).map_err(|why| corrupt(&why))?;
+        let options = EnvironmentOptions {
+            bindings: Some(self.params.clone()),
+            rewards: self.rewards.clone(),
+            physics: self.physics,
+            agents: self.agents.clone(),
+            from: None,
+        };
+        let mut environment = Environment::new(Arc::new(scenario), options).map_err(Error::Environment)?;
+        let n_agents = environment.n_agents();
+        let noted = self.length as usize * n_agents;
+        if self.acts.len() != noted || !(self.steers.is_empty() || self.steers.len() == noted) {
+            return Err(corrupt(&"it has not one action for each agent and step"));
+        }
+        let broken = |why: EpisodeError| Error::Episode(Box::new(why));
+        match &self.from {
+            Some(from) => environment.reset_from(from, Some(self.seed), Some(self.index)).map_err(|why| match why {
+                ResetError::Draw(why) => broken(why.into()),
+                ResetError::Snapshot(why) => Error::Snapshot(why),
+            })?,
+            None => environment.reset(Some(self.seed), Some(self.index)).map_err(|why| broken(why.into()))?,
+        }
+        each(&environment, &[]);
+        let mut scratch = Scratch::default();
+        let mut actions = vec![Action::Idle; n_agents];
+        for step in 0..self.length {
+            if !environment.is_running() {
+                return Err(Error::Replay(ReplayError::Differs { step }));
+            }
+            for (agent, action) in actions.iter_mut().enumerate() {
+                let at = step as usize * n_agents + agent;
+                let known = Action::from_index(self.acts[at].into());
+                *action = known.ok_or_else(|| corrupt(&format!("no action has the number {}", self.acts[at])))?;
+                if let Some(Some([x, y, power])) = self.steers.get(at) {
+                    environment.steer(agent, Some(Steer { way: Vec2::new(*x, *y), power: *power }));
+                }
+            }
+            environment.step(&actions, &mut scratch).map_err(|why| broken(why.into()))?;
+            each(&environment, &actions);
+        }
+        if environment.digest() != self.digest {
+            return Err(Error::Replay(ReplayError::Differs { step: self.length }));
+        }
+        Ok(environment)
+    }
+}
+
+fn read(file: &[u8]) -> Result<Replay, ReplayError> {
+    let rest = file.strip_prefix(MAGIC).ok_or(ReplayError::NotAReplay)?;
+    let (version, rest) = rest.split_first_chunk::<4>().ok_or(ReplayError::Truncated)?;
+    let version = u32::from_le_bytes(*version);
+    if version != REPLAY_VERSION {
+        return Err(ReplayError::Version(version));
+    }
+    let (checksum, rest) = rest.split_first_chunk::<8>().ok_or(ReplayError::Truncated)?;
+    let (length, body) = rest.split_first_chunk::<8>().ok_or(ReplayError::Truncated)?;
+    match u64::from_le_bytes(*length) {
+        wanted if wanted > body.len() as u64 => return Err(ReplayError::Truncated),
+        wanted if wanted < body.len() as u64 => return Err(ReplayError::Checksum),
+        _ => {}
+    }
+    if fnv1a(body) != u64::from_le_bytes(*checksum) {
+        return Err(ReplayError::Checksum);
+    }
+    let mut inflated = Vec::new();
+    let mut inflater = DeflateDecoder::new(body).take(BODY_MAX_BYTES);
+    inflater.read_to_end(&mut inflated).map_err(|why| ReplayError::Corrupt(why.to_string()))?;
+    let replay: Replay =
+        ciborium::from_reader(inflated.as_slice()).map_err(|why| ReplayError::Corrupt(why.to_string()))?;
+    let sound = replay.steers.iter().flatten().flatten().all(|number| (-1.0..=1.0).contains(number));
+    if sound { Ok(replay) } else { Err(ReplayError::Corrupt("a way or power is beyond its bounds".to_owned())) }
+}

@@ -50,7 +50,7 @@ const CLOSE: &str = "scenario close extends academy {
 #[test]
 fn lists_every_scenario_with_its_sides() {
     let output = text(&setpiece(&["list"]).stdout);
-    assert_eq!(output.lines().count(), 17, "{output}");
+    assert_eq!(output.lines().count(), 35, "{output}");
     for line in ["academy_3_vs_1_with_keeper", "11_vs_11_stochastic", "5_vs_5", "1_vs_1_easy", "11_vs_11_kaggle"] {
         assert!(output.contains(line), "{output}");
     }

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config
 
 PACKAGES = ("setpiece.gfootball.scenarios", "gfootball.scenarios")
+TESTS = "tests."
+"""What GRF writes before the names of the scenarios of its own tests."""
 Script = Callable[["Recorder"], object]
 
 
@@ -109,14 +111,19 @@ class Source:
 
     def compiled(self, left: str, right: str, steps: int | None) -> setpiece.Scenario:
         """Returns the scenario with so many agents on each side (`all` for everybody) and so many steps."""
-        return _compiled(self, left, right, steps)
+        limit = "" if steps is None else f" end limit {steps} steps"
+        return _compiled(self, f"agents {{ left: {left}, right: {right} }}{limit}")
+
+    def agents_on_the_left(self) -> int:
+        """Returns how many agents the scenario itself asks for."""
+        env = setpiece.FootballEnv(_compiled(self, ""), rewards=[])
+        return sum(agent.team == 0 for agent in env.slots)
 
 
 @lru_cache(maxsize=256)
-def _compiled(source: Source, left: str, right: str, steps: int | None) -> setpiece.Scenario:
+def _compiled(source: Source, said: str) -> setpiece.Scenario:
     name = f"{source.name}_in_gfootball"
-    limit = "" if steps is None else f" end limit {steps} steps"
-    text = f"scenario {name} extends {source.name} {{ agents {{ left: {left}, right: {right} }}{limit} }}\n"
+    text = f"scenario {name} extends {source.name} {{ {said} }}\n"
     return setpiece.compile(source.text + text, str(Path(source.folder, f"{name}.pitch")))
 
 
@@ -143,6 +150,7 @@ def _measured(source: Source) -> ScenarioConfig:
         for number, (place, role) in enumerate(zip(first[block], first[f"{block}_roles"], strict=True)):
             position = (sign * float(place[0]), sign * float(place[1]))
             entries.append(FormationEntry(position, PlayerRole(int(role)), False, number in played))
+    recorded.control_all_players = 1 < recorded.controllable_left_players == source.agents_on_the_left()
     return recorded
 
 
@@ -174,6 +182,8 @@ class Scenario:
 def find(level: object) -> Source | Script:
     """Returns the scenario of a level's name: the text of one of the library or of a `.pitch` file, or a script.
 
+    Scenarios of the library also go by GRF's names for those of its tests: `tests.penalty` is `penalty`.
+
     Raises `UnknownScenarioError`, or `FileError` for a path that can't be read.
     """
     if not isinstance(level, str) or not level:
@@ -188,8 +198,9 @@ def find(level: object) -> Source | Script:
         module = _imported(name)
         if module is not None and (hasattr(module, "build_scenario") or name != level):
             return script_of(module, name)
-    if level in all_scenarios():
-        return Source(level)
+    known = level.removeprefix(TESTS)
+    if known in all_scenarios():
+        return Source(known)
     raise UnknownScenarioError(
         f"no scenario `{level}`",
         name=level,

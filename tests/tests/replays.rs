@@ -9,7 +9,8 @@ use setpiece::scenario::Action;
 
 fn environment(name: &str) -> Environment {
     let sides = [SideChoice::Count(2), SideChoice::Count(1)];
-    let options = EnvironmentOptions { agents: Some(AgentsChoice { sides, fixed: None }), ..EnvironmentOptions::default() };
+    let options =
+        EnvironmentOptions { agents: Some(AgentsChoice { sides, fixed: None }), ..EnvironmentOptions::default() };
     Environment::new(setpiece::load(name).unwrap().scenario, options).unwrap()
 }
 
@@ -88,6 +89,9 @@ fn what_is_no_replay_is_told() {
     let mut other = replay.clone();
     other.digest ^= 1;
     let why = other.play(|_, _| ()).unwrap_err().to_string();
-    assert_eq!(why, format!("step {}: this build plays the episode otherwise than the one that wrote it", replay.length));
+    assert_eq!(
+        why,
+        format!("step {}: this build plays the episode otherwise than the one that wrote it", replay.length)
+    );
     assert!(Replay::of(&environment, &Recorder::default()).is_err(), "what was not recorded");
 }

@@ -2,8 +2,9 @@
 
     python examples/train_cleanrl.py --scenario academy_empty_goal_close --steps 200000 --out runs/close
 
-It needs `torch` and `tensorboard`. The log in `--out` has the mean score (goals of the left team less those of the right
-per episode), the mean return and the return of every reward term, all over the episodes that ended since the last entry.
+It needs `torch` and `tensorboard`. The log in `--out` has the mean score (goals of the left team less those of the
+right per episode), the mean return and the return of every reward term, over the episodes that ended since the last
+entry.
 """
 
 from __future__ import annotations

@@ -14,13 +14,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import setpiece.sb3
 import torch
 from stable_baselines3 import PPO
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import configure
 from stable_baselines3.common.vec_env import VecMonitor
-
-import setpiece.sb3
 
 
 class Terms(BaseCallback):
@@ -80,7 +79,9 @@ def main(argv: list[str] | None = None) -> float:
     torch.set_num_threads(args.threads)
     algorithm: Any = PPO
     if args.masks:
-        from sb3_contrib import MaskablePPO as algorithm
+        from sb3_contrib import MaskablePPO
+
+        algorithm = MaskablePPO
     envs = VecMonitor(
         setpiece.sb3.make_vec(args.scenario, args.envs, seed=args.seed, threads=args.threads, rewards=args.rewards)
     )

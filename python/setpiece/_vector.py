@@ -222,6 +222,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 dtype = object if isinstance(value, str) else np.uint64 if key in ("seed", "index") else None
                 column = summaries.setdefault(key, np.zeros(self.num_envs, dtype or np.array(value).dtype))
                 column[at] = value
+        summaries["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
         infos["outcome"], infos["_outcome"] = outcomes, over.copy()
         infos["setpiece"], infos["_setpiece"] = summaries, over.copy()
 

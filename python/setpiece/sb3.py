@@ -11,8 +11,9 @@ PPO("MlpPolicy", envs).learn(100_000)
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
-from os import PathLike
+from os import PathLike, fspath
 from typing import Any
 
 import gymnasium
@@ -22,8 +23,10 @@ from numpy.typing import NDArray
 
 from setpiece._environment import FootballEnv, make
 from setpiece._errors import ParameterError
-from setpiece._native import Scenario
+from setpiece._native import Scenario, load
 from setpiece._optional import need
+from setpiece._vector import FootballVectorEnv
+from setpiece._vector import make_vec as make_batch
 
 need("stable_baselines3", "sb3", "`setpiece.sb3`")
 from stable_baselines3.common.vec_env import VecEnv  # noqa: E402
@@ -31,6 +34,9 @@ from stable_baselines3.common.vec_env import VecEnv  # noqa: E402
 __all__ = ["Sb3VecEnv", "make_vec"]
 
 FINAL = ("final_info", "final_obs")
+
+ALONE = ("opponents", "events", "bot_action", "watch", "on_reload")
+"""What `setpiece.make` takes and a batch does not."""
 
 Indices = int | Iterable[int] | None
 
@@ -83,6 +89,8 @@ class Sb3VecEnv(VecEnv):
         for at in np.flatnonzero(dones).tolist():
             self.reset_infos[at] = listed[at]
             listed[at] = _one(infos["final_info"], at)
+            if isinstance(self.envs, FootballVectorEnv):
+                listed[at]["records"] = {}  # `make_vec` makes a batch of scenarios without records alone.
             listed[at]["terminal_observation"] = _at(infos["final_obs"], at)
         for at, info in enumerate(listed):
             info["TimeLimit.truncated"] = bool(truncations[at] and not terminations[at])
@@ -112,7 +120,9 @@ class Sb3VecEnv(VecEnv):
             raise ParameterError(f"`{attr_name}` of a batch can only be set for all environments", name="indices")
 
     def env_method(self, method_name: str, *args: Any, indices: Indices = None, **kwargs: Any) -> list[Any]:
-        """Calls a method of each environment."""
+        """Calls a method of each environment; a batch has of theirs `action_masks` alone."""
+        if method_name != "action_masks" and not isinstance(self.envs, SyncVectorEnv):
+            raise AttributeError(f"the environments are one batch: none of them has `{method_name}` alone")
         return [method(*args, **kwargs) for method in self.get_attr(method_name, indices)]
 
     def env_is_wrapped(
@@ -141,34 +151,59 @@ class Sb3VecEnv(VecEnv):
 
 
 def make_vec(
-    scenario: Scenario | str | PathLike[str], num_envs: int, *, seed: int | None = None, **kwargs: Any
+    scenario: Scenario | str | PathLike[str],
+    num_envs: int,
+    *,
+    seed: int | None = None,
+    threads: int | None = None,
+    **kwargs: Any,
 ) -> Sb3VecEnv:
     """Makes a `VecEnv` of n environments; `kwargs` are those of `setpiece.make`.
 
     - `seed`: that of the first environment's first episode; each other one has the next higher one.
+    - `threads`: how many play; None: one per core. Results don't depend on them.
+
+    The environments are one batch (`setpiece.make_vec`). What a batch can't do (`opponents`, `events`, `bot_action`,
+    `watch`, raw observations, a scenario's records) is played by single environments, one after the other.
 
     Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
     `ParameterError` for a scenario that leaves the caller none or several, and else what `setpiece.make` does.
     """
     if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
         raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
-    vec = Sb3VecEnv(
-        SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)
-    )
+    envs: VectorEnv[Any, Any, Any]
+    if not isinstance(scenario, Scenario) and not kwargs.get("watch"):
+        scenario = load(fspath(scenario))
+    if kwargs.get("observation") == "raw" or any(kwargs.get(name) for name in ALONE) or _has_records(scenario):
+        envs = SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)
+    else:
+        kwargs = {name: value for name, value in kwargs.items() if name not in ALONE}
+        envs = make_batch(scenario, num_envs, threads=threads, autoreset_mode=AutoresetMode.SAME_STEP, **kwargs)
+        _check_one(envs.agents, envs.scenario)
+    vec = Sb3VecEnv(envs)
     if seed is not None:
         vec.seed(seed)
     return vec
 
 
+def _has_records(scenario: Scenario | str | PathLike[str]) -> bool:
+    """Whether the ends of episodes bring records, which a batch does not tell."""
+    return isinstance(scenario, Scenario) and bool(json.loads(scenario.__reduce__()[1][0])["scenario"].get("records"))
+
+
 def _alone(scenario: Scenario | str | PathLike[str], kwargs: dict[str, Any]) -> FootballEnv:
     env = make(scenario, **kwargs)
-    if len(env.agents) != 1:
+    _check_one(env.agents, env.scenario)
+    return env
+
+
+def _check_one(agents: Sequence[str], scenario: Scenario) -> None:
+    if len(agents) != 1:
         raise ParameterError(
-            f"Stable-Baselines3 trains one agent, `{env.scenario.name}` has {len(env.agents)} for it",
+            f"Stable-Baselines3 trains one agent, `{scenario.name}` has {len(agents)} for it",
             name="scenario",
             help="seat one with `left=1`, or let `opponents` play the others",
         )
-    return env
 
 
 def _listed(infos: dict[str, Any], n: int) -> list[dict[str, Any]]:

@@ -8,6 +8,7 @@ from conftest import same
 
 import setpiece
 from setpiece import Action
+from setpiece._vector import FootballVectorEnv
 
 pytest.importorskip("stable_baselines3")
 pytest.importorskip("torch")
@@ -51,7 +52,7 @@ def test_is_step_by_step_what_dummy_vec_env_is(observation: str) -> None:
             if "terminal_observation" in expected:
                 ends += 1
                 np.testing.assert_array_equal(info["terminal_observation"], expected["terminal_observation"])
-                assert info["setpiece"]["digest"] == expected["setpiece"]["digest"]
+                assert info["setpiece"] == expected["setpiece"]
                 assert info["outcome"] == expected["outcome"]
         for info, expected in zip(ours.reset_infos, theirs.reset_infos, strict=True):
             assert info.keys() == expected.keys()
@@ -83,8 +84,8 @@ def test_seeds_and_options_of_the_next_reset() -> None:
         again.reset()
 
 
-def test_attributes_and_methods_of_the_environments() -> None:
-    vec = make_vec(THREE, 3)
+def test_attributes_and_methods_of_single_environments() -> None:
+    vec = make_vec(THREE, 3, events=True)
     vec.seed(1)
     vec.reset()
     assert vec.get_attr("agents") == [("left_0",)] * 3
@@ -99,6 +100,41 @@ def test_attributes_and_methods_of_the_environments() -> None:
     with pytest.raises(AttributeError):
         vec.get_attr("mine", indices=0)
     vec.close()
+
+
+def test_attributes_and_methods_of_a_batch() -> None:
+    vec = make_vec(THREE, 3, seed=1, threads=2)
+    vec.reset()
+    assert isinstance(vec.envs, FootballVectorEnv)
+    assert vec.get_attr("agents") == [("left_0",)] * 3
+    assert same(np.stack(vec.env_method("action_masks")), vec.action_masks())
+    assert same(vec.env_method("action_masks", indices=1), [vec.action_masks()[1]])
+    assert not vec.has_attr("nothing")
+    with pytest.raises(AttributeError, match="one batch"):
+        vec.env_method("snapshot", indices=1)
+    vec.set_attr("mine", 7)
+    assert vec.get_attr("mine", indices=2) == [7]
+    with pytest.raises(setpiece.ParameterError, match="for all environments"):
+        vec.set_attr("mine", 8, indices=[2])
+    assert vec.env_is_wrapped(TimeLimit) == [False] * 3
+    vec.close()
+
+
+def test_what_a_batch_does_not_tell_is_played_by_single_environments() -> None:
+    text = (
+        "scenario s extends academy { ball at (0.9, 0)  team left { CB at (0.89, 0) }  record shots = count of shot }"
+    )
+    for vec, action in (
+        (make_vec(setpiece.compile(text), 2, seed=1), Action.SHOT),
+        (make_vec(CLOSE, 2, seed=1, events=True), Action.RIGHT),
+    ):
+        assert isinstance(vec.envs, SyncVectorEnv)
+        vec.reset()
+        dones = np.zeros(2, bool)
+        while not dones.any():
+            _, _, dones, infos = vec.step(np.array([action] * 2))
+        assert "records" in infos[int(np.argmax(dones))]
+    assert "events" in infos[0]
 
 
 def test_what_it_can_not_be_made_of() -> None:

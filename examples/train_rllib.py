@@ -111,7 +111,8 @@ def main(argv: list[str] | None = None) -> float:
         played = algorithm.train()["env_runners"]
         step = int(played.get("num_env_steps_sampled_lifetime", 0))
         for name, value in played.get(CURVES, {}).items():
-            writer.add_scalar(name.replace(":", "/"), float(value), step)
+            if not np.isnan(value):  # no episode has ended since the last entry
+                writer.add_scalar(name.replace(":", "/"), float(value), step)
         writer.add_scalar("time/steps_per_second", step / (time.monotonic() - began), step)
     print(f"{step} steps in {time.monotonic() - began:.0f} s")
     writer.close()

@@ -114,7 +114,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
         }
         KickKind::Clear => {
             let side = id.team().side() as f32;
-            let behind = touch::hurried(game, id) && noise::happens(game, 0.5);
+            let behind = touch::hurried(game, id) && noise::happens(game, 0.25);
             let way = plan.dir.unwrap_or(Vec2::new(side, 0.0));
             // With a rival at his side he is glad of a corner.
             let way = if behind { Vec2::new(-way.x, math::sign_or(from.y, side) * way.y.abs()) } else { way };

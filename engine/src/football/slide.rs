@@ -12,6 +12,8 @@ use setpiece_scenario::vocabulary::{EventKind, Stat};
 const SLIDE_TICKS: u8 = 60;
 /// Ticks after which a slide has lost its force.
 const FORCE_TICKS: u8 = 42;
+/// Ticks before the leg is out, so that it brings nobody down.
+const OUT_TICKS: u8 = 11;
 /// m/s at its start.
 const SLIDE_MPS: f32 = 6.5;
 /// How near a sliding foot must come to the ball, metres.
@@ -66,7 +68,7 @@ pub fn resolve(game: &mut Match, events: &mut Events) {
             game.players[i].body.touched_at = game.tick as i32 - 30;
             continue;
         }
-        if fresh {
+        if fresh && player.body.pose_ticks <= SLIDE_TICKS - OUT_TICKS {
             meet_legs(game, events, id);
         }
     }
@@ -103,9 +105,10 @@ fn meet_legs(game: &mut Match, events: &mut Events, id: PlayerId) {
     if pos.distance_squared(ball) > 8.0 * 8.0 {
         return;
     }
-    // Far from the ball and from behind is worse.
+    // Far from the ball, badly timed and from behind is worse; at the worst 2.
     let off = 0.5 * (foot.distance(ball) / 2.0).clamp(0.0, 1.0);
+    let late = 0.5 * libm::powf(noise::roll(game), 0.7);
     let behind = 0.5 + 0.5 * facing.dot(player.body.facing);
-    let severity = 0.5 + off + 0.75 * behind + 0.25 * noise::roll(game);
+    let severity = off + late + behind;
     foul::call(game, events, id, rival, severity);
 }

@@ -6,7 +6,7 @@
 use crate::event::Events;
 use crate::football::body::{Intent, KickKind};
 use crate::football::play::ticks_since;
-use crate::football::{duel, flight, forecast, noise};
+use crate::football::{duel, flight, forecast, kick, noise};
 use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
@@ -56,7 +56,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
     let near = libm::sqrtf(distance);
     if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
         duel::challenge(game, events, id, rival, near);
-    } else if near <= TRAP_M {
+    } else if near <= TRAP_M && !about_to_kick(game, id) {
         trap(game, events, id);
     }
 }
@@ -179,6 +179,15 @@ pub fn pressed(game: &Match, id: PlayerId) -> bool {
     game.team(id.team().other()).any(|(_, rival)| rival.pos.distance_squared(pos) < 2.0 * 2.0)
 }
 
+/// Whether he will meet the ball with the kick he has in mind, so that he need not take it down before.
+fn about_to_kick(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    let Some(plan) = player.body.kick else { return false };
+    let wait_s = (plan.ready_at - game.tick as i32).max(0) as f32 * 0.01;
+    let apart = player.pos - game.ball.pos.truncate() + (player.vel - game.ball.vel.truncate()) * wait_s;
+    apart.length_squared() <= kick::KICK_M * kick::KICK_M
+}
+
 /// Takes a free ball: how much of its speed stays is a matter of ball control.
 fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
@@ -240,7 +249,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let aimed = match plan.map(|plan| plan.kind) {
         Some(KickKind::Shot) => Some((goal, 15.0)),
         Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
-        None if hurried(game, id) && noise::happens(game, 0.5) => {
+        None if hurried(game, id) && noise::happens(game, 0.25) => {
             // With a rival at his side he is glad of a corner.
             Some((Vec2::new(-60.0 * side, math::sign_or(player.pos.y, side) * 16.0), 12.0))
         }

@@ -134,7 +134,7 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, choice: Choice) {
         }
         Act::Clear => {
             let own = body.meet * view.side;
-            let wide = if own.y < 0.0 { -0.7 } else { 0.7 };
+            let wide = if own.y < 0.0 { -0.2 } else { 0.2 };
             let dir = Vec2::new(1.0, wide).normalize_or_zero() * view.side;
             body.kick = Some(KickPlan { dir: Some(dir), ..clearance });
         }
@@ -176,13 +176,30 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     game.players[id.index()].body.kick = Some(choice);
 }
 
-/// What having the ball at a place is worth: the chance of a goal from there, roughly. Own frame, metres.
+/// What getting the ball to a place by a pass is worth: the chance of a goal from there, roughly. Own frame, metres.
 fn value(own: Vec2) -> f32 {
+    ground(own) + 0.12 * nearness(own)
+}
+
+/// What dribbling the ball to a place is worth.
+///
+/// The nearer to goal, the less: the fact sheet's dribblers are pushed back from the goal line, more than they are drawn
+/// to goal from about 30 m on, so that they look for a mate or a shot there.
+fn dribbled(own: Vec2) -> f32 {
+    ground(own) - 0.1 * nearness(own)
+}
+
+/// What ground gained is worth, without what the goal's nearness adds.
+fn ground(own: Vec2) -> f32 {
     let forward = ((own.x + GOAL.x) / (2.0 * GOAL.x)).clamp(0.0, 1.0);
-    let goal = own.distance(Vec2::new(54.0, 0.0));
-    let near = (1.0 - goal / 42.0).max(0.0);
     let wing = (own.y.abs() / HALF_WIDTH_M as f32).powi(2) * 0.012;
-    0.008 + 0.03 * forward + 0.14 * forward * forward + 0.26 * near * near - wing
+    0.008 + 0.03 * forward + 0.2 * forward * forward - wing
+}
+
+/// How near the goal is, 0 from 42 m on, 1 in it.
+fn nearness(own: Vec2) -> f32 {
+    let near = (1.0 - own.distance(Vec2::new(54.0, 0.0)) / 42.0).max(0.0);
+    near * near
 }
 
 /// The chance that a shot from here goes in, and the point it should aim at (own frame).
@@ -369,7 +386,7 @@ fn run_worth(game: &Match, view: &View, id: PlayerId, way: Vec2) -> (f32, f32) {
     } else {
         0.0
     };
-    let worth = keep * value(to) - (1.0 - keep) * loss - turn;
+    let worth = keep * dribbled(to) - (1.0 - keep) * loss - turn;
     // In his own third with nobody near there is time to build up.
     let speed = if own.x < -16.0 && ahead_m > 12.0 {
         4.1

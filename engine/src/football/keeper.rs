@@ -79,6 +79,9 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
 }
 
+/// How far past the post a parried ball is pushed, metres; chosen.
+const PAST_POST_M: f32 = 1.5;
+
 /// The plan that names no moment: nothing to save.
 const IDLE: Save = Save { at_tick: u32::MAX, from_tick: u32::MAX, point: Vec2::ZERO, reaches: false, holds: false };
 
@@ -176,8 +179,13 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     let y = game.ball.pos.y;
     let wide = if y.abs() < 0.2 { noise::bell(game).signum() * side } else { y.signum() };
     let out_wide = noise::happens(game, 0.35 + 0.2 * y.abs());
-    let way =
-        if out_wide { Vec2::new(-0.55 * side, wide) } else { Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game))) };
+    let way = if out_wide {
+        // Round the post.
+        let past = Vec2::new(-(HALF_LENGTH_M as f32) * side, wide * (GOAL_HALF_WIDTH_M as f32 + PAST_POST_M));
+        past - game.ball.pos.truncate()
+    } else {
+        Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game)))
+    };
     let away = way.normalize_or_zero() * (0.3 * speed + 2.5);
     game.ball.vel = away.extend(1.2 + noise::roll(game));
     game.ball.spin = Vec3::ZERO;

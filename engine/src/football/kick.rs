@@ -5,7 +5,6 @@
 use crate::event::Events;
 use crate::football::body::{KickKind, KickPlan, NEVER};
 use crate::football::{flight, forecast, noise, pass_target, report, shot, touch};
-use crate::math;
 use crate::physics::constants::GRAVITY;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
@@ -113,11 +112,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             send(game, velocity, Vec3::new(flat.y, -flat.x, 0.0) * SHOT_BACKSPIN);
         }
         KickKind::Clear => {
-            let side = id.team().side() as f32;
-            let behind = touch::hurried(game, id) && noise::happens(game, 0.25);
-            let way = plan.dir.unwrap_or(Vec2::new(side, 0.0));
-            // With a rival at his side he is glad of a corner.
-            let way = if behind { Vec2::new(-way.x, math::sign_or(from.y, side) * way.y.abs()) } else { way };
+            let way = plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0));
             let way = way + Vec2::new(-way.y, way.x) * (noise::bell(game) * 0.25);
             send(game, (way * 21.0).extend(10.0), Vec3::ZERO);
         }

@@ -19,7 +19,7 @@ const SLIDE_MPS: f32 = 6.5;
 /// How near a sliding foot must come to the ball, metres.
 const REACH_M: f32 = 1.0;
 /// How near a slide must come to bring a rival down, metres.
-const LEGS_M: f32 = 0.75;
+const LEGS_M: f32 = 0.6;
 
 /// Whether a player can throw himself into a slide: on his feet, without the ball, while play is on.
 pub fn may_begin(game: &Match, id: PlayerId) -> bool {

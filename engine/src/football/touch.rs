@@ -12,7 +12,7 @@ use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
-use setpiece_scenario::vocabulary::{EventKind, Role, Rule, Stat};
+use setpiece_scenario::vocabulary::{EventKind, Rule, Stat};
 
 /// How near his foot the ball must be for a dribbling touch, metres.
 const FOOT_M: f32 = 0.65;
@@ -224,12 +224,6 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     push(game, events, id, velocity, hop);
 }
 
-/// Whether a defender near his own goal line has a rival at his side.
-pub fn hurried(game: &Match, id: PlayerId) -> bool {
-    let player = game.player(id);
-    player.pos.x * (id.team().side() as f32) < -43.0 && player.role != Role::GK && pressed(game, id)
-}
-
 /// How much a ball just struck takes a player by surprise, 0..1: the fact sheet's recency of the other's touch, over
 /// 1000 - 500 · reaction ms.
 fn surprise(game: &Match, reaction: f32) -> f32 {
@@ -249,10 +243,6 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let aimed = match plan.map(|plan| plan.kind) {
         Some(KickKind::Shot) => Some((goal, 15.0)),
         Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
-        None if hurried(game, id) && noise::happens(game, 0.25) => {
-            // With a rival at his side he is glad of a corner.
-            Some((Vec2::new(-60.0 * side, math::sign_or(player.pos.y, side) * 16.0), 12.0))
-        }
         None if own_third => Some((player.pos + Vec2::new(side * 20.0, math::sign_or(player.pos.y, side) * 8.0), 13.0)),
         None => None,
     };

@@ -134,7 +134,7 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, choice: Choice) {
         }
         Act::Clear => {
             let own = body.meet * view.side;
-            let wide = if own.y < 0.0 { -0.2 } else { 0.2 };
+            let wide = if own.y < 0.0 { -0.1 } else { 0.1 };
             let dir = Vec2::new(1.0, wide).normalize_or_zero() * view.side;
             body.kick = Some(KickPlan { dir: Some(dir), ..clearance });
         }
@@ -146,7 +146,7 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, choice: Choice) {
 fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     game.players[id.index()].body.intent = Intent::Stand;
     let held_ticks = game.tick.saturating_sub(since);
-    if held_ticks < 60 || game.player(id).body.kick.is_some() {
+    if held_ticks < 120 || game.player(id).body.kick.is_some() {
         return;
     }
     let player = *game.player(id);
@@ -178,7 +178,7 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
 
 /// What getting the ball to a place by a pass is worth: the chance of a goal from there, roughly. Own frame, metres.
 fn value(own: Vec2) -> f32 {
-    ground(own) + 0.12 * nearness(own)
+    ground(own) + 0.15 * nearness(own)
 }
 
 /// What dribbling the ball to a place is worth.

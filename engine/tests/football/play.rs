@@ -153,3 +153,19 @@ fn a_pass_hands_control_to_its_receiver_and_a_fixed_slot_keeps_its_player() {
         assert_eq!(now, if fixed { setpiece_engine::state::PlayerId(1) } else { receiver });
     }
 }
+
+#[test]
+fn a_kick_pressed_before_the_ball_comes_is_the_first_touch() {
+    for (action, kind) in [(Action::Shot, EventKind::Shot), (Action::ShortPass, EventKind::Pass)] {
+        let mut bench = Bench::new(Layout::RunToScore, 0);
+        let mut touches = 0;
+        let kicked = (0..20).any(|step| {
+            bench.step(if step == 0 { action } else { Action::Idle });
+            touches += bench.events.as_slice().iter().filter(|event| event.kind == EventKind::Touch).count();
+            bench.seen(kind).is_some()
+        });
+        assert!(kicked, "{action:?} is never struck");
+        assert_eq!(touches, 1, "{action:?} is struck after {touches} touches");
+        assert_eq!(bench.game.possession, None, "{action:?} leaves nobody an owner");
+    }
+}

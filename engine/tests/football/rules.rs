@@ -422,3 +422,33 @@ fn an_agent_whose_player_was_sent_off_leads_nobody() {
     };
     assert_eq!(played(Action::Idle), played(Action::BuiltinAi));
 }
+
+#[test]
+fn a_parry_goes_round_the_post_or_back_into_play() {
+    let (mut parries, mut own_goals) = (0, 0);
+    for seed in 0..600 {
+        let mut bench = bench(&[], seed);
+        for player in &mut bench.game.players {
+            player.pos = Vec2::new(-10.0, 30.0);
+        }
+        bench.game.players[11].pos = Vec2::new(54.0, 0.0);
+        let man = PlayerId(2);
+        bench.game.players[man.index()].pos = Vec2::new(34.0, 0.0);
+        let aside = (seed % 7) as f32 - 3.0;
+        bench.game.ball =
+            Ball { pos: Vec3::new(35.0, 0.0, 0.5), vel: Vec3::new(24.0, 1.15 * aside, 3.0), spin: Vec3::ZERO };
+        flight::note(&mut bench.game, man, flight::Touch::Played);
+        let mut parried = false;
+        for _ in 0..25 {
+            bench.step(Action::BuiltinAi);
+            parried |= bench.seen(EventKind::Parry).is_some();
+            if bench.game.dead {
+                break;
+            }
+        }
+        parries += u32::from(parried);
+        own_goals += u32::from(parried && bench.seen(EventKind::OwnGoal).is_some());
+    }
+    assert!(parries > 100, "{parries} parries");
+    assert!(own_goals * 50 < parries, "{own_goals} own goals of {parries} parries");
+}

@@ -7,19 +7,22 @@ use crate::football::{foul, noise, report, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, Stat};
+use std::ops::Range;
 
 /// Ticks of a slide.
 const SLIDE_TICKS: u8 = 60;
 /// Ticks after which a slide has lost its force.
 const FORCE_TICKS: u8 = 42;
-/// Ticks before the leg is out, so that it brings nobody down.
+/// Ticks until the leg is out: before, it brings nobody down. (The fact sheet's.)
 const OUT_TICKS: u8 = 11;
+/// The ticks of a slide in which the foot can meet the ball. (The fact sheet's.)
+const CONTACT_TICKS: Range<u8> = 18..33;
 /// m/s at its start.
 const SLIDE_MPS: f32 = 6.5;
 /// How near a sliding foot must come to the ball, metres.
 const REACH_M: f32 = 1.0;
 /// How near a slide must come to bring a rival down, metres.
-const LEGS_M: f32 = 0.6;
+const LEGS_M: f32 = 0.45;
 
 /// Whether a player can throw himself into a slide: on his feet, without the ball, while play is on.
 pub fn may_begin(game: &Match, id: PlayerId) -> bool {
@@ -56,19 +59,21 @@ pub fn resolve(game: &mut Match, events: &mut Events) {
         if game.dead || game.play.hands.is_some() {
             return;
         }
-        let fresh = ticks_since(game.tick, player.body.touched_at) > 60;
+        if ticks_since(game.tick, player.body.touched_at) <= 60 {
+            continue;
+        }
+        let gone = SLIDE_TICKS - player.body.pose_ticks;
         let foot = player.pos + player.body.facing * 0.5;
         let ball = game.ball.pos;
-        if fresh && ball.z < 0.5 && foot.distance_squared(ball.truncate()) < REACH_M * REACH_M {
+        let reaches = ball.z < 0.5 && foot.distance_squared(ball.truncate()) < REACH_M * REACH_M;
+        if CONTACT_TICKS.contains(&gone) && reaches {
             let chance = 0.30 + 0.6 * player.skill(Stat::SlidingTackle);
-            if noise::happens(game, chance) {
+            if noise::happens(game, chance / f32::from(CONTACT_TICKS.end - CONTACT_TICKS.start)) {
                 take(game, events, id);
                 continue;
             }
-            game.players[i].body.touched_at = game.tick as i32 - 30;
-            continue;
         }
-        if fresh && player.body.pose_ticks <= SLIDE_TICKS - OUT_TICKS {
+        if gone >= OUT_TICKS {
             meet_legs(game, events, id);
         }
     }

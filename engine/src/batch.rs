@@ -5,7 +5,7 @@
 
 use crate::control::agents::Agent;
 use crate::draw::DrawError;
-use crate::environment::{Environment, Scratch, StepError, StepResult};
+use crate::environment::{Environment, Scratch, StepError};
 use crate::judge::Recorded;
 use crate::random::{Purpose, Stream};
 use crate::statistics::MatchStatistics;
@@ -186,57 +186,48 @@ pub fn run_episodes<P: Policy>(
     Ok(pool(threads)?.install(|| episodes.into_par_iter().map_init(worker, play).collect()))
 }
 
-/// A number of environments that are stepped together.
-pub struct Batch {
-    environments: Vec<Environment>,
+/// Lanes, a match each, that are worked on together: on a few threads, each with a scratch world of its own.
+pub struct Batch<L> {
+    lanes: Vec<L>,
     scratches: Vec<Scratch>,
     pool: ThreadPool,
-    results: Vec<Result<StepResult, StepError>>,
 }
 
-impl Batch {
-    /// So many copies of an environment on so many threads.
+impl<L: Send> Batch<L> {
+    /// Lanes on so many threads.
     ///
     /// # Errors
     /// [`BatchError`] where the threads can't be started.
-    pub fn new(prototype: &Environment, n: usize, threads: usize) -> Result<Batch, BatchError> {
-        let threads = threads.clamp(1, n.max(1));
-        Ok(Batch {
-            environments: vec![prototype.clone(); n],
-            scratches: std::iter::repeat_with(Scratch::default).take(threads).collect(),
-            pool: pool(threads)?,
-            results: vec![Ok(StepResult::default()); n],
-        })
+    pub fn new(lanes: Vec<L>, threads: usize) -> Result<Batch<L>, BatchError> {
+        let threads = threads.clamp(1, lanes.len().max(1));
+        let scratches = std::iter::repeat_with(Scratch::default).take(threads).collect();
+        Ok(Batch { lanes, scratches, pool: pool(threads)? })
     }
 
-    /// The environments.
-    pub fn environments(&self) -> &[Environment] {
-        &self.environments
+    /// The lanes.
+    pub fn lanes(&self) -> &[L] {
+        &self.lanes
     }
 
-    /// The environments, to reset or to restore.
-    pub fn environments_mut(&mut self) -> &mut [Environment] {
-        &mut self.environments
+    /// The lanes, to change.
+    pub fn lanes_mut(&mut self) -> &mut [L] {
+        &mut self.lanes
     }
 
-    /// Steps every environment that is running; `actions` are all agents' of the first environment, then of the second…
-    /// Each environment's result stands at its place; one that isn't running has [`StepError::NotRunning`].
-    pub fn step(&mut self, actions: &[Action]) -> &[Result<StepResult, StepError>] {
-        let n_agents = self.environments.first().map_or(0, Environment::n_agents);
-        let chunk = self.environments.len().div_ceil(self.scratches.len()).max(1);
-        let environments = self.environments.par_chunks_mut(chunk);
-        let results = self.results.par_chunks_mut(chunk);
-        let work = environments.zip(results).zip(self.scratches.par_iter_mut()).enumerate();
+    /// Does something with every lane and its row: `work` is given the lane's number, the lane, the row and a scratch
+    /// world. Lanes without a row are left alone. Which thread has which lane changes nothing.
+    pub fn each<R: Send>(&mut self, rows: Vec<R>, work: impl Fn(usize, &mut L, R, &mut Scratch) + Sync) {
+        let chunk = self.lanes.len().div_ceil(self.scratches.len()).max(1);
+        let mut rows = rows.into_iter();
+        let shares: Vec<Vec<R>> = self.scratches.iter().map(|_| rows.by_ref().take(chunk).collect()).collect();
+        let lanes = self.lanes.par_chunks_mut(chunk).zip(shares).zip(&mut self.scratches).enumerate();
         self.pool.install(|| {
-            work.for_each(|(which, ((environments, results), scratch))| {
-                for (i, (environment, result)) in environments.iter_mut().zip(results).enumerate() {
-                    let first = (which * chunk + i) * n_agents;
-                    let own = actions.get(first..first + n_agents).unwrap_or_default();
-                    *result = environment.step(own, scratch);
+            lanes.for_each(|(share, ((lanes, rows), scratch))| {
+                for (i, (lane, row)) in lanes.iter_mut().zip(rows).enumerate() {
+                    work(share * chunk + i, lane, row, scratch);
                 }
             });
         });
-        &self.results
     }
 }
 
@@ -266,14 +257,18 @@ mod tests {
     }
 
     #[test]
-    fn a_batch_steps_each_with_its_own_actions() {
-        let mut batch = Batch::new(&prototype(), 5, 2).unwrap();
-        for (k, environment) in batch.environments_mut().iter_mut().enumerate().skip(1) {
-            environment.reset(Some(1), Some(k as u64)).unwrap();
+    fn a_batch_works_on_each_lane_with_its_row() {
+        for threads in [1, 2, 9] {
+            let mut batch = Batch::new(vec![prototype(); 5], threads).unwrap();
+            batch.each((0..5).collect(), |at, lane, row: u64, _| {
+                assert_eq!(at as u64, row);
+                lane.reset(Some(1), Some(row)).unwrap();
+            });
+            batch.each(vec![Action::Right; 4], |_, lane, action, scratch| {
+                lane.step(&[action], scratch).unwrap();
+            });
+            let told: Vec<_> = batch.lanes().iter().map(|lane| (lane.index(), lane.steps())).collect();
+            assert_eq!(told, [(0, 1), (1, 1), (2, 1), (3, 1), (4, 0)]);
         }
-        let results = batch.step(&[Action::Idle; 5]);
-        assert_eq!(results[0], Err(StepError::NotRunning { begun: false }));
-        assert!(results[1..].iter().all(Result::is_ok));
-        assert!(batch.environments()[1..].iter().all(|environment| environment.steps() == 1));
     }
 }

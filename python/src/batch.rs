@@ -14,8 +14,7 @@ use crate::seats::Seats;
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use setpiece::engine::batch::Batch as Lanes;
 use setpiece::engine::environment::{Environment as Engine, ResetError, Scratch, StepError};
 use setpiece::engine::observe::ObserveError;
 use setpiece::scenario::{Action, Verdict};
@@ -58,9 +57,7 @@ enum Rows<'a> {
 /// A number of matches of one scenario that are stepped together.
 #[pyclass(module = "setpiece._native")]
 pub(crate) struct Batch {
-    lanes: Vec<Lane>,
-    scratches: Vec<Scratch>,
-    pool: ThreadPool,
+    lanes: Lanes<Lane>,
     kind: Kind,
     stack: usize,
     action_set: ActionSet,
@@ -123,33 +120,23 @@ impl Batch {
             Kind::Smm { .. } => Film::Map(Stack::new(stack, planes, one)),
             _ => Film::Floats(Stack::new(stack, planes, one)),
         };
-        let threads = threads.clamp(1, n.max(1));
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|why| errors::raise_plain(py, "SetpieceError", &format!("no threads: {why}")))?;
         let acts = vec![Act::IDLE; n * engine.n_agents()];
         let lane = || Lane { engine: engine.clone(), film: film(), over: true, fault: None, broken: None };
-        Ok(Batch {
-            lanes: (0..n).map(|_| lane()).collect(),
-            scratches: std::iter::repeat_with(Scratch::default).take(threads).collect(),
-            pool,
-            kind,
-            stack,
-            action_set,
-            next_step,
-            acts,
-        })
+        let lanes = Lanes::new((0..n).map(|_| lane()).collect(), threads)
+            .map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
+        Ok(Batch { lanes, kind, stack, action_set, next_step, acts })
     }
 
     /// The agents of each environment, left before right.
     #[getter]
     fn agents(&self) -> Vec<AgentInfo> {
-        self.lanes.first().map(|lane| agents_of(&lane.engine)).unwrap_or_default()
+        self.lanes.lanes().first().map(|lane| agents_of(&lane.engine)).unwrap_or_default()
     }
 
     /// Players of the left and the right team.
     #[getter]
     fn players(&self) -> (usize, usize) {
-        self.lanes.first().map(|lane| players_of(&lane.engine)).unwrap_or_default()
+        self.lanes.lanes().first().map(|lane| players_of(&lane.engine)).unwrap_or_default()
     }
 
     /// How many held actions raw observations would show.
@@ -161,32 +148,32 @@ impl Batch {
     /// The shape of one agent's observation.
     #[getter]
     fn observation_shape(&self) -> Vec<usize> {
-        self.lanes.first().map(|lane| self.kind.shape(&lane.engine, self.stack)).unwrap_or_default()
+        self.lanes.lanes().first().map(|lane| self.kind.shape(&lane.engine, self.stack)).unwrap_or_default()
     }
 
     /// The blocks of an observation of floats: (start, length, meaning, unit).
     #[getter]
     fn blocks(&self) -> Vec<(usize, usize, String, &'static str)> {
-        self.lanes.first().map(|lane| observation::blocks(self.kind, &lane.engine)).unwrap_or_default()
+        self.lanes.lanes().first().map(|lane| observation::blocks(self.kind, &lane.engine)).unwrap_or_default()
     }
 
     /// Least and greatest value of every number of one observation of floats; none for others.
     #[getter]
     fn bounds<'py>(&self, py: Python<'py>) -> Option<observation::Bounds<'py>> {
-        let (Kind::Floats(floats), Some(lane)) = (self.kind, self.lanes.first()) else { return None };
+        let (Kind::Floats(floats), Some(lane)) = (self.kind, self.lanes.lanes().first()) else { return None };
         Some(observation::bounds(py, floats, &lane.engine))
     }
 
     /// The names of the terms of rewards, in the order of the arrays.
     #[getter]
     fn terms(&self) -> Vec<String> {
-        self.lanes.first().map(|lane| lane.engine.term_names().to_vec()).unwrap_or_default()
+        self.lanes.lanes().first().map(|lane| lane.engine.term_names().to_vec()).unwrap_or_default()
     }
 
     /// New arrays for what this batch shows.
     fn arrays(&self, py: Python<'_>) -> PyResult<Arrays> {
-        let n = self.lanes.len();
-        let Some(lane) = self.lanes.first() else {
+        let n = self.lanes.lanes().len();
+        let Some(lane) = self.lanes.lanes().first() else {
             return Err(errors::parameter(py, "num_envs", "a batch has at least one environment"));
         };
         let agents = lane.engine.n_agents();
@@ -210,7 +197,7 @@ impl Batch {
 
     /// Binds parameters for all environments, from their next episodes on.
     fn bind(&mut self, py: Python<'_>, params: &Bound<'_, PyDict>) -> PyResult<()> {
-        for lane in &mut self.lanes {
+        for lane in self.lanes.lanes_mut() {
             let bindings = bind(py, &lane.engine.scenario().params, params)?;
             lane.engine.set_bindings(&bindings).map_err(|error| crate::environment::from_engine(py, error))?;
         }
@@ -230,8 +217,8 @@ impl Batch {
     ) -> PyResult<()> {
         let order: Vec<(bool, Option<u64>, Option<u64>)> =
             which.into_iter().zip(seeds).zip(episodes).map(|((which, seed), index)| (which, seed, index)).collect();
-        if order.len() != self.lanes.len() {
-            return Err(errors::parameter(py, "reset_mask", &format!("expected {} entries", self.lanes.len())));
+        if order.len() != self.lanes.lanes().len() {
+            return Err(errors::parameter(py, "reset_mask", &format!("expected {} entries", self.lanes.lanes().len())));
         }
         let (kind, set) = (self.kind, self.action_set);
         self.each(py, arrays, |at, lane, row, _| {
@@ -246,9 +233,9 @@ impl Batch {
     /// Plays a step of every environment; those whose episode has ended begin the next, as their mode says.
     fn step(&mut self, py: Python<'_>, arrays: &Arrays, action: &Bound<'_, PyAny>) -> PyResult<()> {
         self.read(action)?;
-        let agents = self.acts.len() / self.lanes.len().max(1);
+        let agents = self.acts.len() / self.lanes.lanes().len().max(1);
         let (kind, set, next_step) = (self.kind, self.action_set, self.next_step);
-        if !next_step && let Some(at) = self.lanes.iter().position(|lane| lane.over) {
+        if !next_step && let Some(at) = self.lanes.lanes().iter().position(|lane| lane.over) {
             let message =
                 format!("the episode of environment {at} has ended: call `reset` with a `reset_mask` that names it");
             return Err(errors::raise_plain(py, "SetpieceError", &message));
@@ -265,7 +252,7 @@ impl Batch {
     /// What became of the episode of an environment that has ended: outcome, success, length, seed, index, digest,
     /// faults, return by term and agent.
     fn summary<'py>(&self, py: Python<'py>, at: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(lane) = self.lanes.get(at) else { return Ok(None) };
+        let Some(lane) = self.lanes.lanes().get(at) else { return Ok(None) };
         let engine = &lane.engine;
         let Some(outcome) = engine.outcome() else { return Ok(None) };
         let dict = PyDict::new(py);
@@ -284,7 +271,7 @@ impl Batch {
 
     /// A drawing of an environment's pitch in text.
     fn drawing(&self, at: usize) -> String {
-        self.lanes.get(at).map(|lane| setpiece::drawing::draw(lane.engine.state())).unwrap_or_default()
+        self.lanes.lanes().get(at).map(|lane| setpiece::drawing::draw(lane.engine.state())).unwrap_or_default()
     }
 }
 
@@ -332,7 +319,7 @@ impl Batch {
         arrays: &Arrays,
         work: impl Fn(usize, &mut Lane, Row<'_>, &mut Scratch) + Sync,
     ) -> PyResult<()> {
-        let n = self.lanes.len();
+        let n = self.lanes.lanes().len();
         let lost = || errors::raise_plain(py, "SetpieceError", "an array of the batch is in use or read-only");
         macro_rules! write {
             ($guard:ident, $values:ident, $array:expr) => {
@@ -365,30 +352,15 @@ impl Batch {
         {
             rows.push(Row { observation, rewards, terms, mask, score, terminated, truncated, begun });
         }
-        let chunk = n.div_ceil(self.scratches.len()).max(1);
-        let (pool, lanes, scratches) = (&self.pool, &mut self.lanes, &mut self.scratches);
-        py.detach(|| {
-            let mut parts: Vec<Vec<Row<'_>>> = Vec::new();
-            let mut rows = rows.into_iter();
-            while parts.len() < scratches.len() {
-                parts.push(rows.by_ref().take(chunk).collect());
-            }
-            let all = lanes.par_chunks_mut(chunk).zip(parts.into_par_iter()).zip(scratches.par_iter_mut()).enumerate();
-            pool.install(|| {
-                all.for_each(|(part, ((lanes, rows), scratch))| {
-                    for (i, (lane, row)) in lanes.iter_mut().zip(rows).enumerate() {
-                        work(part * chunk + i, lane, row, scratch);
-                    }
-                });
-            });
-        });
+        let lanes = &mut self.lanes;
+        py.detach(|| lanes.each(rows, &work));
         Ok(())
     }
 
     /// Raises what has failed in a step, the first environment's; it has ended then, the others have been played.
     fn told(&mut self, py: Python<'_>) -> PyResult<()> {
         let mut first = None;
-        for lane in &mut self.lanes {
+        for lane in self.lanes.lanes_mut() {
             let broken = lane.broken.take().map(|why| from_episode(py, why.into()));
             let fault = lane.fault.take().map(|why| match why {
                 ResetError::Draw(why) => from_episode(py, why.into()),

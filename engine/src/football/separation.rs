@@ -15,8 +15,6 @@ pub const CONTACT_M: f32 = 0.72;
 const LYING_M: f32 = 0.5;
 /// Most that one meeting moves a body in two ticks, metres. (The fact sheet's: 0.08 a tick.)
 const PUSH_MAX_M: f32 = 0.16;
-/// However hard others press, two bodies that meet are left no nearer than this, metres; chosen.
-const PRESSED_M: f32 = 0.2;
 
 /// The most that pushes add up to, metres. (The fact sheet's.)
 const SHOVE_MAX_M: f32 = 0.1;
@@ -79,7 +77,7 @@ fn part(game: &mut Match, events: &mut Events, i: PlayerId, j: PlayerId) {
         share -= 0.15;
     }
     let share = share.clamp(0.1, 0.9);
-    let step = overlap.min(PUSH_MAX_M).max(PRESSED_M - distance);
+    let step = overlap.min(PUSH_MAX_M);
     let closing = (b.vel - a.vel).dot(away).min(0.0);
     let first = &mut game.players[i.index()];
     first.pos -= away * (step * (1.0 - share));

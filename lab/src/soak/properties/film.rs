@@ -31,8 +31,9 @@ const LIFT_M: f32 = 0.05;
 const KICK_MPS: f32 = 36.0;
 /// The most that a player moves in a tick, metres.
 const STRIDE_M: f32 = 0.24;
-/// How near two men on their feet, who have stood apart, come to each other, metres: in a crowd, far into each other.
-const NEAREST_M: f32 = 0.1;
+/// How near two men on their feet, who have stood apart, come to each other, metres: in a crowd that presses them into a
+/// corner, far into each other; they never change sides.
+const NEAREST_M: f32 = 0.05;
 /// How near a player's middle comes to a net or post, metres.
 const NET_M: f32 = 0.2;
 

@@ -27,9 +27,9 @@ def played_examples() -> dict[str, Any]:
 def ranges(low: Any, high: Any) -> str:
     """Returns the ranges of numbers, one round of them where they repeat."""
     each = [f"{least:.10g}..{most:.10g}" for least, most in zip(np.ravel(low), np.ravel(high), strict=True)]
-    round_ = next(n for n in range(1, len(each) + 1) if each == (each * len(each))[:n] * (len(each) // n))
+    round_ = next(n for n in range(1, len(each) + 1) if each == each[:n] * (len(each) // n))
     runs = [(len(list(run)), one) for one, run in groupby(each[:round_])]
-    return ", ".join(f"{n} × {one}" if n > 1 else one for n, one in runs)
+    return ", ".join(f"{n} times {one}" if n > 1 else one for n, one in runs)
 
 
 def blocks(env: setpiece.FootballEnv) -> str:
@@ -38,7 +38,7 @@ def blocks(env: setpiece.FootballEnv) -> str:
     for block in env.observation_layout:
         assert isinstance(block, Block)
         where = slice(block.start, block.start + block.length)
-        numbers = str(block.start) if block.length == 1 else f"{block.start}–{where.stop - 1}"
+        numbers = str(block.start) if block.length == 1 else f"{block.start}..{where.stop - 1}"
         bounds = ranges(space.low[..., where], space.high[..., where])
         rows.append((numbers, block.meaning, block.unit, bounds))
     return table(BLOCKS, rows)

@@ -32,6 +32,16 @@ def test_every_error_is_told() -> None:
     hold_tables(PAGE, {"errors": table(("error", "is also a", "says that"), rows)})
 
 
+def test_all_infos_are_told() -> None:
+    env = setpiece.make("academy_empty_goal_close", seed=1)
+    _, info = env.reset()
+    while "outcome" not in info:
+        *_, info = env.step(setpiece.Action.SHOT)
+    text = (DOCS / PAGE).read_text(encoding="utf-8")
+    section = text[text.index("`info` has in every step") : text.index("`reset(seed=s)`")]
+    assert set(re.findall(r"`(\w+)`", section)) == {"info", *info, *info["setpiece"]}
+
+
 def test_every_action_set_and_mode_is_told() -> None:
     text = (DOCS / PAGE).read_text(encoding="utf-8")
     sets = re.findall(r'^\| `"(\w+)"` \|.* \| `\((\d+),\)`', text, re.MULTILINE)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from os import PathLike, fspath
 from typing import Any, Literal, TypeGuard
@@ -27,7 +27,7 @@ class Policy:
 
     - `play`: a function of observations that returns actions, the path of an `.onnx` file, or an object with the
       `predict` of Stable-Baselines3.
-    - `observation`: what it sees: `"simple115v2"`, `"smm"`, `"raw"` or `"vector"`; None: what the caller sees.
+    - `observation`: what it sees, as in `setpiece.make`; None: what the caller sees.
     - `batched`: True: it gets the observations of all its n agents at once, an array with a leading axis n (a tuple of
       n dicts for `"raw"`), and returns n actions. False: it gets one agent's and returns one, agent by agent.
 
@@ -224,7 +224,7 @@ def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> d
 def _policy(who: str, opponent: Opponent) -> Policy:
     if isinstance(opponent, Policy):
         if opponent.observation is not None:
-            check_observation(opponent.observation)
+            return replace(opponent, observation=check_observation(opponent.observation))
         return opponent
     if is_onnx(opponent) or callable(getattr(opponent, "predict", None)):
         return Policy(opponent)

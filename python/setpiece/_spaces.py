@@ -187,7 +187,8 @@ RAW_MEANINGS = {
     "ball_owned_player": "index within the owner's team, or -1",
     "designated": "index of the own team's player who is foremost for the ball, or -1",
     "active": "index of the agent's player, or -1",
-    "sticky_actions": "held actions: eight directions from left clockwise, sprint, dribble",
+    "sticky_actions": "held actions: eight directions from left clockwise, sprint, dribble; with the set `full` also "
+    "keeper rush, pressure, team pressure",
     "score": "own goals, the opponents' goals",
     "steps_left": "steps until the limit; -1 without one",
     "game_mode": "a `GameMode`",

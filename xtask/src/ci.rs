@@ -27,46 +27,71 @@ pub(crate) fn rust_tests() -> Result<(), String> {
 
 /// Builds the wheel once and tests it in an environment of its own.
 pub(crate) fn python() -> Result<(), String> {
-    let root = root();
-    let venv = root.join("target/venv");
+    let python = venv("venv", "requirements-dev.txt")?;
+    install_wheel(&python, &wheel(&python)?)?;
+    let run_in = |folder: &str, args: &[&str]| {
+        run(Command::new(&python).arg("-m").args(args).current_dir(root().join("python").join(folder)))
+    };
+    run_in("", &["ruff", "check"])?;
+    run_in("", &["ruff", "format", "--check"])?;
+    run_in("tests", &["mypy", "--strict", "--config-file", "../pyproject.toml", "-p", "setpiece"])?;
+    run_in("tests", &["mypy.stubtest", "setpiece._native"])?;
+    pytest(&python)
+}
+
+/// Builds the wheel and runs the Python tests beside the heavy packages, so that none of `tests/full` is left out.
+pub(crate) fn python_full() -> Result<(), String> {
+    // The heavy packages want another Gymnasium than what builds the wheel.
+    let wheel = wheel(&venv("venv", "requirements-dev.txt")?)?;
+    let python = venv("venv-full", "requirements-full.txt")?;
+    install_wheel(&python, &wheel)?;
+    pytest(&python)
+}
+
+/// Makes an environment in `target/` with what a file of requirements names; returns its Python.
+fn venv(name: &str, requirements: &str) -> Result<PathBuf, String> {
+    let venv = root().join("target").join(name);
     let python = venv.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if !python.exists() {
         let system = if cfg!(windows) { "python" } else { "python3" };
         run(Command::new(system).args(["-m", "venv"]).arg(&venv))?;
     }
-    let pip = |args: &[&str]| {
-        run(Command::new(&python)
-            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
-            .args(args)
-            .current_dir(&root))
-    };
-    pip(&["--requirement", "python/requirements-dev.txt"])?;
-    let wheels = root.join("target/wheels");
+    pip(&python, &["--requirement", &format!("python/{requirements}")])?;
+    Ok(python)
+}
+
+fn pip(python: &Path, args: &[&str]) -> Result<(), String> {
+    run(Command::new(python).args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(args))
+}
+
+/// Builds the wheel with the maturin of an environment.
+fn wheel(python: &Path) -> Result<PathBuf, String> {
+    let wheels = root().join("target/wheels");
     if wheels.exists() {
         std::fs::remove_dir_all(&wheels).map_err(|why| why.to_string())?;
     }
-    run(Command::new(&python)
+    run(Command::new(python)
         .args(["-m", "maturin", "build", "--release", "--out"])
         .arg(&wheels)
         .arg("--manifest-path")
-        .arg(root.join("python/Cargo.toml"))
-        .env("VIRTUAL_ENV", &venv))?;
-    let wheel = std::fs::read_dir(&wheels)
+        .arg(root().join("python/Cargo.toml"))
+        .env("VIRTUAL_ENV", root().join("target/venv")))?;
+    std::fs::read_dir(&wheels)
         .map_err(|why| why.to_string())?
         .flatten()
         .map(|entry| entry.path())
         .find(|path| path.extension().is_some_and(|ending| ending == "whl"))
-        .ok_or("maturin left no wheel")?;
-    pip(&["--force-reinstall", "--no-deps", &wheel.to_string_lossy()])?;
-    // Run from the tests' folder, so that the installed wheel is tested and not the source tree.
-    let tests = root.join("python/tests");
-    let tool = |args: &[&str]| run(Command::new(&python).args(args).current_dir(&tests));
-    for task in [["ruff", "check"].as_slice(), &["ruff", "format", "--check"]] {
-        run(Command::new(&python).arg("-m").args(task).current_dir(root.join("python")))?;
-    }
-    tool(&["-m", "mypy", "--strict", "--config-file", "../pyproject.toml", "-p", "setpiece"])?;
-    tool(&["-m", "mypy.stubtest", "setpiece._native"])?;
-    tool(&["-m", "pytest", "--quiet", "-c", "../pyproject.toml", "--rootdir", ".", "."])
+        .ok_or_else(|| "maturin left no wheel".to_owned())
+}
+
+fn install_wheel(python: &Path, wheel: &Path) -> Result<(), String> {
+    pip(python, &["--force-reinstall", "--no-deps", &wheel.to_string_lossy()])
+}
+
+/// Runs the tests from their folder, so that the installed wheel is tested and not the source tree.
+fn pytest(python: &Path) -> Result<(), String> {
+    let args = ["-m", "pytest", "--quiet", "-c", "../pyproject.toml", "--rootdir", ".", "."];
+    run(Command::new(python).args(args).current_dir(root().join("python/tests")))
 }
 
 fn cargo(args: &[&str]) -> Result<(), String> {

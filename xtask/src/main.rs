@@ -12,7 +12,11 @@ fn main() -> ExitCode {
     let result = match command.as_str() {
         "ci" => ci::ci(),
         "test" => ci::rust_tests(),
-        "python" => ci::python(),
+        "python" => match std::env::args().nth(2).as_deref() {
+            None => ci::python(),
+            Some("--full") => ci::python_full(),
+            Some(other) => Err(format!("no option `{other}`; there is `--full`")),
+        },
         "schema" => schema(),
         "tidy" => tidy::tidy(),
         "calibrate" | "soak" => ci::lab(&std::env::args().skip(1).collect::<Vec<_>>()),
@@ -20,7 +24,9 @@ fn main() -> ExitCode {
         _ => {
             println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
             println!("cargo xtask test    the Rust tests");
-            println!("cargo xtask python  build the wheel and run the Python tests");
+            println!(
+                "cargo xtask python  [--full]: build the wheel and run the Python tests, those with heavy packages too"
+            );
             println!(
                 "cargo xtask calibrate  [--check] [--only SECTION] [--count N]: our figures beside those measured of GRF"
             );

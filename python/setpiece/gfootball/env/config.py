@@ -8,7 +8,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from setpiece import _native
 from setpiece._errors import ParameterError
 from setpiece.gfootball._words import check_word, similar, unavailable
 from setpiece.gfootball.env.football_action_set import action_set_dict
@@ -205,8 +204,6 @@ def _check(key: str, value: Any) -> None:
         raise ParameterError(f"no setting `{key}`", name=str(key), help=similar(key, known))
     if key == "action_set":
         check_word(key, value, tuple(action_set_dict))
-        if value == "full" and "full" not in _native.ACTION_SETS:
-            raise unavailable(key, "the action set `full`", "`default` has 19 actions, `v2` 20")
     elif key == "level":
         if not isinstance(value, str) or not value:
             raise ParameterError("the level needs a name", name=key, help="for example `academy_3_vs_1_with_keeper`")

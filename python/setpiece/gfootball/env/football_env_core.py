@@ -10,10 +10,8 @@ import gymnasium
 import numpy as np
 
 import setpiece
-from setpiece import _native
 from setpiece._errors import SnapshotError
 from setpiece.gfootball._translation import LIMIT_MAX
-from setpiece.gfootball._words import unavailable
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env.football_action_set import NUMBERS, CoreAction, get_sticky_actions
 from setpiece.gfootball.env.observation_rotation import flip_observation, flip_single_action
@@ -28,7 +26,6 @@ STALLED = 20
 """Steps after which a set piece that waits is taken for the agents."""
 TURNING = 30
 """Steps after which its taker is sent the other way."""
-NATIVE_SET = "full" if "full" in _native.ACTION_SETS else "v2"
 
 # Where GRF thinks that the players of a team stand, by place in the team, when it deals out the slots of the first
 # observation: to whoever is nearest the centre spot.
@@ -135,7 +132,7 @@ class FootballEnvCore:
         """Makes the environment of a scenario, unless it is the one that is there."""
         if self._env is None or (source, limit, played) != (self._source, self._limit, self._played):
             scenario = source.compiled(str(played[0]), str(played[1]), limit)
-            self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set=NATIVE_SET)
+            self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set="full")
             self._source, self._limit, self._played = source, limit, played
 
     def _playable(self, recorded: ScenarioConfig) -> tuple[int, int]:
@@ -216,11 +213,7 @@ class FootballEnvCore:
         other = [flip_single_action(action, self._config) for action in chosen[asked_left:]][:right]
         if not own and not other:
             return [NUMBERS["builtin_ai"]]
-        numbers = [NUMBERS[action.name] for action in (*own, *other)]
-        for number, action in zip(numbers, (*own, *other), strict=True):
-            if number >= _native.ACTION_SETS[NATIVE_SET]:
-                raise unavailable("action", f"the action `{action.name}`")
-        return numbers
+        return [NUMBERS[action.name] for action in (*own, *other)]
 
     def _first_active(self, recorded: ScenarioConfig) -> None:
         """Shows in the first observation whom GRF shows: it deals the slots out by a layout that nobody stands in."""

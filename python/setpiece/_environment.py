@@ -237,7 +237,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if not self._playing:
             result[4]["setpiece"]["scenario"] = self._digest
             if self._record is not None:
-                result[4]["setpiece"]["replay"] = self._record.end(self._native, self.scenario.name, result[4])
+                result[4]["setpiece"]["replay"] = self._record.end(self._native, self.scenario.name, result[4]["score"])
         if self._table is not None:
             observation, reward, terminated, truncated, info = result
             observation, info = self._table.shown(observation, info)

@@ -96,6 +96,11 @@ class Replay:
         return f"Replay({self.scenario.name}, seed={self.seed}, index={self.index}, length={self.length})"
 
     @property
+    def snapshot(self) -> bytes | None:
+        """The snapshot that it began in; None where it began as its scenario does."""
+        return self._recorded.start
+
+    @property
     def score(self) -> list[int]:
         """Goals of the left and the right team."""
         score: list[int] = self._end["score"]

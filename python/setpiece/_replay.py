@@ -11,17 +11,22 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import FileError, ReplayError, SetpieceError, UnavailableError
+from setpiece._errors import FileError, ReplayError, SetpieceError
 from setpiece._native import Scenario, load
 from setpiece._replay_file import FILE_MAX, DamagedError, Recorded, read
 from setpiece._rows import Picker
 from setpiece._spaces import check_observation
+from setpiece._steering import numbers_of
 from setpiece._vocabulary import Action
 
 BAD_REPLAY = "SP0014"
 FILE_MISSING = "SP0001"
+
+Pressed = Action | NDArray[np.float32]
+"""What an agent does in a step: a key, or the four numbers of continuous actions."""
 
 
 @dataclass(frozen=True)
@@ -32,8 +37,8 @@ class Moment:
     """Steps played so far, of 100 ms; 0 is the start."""
     observations: dict[str, Any]
     """What each agent sees now, in its own frame: it attacks towards +x."""
-    actions: dict[str, Action]
-    """What each agent pressed in this step; empty at the start."""
+    actions: dict[str, Pressed]
+    """What each agent did in this step: an `Action`, or float32 `(4,)` of continuous ones. Empty at the start."""
     rewards: dict[str, float]
     """What each agent was paid for it; empty at the start."""
     events: list[dict[str, Any]]
@@ -86,7 +91,8 @@ class Replay:
             self.agents = tuple(self._environment("raw").agents)
         except SetpieceError as error:
             raise self._error("it is damaged: nobody can have played it so") from error
-        if len(self._recorded.actions) != self.length * len(self.agents):
+        noted = self.length * len(self.agents)
+        if len(self._recorded.actions) != noted or len(self._recorded.steers) not in (0, noted):
             raise self._error("it is damaged: it has not one action for each agent and step")
 
     def __iter__(self) -> Iterator[Moment]:
@@ -113,7 +119,9 @@ class Replay:
 
     @property
     def action_set(self) -> str:
-        """The smallest set that has all that was pressed: `"default"`, `"v2"` or `"full"`."""
+        """The smallest set that has all that was pressed: `"default"`, `"v2"` or `"full"`; or `"continuous"`."""
+        if self._recorded.steers:
+            return "continuous"
         most = max(self._recorded.actions, default=0)
         return next(name for name, size in _native.ACTION_SETS.items() if most < size)
 
@@ -122,24 +130,16 @@ class Replay:
 
         - `observation`: one of those of `setpiece.make`; `sticky_actions` of raw ones are those of `action_set`.
 
-        Raises `ReplayError` where this build comes to another end, `UnavailableError` for an episode of continuous
-        actions, and whatever `FootballEnv.step` does where a script fails.
+        Raises `ReplayError` where this build comes to another end, and `ScriptError` where a script fails.
         """
-        if self._recorded.steers:
-            raise UnavailableError(
-                f"`{self.path}`: continuous actions can't be played again from Python",
-                name="observation",
-                help=f"`setpiece replay {self.path} --format jsonl` tells every step",
-            )
         native = self._environment(check_observation(observation))
         observed, info = native.reset(self.seed, self.index, {}, self._recorded.start)
         yield self._moment(0, observed, [], [], info)
-        n_agents = len(self.agents)
         for step in range(self.length):
             if not native.running:
                 raise self._differs(step)
-            actions = self._recorded.actions[step * n_agents : (step + 1) * n_agents]
-            observed, reward, _, _, info = native.step(actions)
+            actions = self._actions(step)
+            observed, reward, _, _, info = native.step(np.asarray(actions))
             if step + 1 == self.length and read(native.replay()).digest != self._recorded.digest:
                 raise self._differs(self.length)
             yield self._moment(step + 1, observed, actions, np.atleast_1d(reward).tolist(), info)
@@ -152,14 +152,25 @@ class Replay:
             info = moment.info
         return info
 
+    def _actions(self, step: int) -> list[Pressed]:
+        """What every agent did in a step, as `FootballEnv.step` takes it."""
+        now = slice(step * len(self.agents), (step + 1) * len(self.agents))
+        try:
+            keys = [Action(number) for number in self._recorded.actions[now]]
+            if not self._recorded.steers:
+                return [*keys]
+            return [numbers_of(key, steer) for key, steer in zip(keys, self._recorded.steers[now], strict=True)]
+        except (TypeError, ValueError) as error:
+            raise self._error(f"step {step}: what the agents did can't be read: {error}") from error
+
     def _moment(
-        self, step: int, observed: Any, actions: list[int], rewards: list[float], info: dict[str, Any]
+        self, step: int, observed: Any, actions: list[Pressed], rewards: list[float], info: dict[str, Any]
     ) -> Moment:
         ids = [agent.id for agent in self.agents]
         return Moment(
             step=step,
             observations={one: Picker(len(ids), at)(observed) for at, one in enumerate(ids)},
-            actions={one: Action(action) for one, action in zip(ids, actions, strict=False)},
+            actions=dict(zip(ids, actions, strict=False)),
             rewards=dict(zip(ids, rewards, strict=False)),
             events=info.pop("events"),
             info=info,

@@ -48,8 +48,8 @@ class Recorded:
     """The fingerprint of its last state."""
     actions: list[int]
     """What every agent pressed, agent by agent, step by step."""
-    steers: list[list[float] | None]
-    """x and y of the way and the power of a kick, where agents steered; else empty."""
+    steers: list[list[float]]
+    """For each of these x and y of the way and the power of a kick, where agents steered; else empty."""
 
 
 def read(file: bytes) -> Recorded:
@@ -91,6 +91,8 @@ def _inflated(body: bytes) -> bytes:
 def _recorded(values: dict[str, Any]) -> Recorded:
     if values["physics"] is not None:
         raise DamagedError("it was played with other physics than environments of this package have")
+    if None in values["steers"]:
+        raise DamagedError("keys and continuous actions are mixed in it")
     agents = values["agents"] or {"sides": ["Scenario", "Scenario"], "fixed": None}
     left, right = (_seats(side) for side in agents["sides"])
     start = values["from"]

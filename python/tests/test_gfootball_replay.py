@@ -140,6 +140,16 @@ def test_a_match_that_the_drop_in_does_not_know_can_be_read(tmp_path: Path) -> N
             HELPERS.replay(str(dump), render=False)
 
 
+def test_a_replay_is_converted_by_any_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "deep").mkdir()
+    recorded(tmp_path / "late.pitchr", CLOSE, index=2)
+    monkeypatch.chdir(tmp_path / "deep")
+    dump, records = dumped(Path("..", "late.pitchr"))
+    assert records[0]["debug"]["config"]["level"] == str(Path("..", "late.pitchr"))
+    with pytest.raises(setpiece.UnknownScenarioError, match=r"late\.pitchr"):
+        HELPERS.replay(str(dump), render=False)
+
+
 def test_a_dump_as_text(tmp_path: Path) -> None:
     dump, records = dumped(recorded(tmp_path / "x.pitchr", CLOSE, steps=3))
     HELPERS.dump_to_txt(str(dump), str(tmp_path / "x.txt"))
@@ -190,6 +200,7 @@ def test_what_can_not_be_converted_is_told(tmp_path: Path, capfd: pytest.Capture
     for wrong in ([path, "--format", "grf"], [path, "--format", "grff"], [path, "-o", dump], ["--format", "grf"]):
         assert main(wrong) == 2, wrong
     nobody = recorded(tmp_path / "nobody.pitchr", "11_vs_11_stochastic", steps=2, left=0)
+    numbers = recorded(tmp_path / "numbers.pitchr", CLOSE, steps=2, action_set="continuous")
     cut = tmp_path / "cut.pitchr"
     cut.write_bytes(Path(path).read_bytes()[:-1])
     capfd.readouterr()
@@ -197,6 +208,7 @@ def test_what_can_not_be_converted_is_told(tmp_path: Path, capfd: pytest.Capture
         (cut, dump, "cut.pitchr`: it is cut off"),
         (tmp_path / "none.pitchr", dump, "none.pitchr` can't be read"),
         (nobody, dump, "nobody was an agent"),
+        (numbers, dump, "actions were continuous"),
         (path, f"{path}/x.dump", "can't be written"),
     ]:
         assert main([str(source), "--format", "grf", "-o", out]) == 1

@@ -33,11 +33,9 @@ def replay_to_dump(replay: Replay, path: str | PathLike[str]) -> None:
     plays the episode otherwise; `FileError` where the file can't be written.
     """
     if not replay.agents:
-        raise UnavailableError(
-            f"`{replay.path}`: nobody was an agent, and a dump tells what agents see and do",
-            name="agents",
-            help=f"`setpiece replay {replay.path} --format jsonl` tells every step",
-        )
+        raise _untellable(replay, "agents", "nobody was an agent, and a dump tells what agents see and do")
+    if replay.action_set == "continuous":
+        raise _untellable(replay, "action_set", "the agents' actions were continuous, and a dump tells of keys")
     # Played before anything is written: one that comes to another end leaves no file.
     longest = _longest_wait(replay)
     left, right = _counts(replay)
@@ -50,6 +48,11 @@ def replay_to_dump(replay: Replay, path: str | PathLike[str]) -> None:
         "game_engine_random_seed": replay.seed,
     }
     write_dump(Path(fspath(path)), config, _traces(replay, config))
+
+
+def _untellable(replay: Replay, name: str, why: str) -> UnavailableError:
+    instead = f"`setpiece replay {replay.path} --format jsonl` tells every step"
+    return UnavailableError(f"`{replay.path}`: {why}", name=name, help=instead)
 
 
 def _traces(replay: Replay, config: dict[str, Any]) -> Iterator[Trace]:
@@ -69,7 +72,7 @@ def _traces(replay: Replay, config: dict[str, Any]) -> Iterator[Trace]:
 def _chosen(replay: Replay, moment: Moment, config: dict[str, Any]) -> list[CoreAction]:
     """Every slot's action, in the frame of the pitch."""
     actions = get_action_set(config)
-    chosen = [actions[moment.actions[agent.id]] for agent in replay.agents]
+    chosen = [actions[int(moment.actions[agent.id])] for agent in replay.agents]
     return [
         flip_single_action(action, config) if agent.team == 1 else action
         for agent, action in zip(replay.agents, chosen, strict=True)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import FileError, ReplayError, SetpieceError
+from setpiece._errors import FileError, ReplayError, SetpieceError, SnapshotError
 from setpiece._native import Scenario, load
 from setpiece._replay_file import FILE_MAX, DamagedError, Recorded, read
 from setpiece._rows import Picker
@@ -89,6 +89,8 @@ class Replay:
         self.scenario = self._scenario()
         try:
             self.agents = tuple(self._environment("raw").agents)
+        except ReplayError:
+            raise
         except SetpieceError as error:
             raise self._error("it is damaged: nobody can have played it so") from error
         noted = self.length * len(self.agents)
@@ -123,7 +125,10 @@ class Replay:
         if self._recorded.steers:
             return "continuous"
         most = max(self._recorded.actions, default=0)
-        return next(name for name, size in _native.ACTION_SETS.items() if most < size)
+        for name, size in _native.ACTION_SETS.items():
+            if most < size:
+                return name
+        raise self._error(f"it is damaged: no action has the number {most}")
 
     def moments(self, observation: str = "raw") -> Iterator[Moment]:
         """Plays the episode from its start and gives every moment of it, with observations of any kind.
@@ -133,16 +138,24 @@ class Replay:
         Raises `ReplayError` where this build comes to another end, and `ScriptError` where a script fails.
         """
         native = self._environment(check_observation(observation))
-        observed, info = native.reset(self.seed, self.index, {}, self._recorded.start)
+        try:
+            observed, info = native.reset(self.seed, self.index, {}, self._recorded.start)
+        except SnapshotError as error:
+            raise self._error("the snapshot that it began in can't be read") from error
+        self._compare(native, 0)
         yield self._moment(0, observed, [], [], info)
         for step in range(self.length):
             if not native.running:
                 raise self._differs(step)
             actions = self._actions(step)
             observed, reward, _, _, info = native.step(np.asarray(actions))
-            if step + 1 == self.length and read(native.replay()).digest != self._recorded.digest:
-                raise self._differs(self.length)
+            self._compare(native, step + 1)
             yield self._moment(step + 1, observed, actions, np.atleast_1d(reward).tolist(), info)
+
+    def _compare(self, native: _native.Environment, step: int) -> None:
+        """Raises where the last state is not the one that was recorded: a replay of this one tells its fingerprint."""
+        if step == self.length and read(native.replay()).digest != self._recorded.digest:
+            raise self._differs(step)
 
     @cached_property
     def _end(self) -> dict[str, Any]:

@@ -93,24 +93,32 @@ def _recorded(values: dict[str, Any]) -> Recorded:
         raise DamagedError("it was played with other physics than environments of this package have")
     if None in values["steers"]:
         raise DamagedError("keys and continuous actions are mixed in it")
+    if not all(-1 <= number <= 1 for steer in values["steers"] for number in steer):
+        raise ValueError
     agents = values["agents"] or {"sides": ["Scenario", "Scenario"], "fixed": None}
     left, right = (_seats(side) for side in agents["sides"])
     start = values["from"]
     return Recorded(
         scenario=bytes(values["scenario"]),
-        rewards=values["rewards"],
+        rewards=None if values["rewards"] is None else [str(name) for name in values["rewards"]],
         params=[float(value) for value in values["params"]],
         left=left,
         right=right,
         switching={None: None, False: "auto", True: "fixed"}[agents["fixed"]],
-        seed=int(values["seed"]),
-        index=int(values["index"]),
+        seed=_count(values["seed"]),
+        index=_count(values["index"]),
         start=None if start is None else bytes(start),
-        length=int(values["length"]),
-        digest=int(values["digest"]),
-        actions=[int(number) for number in values["acts"]],
+        length=_count(values["length"]),
+        digest=_count(values["digest"]),
+        actions=[_count(number) for number in values["acts"]],
         steers=list(values["steers"]),
     )
+
+
+def _count(value: Any) -> int:
+    if not isinstance(value, int) or value < 0:
+        raise ValueError
+    return value
 
 
 def _seats(side: Any) -> Seats:

@@ -141,6 +141,7 @@ def test_files_that_are_no_replays_are_named(tmp_path: Path) -> None:
     recorded(path, CLOSE, steps=5)
     good = path.read_bytes()
     body = zlib.decompress(good[28:], -zlib.MAX_WBITS)
+    head, acts = body.split(b"dacts\x85")
     version = good[:8] + struct.pack("<I", 99) + good[12:]
     flipped = good[:-1] + bytes([good[-1] ^ 1])
     for bad, why in [
@@ -156,6 +157,10 @@ def test_files_that_are_no_replays_are_named(tmp_path: Path) -> None:
         (sealed(b"\x81" * 100_000), "it is damaged"),
         (sealed(body[:-9]), "it is damaged"),
         (sealed(body.replace(b"flength\x05", b"flength\x06")), "one action for each agent and step"),
+        (sealed(body.replace(b"flength\x05", b"flength\x25")), "it is damaged"),
+        (sealed(head + b"dacts\x85\x18\x40" + acts[1:]), "no action has the number 64"),
+        (sealed(body.replace(b"\x18\x8b\x18p", b"\x18\x8b\x18q")), "can't read the scenario"),
+        (sealed(body.replace(b"gphysics\xf6", b"gphysics\x64full")), "other physics"),
     ]:
         path.write_bytes(bad)
         with pytest.raises(setpiece.ReplayError, match=why) as caught:
@@ -177,5 +182,7 @@ def test_an_episode_that_goes_otherwise_is_told(tmp_path: Path) -> None:
     replay = setpiece.Replay(path)
     with pytest.raises(setpiece.ReplayError, match="step 5: this build plays the episode otherwise"):
         list(replay)
-    path.write_bytes(sealed(head + b"dacts\x85" + b"\x17" * 5 + acts[5:]))
-    assert setpiece.Replay(path).action_set == "full"
+    assert head.count(b"flength\x05") == 1
+    path.write_bytes(sealed(head.replace(b"flength\x05", b"flength\x00") + b"dacts\x80" + acts[5:]))
+    with pytest.raises(setpiece.ReplayError, match="step 0: this build plays the episode otherwise"):
+        list(setpiece.Replay(path))

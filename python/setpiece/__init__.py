@@ -40,6 +40,7 @@ from setpiece._opponents import Policy
 from setpiece._pettingzoo import parallel_env, register_pettingzoo
 from setpiece._play import Played, play
 from setpiece._reload import Reload
+from setpiece._replay import Moment, Replay
 from setpiece._vector import FootballVectorEnv, make_vec
 from setpiece._vocabulary import Action, GameMode, Role
 
@@ -58,12 +59,14 @@ __all__ = [
     "InUseError",
     "Label",
     "MissingPackageError",
+    "Moment",
     "OpponentError",
     "Param",
     "ParameterError",
     "Played",
     "Policy",
     "Reload",
+    "Replay",
     "ReplayError",
     "RewardError",
     "Role",

@@ -10,11 +10,15 @@ def main() -> int:
     """Runs the command with the process's arguments and returns its exit code: 0, 1 (input) or 2 (usage)."""
     # Python only notes an interrupt and lets native code go on; the default action ends the process at once.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    # What reads scripts or writes dumps is Python and runs here; the other commands need not wait for it.
     if sys.argv[1:2] == ["import"]:
-        # Scripts are Python, so that this command runs here; the others need not wait for its package.
         from setpiece.gfootball._import import main as import_main
 
         return import_main(sys.argv[2:])
+    if sys.argv[1:2] == ["replay"]:
+        from setpiece._replay_command import main as replay_main
+
+        return replay_main(sys.argv[2:])
     return run_command(sys.argv[1:])
 
 

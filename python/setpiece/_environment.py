@@ -237,7 +237,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if not self._playing:
             result[4]["setpiece"]["scenario"] = self._digest
             if self._record is not None:
-                result[4]["setpiece"]["replay"] = self._record.end(self._native, self.scenario.name, result[4])
+                result[4]["setpiece"]["replay"] = self._record.end(self._native, self.scenario.name, result[4]["score"])
         if self._table is not None:
             observation, reward, terminated, truncated, info = result
             observation, info = self._table.shown(observation, info)
@@ -506,7 +506,7 @@ def make(
       shot, slide; and the power of a kick, 0..1: how hard a shot is and how far a pass goes, 0 as a key's).
     - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr`: of all, of those with a goal
       (`record_when="goal"`), or of the first and each n-th after it (`record_when=n`). The last `info["setpiece"]` has
-      `replay`, the path or None; `setpiece replay FILE` plays one again.
+      `replay`, the path or None; `setpiece replay FILE` plays one again, and so does `setpiece.Replay`.
     - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.

@@ -6,6 +6,7 @@ import re
 import warnings
 from collections.abc import Mapping
 from difflib import get_close_matches
+from os import PathLike
 from typing import Any
 
 import gymnasium
@@ -18,6 +19,7 @@ from setpiece._environment import RESET_OPTIONS, FootballEnv
 from setpiece._errors import ActionError, ParameterError
 from setpiece._native import ACTION_SETS, Scenario
 from setpiece._opponents import integers
+from setpiece._record import Record
 from setpiece._rows import Picker, split_info
 from setpiece._spaces import observation_space, one_action_space
 from setpiece._state import state, state_space
@@ -41,8 +43,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     render_mode: str | None
     state_space: spaces.Box
 
-    def __init__(self, env: FootballEnv, max_cycles: int | None = None) -> None:
-        """Takes an environment whose agents keep their players."""
+    def __init__(self, env: FootballEnv, max_cycles: int | None = None, record: Record | None = None) -> None:
+        """Takes an environment whose agents keep their players, and where its episodes are recorded."""
         if not env.agents:
             raise ParameterError(
                 f"`{env.scenario.name}` leaves the caller no agent", name="left", help="seat some: `left='all'`"
@@ -76,6 +78,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         n_agents = len(self.possible_agents)
         self._pickers = {agent: Picker(n_agents, at) for at, agent in enumerate(self.possible_agents)}
         self._cycles = 0
+        # Not the environment's own: here an episode also ends with `max_cycles`, or when all have been sent off.
+        self._record = record
 
     @property
     def scenario(self) -> Scenario:
@@ -123,6 +127,10 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         terminations = {agent: terminated or agent in gone for agent in acting}
         truncations = {agent: truncated and not terminations[agent] for agent in acting}
         self.agents = [agent for agent in acting if not (terminations[agent] or truncations[agent])]
+        if self._record is not None and not self.agents:
+            replay = self._record.end(self.env._native, self.scenario.name, info["score"])
+            for one in infos.values():
+                one["setpiece"] = {**one.get("setpiece", {}), "replay": replay}
         paid = dict(zip(self.possible_agents, np.atleast_1d(reward).tolist(), strict=True))
         rewards = {agent: paid[agent] for agent in acting}
         return self._parts(observation, acting), rewards, terminations, truncations, infos
@@ -132,6 +140,10 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         slots = self.env.slots
         seen = self.env.look("raw")
         return state(seen if len(slots) == 1 else seen[0], slots[0].team)
+
+    def save_replay(self, path: str | PathLike[str]) -> None:
+        """Writes the episode as far as it has been played: see `FootballEnv.save_replay`."""
+        self.env.save_replay(path)
 
     def snapshot(self) -> bytes:
         """Returns the whole episode as it stands: see `FootballEnv.snapshot`."""

@@ -12,6 +12,7 @@ from setpiece._errors import MissingPackageError
 from setpiece._native import Scenario
 from setpiece._opponents import Opponent
 from setpiece._optional import need
+from setpiece._record import Record, When
 from setpiece._seats import Seats
 
 if TYPE_CHECKING:
@@ -33,6 +34,8 @@ def parallel_env(
     action_set: str = "default",
     bot_action: bool = False,
     max_cycles: int | None = None,
+    record: str | PathLike[str] | None = None,
+    record_when: When = "always",
 ) -> ParallelFootballEnv:
     """Makes a PettingZoo `ParallelEnv` of a scenario: any number of agents on each side, each with a player of its own.
 
@@ -43,6 +46,8 @@ def parallel_env(
       observations, actions 0..18 and spaces are those of one agent of `FootballEnv`, rewards floats.
     - `info` of an agent: its `action_mask` (int8 `(19,)`), `reward_terms`, `return` and `bot_action`; `score` [left,
       right] and `events` are everyone's.
+    - A replay is recorded (`record`, `record_when`) when nobody is left in `agents`, after `max_cycles` too; the last
+      `info["setpiece"]` of those who were has `replay`.
     - An agent whose player is sent off is terminated and leaves `agents` for the rest of the episode; the others play
       on. When the scenario ends all terminate, at its limit all are truncated, and `agents` is empty.
     - `state()`: float32, one view of the whole match in the world's frame, in which left attacks towards +x. For
@@ -79,7 +84,7 @@ def parallel_env(
         action_set=action_set,
         bot_action=bot_action,
     )
-    return ParallelFootballEnv(env, max_cycles)
+    return ParallelFootballEnv(env, max_cycles, None if record is None else Record(record, record_when))
 
 
 def register_pettingzoo() -> None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from setpiece import _native
-from setpiece._errors import FileError, ParameterError
+from setpiece._errors import FileError, ParameterError, ReplayError
 
 When = Literal["always", "goal"] | int
 """Which episodes are recorded: all, those with a goal, or each n-th."""
@@ -27,19 +28,28 @@ class Record:
         self._folder, self._when = Path(folder), when
         self._ended = 0
 
-    def end(self, native: _native.Environment, name: str, info: dict[str, Any]) -> str | None:
-        """Writes the episode that has just ended, if it is one of those; returns where."""
-        if self._when == "goal":
-            wanted = any(info["score"])
-        else:
-            wanted = self._when == "always" or self._ended % int(self._when) == 0
+    def end(self, native: _native.Environment, name: str, score: Sequence[int]) -> str | None:
+        """Writes the episode that has just ended, if it is one of those; returns where.
+
+        One that was restored in its middle has no beginning to be played from: it is none of them.
+        """
+        wanted = self._wants(score)
         self._ended += 1
-        if not wanted:
+        if not wanted or native.episode is None:
             return None
-        summary = info["setpiece"]
-        path = self._folder / f"{name}_{summary['seed']}_{summary['index']}.pitchr"
-        write(path, native.replay())
+        seed, index = native.episode
+        path = self._folder / f"{name}_{seed}_{index}.pitchr"
+        try:
+            replay = native.replay()
+        except ReplayError:
+            return None
+        write(path, replay)
         return str(path)
+
+    def _wants(self, score: Sequence[int]) -> bool:
+        if self._when == "goal":
+            return any(score)
+        return self._when == "always" or self._ended % int(self._when) == 0
 
 
 def write(path: Path, replay: bytes) -> None:

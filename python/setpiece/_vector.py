@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._environment import ParamValue, _check_number, _one_thread, _reward_names
-from setpiece._errors import ParameterError
+from setpiece._errors import ParameterError, UnavailableError
 from setpiece._native import Scenario, load
 from setpiece._seats import Seats
 from setpiece._spaces import (
@@ -79,10 +79,17 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         right: Seats = None,
         switching: Literal["auto", "fixed"] | None = None,
         render_mode: str | None = None,
+        record: str | PathLike[str] | None = None,
     ) -> None:
         """Makes the environments; the arguments are those of `setpiece.make_vec`."""
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
+        if record is not None:
+            raise UnavailableError(
+                "a vector records no replays",
+                name="record",
+                help="play the episode of its `seed` and `index` with `setpiece.make(…, record=…)`",
+            )
         self.render_mode = render_mode
         self.num_envs = _count("num_envs", num_envs, ENVS_MAX)
         threads = (
@@ -312,12 +319,14 @@ def make_vec(
     right: Seats = None,
     switching: Literal["auto", "fixed"] | None = None,
     render_mode: str | None = None,
+    record: str | PathLike[str] | None = None,
 ) -> FootballVectorEnv:
     """Makes `num_envs` environments of a scenario that are stepped together.
 
     - `threads`: how many play; None: one per core. Results don't depend on them.
     - `autoreset_mode`: when an episode that has ended is followed by the next: see `FootballVectorEnv`.
     - `copy`: False returns the same array of observations every time, overwritten by the next `step`.
+    - `record`: for single environments; here it raises `UnavailableError`.
     - The rest is as in `setpiece.make`; raw observations are for single environments.
 
     >>> import numpy, setpiece
@@ -343,6 +352,7 @@ def make_vec(
         "right": right,
         "switching": switching,
         "render_mode": render_mode,
+        "record": record,
     }
     envs = FootballVectorEnv(num_envs=num_envs, **kwargs)
     envs.spec = EnvSpec(

@@ -35,7 +35,7 @@ __all__ = ["Sb3VecEnv", "make_vec"]
 
 FINAL = ("final_info", "final_obs")
 
-ALONE = ("opponents", "events", "bot_action", "watch", "on_reload")
+ALONE = ("opponents", "events", "bot_action", "watch", "on_reload", "record", "record_when")
 """What `setpiece.make` takes and a batch does not."""
 
 Indices = int | Iterable[int] | None
@@ -164,7 +164,7 @@ def make_vec(
     - `threads`: how many play; None: one per core. Results don't depend on them.
 
     The environments are one batch (`setpiece.make_vec`). What a batch can't do (`opponents`, `events`, `bot_action`,
-    `watch`, raw observations, a scenario's records) is played by single environments, one after the other.
+    `watch`, `record`, raw observations, a scenario's records) is played by single environments, one after the other.
 
     Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
     `ParameterError` for a scenario that leaves the caller none or several, and else what `setpiece.make` does.

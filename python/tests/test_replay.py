@@ -13,6 +13,7 @@ from setpiece._native import run_command
 
 CLOSE = "academy_empty_goal_close"
 THREE = "academy_3_vs_1_with_keeper"
+FULL = "11_vs_11_stochastic"
 
 
 def replayed(path: str | Path, capfd: pytest.CaptureFixture[str], *options: str) -> str:
@@ -90,3 +91,52 @@ def test_what_can_not_be_recorded_is_named(tmp_path: Path) -> None:
     env.reset(seed=1)
     with pytest.raises(setpiece.FileError, match="can't be written"):
         env.save_replay(tmp_path / "file" / "x.pitchr")
+
+
+def test_an_episode_gone_on_from_a_snapshot_is_not_recorded(tmp_path: Path) -> None:
+    env = setpiece.make(CLOSE, record=tmp_path)
+    env.reset(seed=1)
+    env.step(setpiece.Action.RIGHT)
+    env.restore(env.snapshot())
+    while "setpiece" not in (info := env.step(setpiece.Action.SHOT)[4]):
+        pass
+    assert info["setpiece"]["replay"] is None
+    assert list(tmp_path.iterdir()) == []
+
+
+def ended(env: Any, seed: int | None) -> dict[str, Any]:
+    """Plays an episode of agents that shoot; returns everyone's last info."""
+    env.reset(seed=seed)
+    while env.agents:
+        infos = env.step(dict.fromkeys(env.agents, setpiece.Action.SHOT))[4]
+    last: dict[str, Any] = infos
+    return last
+
+
+def test_a_parallel_environment_records_as_a_single_one(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    env = setpiece.parallel_env(THREE, left=3, record=tmp_path)
+    for seed, index in ((7, 0), (None, 1)):
+        infos = ended(env, seed)
+        path = tmp_path / f"{THREE}_7_{index}.pitchr"
+        assert {info["setpiece"]["replay"] for info in infos.values()} == {str(path)}
+        assert infos["left_CM_1"]["setpiece"]["digest"] in replayed(path, capfd)
+    every = setpiece.parallel_env(CLOSE, record=tmp_path / "third", record_when=3)
+    [agent] = every.possible_agents
+    paths = [ended(every, 1 if at == 0 else None)[agent]["setpiece"]["replay"] for at in range(4)]
+    assert [path is not None for path in paths] == [True, False, False, True]
+    with pytest.raises(setpiece.ParameterError, match="`record_when` is 'never'"):
+        setpiece.parallel_env(CLOSE, record=tmp_path, record_when="never")  # type: ignore[arg-type]
+
+
+def test_an_episode_that_max_cycles_end_is_recorded(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    env = setpiece.parallel_env(FULL, left=2, max_cycles=4, record=tmp_path)
+    infos = ended(env, 3)
+    assert "not ended after 4 steps" in replayed(infos[env.possible_agents[0]]["setpiece"]["replay"], capfd)
+    env.save_replay(tmp_path / "again.pitchr")
+    assert (tmp_path / "again.pitchr").read_bytes() == (tmp_path / f"{FULL}_3_0.pitchr").read_bytes()
+
+
+def test_a_vector_says_that_it_records_nothing(tmp_path: Path) -> None:
+    with pytest.raises(setpiece.UnavailableError, match="a vector records no replays") as caught:
+        setpiece.make_vec(CLOSE, 2, record=tmp_path)
+    assert caught.value.name == "record"

@@ -19,8 +19,9 @@ import gymnasium
 import setpiece
 from setpiece._errors import InUseError
 from setpiece.gfootball import env, scenarios
+from setpiece.gfootball._dump import replay_to_dump
 
-__all__ = ["env", "install", "scenarios"]
+__all__ = ["env", "install", "replay_to_dump", "scenarios"]
 
 ALIAS = "gfootball"
 REPRESENTATIONS = {"SMM": "extracted", "simple115": "simple115", "simple115v2": "simple115v2"}

@@ -193,3 +193,14 @@ def test_maskable_ppo_presses_nothing_that_is_masked() -> None:
         actions, _ = model.predict(observation, action_masks=masks)
         assert masks[np.arange(2), actions].all()
         observation, *_ = vec.step(actions)
+
+
+def test_episodes_are_recorded(tmp_path: Path) -> None:
+    vec = make_vec(CLOSE, 2, seed=1, record=tmp_path)
+    vec.reset()
+    paths: list[str] = []
+    for _ in range(100):
+        infos = vec.step(np.array([Action.SHOT] * 2))[3]
+        paths += [info["setpiece"]["replay"] for info in infos if "setpiece" in info]
+    assert paths
+    assert all(setpiece.Replay(path).length > 0 for path in paths)

@@ -73,7 +73,8 @@ def get_agent_number_of_players(players: list[str]) -> int:
     return sum(count_players(each) for each in players if parse_player_definition(each)[0] == "agent")
 
 
-def _defaults() -> dict[str, Any]:
+def defaults() -> dict[str, Any]:
+    """Returns GRF's settings with their defaults."""
     return {
         "action_set": "default",
         "custom_display_stats": None,
@@ -102,7 +103,7 @@ class Config:
     """
 
     def __init__(self, values: dict[str, Any] | None = None) -> None:
-        self._values = _defaults()
+        self._values = defaults()
         self._scenario_values: dict[str, Any] = {}
         self._scenario: Scenario
         # Where the seeds of episodes come from; `FootballEnv.seed` gives it a stream of its own.
@@ -199,7 +200,7 @@ def _no_reverse() -> Exception:
 
 def _check(key: str, value: Any) -> None:
     """Raises where a setting is not there, can't have a value, or asks for what this version has not."""
-    known = (*_defaults(), *OPTIONAL)
+    known = (*defaults(), *OPTIONAL)
     if key not in known:
         raise ParameterError(f"no setting `{key}`", name=str(key), help=similar(key, known))
     if key == "action_set":

@@ -24,7 +24,7 @@ from setpiece.gfootball.env.football_action_set import (
     named_action_from_action_set,
 )
 from setpiece.gfootball.env.football_env_core import FootballEnvCore
-from setpiece.gfootball.env.observation_processor import ObservationProcessor
+from setpiece.gfootball.env.observation_processor import ObservationProcessor, trace_of
 from setpiece.gfootball.env.observation_rotation import flip_observation, flip_single_action
 from setpiece.gfootball.env.player_base import PlayerBase
 from setpiece.gfootball.env.players.agent import Player as Agent
@@ -81,17 +81,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
         chosen = self._actions(action)
         reward = self._core.step(chosen)
-        trace = {
-            "debug": {
-                "action": chosen,
-                "frame_cnt": self._core.step_count,
-                "reward": reward,
-                "time": time.time(),
-            },
-            "observation": self._core.whole,
-            "reward": reward,
-            "cumulative_reward": self._core.cumulative_reward,
-        }
+        core = self._core
+        trace = trace_of(chosen, core.step_count, reward, core.cumulative_reward, time.time(), core.whole)
         info: dict[str, Any] = {"score_reward": reward}
         dumps = self._processor.add(trace, reward, self._core.done)
         if dumps:

@@ -13,6 +13,7 @@ import setpiece
 from setpiece._errors import SnapshotError
 from setpiece.gfootball._translation import LIMIT_MAX
 from setpiece.gfootball.env import football_action_set as actions
+from setpiece.gfootball.env._whole_match import slot_view, whole_match
 from setpiece.gfootball.env.football_action_set import NUMBERS, CoreAction, get_sticky_actions
 from setpiece.gfootball.env.observation_rotation import flip_observation, flip_single_action
 from setpiece.gfootball.env.scenario_builder import Source
@@ -160,34 +161,14 @@ class FootballEnvCore:
             turned = {**flip_observation(nobody, self._config), "designated": designated}
             other += [turned] * (asked_right - len(other))
         self.slots = own + other
-        self.whole = self._whole(first, own, other, left > 0)
+        self.whole = whole_match(first, own, other, self._config, seen_by_left=left > 0)
 
     def _view(self, native: dict[str, Any]) -> dict[str, Any]:
         """A slot's observation with GRF's types."""
-        held = len(get_sticky_actions(self._config))
-        view = {
-            **native,
-            "score": [int(goals) for goals in native["score"]],
-            "steps_left": int(native["steps_left"]),
-            "sticky_actions": native["sticky_actions"][:held],
-        }
+        view = slot_view(native, self._config)
         if view["game_mode"] == 1 and self._config.has_bug("kick_off_mode"):
             view["game_mode"] = 0
         return view
-
-    def _whole(
-        self, first: dict[str, Any], left: list[dict[str, Any]], right: list[dict[str, Any]], seen_by_left: bool
-    ) -> dict[str, Any]:
-        """The whole match, out of a left player's view and of who is played by whom."""
-        whole = {key: value for key, value in first.items() if key not in ("active", "designated", "sticky_actions")}
-        for side, views in (("left", left), ("right", right)):
-            whole[f"{side}_agent_controlled_player"] = [view["active"] for view in views]
-            whole[f"{side}_team_designated_player"] = views[0]["designated"] if views else -1
-        if seen_by_left:
-            whole["left_team_designated_player"] = first["designated"]
-        whole["left_agent_sticky_actions"] = [view["sticky_actions"] for view in left]
-        whole["right_agent_sticky_actions"] = [flip_observation(view, self._config)["sticky_actions"] for view in right]
-        return whole
 
     def _hurried(self, chosen: Sequence[CoreAction]) -> list[CoreAction]:
         """The actions, or what takes a set piece that has waited for too long."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import pickle
 import time
 from collections import deque
+from collections.abc import Iterable
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,7 @@ from setpiece._errors import FileError, FormatError
 
 if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config
+    from setpiece.gfootball.env.football_action_set import CoreAction
 
 LAST = 100
 """Steps before the moment that a dump shows."""
@@ -74,17 +76,37 @@ class ObservationProcessor:
     def _write(self, name: str, traces: list[Trace]) -> dict[str, str]:
         folder = Path(self._config["tracesdir"])
         path = folder / f"{name}_{datetime.now():%Y%m%d-%H%M%S%f}.dump"
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with path.open("wb") as file:
-                for number, trace in enumerate(traces):
-                    debug = dict(trace["debug"])
-                    if number == 0:
-                        debug["config"] = self._config.get_dictionary()
-                    pickle.dump({**trace, "debug": debug}, file)
-        except OSError as error:
-            raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from error
+        write_dump(path, self._config.get_dictionary(), traces)
         return {"name": name, "dump": str(path)}
+
+
+def trace_of(
+    chosen: list[CoreAction],
+    step: int,
+    reward: float,
+    cumulative_reward: float,
+    time_s: float,
+    whole: dict[str, Any],
+) -> Trace:
+    """Returns the record of a step: every slot's action, in the frame of the pitch, and the match as it then was."""
+    return {
+        "debug": {"action": chosen, "frame_cnt": step, "reward": reward, "time": time_s},
+        "observation": whole,
+        "reward": reward,
+        "cumulative_reward": cumulative_reward,
+    }
+
+
+def write_dump(path: Path, config: dict[str, Any], traces: Iterable[Trace]) -> None:
+    """Writes records, and the settings into the first; `FileError` where the file can't be written."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("wb") as file:
+            for number, trace in enumerate(traces):
+                debug = {**trace["debug"], "config": config} if number == 0 else trace["debug"]
+                pickle.dump({**trace, "debug": debug}, file)
+    except OSError as error:
+        raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from error
 
 
 def read_dump(path: str) -> list[Trace]:

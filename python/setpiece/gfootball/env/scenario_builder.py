@@ -194,7 +194,8 @@ def find(level: object) -> Source | Script:
         path = Path(level).resolve()
         return Source(setpiece.load(path).name, f'import "{path.name}"\n', str(path.parent))
     names = [f"{package}.{level}" for package in PACKAGES if package in sys.modules]
-    for name in [*names, level] if "." in level else names:
+    # What begins with a dot is a path, and no module's name.
+    for name in [*names, level] if "." in level and level[0] != "." else names:
         module = _imported(name)
         if module is not None and (hasattr(module, "build_scenario") or name != level):
             return script_of(module, name)

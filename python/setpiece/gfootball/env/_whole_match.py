@@ -1,0 +1,45 @@
+"""What a played slot sees, and the whole match put together of it, as Google Research Football tells them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from setpiece.gfootball.env.football_action_set import get_sticky_actions
+from setpiece.gfootball.env.observation_rotation import flip_observation
+
+if TYPE_CHECKING:
+    from setpiece.gfootball.env.config import Config
+
+
+def slot_view(native: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:
+    """Returns a raw observation of the engine with GRF's types."""
+    return {
+        **native,
+        "score": [int(goals) for goals in native["score"]],
+        "steps_left": int(native["steps_left"]),
+        "sticky_actions": native["sticky_actions"][: len(get_sticky_actions(config))],
+    }
+
+
+def whole_match(
+    first: dict[str, Any],
+    left: list[dict[str, Any]],
+    right: list[dict[str, Any]],
+    config: Config | dict[str, Any],
+    *,
+    seen_by_left: bool,
+) -> dict[str, Any]:
+    """Returns the whole match, in the frame of the pitch.
+
+    - `first`: a view in that frame, and whether it is one of the left team's own.
+    - `left`, `right`: what each slot sees, in its team's own frame.
+    """
+    whole = {key: value for key, value in first.items() if key not in ("active", "designated", "sticky_actions")}
+    for side, views in (("left", left), ("right", right)):
+        whole[f"{side}_agent_controlled_player"] = [view["active"] for view in views]
+        whole[f"{side}_team_designated_player"] = views[0]["designated"] if views else -1
+    if seen_by_left:
+        whole["left_team_designated_player"] = first["designated"]
+    whole["left_agent_sticky_actions"] = [view["sticky_actions"] for view in left]
+    whole["right_agent_sticky_actions"] = [flip_observation(view, config)["sticky_actions"] for view in right]
+    return whole

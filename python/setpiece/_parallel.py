@@ -14,10 +14,11 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
-from setpiece._environment import RESET_OPTIONS, FootballEnv
+from setpiece._environment import FootballEnv
 from setpiece._errors import ActionError, ParameterError
 from setpiece._native import ACTION_SETS, Scenario
 from setpiece._opponents import integers
+from setpiece._options import RESET_OPTIONS
 from setpiece._rows import Picker, split_info
 from setpiece._spaces import observation_space, one_action_space
 from setpiece._state import state, state_space
@@ -59,6 +60,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             if counts is None or counts == [0]:
                 raise ParameterError(f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles")
         self.env = env
+        env._same_agents = True
         self.max_cycles = max_cycles
         self.metadata = {**env.metadata, "name": f"setpiece/{env.scenario.name}-v0", "is_parallelizable": True}
         self.render_mode = env.render_mode

@@ -2,30 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from os import PathLike
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from setpiece import _library
-from setpiece._environment import FootballEnv, ParamValue
+from setpiece._callbacks import Ends, Rewards
+from setpiece._environment import FootballEnv
 from setpiece._errors import MissingPackageError
-from setpiece._native import Scenario
 from setpiece._opponents import Opponent
 from setpiece._optional import need
+from setpiece._options import ParamValue
 from setpiece._seats import Seats
+from setpiece._source import Source
 
 if TYPE_CHECKING:
     from setpiece._parallel import ParallelFootballEnv
 
 
 def parallel_env(
-    scenario: Scenario | str | PathLike[str],
+    scenario: Source,
     *,
     left: Seats = None,
     right: Seats = None,
     opponents: Mapping[str, Opponent] | None = None,
     observation: str = "simple115v2",
-    rewards: str | Sequence[str] | None = None,
+    rewards: Rewards = None,
+    ends: Ends = None,
     params: Mapping[str, ParamValue] | None = None,
     seed: int | None = None,
     events: bool = False,
@@ -41,6 +43,8 @@ def parallel_env(
 
     - Agents are named as their players (`anna`, `left_CM_1`) and keep them. Everyone sees himself attack towards +x;
       observations, actions 0..18 and spaces are those of one agent of `FootballEnv`, rewards floats.
+    - Rewards in Python are called for each agent; an ending in Python, asked once a step with the step of the first
+      agent of `possible_agents`, ends the episode for all.
     - `info` of an agent: its `action_mask` (int8 `(19,)`), `reward_terms`, `return` and `bot_action`; `score` [left,
       right] and `events` are everyone's.
     - An agent whose player is sent off is terminated and leaves `agents` for the rest of the episode; the others play
@@ -72,6 +76,7 @@ def parallel_env(
         opponents=opponents,
         observation=observation,
         rewards=rewards,
+        ends=ends,
         params=params,
         seed=seed,
         events=events,

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from os import PathLike
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from setpiece._environment import FootballEnv, ParamValue
+from setpiece._callbacks import Rewards
+from setpiece._environment import FootballEnv
 from setpiece._errors import OpponentError, ParameterError
-from setpiece._native import ACTION_SETS, Scenario
+from setpiece._native import ACTION_SETS
 from setpiece._opponents import SIDES, Opponent, Policy, Table, behaviors, is_onnx, revivable
+from setpiece._options import ParamValue
 from setpiece._seats import Seats, scripted_scenario
+from setpiece._source import Source
 
 Agent = Callable[[Any], Any] | Opponent
 
@@ -55,7 +57,7 @@ class KaggleObservation(dict[str, Any]):
 
 
 def play(
-    scenario: Scenario | str | PathLike[str],
+    scenario: Source,
     left_agent: Agent,
     right_agent: Agent,
     *,
@@ -63,7 +65,7 @@ def play(
     right: Seats = None,
     seed: int = 0,
     params: Mapping[str, ParamValue] | None = None,
-    rewards: str | Sequence[str] | None = None,
+    rewards: Rewards = None,
     on_error: Literal["raise", "lose"] = "raise",
 ) -> Played:
     """Plays one match between two agents and returns a `Played`.

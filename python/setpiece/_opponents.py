@@ -260,21 +260,25 @@ class _Predictor:
         return self.predict(observation, deterministic=True)[0]
 
 
-def _ai(opponent: str) -> str:
+def _ai(opponent: str | PathLike[str]) -> str:
     """What stands behind `ai:`: a behaviour as it is, a script's file as one."""
-    if not opponent.endswith(".rhai"):
-        return opponent
+    if not _ends_with(opponent, ".rhai"):
+        return fspath(opponent)
     path = Path(opponent).resolve().as_posix()
     if '"' in path or "\n" in path:
         raise ParameterError(f"a scenario can't name the path of the script: {path!r}", name="opponents")
     return f'script "{path}"'
 
 
-def _is_word(opponent: object) -> TypeGuard[str]:
+def _is_word(opponent: object) -> TypeGuard[str | PathLike[str]]:
     """Whether it is the bot, a behaviour or a script: the engine plays it."""
-    return isinstance(opponent, str) and not is_onnx(opponent)
+    return _ends_with(opponent, ".rhai") or (isinstance(opponent, str) and not is_onnx(opponent))
 
 
 def is_onnx(opponent: object) -> TypeGuard[str | PathLike[str]]:
     """Whether it is the path of an ONNX file."""
-    return isinstance(opponent, str | PathLike) and str(fspath(opponent)).endswith(".onnx")
+    return _ends_with(opponent, ".onnx")
+
+
+def _ends_with(opponent: object, ending: str) -> bool:
+    return isinstance(opponent, str | PathLike) and str(fspath(opponent)).endswith(ending)

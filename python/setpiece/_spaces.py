@@ -153,9 +153,10 @@ def difference(before: spaces.Space[Any], after: spaces.Space[Any]) -> str | Non
     if before == after:
         return None
     if isinstance(before, spaces.Tuple) and isinstance(after, spaces.Tuple) and len(before) == len(after):
-        return next(why for pair in zip(before, after, strict=True) if (why := difference(*pair)))
+        return next(why for pair in zip(before.spaces, after.spaces, strict=True) if (why := difference(*pair)))
     if isinstance(before, spaces.Dict) and isinstance(after, spaces.Dict):
-        name = next(name for name in before if name not in after or before[name] != after[name])
+        # Raw observations have the same keys: only their shapes depend on the scenario.
+        name = next(name for name in before if before[name] != after[name])
         return f"{difference(before[name], after[name])} at `{name}`"
     if _told(before) == _told(after):
         return f"of {_told(before)} would have other bounds"

@@ -25,6 +25,7 @@ from setpiece._environment import FootballEnv
 from setpiece._errors import ParameterError
 from setpiece._make import make
 from setpiece._native import Scenario
+from setpiece._opponents import behaviors
 from setpiece._optional import need
 from setpiece._source import Source, load
 from setpiece._vector import FootballVectorEnv
@@ -175,7 +176,8 @@ def make_vec(
     if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
         raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
     envs: VectorEnv[Any, Any, Any]
-    if not isinstance(scenario, Scenario) and not kwargs.get("watch"):
+    # A file that is watched, or played by behaviours, has to stay one.
+    if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")):
         scenario = load(scenario)
     alone = any(kwargs.get(name) for name in ALONE) or bool(read_rewards(kwargs.get("rewards"))[1])
     if kwargs.get("observation") == "raw" or alone or _has_records(scenario):

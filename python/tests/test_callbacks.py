@@ -252,6 +252,10 @@ def test_options_that_are_no_functions_are_named() -> None:
             setpiece.make(TEN, ends=ends)  # type: ignore[arg-type]
     with pytest.raises(setpiece.ParameterError, match="two rewards are called `<lambda>`"):
         setpiece.make(TEN, rewards=[lambda _: 1.0, lambda _: 2.0])
+    taken = Counter()
+    taken.__name__ = "time/step"  # type: ignore[attr-defined]
+    with pytest.raises(setpiece.ParameterError, match="`time/step` is a reward of the scenario too"):
+        setpiece.make(TEN, rewards=taken).reset()
     with pytest.raises(setpiece.ParameterError, match="there is none"):
         setpiece.make(TEN, left=0, ends=deep)
     with pytest.raises(setpiece.ParameterError, match="`kept` can't pay here"):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import deepcopy
-from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
@@ -15,8 +14,8 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._callbacks import Callbacks, Ends, Rewards, Tally, read_ends, read_rewards, rewards_of
-from setpiece._errors import CallbackError, InUseError, OpponentError, ParameterError, ScriptError, SetpieceError
-from setpiece._match import Match, match_of, native_environment
+from setpiece._errors import CallbackError, InUseError, OpponentError, ParameterError, ScriptError
+from setpiece._match import Match, match_of
 from setpiece._native import Scenario
 from setpiece._opponents import Opponent, Table, behaviors, revivable
 from setpiece._options import (
@@ -38,7 +37,6 @@ from setpiece._spaces import (
     check_size,
     check_stack,
     observation_layout,
-    observation_space,
 )
 
 
@@ -59,8 +57,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     `info` has in every step `score` [left, right], `reward_terms` {"reward/label": paid in this step} and `action_mask`
     (int8 `(19,)`, or `(n, 19)`; 20 with `v2`, 33 with `full`, the 6 kinds with `continuous`); with `events=True` also
     `events`; with `bot_action=True` also `bot_action`: what the bot would press in the state that is observed (an int,
-    or int64 `(n,)`), going on from what
-    the agent holds. In the last step it has also:
+    or int64 `(n,)`), going on from what the agent holds. In the last step it has also:
 
     - `outcome`: the ending's name; `records`: the scenario's own records.
     - `setpiece`: `return` by term, `length` in steps, `seed`, `index`, `digest` of the final state, `success` of the
@@ -69,6 +66,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     With `opponents` some of the scenario's agents are played by others; the caller's are what is left, and all that is
     said above is said of those. (`success` is still told from the left side where both sides have agents.)
+
+    `rewards` and `ends` may be functions, whose terms and labels stand among those of the scenario: see `make`. `reset`
+    may go over to another scenario.
 
     With `watch=True` every `reset` looks whether the scenario's file, an import or a script has changed, and begins the
     episode under the new scenario; its `info` has `scenario`, the digest of what is played. With `watch="now"` every
@@ -140,7 +140,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._bound = dict(params or {})
         # Whether another scenario must have the same agents, by name: PettingZoo's keep theirs.
         self._same_agents = False
-        self._enter(match_of(found.with_params(**self._bound), self._opponents, self._options))
+        self._enter(self._ready(found))
         self.action_space, self.observation_space = self._match.action_space, self._match.observation_space
         if self._callbacks is not None and not self.agents:
             raise ParameterError("rewards and endings in Python judge an agent's step, and there is none", name="left")
@@ -188,19 +188,20 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             params = {}
         self._playing = False
         if self._watcher is not None:
-            self._follow(self._watcher)
+            self._enter(self._watcher.at_reset(self._match, self._ready, players=self._same_agents))
         match = self._match if switched is None else switched
         with one_thread():
             observation, info = match.native.reset(number, at, params, wanted.snapshot)
+            views = match.views() if self._callbacks is not None else []
         observation, info = match.shown(observation, info)
         if self._callbacks is not None:
-            self._callbacks.begin(match.views(), info)
+            self._callbacks.begin(views, info)
         # A reset that fails leaves no trace but that nothing is being played.
         if switched is not None:
             self._enter(switched)
         self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
         if self._watcher is not None:
-            info["scenario"] = self._digest
+            info["scenario"] = self._match.digest
         self._playing = True
         return observation, info
 
@@ -217,7 +218,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if not self._playing:
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
         if self._watcher is not None and self._watcher.at_once:
-            self._follow_scripts(self._watcher)
+            self._enter(self._watcher.at_step(self._match, self._bound))
         given = action
         try:
             if self._table is not None:
@@ -271,16 +272,17 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         snapshot = check_snapshot(snapshot)
         with one_thread():
             observation, info = self._native.restore(snapshot)
+            views = self._match.views() if self._callbacks is not None else []
         episode = self._native.episode
         if episode is not None:
             self._seed, self._index = episode[0], (episode[1] + 1) & NUMBER_MAX
             self._params = self._native.params
         self._playing = self._native.running
         if "setpiece" in info:
-            info["setpiece"]["scenario"] = self._digest
+            info["setpiece"]["scenario"] = self._match.digest
         observation, info = self._match.shown(observation, info)
         if self._callbacks is not None:
-            self._callbacks.go_on(self._match.views(), info)
+            self._callbacks.go_on(views, info)
         return observation, info
 
     @property
@@ -385,7 +387,12 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def _enter(self, match: Match) -> None:
         """Goes over to a match."""
         self._match = match
-        self.scenario, self._digest, self.agents = match.scenario, match.scenario.digest, match.agents
+        self.scenario, self.agents = match.scenario, match.agents
+
+    def _ready(self, scenario: Scenario, params: Mapping[str, ParamValue] | None = None) -> Match:
+        """Makes a scenario ready under parameters; None: those that the environment was made with."""
+        bound = self._bound if params is None else params
+        return match_of(scenario.with_params(**bound), self._opponents, self._options)
 
     def _switched(self, source: Source, params: Mapping[str, ParamValue] | None) -> Match:
         """Makes another scenario ready that can be played in this environment."""
@@ -395,9 +402,14 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 name="scenario",
                 help="leave out `watch`",
             )
-        scenario = scripted_scenario(source, self._scripted).with_params(**dict(params or {}))
-        match = match_of(scenario, self._opponents, self._options)
-        match.check_fits(self._match, same_agents=self._same_agents)
+        match = self._ready(scripted_scenario(source, self._scripted), params or {})
+        change = match.change(self._match, agents=self._same_agents, players=self._same_agents)
+        if change is not None:
+            raise ParameterError(
+                f"`{match.scenario.name}` can't be played in this environment: {change}",
+                name="scenario",
+                help="make another environment for it",
+            )
         return match
 
     def _sum_up(self, info: dict[str, Any]) -> None:
@@ -405,48 +417,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         summary, episode = info["setpiece"], self._native.episode
         if episode is not None:
             summary["seed"], summary["index"] = episode
-        summary["scenario"] = self._digest
+        summary["scenario"] = self._match.digest
         if self._record is not None:
             summary["replay"] = self._record.end(self._native, self.scenario.name, info)
-
-    def _follow(self, watcher: Watcher) -> None:
-        """Takes over what has changed in the scenario's files since the last reset."""
-        fresh = watcher.changed()
-        if fresh is None:
-            return
-        watcher.wait(None)
-        try:
-            scenario = fresh.with_params(**self._bound)
-            native = native_environment(scenario, self._opponents, self._options)
-        except SetpieceError as error:
-            watcher.tell(Reload("held back", fresh, error, f"no environment can be made of it: {error}"))
-            return
-        before = self._native
-        if _agents(native) != _agents(before):
-            why = f"the agents would change from {', '.join(_agents(before))} to {', '.join(_agents(native))}"
-            watcher.tell(Reload("held back", fresh, None, why))
-        elif observation_space(native, self._observation) != observation_space(before, self._observation):
-            watcher.tell(Reload("held back", fresh, None, "the observation space would change"))
-        else:
-            self._enter(replace(self._match, scenario=scenario, native=native))
-            watcher.tell(Reload("applied", fresh, None, f"`{scenario.name}` is played from this episode on"))
-
-    def _follow_scripts(self, watcher: Watcher) -> None:
-        """Takes over changed scripts at once; any other change waits for the next reset."""
-        fresh = watcher.changed()
-        if fresh is None or watcher.waits(fresh):
-            return
-        try:
-            scenario = fresh.with_params(**self._bound)
-            adopted = self._native.adopt_scripts(scenario)
-        except SetpieceError:
-            adopted = False
-        if adopted:
-            self._enter(replace(self._match, scenario=scenario))
-            why = f"the scripts of `{scenario.name}` are run from this step on"
-            watcher.tell(Reload("applied", fresh, None, why))
-        else:
-            watcher.wait(fresh)
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
@@ -496,7 +469,3 @@ def _revived(
     for name, value in attributes.items():
         setattr(env, name, value)
     return env
-
-
-def _agents(native: _native.Environment) -> tuple[str, ...]:
-    return tuple(agent.id for agent in native.agents)

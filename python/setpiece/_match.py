@@ -19,10 +19,11 @@ from setpiece._spaces import action_space, difference, observation_space
 class Match:
     """A scenario with its native environment, the caller's agents and their spaces.
 
-    `table` seats the opponents, where there are any; `slots` are the caller's agents.
+    `digest` is the scenario's; `table` seats the opponents, where there are any; `slots` are the caller's agents.
     """
 
     scenario: Scenario
+    digest: str
     native: _native.Environment
     table: Table | None
     slots: Sequence[AgentInfo]
@@ -44,38 +45,28 @@ class Match:
         raws = [raws] if isinstance(raws, dict) else raws
         return [*raws] if self.table is None else [raws[at] for at in self.table.mine]
 
-    def check_fits(self, before: Match, *, same_agents: bool) -> None:
-        """Raises `ParameterError` where an environment that plays another match can't go on with this one."""
-        pairs = {
+    def change(self, before: Match, *, agents: bool, players: bool) -> str | None:
+        """Returns in words what keeps an environment that plays another match from going on with this one, or None.
+
+        The spaces must stay; with `agents` the caller's agents too, with `players` how many players each side has.
+        """
+        spaces_of = {
             "action space": (before.action_space, self.action_space),
             "observation space": (before.observation_space, self.observation_space),
         }
-        change = next((f"the {what} {why}" for what, pair in pairs.items() if (why := difference(*pair))), None)
-        if change is None and same_agents:
-            if self.agents != before.agents:
-                change = f"the agents would change from {', '.join(before.agents)} to {', '.join(self.agents)}"
-            elif self.native.players != before.native.players:
-                change = f"the number of players would change from {before.native.players} to {self.native.players}"
-        if change is not None:
-            raise ParameterError(
-                f"`{self.scenario.name}` can't be played in this environment: {change}",
-                name="scenario",
-                help="make another environment for it",
-            )
-
-
-def native_environment(
-    scenario: Scenario, opponents: Mapping[str, Opponent] | None, options: Mapping[str, Any]
-) -> _native.Environment:
-    """Returns the match of all agents; opponents may hand a step over to the bot, whatever the caller may."""
-    narrow = opponents is not None and options["action_set"] == "default"
-    return _native.Environment(scenario, **{**options, **({"action_set": "v2"} if narrow else {})})
+        if agents and self.agents != before.agents:
+            return f"the agents would change from {', '.join(before.agents)} to {', '.join(self.agents)}"
+        if players and self.native.players != before.native.players:
+            return f"the number of players would change from {before.native.players} to {self.native.players}"
+        return next((f"the {name} {why}" for name, pair in spaces_of.items() if (why := difference(*pair))), None)
 
 
 def match_of(scenario: Scenario, opponents: Mapping[str, Opponent] | None, options: Mapping[str, Any]) -> Match:
     """Makes a scenario ready; `options` are those of the native environment."""
     observation, action_set = options["observation"], options["action_set"]
-    native = native_environment(scenario, opponents, options)
+    # Opponents may hand a step over to the bot, whatever the caller may.
+    narrow = opponents is not None and action_set == "default"
+    native = _native.Environment(scenario, **{**options, **({"action_set": "v2"} if narrow else {})})
     agents, table = native.agents, None
     if opponents is not None:
         if action_set == "continuous":
@@ -87,4 +78,4 @@ def match_of(scenario: Scenario, opponents: Mapping[str, Opponent] | None, optio
         for kind in table.observations:
             native.look(kind)
     spaces_of = observation_space(native, observation, agents), action_space(len(agents), action_set)
-    return Match(scenario, native, table, agents, *spaces_of)
+    return Match(scenario, scenario.digest, native, table, agents, *spaces_of)

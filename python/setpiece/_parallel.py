@@ -97,7 +97,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
         """Draws a new start; `seed` and `options` are those of `FootballEnv.reset`.
 
-        An option that isn't there is warned of and left alone: PettingZoo's wrappers and tests hand in their own.
+        Another scenario has to have the same agents and as many players. An option that isn't there is warned of
+        and left alone: PettingZoo's wrappers and tests hand in their own.
         """
         if isinstance(options, Mapping):
             for unknown in [key for key in options if key not in RESET_OPTIONS]:

@@ -73,8 +73,8 @@ def play(
     - `left_agent`, `right_agent`: a function as Kaggle's football environment calls it. It gets `players_raw`, a raw
       observation for each of its n players with lists in the place of arrays; `controlled_players`, n; and `step`,
       how many have been played. It returns a list of n actions 0..19, or one action where n is 1. Both see themselves
-      as the left team. Else anything that `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, an
-      `.onnx` file; a policy sees `simple115v2` where it doesn't say.
+      as the left team. Else anything that `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, the
+      path of an `.onnx` or `.rhai` file; a policy sees `simple115v2` where it doesn't say.
     - `left`, `right`: how many play on each side, as in `setpiece.make`; None: as the scenario says, or where it leaves
       a side without agents, one on each, who is always the player nearest the ball.
     - `seed`, `params`, `rewards`: as in `setpiece.make`.

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from setpiece._errors import ParameterError, SetpieceError
+from setpiece._match import Match
 from setpiece._native import Live, Scenario
+from setpiece._options import ParamValue
 from setpiece._source import Source, path_of, text_of
 
 
@@ -45,24 +47,52 @@ class Watcher:
         self.scenario, self.last = self._live.scenario, None
         self.at_once = watch == "now"
 
-    def changed(self) -> Scenario | None:
-        """Returns the scenario of files that have changed, or one that is still waiting; None where nothing has."""
+    def at_reset(self, match: Match, ready: Callable[[Scenario], Match], *, players: bool) -> Match:
+        """Returns the match to play from here on: of the changed files, or the one given.
+
+        `players`: whether the number of players must stay.
+        """
+        fresh = self._changed()
+        if fresh is None:
+            return match
+        self._waiting = None
+        try:
+            new = ready(fresh)
+        except SetpieceError as error:
+            self._tell(Reload("held back", fresh, error, f"no environment can be made of it: {error}"))
+            return match
+        change = new.change(match, agents=True, players=players)
+        if change is not None:
+            self._tell(Reload("held back", fresh, None, change))
+            return match
+        self._tell(Reload("applied", fresh, None, f"`{fresh.name}` is played from this episode on"))
+        return new
+
+    def at_step(self, match: Match, params: Mapping[str, ParamValue]) -> Match:
+        """Takes over changed scripts at once and returns the match with them; other changes wait for a reset."""
+        fresh = self._changed()
+        if fresh is None or fresh is self._waiting:
+            return match
+        try:
+            scenario = fresh.with_params(**params)
+            adopted = match.native.adopt_scripts(scenario)
+        except SetpieceError:
+            adopted = False
+        if not adopted:
+            self._waiting = fresh
+            return match
+        self._tell(Reload("applied", fresh, None, f"the scripts of `{fresh.name}` are run from this step on"))
+        return replace(match, scenario=scenario, digest=scenario.digest)
+
+    def _changed(self) -> Scenario | None:
+        """The scenario of files that have changed, or one that is still waiting."""
         try:
             return self._live.poll() or self._waiting
         except SetpieceError as error:
-            self.tell(Reload("broken", None, error, "the scenario's files have errors"))
+            self._tell(Reload("broken", None, error, "the scenario's files have errors"))
             return None
 
-    def wait(self, scenario: Scenario | None) -> None:
-        """Keeps a changed scenario for the next reset; None: nothing waits any more."""
-        self._waiting = scenario
-
-    def waits(self, scenario: Scenario) -> bool:
-        """Whether it is this one that waits for the next reset."""
-        return scenario is self._waiting
-
-    def tell(self, reload: Reload) -> None:
-        """Says what has become of a change."""
+    def _tell(self, reload: Reload) -> None:
         self.last = reload
         if self._on_reload is not None:
             self._on_reload(reload)

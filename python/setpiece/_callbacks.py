@@ -44,7 +44,7 @@ RewardFunction = Callable[[Step], float]
 """A reward in Python: what an agent is paid for a step, added to what the file pays."""
 
 EndFunction = Callable[[Step], bool | str | None]
-"""An ending in Python: falsy to go on; True, or a label, to end the episode."""
+"""An ending in Python: False, None or an empty string to go on; True, or a label, to end the episode."""
 
 Rewards = str | RewardFunction | Sequence[str | RewardFunction] | None
 """Names that replace the scenario's own choice of rewards, functions that pay beside it, or both."""

@@ -188,7 +188,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             params = {}
         self._playing = False
         if self._watcher is not None:
-            self._enter(self._watcher.at_reset(self._match, self._ready, players=self._same_agents))
+            self._enter(self._watcher.at_reset(self._match, self._ready))
         match = self._match if switched is None else switched
         with one_thread():
             observation, info = match.native.reset(number, at, params, wanted.snapshot)

@@ -47,11 +47,8 @@ class Watcher:
         self.scenario, self.last = self._live.scenario, None
         self.at_once = watch == "now"
 
-    def at_reset(self, match: Match, ready: Callable[[Scenario], Match], *, players: bool) -> Match:
-        """Returns the match to play from here on: of the changed files, or the one given.
-
-        `players`: whether the number of players must stay.
-        """
+    def at_reset(self, match: Match, ready: Callable[[Scenario], Match]) -> Match:
+        """Returns the match to play from here on: that of the changed files, or the one given."""
         fresh = self._changed()
         if fresh is None:
             return match
@@ -61,7 +58,7 @@ class Watcher:
         except SetpieceError as error:
             self._tell(Reload("held back", fresh, error, f"no environment can be made of it: {error}"))
             return match
-        change = new.change(match, agents=True, players=players)
+        change = new.change(match, agents=True, players=False)
         if change is not None:
             self._tell(Reload("held back", fresh, None, change))
             return match

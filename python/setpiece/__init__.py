@@ -12,9 +12,11 @@ Importing the package registers every scenario of the library with Gymnasium:
 >>> env = gymnasium.make("setpiece/academy_3_vs_1_with_keeper-v0")
 """
 
-from setpiece._environment import FootballEnv, make
+from setpiece._callbacks import Step
+from setpiece._environment import FootballEnv
 from setpiece._errors import (
     ActionError,
+    CallbackError,
     CompileError,
     Diagnostic,
     DrawError,
@@ -34,19 +36,23 @@ from setpiece._errors import (
     UnknownScenarioError,
 )
 from setpiece._library import Entry, list, register_envs
-from setpiece._native import Param, Scenario, __version__, compile, load
+from setpiece._make import make
+from setpiece._native import Param, Scenario, __version__, compile
 from setpiece._onnx import onnx_policy
 from setpiece._opponents import Policy
 from setpiece._pettingzoo import parallel_env, register_pettingzoo
 from setpiece._play import Played, play
 from setpiece._reload import Reload
 from setpiece._replay import Moment, Replay
+from setpiece._scenario_dict import ScenarioDict, pitch_text
+from setpiece._source import load
 from setpiece._vector import FootballVectorEnv, make_vec
 from setpiece._vocabulary import Action, GameMode, Role
 
 __all__ = [
     "Action",
     "ActionError",
+    "CallbackError",
     "CompileError",
     "Diagnostic",
     "DrawError",
@@ -71,9 +77,11 @@ __all__ = [
     "RewardError",
     "Role",
     "Scenario",
+    "ScenarioDict",
     "ScriptError",
     "SetpieceError",
     "SnapshotError",
+    "Step",
     "UnavailableError",
     "UnknownScenarioError",
     "__version__",
@@ -84,6 +92,7 @@ __all__ = [
     "make_vec",
     "onnx_policy",
     "parallel_env",
+    "pitch_text",
     "play",
     "register_envs",
     "register_pettingzoo",

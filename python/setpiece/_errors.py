@@ -173,6 +173,28 @@ class OpponentError(SetpieceError, RuntimeError):
         self.slots, self.side = slots, side
 
 
+class CallbackError(SetpieceError, RuntimeError):
+    """A reward or ending in Python failed: it raised (`__cause__`) or gave something that is no payment or verdict.
+
+    `function` names it, `agent` whose step it judged; None where it failed in its own `reset`.
+    """
+
+    function: str
+    agent: str | None
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        function: str = "",
+        agent: str | None = None,
+        code: str | None = None,
+        help: str | None = None,
+    ) -> None:
+        super().__init__(message, code=code, help=help)
+        self.function, self.agent = function, agent
+
+
 class MissingPackageError(SetpieceError, ImportError):
     """An optional package isn't installed; `name` says which, `help` how to get it."""
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any, Literal, TypeGuard
 
 import numpy as np
@@ -54,7 +55,7 @@ def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
                     name="opponents",
                     help=f"write `{who}: … {{ ai: {opponent} }}` in the scenario, and play it with 'bot'",
                 )
-            found[who] = opponent
+            found[who] = _ai(opponent)
     return found
 
 
@@ -232,7 +233,7 @@ def _policy(who: str, opponent: Opponent) -> Policy:
         return Policy(opponent, batched=False)
     raise ParameterError(
         f"`opponents[{who!r}]` is {opponent!r}; it can be 'bot', a behaviour's name, a function, a `setpiece.Policy`, "
-        "an object with `predict`, or the path of an `.onnx` file",
+        "an object with `predict`, or the path of a `.rhai` or `.onnx` file",
         name="opponents",
     )
 
@@ -259,11 +260,25 @@ class _Predictor:
         return self.predict(observation, deterministic=True)[0]
 
 
-def _is_word(opponent: object) -> TypeGuard[str]:
-    """Whether it is the bot or a behaviour: the engine plays it."""
-    return isinstance(opponent, str) and not is_onnx(opponent)
+def _ai(opponent: str | PathLike[str]) -> str:
+    """What stands behind `ai:`: a behaviour as it is, a script's file as one."""
+    if not _ends_with(opponent, ".rhai"):
+        return fspath(opponent)
+    path = Path(opponent).resolve().as_posix()
+    if '"' in path or "\n" in path:
+        raise ParameterError(f"a scenario can't name the path of the script: {path!r}", name="opponents")
+    return f'script "{path}"'
+
+
+def _is_word(opponent: object) -> TypeGuard[str | PathLike[str]]:
+    """Whether it is the bot, a behaviour or a script: the engine plays it."""
+    return _ends_with(opponent, ".rhai") or (isinstance(opponent, str) and not is_onnx(opponent))
 
 
 def is_onnx(opponent: object) -> TypeGuard[str | PathLike[str]]:
     """Whether it is the path of an ONNX file."""
-    return isinstance(opponent, str | PathLike) and str(fspath(opponent)).endswith(".onnx")
+    return _ends_with(opponent, ".onnx")
+
+
+def _ends_with(opponent: object, ending: str) -> bool:
+    return isinstance(opponent, str | PathLike) and str(fspath(opponent)).endswith(ending)

@@ -15,10 +15,11 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
-from setpiece._environment import RESET_OPTIONS, FootballEnv
+from setpiece._environment import FootballEnv
 from setpiece._errors import ActionError, ParameterError
 from setpiece._native import ACTION_SETS, Scenario
 from setpiece._opponents import integers
+from setpiece._options import RESET_OPTIONS
 from setpiece._record import Record
 from setpiece._rows import Picker, split_info
 from setpiece._spaces import observation_space, one_action_space
@@ -61,6 +62,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             if counts is None or counts == [0]:
                 raise ParameterError(f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles")
         self.env = env
+        env._same_agents = True
         self.max_cycles = max_cycles
         self.metadata = {**env.metadata, "name": f"setpiece/{env.scenario.name}-v0", "is_parallelizable": True}
         self.render_mode = env.render_mode
@@ -99,7 +101,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
         """Draws a new start; `seed` and `options` are those of `FootballEnv.reset`.
 
-        An option that isn't there is warned of and left alone: PettingZoo's wrappers and tests hand in their own.
+        Another scenario has to have the same agents and as many players. An option that isn't there is warned of
+        and left alone: PettingZoo's wrappers and tests hand in their own.
         """
         if isinstance(options, Mapping):
             for unknown in [key for key in options if key not in RESET_OPTIONS]:

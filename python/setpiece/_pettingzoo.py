@@ -2,31 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from os import PathLike
 from typing import TYPE_CHECKING
 
 from setpiece import _library
-from setpiece._environment import FootballEnv, ParamValue
+from setpiece._callbacks import Ends, Rewards
+from setpiece._environment import FootballEnv
 from setpiece._errors import MissingPackageError
-from setpiece._native import Scenario
 from setpiece._opponents import Opponent
 from setpiece._optional import need
+from setpiece._options import ParamValue
 from setpiece._record import Record, When
 from setpiece._seats import Seats
+from setpiece._source import Source
 
 if TYPE_CHECKING:
     from setpiece._parallel import ParallelFootballEnv
 
 
 def parallel_env(
-    scenario: Scenario | str | PathLike[str],
+    scenario: Source,
     *,
     left: Seats = None,
     right: Seats = None,
     opponents: Mapping[str, Opponent] | None = None,
     observation: str = "simple115v2",
-    rewards: str | Sequence[str] | None = None,
+    rewards: Rewards = None,
+    ends: Ends = None,
     params: Mapping[str, ParamValue] | None = None,
     seed: int | None = None,
     events: bool = False,
@@ -44,6 +47,8 @@ def parallel_env(
 
     - Agents are named as their players (`anna`, `left_CM_1`) and keep them. Everyone sees himself attack towards +x;
       observations, actions 0..18 and spaces are those of one agent of `FootballEnv`, rewards floats.
+    - Rewards in Python are called for each agent; an ending in Python, asked once a step with the step of the first
+      agent of `possible_agents`, ends the episode for all.
     - `info` of an agent: its `action_mask` (int8 `(19,)`), `reward_terms`, `return` and `bot_action`; `score` [left,
       right] and `events` are everyone's.
     - A replay is recorded (`record`, `record_when`) when nobody is left in `agents`, after `max_cycles` too; the last
@@ -77,6 +82,7 @@ def parallel_env(
         opponents=opponents,
         observation=observation,
         rewards=rewards,
+        ends=ends,
         params=params,
         seed=seed,
         events=events,

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from os import PathLike
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from setpiece._environment import FootballEnv, ParamValue
+from setpiece._callbacks import Rewards
+from setpiece._environment import FootballEnv
 from setpiece._errors import OpponentError, ParameterError
-from setpiece._native import ACTION_SETS, Scenario
+from setpiece._native import ACTION_SETS
 from setpiece._opponents import SIDES, Opponent, Policy, Table, behaviors, is_onnx, revivable
+from setpiece._options import ParamValue
 from setpiece._seats import Seats, scripted_scenario
+from setpiece._source import Source
 
 Agent = Callable[[Any], Any] | Opponent
 
@@ -55,7 +57,7 @@ class KaggleObservation(dict[str, Any]):
 
 
 def play(
-    scenario: Scenario | str | PathLike[str],
+    scenario: Source,
     left_agent: Agent,
     right_agent: Agent,
     *,
@@ -63,7 +65,7 @@ def play(
     right: Seats = None,
     seed: int = 0,
     params: Mapping[str, ParamValue] | None = None,
-    rewards: str | Sequence[str] | None = None,
+    rewards: Rewards = None,
     on_error: Literal["raise", "lose"] = "raise",
 ) -> Played:
     """Plays one match between two agents and returns a `Played`.
@@ -71,8 +73,8 @@ def play(
     - `left_agent`, `right_agent`: a function as Kaggle's football environment calls it. It gets `players_raw`, a raw
       observation for each of its n players with lists in the place of arrays; `controlled_players`, n; and `step`,
       how many have been played. It returns a list of n actions 0..19, or one action where n is 1. Both see themselves
-      as the left team. Else anything that `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, an
-      `.onnx` file; a policy sees `simple115v2` where it doesn't say.
+      as the left team. Else anything that `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, the
+      path of an `.onnx` or `.rhai` file; a policy sees `simple115v2` where it doesn't say.
     - `left`, `right`: how many play on each side, as in `setpiece.make`; None: as the scenario says, or where it leaves
       a side without agents, one on each, who is always the player nearest the ball.
     - `seed`, `params`, `rewards`: as in `setpiece.make`.

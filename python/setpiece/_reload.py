@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from typing import Literal
 
-from setpiece._errors import SetpieceError
-from setpiece._native import Scenario
+from setpiece._errors import ParameterError, SetpieceError
+from setpiece._match import Match
+from setpiece._native import Live, Scenario
+from setpiece._options import ParamValue
+from setpiece._source import Source, path_of, text_of
 
 
 @dataclass(frozen=True)
@@ -24,3 +28,74 @@ class Reload:
     scenario: Scenario | None
     error: SetpieceError | None
     why: str
+
+
+class Watcher:
+    """The files of a scenario, looked at for changes."""
+
+    scenario: Scenario
+    """The scenario as it was found first."""
+    last: Reload | None
+    """What became of the last change; None before the first."""
+
+    def __init__(self, source: Source, watch: bool | Literal["now"], on_reload: Callable[[Reload], object] | None):
+        if isinstance(source, Scenario) or text_of(source) is not None:
+            raise ParameterError("a `Scenario`, a text or a dict has no file to watch: give its path", name="watch")
+        self._live = Live(path_of(source))
+        self._on_reload = on_reload
+        self._waiting: Scenario | None = None
+        self.scenario, self.last = self._live.scenario, None
+        self.at_once = watch == "now"
+
+    def at_reset(self, match: Match, ready: Callable[[Scenario], Match]) -> Match:
+        """Returns the match to play from here on: that of the changed files, or the one given."""
+        fresh = self._changed()
+        if fresh is None:
+            return match
+        self._waiting = None
+        try:
+            new = ready(fresh)
+        except SetpieceError as error:
+            self._tell(Reload("held back", fresh, error, f"no environment can be made of it: {error}"))
+            return match
+        change = new.change(match, agents=True, players=False)
+        if change is not None:
+            self._tell(Reload("held back", fresh, None, change))
+            return match
+        self._tell(Reload("applied", fresh, None, f"`{fresh.name}` is played from this episode on"))
+        return new
+
+    def at_step(self, match: Match, params: Mapping[str, ParamValue]) -> Match:
+        """Takes over changed scripts at once and returns the match with them; other changes wait for a reset."""
+        fresh = self._changed()
+        if fresh is None or fresh is self._waiting:
+            return match
+        try:
+            scenario = fresh.with_params(**params)
+            adopted = match.native.adopt_scripts(scenario)
+        except SetpieceError:
+            adopted = False
+        if not adopted:
+            self._waiting = fresh
+            return match
+        self._tell(Reload("applied", fresh, None, f"the scripts of `{fresh.name}` are run from this step on"))
+        return replace(match, scenario=scenario, digest=scenario.digest)
+
+    def _changed(self) -> Scenario | None:
+        """The scenario of files that have changed, or one that is still waiting."""
+        try:
+            return self._live.poll() or self._waiting
+        except SetpieceError as error:
+            self._tell(Reload("broken", None, error, "the scenario's files have errors"))
+            return None
+
+    def _tell(self, reload: Reload) -> None:
+        self.last = reload
+        if self._on_reload is not None:
+            self._on_reload(reload)
+
+
+def check_watch(watch: object) -> None:
+    """Raises `ParameterError` for another value of `watch`."""
+    if watch not in (False, True, "now"):
+        raise ParameterError(f"`watch` is {watch!r}; it can be False, True or 'now'", name="watch")

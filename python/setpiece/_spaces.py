@@ -148,6 +148,31 @@ def observation_space(
     return spaces.Box(low, high, dtype=np.float32)
 
 
+def difference(before: spaces.Space[Any], after: spaces.Space[Any]) -> str | None:
+    """Returns in words how a space would change; None where it stays."""
+    if before == after:
+        return None
+    if isinstance(before, spaces.Tuple) and isinstance(after, spaces.Tuple) and len(before) == len(after):
+        return next(why for pair in zip(before.spaces, after.spaces, strict=True) if (why := difference(*pair)))
+    if isinstance(before, spaces.Dict) and isinstance(after, spaces.Dict):
+        # Raw observations have the same keys: only their shapes depend on the scenario.
+        name = next(name for name in before if before[name] != after[name])
+        return f"{difference(before[name], after[name])} at `{name}`"
+    if _told(before) == _told(after):
+        return f"of {_told(before)} would have other bounds"
+    return f"would change from {_told(before)} to {_told(after)}"
+
+
+def _told(space: spaces.Space[Any]) -> str:
+    if isinstance(space, spaces.Box):
+        return f"{space.dtype} {space.shape}"
+    if isinstance(space, spaces.MultiDiscrete):
+        return f"{len(space.nvec)} actions"
+    if isinstance(space, spaces.Tuple):
+        return f"{len(space)} dicts"
+    return {spaces.Discrete: "one action", spaces.Dict: "one dict"}.get(type(space), str(space))
+
+
 def one_observation_space(native: Observing, observation: str, team: int) -> spaces.Space[Any]:
     """Returns the space of the observation of one agent of a team, 0 left, 1 right."""
     if observation == "raw":

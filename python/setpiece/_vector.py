@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from os import PathLike, fspath
+from os import PathLike
 from typing import Any, Literal
 
 import gymnasium
@@ -15,10 +15,11 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._environment import ParamValue, _check_number, _one_thread, _reward_names
+from setpiece._callbacks import Rewards, reward_names
 from setpiece._errors import ParameterError, UnavailableError
-from setpiece._native import Scenario, load
+from setpiece._options import ParamValue, check_keys, check_number, check_params, one_thread
 from setpiece._seats import Seats
+from setpiece._source import Source, load
 from setpiece._spaces import (
     Layout,
     action_space,
@@ -62,13 +63,13 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def __init__(
         self,
-        scenario: Scenario | str | PathLike[str],
+        scenario: Source,
         num_envs: int = 1,
         *,
         threads: int | None = None,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         observation: str = "simple115v2",
-        rewards: str | Sequence[str] | None = None,
+        rewards: Rewards = None,
         params: Mapping[str, ParamValue] | None = None,
         seed: int | None = None,
         copy: bool = True,
@@ -97,8 +98,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         )
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
-        scenario = scenario if isinstance(scenario, Scenario) else load(fspath(scenario))
-        self.scenario = scenario.with_params(**dict(params or {}))
+        self.scenario = load(scenario).with_params(**dict(params or {}))
         self._observation = check_observation(observation)
         self._stack = check_stack(stack, self._observation)
         self._batch = _native.Batch(
@@ -106,7 +106,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             self.num_envs,
             threads,
             observation=self._observation,
-            rewards=_reward_names(rewards),
+            rewards=reward_names(rewards),
             action_set=check_action_set(action_set),
             next_step=self.autoreset_mode == AutoresetMode.NEXT_STEP,
             stack=self._stack,
@@ -123,7 +123,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._arrays = self._batch.arrays()
         self._copy = copy
-        self._first_seed = None if seed is None else _check_number("seed", seed)
+        self._first_seed = None if seed is None else check_number("seed", seed)
         self._begun = False
         self._over = np.ones(self.num_envs, bool)
         self._views = self._viewed()
@@ -147,7 +147,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 seed = int(self.np_random.integers(2**62))
         seeds = self._seeds(seed)
         super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
-        with _one_thread():
+        with one_thread():
             if params is not None:
                 self._batch.bind(params)
             self._batch.reset(self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False)
@@ -168,7 +168,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             raise gymnasium.error.ResetNeeded(
                 f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
             )
-        with _one_thread():
+        with one_thread():
             self._batch.step(self._arrays, actions)
         over = self._arrays.terminated | self._arrays.truncated
         infos = self._infos()
@@ -204,7 +204,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         last = np.full(self.num_envs, None, dtype=object)
         for at in np.flatnonzero(over):
             last[at] = self._of_agents(self._arrays.observations)[at].copy()
-        with _one_thread():
+        with one_thread():
             none = [None] * self.num_envs
             self._batch.reset(self._arrays, over.tolist(), none, none, True)
         fresh = self._infos()
@@ -263,15 +263,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _read_options(
         self, options: dict[str, Any] | None
     ) -> tuple[NDArray[np.bool_], dict[str, ParamValue] | None, int | None]:
-        options = {} if options is None else options
-        if not isinstance(options, Mapping):
-            raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
-        for key in options:
-            if key not in RESET_OPTIONS:
-                raise ParameterError(
-                    f"no reset option `{key}`; there are `{'`, `'.join(RESET_OPTIONS)}`", name=str(key)
-                )
-        mask = options.get("reset_mask")
+        checked = check_keys(options, RESET_OPTIONS)
+        mask = checked.get("reset_mask")
         if mask is None:
             mask = np.ones(self.num_envs, bool)
         elif not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (self.num_envs,):
@@ -280,14 +273,11 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             raise ParameterError("`reset_mask` marks no environment", name="reset_mask")
         elif not self._begun and not mask.all():
             raise ParameterError("the first `reset` begins an episode of every environment", name="reset_mask")
-        params = options.get("params")
-        if params is not None and not isinstance(params, Mapping):
-            raise ParameterError(f"expected `params` as a mapping, found `{params!r}`", name="params")
-        episode = options.get("episode")
+        episode = checked.get("episode")
         return (
             mask,
-            None if params is None else dict(params),
-            None if episode is None else _check_number("episode", episode),
+            check_params(checked.get("params")),
+            None if episode is None else check_number("episode", episode),
         )
 
     def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
@@ -296,19 +286,19 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         if isinstance(seed, Sequence | np.ndarray):
             if len(seed) != self.num_envs:
                 raise ParameterError(f"expected {self.num_envs} seeds, found {len(seed)}", name="seed")
-            return [None if one is None else _check_number("seed", one) for one in seed]
-        first = _check_number("seed", seed)
+            return [None if one is None else check_number("seed", one) for one in seed]
+        first = check_number("seed", seed)
         return [(first + at) % 2**64 for at in range(self.num_envs)]
 
 
 def make_vec(
-    scenario: Scenario | str | PathLike[str],
+    scenario: Source,
     num_envs: int = 1,
     *,
     threads: int | None = None,
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     observation: str = "simple115v2",
-    rewards: str | Sequence[str] | None = None,
+    rewards: Rewards = None,
     params: Mapping[str, ParamValue] | None = None,
     seed: int | None = None,
     copy: bool = True,
@@ -327,7 +317,8 @@ def make_vec(
     - `autoreset_mode`: when an episode that has ended is followed by the next: see `FootballVectorEnv`.
     - `copy`: False returns the same array of observations every time, overwritten by the next `step`.
     - `record`: for single environments; here it raises `UnavailableError`.
-    - The rest is as in `setpiece.make`; raw observations are for single environments.
+    - The rest is as in `setpiece.make`; raw observations, and rewards and endings in Python, are for single
+      environments.
 
     >>> import numpy, setpiece
     >>> envs = setpiece.make_vec("academy_3_vs_1_with_keeper", 4, seed=7)

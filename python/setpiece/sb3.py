@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from os import PathLike, fspath
 from typing import Any
 
 import gymnasium
@@ -21,10 +20,14 @@ import numpy as np
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 from numpy.typing import NDArray
 
-from setpiece._environment import FootballEnv, make
+from setpiece._callbacks import read_rewards
+from setpiece._environment import FootballEnv
 from setpiece._errors import ParameterError
-from setpiece._native import Scenario, load
+from setpiece._make import make
+from setpiece._native import Scenario
+from setpiece._opponents import behaviors
 from setpiece._optional import need
+from setpiece._source import Source, load
 from setpiece._vector import FootballVectorEnv
 from setpiece._vector import make_vec as make_batch
 
@@ -35,7 +38,7 @@ __all__ = ["Sb3VecEnv", "make_vec"]
 
 FINAL = ("final_info", "final_obs")
 
-ALONE = ("opponents", "events", "bot_action", "watch", "on_reload", "record", "record_when")
+ALONE = ("opponents", "ends", "events", "bot_action", "watch", "on_reload", "record", "record_when")
 """What `setpiece.make` takes and a batch does not."""
 
 Indices = int | Iterable[int] | None
@@ -151,7 +154,7 @@ class Sb3VecEnv(VecEnv):
 
 
 def make_vec(
-    scenario: Scenario | str | PathLike[str],
+    scenario: Source,
     num_envs: int,
     *,
     seed: int | None = None,
@@ -164,7 +167,8 @@ def make_vec(
     - `threads`: how many play; None: one per core. Results don't depend on them.
 
     The environments are one batch (`setpiece.make_vec`). What a batch can't do (`opponents`, `events`, `bot_action`,
-    `watch`, `record`, raw observations, a scenario's records) is played by single environments, one after the other.
+    `watch`, `record`, rewards and endings in Python, raw observations, a scenario's records) is played by single
+    environments, one after the other.
 
     Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
     `ParameterError` for a scenario that leaves the caller none or several, and else what `setpiece.make` does.
@@ -172,9 +176,11 @@ def make_vec(
     if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
         raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
     envs: VectorEnv[Any, Any, Any]
-    if not isinstance(scenario, Scenario) and not kwargs.get("watch"):
-        scenario = load(fspath(scenario))
-    if kwargs.get("observation") == "raw" or any(kwargs.get(name) for name in ALONE) or _has_records(scenario):
+    # A file that is watched, or played by behaviours, has to stay one.
+    if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")):
+        scenario = load(scenario)
+    alone = any(kwargs.get(name) for name in ALONE) or bool(read_rewards(kwargs.get("rewards"))[1])
+    if kwargs.get("observation") == "raw" or alone or _has_records(scenario):
         envs = SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)
     else:
         kwargs = {name: value for name, value in kwargs.items() if name not in ALONE}
@@ -186,12 +192,12 @@ def make_vec(
     return vec
 
 
-def _has_records(scenario: Scenario | str | PathLike[str]) -> bool:
+def _has_records(scenario: Source) -> bool:
     """Whether the ends of episodes bring records, which a batch does not tell."""
     return isinstance(scenario, Scenario) and bool(json.loads(scenario.__reduce__()[1][0])["scenario"].get("records"))
 
 
-def _alone(scenario: Scenario | str | PathLike[str], kwargs: dict[str, Any]) -> FootballEnv:
+def _alone(scenario: Source, kwargs: dict[str, Any]) -> FootballEnv:
     env = make(scenario, **kwargs)
     _check_one(env.agents, env.scenario)
     return env

@@ -187,6 +187,35 @@ def test_behaviours_play_a_side(pitch_file: PitchFile) -> None:
         setpiece.make(setpiece.load(path), opponents={"right": "chaser"})
 
 
+CLIMBER = """
+fn act(ctx, me, now) { if now.ball.x > me.x { "top" } else { "bottom" } }
+"""
+
+
+def test_a_script_plays_a_side(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    script = tmp_path / "climber.rhai"
+    script.write_text(CLIMBER, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    drill = {"ball": (0, 0), "left": [("CF", -0.5, 0)], "right": [("CF", 0.5, 0, {"name": "carla"})], "limit": 9}
+    for path in ("climber.rhai", str(script), script):
+        for scenario, agents in ((drill, 0), (drill, 1), (MARKED, ["carla"])):
+            env = setpiece.make(scenario, left=1, right=agents, opponents={"right": path})
+            env.reset(seed=1)
+            env.step(Action.IDLE)
+            assert env.played()["carla"] == Action.TOP, "the ball lies ahead of her"
+
+
+def test_a_script_that_is_not_one_is_named(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.rhai"
+    broken.write_text("fn act(ctx, me, now) { ", encoding="utf-8")
+    with pytest.raises(setpiece.ParameterError, match="can't be played with"):
+        setpiece.make(DUEL, opponents={"right": broken})
+    with pytest.raises(setpiece.ParameterError, match=r"missing\.rhai"):
+        setpiece.make(DUEL, opponents={"right": "missing.rhai"})
+    with pytest.raises(setpiece.ParameterError, match="behaviours play the whole of a side"):
+        setpiece.make(DUEL, right=1, opponents={"right_GK_1": "chaser.rhai"})
+
+
 def test_an_opponent_that_fails_is_named_and_the_next_episode_plays() -> None:
     failing = True
 

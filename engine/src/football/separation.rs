@@ -15,6 +15,9 @@ pub const CONTACT_M: f32 = 0.72;
 const LYING_M: f32 = 0.5;
 /// Most that one meeting moves a body in two ticks, metres. (The fact sheet's: 0.08 a tick.)
 const PUSH_MAX_M: f32 = 0.16;
+/// However hard others press, a meeting leaves two bodies no nearer than this, metres; chosen so that they never change
+/// sides before they meet again.
+const PRESSED_M: f32 = 0.2;
 
 /// The most that pushes add up to, metres. (The fact sheet's.)
 const SHOVE_MAX_M: f32 = 0.1;
@@ -77,7 +80,7 @@ fn part(game: &mut Match, events: &mut Events, i: PlayerId, j: PlayerId) {
         share -= 0.15;
     }
     let share = share.clamp(0.1, 0.9);
-    let step = overlap.min(PUSH_MAX_M);
+    let step = overlap.min(PUSH_MAX_M).max(PRESSED_M - distance);
     let closing = (b.vel - a.vel).dot(away).min(0.0);
     let first = &mut game.players[i.index()];
     first.pos -= away * (step * (1.0 - share));

@@ -6,9 +6,8 @@ import re
 from dataclasses import dataclass, fields
 from math import hypot
 
-import numpy as np
-
 from setpiece._errors import SetpieceError
+from setpiece._scenario_dict import number_text
 from setpiece.gfootball.env.scenario_config import FIXED_SEED, FormationEntry, ScenarioConfig
 
 METRES = (54.4, 83.6)
@@ -216,7 +215,7 @@ def _role(entry: FormationEntry) -> str:
 
 
 def _point(entry: FormationEntry) -> str:
-    return f"({_number(entry.position[0])}, {_number(entry.position[1])})"
+    return f"({number_text(entry.position[0])}, {number_text(entry.position[1])})"
 
 
 def _either(recorded: ScenarioConfig, other: ScenarioConfig, axis: int) -> str:
@@ -224,8 +223,4 @@ def _either(recorded: ScenarioConfig, other: ScenarioConfig, axis: int) -> str:
 
 
 def _both(even: float, odd: float) -> str:
-    return _number(even) if even == odd else f"alternate({_number(even)}, {_number(odd)})"
-
-
-def _number(value: float) -> str:
-    return np.format_float_positional(float(value) + 0.0, trim="-")
+    return number_text(even) if even == odd else f"alternate({number_text(even)}, {number_text(odd)})"

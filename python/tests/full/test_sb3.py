@@ -204,3 +204,44 @@ def test_episodes_are_recorded(tmp_path: Path) -> None:
         paths += [info["setpiece"]["replay"] for info in infos if "setpiece" in info]
     assert paths
     assert all(setpiece.Replay(path).length > 0 for path in paths)
+
+
+def test_rewards_and_endings_in_python_are_played_by_single_environments() -> None:
+    def kept(_step: setpiece.Step) -> float:
+        return 0.25
+
+    def deep(step: setpiece.Step) -> bool:
+        return bool(step.now["ball"][0] > 0.8)
+
+    vec = make_vec(CLOSE, 2, rewards=["scoring", kept], ends=[deep], seed=0)
+    vec.reset()
+    outcomes = set()
+    for step in range(300):
+        # One runs into the ending in Python, the other waits for the file's limit or the ball to be lost.
+        _, rewards, dones, infos = vec.step(np.array([Action.RIGHT, Action.IDLE]))
+        assert rewards.tolist() == [0.25, 0.25] or dones.any(), step
+        outcomes |= {info["outcome"] for info in infos if "outcome" in info}
+        ended = [info["setpiece"] for info in infos if "setpiece" in info]
+        assert all(summary["return"]["kept"] == 0.25 * summary["length"] for summary in ended)
+    assert "deep" in outcomes
+
+
+def test_behaviours_play_a_side(tmp_path: Path) -> None:
+    path = tmp_path / "deserted.pitch"
+    path.write_text(
+        """
+        behavior homesick() { repeat { do move_to(right.goal) } }
+        scenario deserted {
+            ball at centre
+            team left { CF at (-5m, 0m) }
+            team right { CB at (20m, 0m) }
+            reward scoring
+            end limit 20 steps
+        }
+        """,
+        encoding="utf-8",
+    )
+    vec = make_vec(path, 1, opponents={"right": "homesick"}, seed=1)
+    vec.reset()
+    vec.step(np.array([Action.IDLE]))
+    assert vec.env_method("played")[0]["right_CB_1"] == Action.LEFT

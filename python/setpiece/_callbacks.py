@@ -1,0 +1,257 @@
+"""Rewards and endings in Python, beside those of the scenario's file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from setpiece._errors import CallbackError, ParameterError
+from setpiece._native import AgentInfo
+from setpiece._opponents import SIDES
+
+NONE = "none"
+"""In the place of names: none of the scenario's rewards."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step of 100 ms as one agent lived it: what rewards and endings in Python are called with.
+
+    - `agent`, `team`: its id, as in `env.agents`, and its side.
+    - `action`: what it did: an int, or float32 `(4,)` with continuous actions.
+    - `before`, `now`: raw observations of the agent before and after the step, dicts in its own frame: it attacks
+      towards +x, and `left_team` is its own. Where play stopped, `now` shows the restart; what led to it is in `events`
+      and `now["score"]`.
+    - `events`: what happened, as `info["events"]` tells it: in the world's frame, teams `"left"` and `"right"`.
+    - `outcome`: how the episode ended with this step, for rewards; else None.
+    """
+
+    agent: str
+    team: Literal["left", "right"]
+    action: int | NDArray[np.float32]
+    before: dict[str, Any]
+    now: dict[str, Any]
+    events: list[dict[str, Any]]
+    outcome: str | None
+
+
+RewardFunction = Callable[[Step], float]
+"""A reward in Python: what an agent is paid for a step, added to what the file pays."""
+
+EndFunction = Callable[[Step], bool | str | None]
+"""An ending in Python: False, None or an empty string to go on; True, or a label, to end the episode."""
+
+Rewards = str | RewardFunction | Sequence[str | RewardFunction] | None
+"""Names that replace the scenario's own choice of rewards, functions that pay beside it, or both."""
+
+Ends = EndFunction | Sequence[EndFunction] | None
+"""Functions that end episodes."""
+
+
+def read_rewards(rewards: Rewards) -> tuple[list[str] | None, list[RewardFunction]]:
+    """Returns the names, None for the scenario's own choice, and the functions."""
+    if rewards is None:
+        return None, []
+    given = rewards.split(",") if isinstance(rewards, str) else [rewards] if callable(rewards) else rewards
+    if not isinstance(given, Sequence) or not all(isinstance(one, str) or callable(one) for one in given):
+        raise ParameterError(f"expected `rewards` as names or functions, found `{rewards!r}`", name="rewards")
+    names = [one.strip() for one in given if isinstance(one, str)]
+    functions = [one for one in given if not isinstance(one, str)]
+    if names == [NONE]:
+        names = []
+    elif functions and not names:
+        return None, functions
+    return names, functions
+
+
+def rewards_of(names: list[str] | None, functions: Iterable[RewardFunction]) -> Rewards:
+    """Returns what `read_rewards` has read as it was given."""
+    return [*([NONE] if names == [] else names or []), *functions]
+
+
+def reward_names(rewards: Rewards) -> list[str] | None:
+    """Returns the names of rewards where there can be no functions."""
+    names, functions = read_rewards(rewards)
+    if functions:
+        raise ParameterError(
+            f"`{_name(functions[0])}` can't pay here: many matches at once know the rewards of their file alone",
+            name="rewards",
+            help="put environments of `setpiece.make` into a `gymnasium.vector.SyncVectorEnv`",
+        )
+    return names
+
+
+def read_ends(ends: Ends) -> list[EndFunction]:
+    """Returns the functions that end episodes."""
+    given = [] if ends is None else [ends] if callable(ends) else ends
+    if not isinstance(given, Sequence) or not all(callable(end) for end in given):
+        raise ParameterError(f"expected `ends` as functions, found `{ends!r}`", name="ends")
+    return [*given]
+
+
+@dataclass
+class Tally:
+    """What an episode has paid by term, a float or float64 `(n,)`, and its steps: since its `reset` or `restore`."""
+
+    paid: dict[str, Any]
+    steps: int
+
+
+class Callbacks:
+    """The rewards and endings in Python of one environment, and what they need to remember."""
+
+    tally: Tally
+
+    def __init__(
+        self, rewards: Sequence[RewardFunction], ends: Sequence[EndFunction], *, show_events: bool = False
+    ) -> None:
+        self.rewards = {_name(function): function for function in rewards}
+        self.ends = [*ends]
+        if len(self.rewards) != len(rewards):
+            names = [_name(function) for function in rewards]
+            twice = next(name for name in names if names.count(name) > 1)
+            raise ParameterError(
+                f"two rewards are called `{twice}`: each is a term of its own in `info`",
+                name="rewards",
+                help="give one another `__name__`",
+            )
+        self._show_events = show_events
+        self._before: list[dict[str, Any]] = []
+        self.tally = Tally({}, 0)
+
+    def begin(self, views: list[dict[str, Any]], info: dict[str, Any]) -> None:
+        """Begins an episode; adds the functions' terms to its first `info`."""
+        for name in self.rewards:
+            if name in info["reward_terms"]:
+                raise ParameterError(f"`{name}` is a reward of the scenario too", name="rewards")
+        for function in [*self.rewards.values(), *self.ends]:
+            reset = getattr(function, "reset", None)
+            if callable(reset):
+                try:
+                    reset()
+                except Exception as error:
+                    raise _failed(function, None, error) from error
+        self.go_on(views, info)
+
+    def go_on(self, views: list[dict[str, Any]], info: dict[str, Any]) -> None:
+        """Goes on in the middle of an episode."""
+        self._events_of(info)
+        nothing = [0.0] * len(views)
+        info["reward_terms"].update({name: _shaped(nothing) for name in self.rewards})
+        if "setpiece" in info:
+            info["setpiece"]["return"].update({name: _shaped(nothing) for name in self.rewards})
+        self._before = views
+        self.tally = Tally(dict.fromkeys(info["reward_terms"], 0.0), 0)
+
+    def judge(
+        self,
+        agents: Sequence[AgentInfo],
+        action: Any,
+        views: list[dict[str, Any]],
+        result: tuple[Any, bool, bool, dict[str, Any]],
+    ) -> tuple[Any, bool, bool, dict[str, Any]]:
+        """Judges a step of these agents: takes and returns reward, terminated, truncated and `info`.
+
+        Puts the functions' terms into `info`, and where one of them ends the episode the outcome and a summary. Raises
+        `CallbackError`.
+        """
+        reward, terminated, truncated, info = result
+        events = self._events_of(info)
+        acts = np.asarray(action).reshape(len(agents), -1)
+        steps = [
+            Step(agent.id, SIDES[agent.team], _action(act), before, now, events, None)
+            for agent, act, before, now in zip(agents, acts, self._before, views, strict=True)
+        ]
+        # The file's own endings come first, its limit last.
+        label = None if terminated else self._label(steps[0])
+        outcome = info.get("outcome") if label is None else label
+        steps = [replace(step, outcome=outcome) for step in steps]
+        paid = {name: [_paid(function, step) for step in steps] for name, function in self.rewards.items()}
+        self._before = views
+        info["reward_terms"].update({name: _shaped(values) for name, values in paid.items()})
+        sums = {name: self.tally.paid[name] + value for name, value in info["reward_terms"].items()}
+        self.tally = Tally(sums, self.tally.steps + 1)
+        if label is not None:
+            terminated, truncated = True, False
+            self._end(label, info)
+        if "setpiece" in info:
+            info["setpiece"]["return"].update({name: sums[name] for name in self.rewards})
+        for values in paid.values():
+            reward = reward + (values[0] if len(values) == 1 else np.array(values, np.float32))
+        return reward, terminated, truncated, info
+
+    def _events_of(self, info: dict[str, Any]) -> list[dict[str, Any]]:
+        """The events of a step; takes them out of an `info` that wasn't asked for any."""
+        events: list[dict[str, Any]] = info["events"] if self._show_events else info.pop("events")
+        return events
+
+    def _label(self, step: Step) -> str | None:
+        """The label of the first ending that holds."""
+        for function in self.ends:
+            verdict = _call(function, step.agent, step)
+            if isinstance(verdict, str):
+                if verdict:
+                    return verdict
+            elif verdict is not None and not isinstance(verdict, bool | np.bool_):
+                raise CallbackError(
+                    f"the ending `{_name(function)}` gave {verdict!r}; expected a bool or a label",
+                    function=_name(function),
+                    agent=step.agent,
+                )
+            elif verdict:
+                return _name(function)
+        return None
+
+    def _end(self, label: str, info: dict[str, Any]) -> None:
+        """Writes the end of an episode that the file's own endings haven't ended, or have by the limit alone."""
+        info["outcome"] = label
+        info.setdefault("records", {})
+        info.setdefault("setpiece", {"return": dict(self.tally.paid), "length": self.tally.steps})
+        info["setpiece"]["success"] = label == "success"
+
+
+def _name(function: Callable[..., Any]) -> str:
+    return str(getattr(function, "__name__", type(function).__name__))
+
+
+def _action(act: NDArray[Any]) -> Any:
+    return act.item() if len(act) == 1 else act.astype(np.float32)
+
+
+def _shaped(values: list[float]) -> Any:
+    """Values by agent as `info` has them: a float for one, float64 `(n,)` for n."""
+    return values[0] if len(values) == 1 else np.array(values)
+
+
+def _paid(function: RewardFunction, step: Step) -> float:
+    value = _call(function, step.agent, step)
+    try:
+        number = np.asarray(value)
+        if number.ndim == 0 and number.dtype.kind in "biuf" and isfinite(number):
+            return float(number)
+    except (ValueError, TypeError):
+        pass
+    raise CallbackError(
+        f"the reward `{_name(function)}` gave {value!r}; expected a finite number",
+        function=_name(function),
+        agent=step.agent,
+    )
+
+
+def _call(function: Callable[[Step], Any], agent: str, step: Step) -> Any:
+    try:
+        return function(step)
+    except Exception as error:
+        raise _failed(function, agent, error) from error
+
+
+def _failed(function: Callable[..., Any], agent: str | None, error: Exception) -> CallbackError:
+    whom = "" if agent is None else f" for `{agent}`"
+    return CallbackError(
+        f"`{_name(function)}` failed{whom}: {type(error).__name__}: {error}", function=_name(function), agent=agent
+    )

@@ -1,0 +1,138 @@
+"""`setpiece.make`: a scenario's environment, with all there is to choose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from os import PathLike
+from typing import Any, Literal
+
+from gymnasium.envs.registration import EnvSpec
+
+from setpiece._callbacks import Ends, Rewards
+from setpiece._environment import FootballEnv
+from setpiece._opponents import Opponent
+from setpiece._options import ParamValue
+from setpiece._record import When
+from setpiece._reload import Reload
+from setpiece._seats import Seats
+from setpiece._source import Source
+
+
+def make(
+    scenario: Source,
+    *,
+    left: Seats = None,
+    right: Seats = None,
+    opponents: Mapping[str, Opponent] | None = None,
+    observation: str = "simple115v2",
+    rewards: Rewards = None,
+    ends: Ends = None,
+    params: Mapping[str, ParamValue] | None = None,
+    seed: int | None = None,
+    events: bool = False,
+    copy: bool = True,
+    render_mode: str | None = None,
+    watch: bool | Literal["now"] = False,
+    on_reload: Callable[[Reload], object] | None = None,
+    action_set: str = "default",
+    bot_action: bool = False,
+    stack: int = 1,
+    size: tuple[int, int] = (96, 72),
+    switching: Literal["auto", "fixed"] | None = None,
+    record: str | PathLike[str] | None = None,
+    record_when: When = "always",
+) -> FootballEnv:
+    """Makes an environment of a scenario.
+
+    - `scenario`: a name of the library, the path of a `.pitch` or `.pitchc` file, a `Scenario`, a text (a string with a
+      `{`), or a dict: see `ScenarioDict`.
+    - `left`, `right`: how many agents play on each side: a count, `"all"`, a list of players' names; None: as the
+      scenario says.
+    - `opponents`: who plays some of these agents instead of the caller: by side (`"left"`, `"right"`) or by agent,
+      who wins over his side:
+      - `"bot"`: the built-in bot, or the player's own `ai` where the scenario gives him one;
+      - a behaviour of the scenario, as `ai:` says it (`"marker(3m)"`, `"lazy"`), for a side: it plays all players of
+        the side that have no agent of the caller's and no `ai` of their own;
+      - a script: the path of a `.rhai` file with an `act` hook, likewise for a side;
+      - a function of one agent's observation that returns its action, called agent by agent;
+      - a `Policy`: with its own observation, over one agent or a batch of them;
+      - an object with the `predict` of Stable-Baselines3, called with a batch;
+      - the path of an `.onnx` file: see `setpiece.onnx_policy`.
+
+      Everyone sees himself attack towards +x. An opponent that fails raises `OpponentError`.
+    - `observation`: `"simple115v2"` or its forerunner `"simple115"` (float32 `(115,)`), `"smm"` (GRF's `extracted`;
+      uint8 `(72, 96, 4)`), `"raw"` (a dict), `"egocentric"` (float32 `(n,)`: what the player sees from where he is, for
+      any number of players) or `"vector"` (float32 `(n,)`: what the scenario's `observe vector` declares).
+      `env.observation_layout` tells what stands where.
+    - `stack`: how many observations are shown at once, on the last axis, the oldest first; the first one of an episode,
+      or after `restore`, is shown so many times.
+    - `size`: width and height of `"smm"`.
+    - `switching`: whether the agents of a count change players (`"auto"`) or keep them (`"fixed"`); None: as the
+      scenario says.
+    - `rewards`: names that replace the scenario's own choice: `"scoring,checkpoints"` or a list; functions in the list
+      pay beside them, or beside the scenario's own choice where there are no names; `"none"` is no reward of the
+      scenario. A function gets a `Step` of one
+      agent and returns a finite number; it is called for each of the caller's agents, its term is its name. An object
+      with `__call__` may have a `reset()`, called when an episode begins.
+    - `ends`: functions that end episodes beside the scenario's endings, asked after these and before its limit. They
+      get the `Step` of the first of the caller's agents and return False or None, True (the outcome is the function's
+      name) or the outcome as a string. `"success"` counts as one; `info["setpiece"]` has no `digest` or `faults` then,
+      and `records` are empty. A function that fails raises `CallbackError`.
+    - `params`: parameters to bind: SI units, or strings as the language writes them.
+    - `seed`: the seed of the first `reset` that gets none.
+    - `events`: whether `info["events"]` lists what happened in each step.
+    - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next one; several agents
+      beside opponents get copies.
+    - `render_mode`: None or `"ansi"`.
+    - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; with `"now"`
+      every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one
+      that would change the spaces is held back.
+    - `on_reload`: called with the `Reload` of every change; see also `env.unwrapped.last_reload`.
+    - `action_set`: `"default"` (19 actions), `"v2"` (20: `Action.BUILTIN_AI` hands the step over to the bot), `"full"`
+      (33: orders to team mates too) or `"continuous"` (a `Box` of float32 `(4,)`: x and y of the way to run, whose
+      length is the pace; what to do with the ball, six kinds in equal parts of -1..1: nothing, short, long, high pass,
+      shot, slide; and the power of a kick, 0..1: how hard a shot is and how far a pass goes, 0 as a key's).
+    - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr`: of all, of those with a goal
+      (`record_when="goal"`), or of the first and each n-th after it (`record_when=n`). The last `info["setpiece"]` has
+      `replay`, the path or None; `setpiece replay FILE` plays one again, and so does `setpiece.Replay`.
+    - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
+
+    Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.
+
+    >>> import setpiece
+    >>> env = setpiece.make("academy_3_vs_1_with_keeper", rewards="scoring,checkpoints", seed=7)
+    >>> observation, info = env.reset()
+    >>> observation, reward, terminated, truncated, info = env.step(setpiece.Action.SHORT_PASS)
+    >>> sorted(info)
+    ['action_mask', 'reward_terms', 'score']
+    """
+    kwargs: dict[str, Any] = {
+        "scenario": scenario,
+        "left": left,
+        "right": right,
+        "opponents": opponents,
+        "observation": observation,
+        "rewards": rewards,
+        "ends": ends,
+        "params": params,
+        "seed": seed,
+        "events": events,
+        "copy": copy,
+        "watch": watch,
+        "on_reload": on_reload,
+        "action_set": action_set,
+        "bot_action": bot_action,
+        "stack": stack,
+        "size": size,
+        "switching": switching,
+        "record": record,
+        "record_when": record_when,
+    }
+    env = FootballEnv(**kwargs, render_mode=render_mode)
+    # So that `env.spec.make()` gives another one, as for environments that Gymnasium made.
+    env.spec = EnvSpec(
+        id=f"setpiece/{env.scenario.name}-v0",
+        entry_point="setpiece._environment:FootballEnv",
+        kwargs={**kwargs, "render_mode": render_mode},
+    )
+    return env

@@ -1,0 +1,81 @@
+"""A scenario made ready to be played: who plays it, what they see and what they can do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from gymnasium import spaces
+
+from setpiece import _native
+from setpiece._errors import ParameterError
+from setpiece._native import AgentInfo, Scenario
+from setpiece._opponents import Opponent, Table
+from setpiece._spaces import action_space, difference, observation_space
+
+
+@dataclass(frozen=True)
+class Match:
+    """A scenario with its native environment, the caller's agents and their spaces.
+
+    `digest` is the scenario's; `table` seats the opponents, where there are any; `slots` are the caller's agents.
+    """
+
+    scenario: Scenario
+    digest: str
+    native: _native.Environment
+    table: Table | None
+    slots: Sequence[AgentInfo]
+    observation_space: spaces.Space[Any]
+    action_space: spaces.Space[Any]
+
+    @property
+    def agents(self) -> tuple[str, ...]:
+        """The ids of the caller's agents."""
+        return tuple(agent.id for agent in self.slots)
+
+    def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
+        """Returns the caller's part of what all agents see."""
+        return (observation, info) if self.table is None else self.table.shown(observation, info)
+
+    def views(self) -> list[dict[str, Any]]:
+        """Returns the raw observation of each of the caller's agents."""
+        raws = self.native.look("raw")
+        raws = [raws] if isinstance(raws, dict) else raws
+        return [*raws] if self.table is None else [raws[at] for at in self.table.mine]
+
+    def change(self, before: Match, *, agents: bool, players: bool) -> str | None:
+        """Returns in words what keeps an environment that plays another match from going on with this one, or None.
+
+        The spaces must stay; with `agents` the caller's agents too, with `players` how many players each side has.
+        """
+        spaces_of = {
+            "action space": (before.action_space, self.action_space),
+            "observation space": (before.observation_space, self.observation_space),
+        }
+        if agents and self.agents != before.agents:
+            return f"the agents would change from {', '.join(before.agents)} to {', '.join(self.agents)}"
+        if players and self.native.players != before.native.players:
+            return f"the number of players would change from {before.native.players} to {self.native.players}"
+        return next((f"the {name} {why}" for name, pair in spaces_of.items() if (why := difference(*pair))), None)
+
+
+def match_of(scenario: Scenario, opponents: Mapping[str, Opponent] | None, options: Mapping[str, Any]) -> Match:
+    """Makes a scenario ready; `options` are those of the native environment."""
+    observation, action_set = options["observation"], options["action_set"]
+    # Opponents may hand a step over to the bot, whatever the caller may.
+    narrow = opponents is not None and action_set == "default"
+    native = _native.Environment(scenario, **{**options, **({"action_set": "v2"} if narrow else {})})
+    agents, table = native.agents, None
+    if opponents is not None:
+        if action_set == "continuous":
+            raise ParameterError(
+                "beside opponents the caller presses keys: continuous actions are for all agents", name="action_set"
+            )
+        table = Table(agents, opponents, observation, _native.ACTION_SETS[action_set])
+        agents = [agents[at] for at in table.mine]
+        for kind in table.observations:
+            native.look(kind)
+    spaces_of = observation_space(native, observation, agents), action_space(len(agents), action_set)
+    return Match(scenario, scenario.digest, native, table, agents, *spaces_of)

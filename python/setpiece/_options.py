@@ -1,0 +1,96 @@
+"""Options that several kinds of environments take, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from difflib import get_close_matches
+from operator import index
+from typing import Any
+
+from setpiece._errors import InUseError, ParameterError
+from setpiece._source import Source
+
+ParamValue = bool | int | float | str
+"""A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
+
+RESET_OPTIONS = ("episode", "params", "scenario", "snapshot")
+NUMBER_MAX = 2**64 - 1
+
+
+@dataclass(frozen=True)
+class ResetOptions:
+    """The `options` of a single environment's `reset`; None for what isn't given."""
+
+    episode: int | None
+    params: dict[str, ParamValue] | None
+    scenario: Source | None
+    snapshot: bytes | None
+
+
+def read_reset_options(options: Mapping[str, Any] | None) -> ResetOptions:
+    """Returns the options of a `reset`, or raises `ParameterError`."""
+    options = check_keys(options, RESET_OPTIONS)
+    episode, snapshot = options.get("episode"), options.get("snapshot")
+    return ResetOptions(
+        None if episode is None else check_number("episode", episode),
+        check_params(options.get("params")),
+        options.get("scenario"),
+        None if snapshot is None else check_snapshot(snapshot),
+    )
+
+
+def check_keys(options: Mapping[str, Any] | None, known: tuple[str, ...]) -> Mapping[str, Any]:
+    """Returns the options of a `reset`, or raises `ParameterError` for one that isn't known."""
+    options = {} if options is None else options
+    if not isinstance(options, Mapping):
+        raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
+    for key in options:
+        if key not in known:
+            similar = get_close_matches(str(key), known, n=1)
+            raise ParameterError(
+                f"no reset option `{key}`; there are `{'`, `'.join(known)}`",
+                name=str(key),
+                help=f"did you mean `{similar[0]}`?" if similar else None,
+            )
+    return options
+
+
+def check_params(params: object) -> dict[str, ParamValue] | None:
+    """Returns parameters, None where there are none, or raises `ParameterError`."""
+    if params is not None and not isinstance(params, Mapping):
+        raise ParameterError(f"expected `params` as a mapping, found `{params!r}`", name="params")
+    return None if params is None else dict(params)
+
+
+def check_number(name: str, value: object) -> int:
+    """Returns a seed or an index, or raises `ParameterError`."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        number = index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise ParameterError(f"expected an integer as `{name}`, found `{value!r}`", name=name) from None
+    if not 0 <= number <= NUMBER_MAX:
+        raise ParameterError(f"`{name}` is {number}, outside 0..2**64-1", name=name)
+    return number
+
+
+def check_snapshot(snapshot: object) -> bytes:
+    """Returns the bytes of a snapshot, or raises `ParameterError`."""
+    if isinstance(snapshot, bytes | bytearray | memoryview):
+        return bytes(snapshot)
+    raise ParameterError(f"expected a snapshot as bytes, found `{type(snapshot).__name__}`", name="snapshot")
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Raises `InUseError` where another thread is using the environment."""
+    try:
+        yield
+    except RuntimeError as error:
+        # The binding's word for a second thread.
+        if "borrowed" not in str(error):
+            raise
+        raise InUseError("another thread is using this environment: make one for each thread") from None

@@ -1,0 +1,51 @@
+"""What a scenario can be given as: a name, a path, a text, a dict, or compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike, fspath
+
+from setpiece import _native
+from setpiece._errors import ParameterError
+from setpiece._native import Scenario
+from setpiece._scenario_dict import ScenarioDict, pitch_text, scenario_name
+
+Source = Scenario | ScenarioDict | str | PathLike[str]
+"""A scenario: compiled, as a `ScenarioDict`, its name in the library, the path of its file, or its text."""
+
+
+def load(source: Source) -> Scenario:
+    """Loads a scenario: a name of the library, the path of a `.pitch` or `.pitchc` file, a text, or a `ScenarioDict`.
+
+    A string with a `{` is a text. Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, and
+    `ParameterError` for a dict that is none.
+
+    >>> import setpiece
+    >>> setpiece.load("academy_corner")
+    Scenario(academy_corner: difficulty=0.6, left_difficulty=1)
+    """
+    if isinstance(source, Scenario):
+        return source
+    text = text_of(source)
+    if text is not None:
+        return _native.compile(text, scenario_name(source) if isinstance(source, Mapping) else "<text>")
+    return _native.load(path_of(source))
+
+
+def text_of(source: Source) -> str | None:
+    """Returns the text of a scenario that is given as one, or as a dict; None for names, paths and compiled ones."""
+    if isinstance(source, Mapping):
+        return pitch_text(source)
+    is_text = isinstance(source, str) and "{" in source and not source.endswith((".pitch", ".pitchc"))
+    return source if is_text and isinstance(source, str) else None
+
+
+def path_of(source: object) -> str:
+    """Returns a name or path as a string, or raises `ParameterError`."""
+    if isinstance(source, str | PathLike):
+        path = fspath(source)
+        if isinstance(path, str):
+            return path
+    raise ParameterError(
+        f"expected a scenario's name, path, text, dict, or a `Scenario`, found `{source!r}`", name="scenario"
+    )

@@ -3,28 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import FileError, ReplayError, SetpieceError, SnapshotError
-from setpiece._native import Scenario, load
-from setpiece._replay_file import FILE_MAX, DamagedError, Recorded, read
+from setpiece._errors import ParameterError, ReplayError, SnapshotError
+from setpiece._native import Scenario
 from setpiece._rows import Picker
 from setpiece._spaces import check_observation
-from setpiece._steering import numbers_of
 from setpiece._vocabulary import Action
 
 BAD_REPLAY = "SP0014"
-FILE_MISSING = "SP0001"
 
+Act = tuple[int, tuple[float, float, float] | None]
 Pressed = Action | NDArray[np.float32]
 """What an agent does in a step: a key, or the four numbers of continuous actions."""
 
@@ -80,33 +78,26 @@ class Replay:
     """The fingerprint of the last state, 16 hexadecimal digits: that of the last `info["setpiece"]`."""
     agents: tuple[_native.AgentInfo, ...]
     """Who acted, opponents too, in order: `id` and `team` (0 left, 1 right)."""
+    action_set: str
+    """The smallest set that has all that was pressed: `"default"`, `"v2"` or `"full"`; or `"continuous"`."""
+    snapshot: bytes | None
+    """The snapshot that it began in; None where it began as its scenario does."""
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self.path = Path(fspath(path))
-        self._recorded = self._read()
+        with self._named():
+            self._recorded = _native.Replay(self.path)
+            self.scenario = self._recorded.scenario()
+            self.agents = tuple(self._recorded.environment("raw").agents)
         self.seed, self.index, self.length = self._recorded.seed, self._recorded.index, self._recorded.length
-        self.digest = f"{self._recorded.digest:016x}"
-        self.scenario = self._scenario()
-        try:
-            self.agents = tuple(self._environment("raw").agents)
-        except ReplayError:
-            raise
-        except SetpieceError as error:
-            raise self._error("it is damaged: nobody can have played it so") from error
-        noted = self.length * len(self.agents)
-        if len(self._recorded.actions) != noted or len(self._recorded.steers) not in (0, noted):
-            raise self._error("it is damaged: it has not one action for each agent and step")
+        self.digest, self.action_set = self._recorded.digest, self._recorded.action_set
+        self.snapshot = self._recorded.snapshot
 
     def __iter__(self) -> Iterator[Moment]:
         return self.moments()
 
     def __repr__(self) -> str:
         return f"Replay({self.scenario.name}, seed={self.seed}, index={self.index}, length={self.length})"
-
-    @property
-    def snapshot(self) -> bytes | None:
-        """The snapshot that it began in; None where it began as its scenario does."""
-        return self._recorded.start
 
     @property
     def score(self) -> list[int]:
@@ -119,17 +110,6 @@ class Replay:
         """The name of the ending; None where the episode was written down before it ended."""
         return self._end.get("outcome")
 
-    @property
-    def action_set(self) -> str:
-        """The smallest set that has all that was pressed: `"default"`, `"v2"` or `"full"`; or `"continuous"`."""
-        if self._recorded.steers:
-            return "continuous"
-        most = max(self._recorded.actions, default=0)
-        for name, size in _native.ACTION_SETS.items():
-            if most < size:
-                return name
-        raise self._error(f"it is damaged: no action has the number {most}")
-
     def moments(self, observation: str = "raw") -> Iterator[Moment]:
         """Plays the episode from its start and gives every moment of it, with observations of any kind.
 
@@ -137,24 +117,24 @@ class Replay:
 
         Raises `ReplayError` where this build comes to another end, and `ScriptError` where a script fails.
         """
-        native = self._environment(check_observation(observation))
-        try:
-            observed, info = native.reset(self.seed, self.index, {}, self._recorded.start)
-        except SnapshotError as error:
-            raise self._error("the snapshot that it began in can't be read") from error
+        kind = check_observation(observation)
+        acts = self._recorded.acts
+        with self._named():
+            native = self._recorded.environment(kind)
+            observed, info = native.reset(self.seed, self.index, {}, self.snapshot)
         self._compare(native, 0)
         yield self._moment(0, observed, [], [], info)
         for step in range(self.length):
             if not native.running:
                 raise self._differs(step)
-            actions = self._actions(step)
-            observed, reward, _, _, info = native.step(np.asarray(actions))
+            now = acts[step * len(self.agents) : (step + 1) * len(self.agents)]
+            observed, reward, _, _, info = native.replayed(self._recorded)
             self._compare(native, step + 1)
-            yield self._moment(step + 1, observed, actions, np.atleast_1d(reward).tolist(), info)
+            yield self._moment(step + 1, observed, now, np.atleast_1d(reward).tolist(), info)
 
     def _compare(self, native: _native.Environment, step: int) -> None:
-        """Raises where the last state is not the one that was recorded: a replay of this one tells its fingerprint."""
-        if step == self.length and read(native.replay()).digest != self._recorded.digest:
+        """Raises where the last state is not the one that was recorded."""
+        if step == self.length and native.digest != self.digest:
             raise self._differs(step)
 
     @cached_property
@@ -165,87 +145,36 @@ class Replay:
             info = moment.info
         return info
 
-    def _actions(self, step: int) -> list[Pressed]:
-        """What every agent did in a step, as `FootballEnv.step` takes it."""
-        now = slice(step * len(self.agents), (step + 1) * len(self.agents))
-        try:
-            keys = [Action(number) for number in self._recorded.actions[now]]
-            if not self._recorded.steers:
-                return [*keys]
-            return [numbers_of(key, steer) for key, steer in zip(keys, self._recorded.steers[now], strict=True)]
-        except (TypeError, ValueError) as error:
-            raise self._error(f"step {step}: what the agents did can't be read: {error}") from error
-
-    def _moment(
-        self, step: int, observed: Any, actions: list[Pressed], rewards: list[float], info: dict[str, Any]
-    ) -> Moment:
+    def _moment(self, step: int, observed: Any, acts: list[Act], rewards: list[float], info: dict[str, Any]) -> Moment:
         ids = [agent.id for agent in self.agents]
         return Moment(
             step=step,
             observations={one: Picker(len(ids), at)(observed) for at, one in enumerate(ids)},
-            actions=dict(zip(ids, actions, strict=False)),
+            actions={one: _pressed(act) for one, act in zip(ids, acts, strict=False)},
             rewards=dict(zip(ids, rewards, strict=False)),
             events=info.pop("events"),
             info=info,
         )
 
-    def _read(self) -> Recorded:
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """Names the file in what is wrong with it."""
         try:
-            if self.path.stat().st_size > FILE_MAX:
-                raise self._error(f"it is larger than {FILE_MAX >> 20} MiB")
-            return read(self.path.read_bytes())
-        except OSError as error:
-            raise FileError(
-                f"`{self.path}` can't be read: {error.strerror}", path=str(self.path), code=FILE_MISSING
-            ) from None
-        except DamagedError as error:
-            raise self._error(str(error)) from None
-
-    def _scenario(self) -> Scenario:
-        """The scenario in it, bound to the values in it."""
-        try:
-            # The native module reads compiled scenarios from files alone.
-            with TemporaryDirectory() as folder:
-                file = Path(folder, "scenario.pitchc")
-                file.write_bytes(self._recorded.scenario)
-                scenario = load(file)
-            values = zip(scenario.params.values(), self._recorded.params, strict=True)
-            return scenario.with_params(**{param.name: _value(param, value) for param, value in values})
-        except (SetpieceError, ValueError, IndexError) as error:
-            raise self._error("this build can't read the scenario in it") from error
-
-    def _environment(self, observation: str) -> _native.Environment:
-        recorded = self._recorded
-        return _native.Environment(
-            self.scenario,
-            observation=observation,
-            rewards=recorded.rewards,
-            events=True,
-            copy=True,
-            action_set=self.action_set,
-            bot_action=False,
-            stack=1,
-            size=(96, 72),
-            left=recorded.left,
-            right=recorded.right,
-            switching=recorded.switching,
-        )
+            yield
+        except (ReplayError, SnapshotError, ParameterError) as error:
+            raise ReplayError(f"`{self.path}`: {error.args[0]}", code=BAD_REPLAY, help=error.help) from error
 
     def _differs(self, step: int) -> ReplayError:
-        return self._error(f"step {step}: this build plays the episode otherwise than the one that wrote it")
-
-    def _error(self, why: str) -> ReplayError:
+        why = f"step {step}: this build plays the episode otherwise than the one that wrote it"
         return ReplayError(f"`{self.path}`: {why}", code=BAD_REPLAY)
 
 
-def _value(param: _native.Param, value: float) -> bool | int | float | str:
-    """A parameter's value as `with_params` takes it, from the number that the engine keeps for it."""
-    if param.type == "bool":
-        return value != 0.0
-    if param.type == "int":
-        return int(value)
-    if param.type == "team":
-        return ("left", "right", "none")[int(value)]
-    if param.type == "string":
-        return str(param.choices[int(value)])
-    return value
+def _pressed(act: Act) -> Pressed:
+    """What an agent did in a step, as `FootballEnv.step` takes it."""
+    number, steer = act
+    if steer is None:
+        return Action(number)
+    x, y, power = steer
+    # The middle of the part of -1..1 that means this key.
+    kind = (2 * _native.KINDS.index(Action(number).name.lower()) + 1) / len(_native.KINDS) - 1
+    return np.array([x, y, kind, power], np.float32)

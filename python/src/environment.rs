@@ -5,6 +5,7 @@ use crate::errors;
 use crate::info::{InfoOptions, InfoWriter};
 use crate::observation::{self, Kind, Observer};
 use crate::params::{bind, to_python};
+use crate::replay::Replay;
 use crate::scenario::Scenario;
 use crate::seats::{Seats, read as read_seats};
 
@@ -17,12 +18,12 @@ use setpiece::engine::environment::{Environment as Engine, EnvironmentError, Env
 use setpiece::engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH};
 use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
-use setpiece::replay::{Recorder, Replay};
+use setpiece::replay::{Recorder, Replay as Recording};
 use setpiece::scenario::pitch::TEAM_MAX;
 use setpiece::scenario::{Action, Team};
 
 /// Width and height of GRF's super mini map.
-const SMM_SIZE: (usize, usize) = (SMM_WIDTH, SMM_HEIGHT);
+pub(crate) const SMM_SIZE: (usize, usize) = (SMM_WIDTH, SMM_HEIGHT);
 
 /// Who acts: an agent of an environment.
 #[pyclass(frozen, module = "setpiece._native")]
@@ -73,18 +74,8 @@ impl Environment {
     ) -> PyResult<Environment> {
         let (engine, kind, action_set) =
             prepare(py, scenario, rewards, (observation, size), action_set, &Seats { left, right, switching })?;
-        Ok(Environment {
-            kind,
-            stack,
-            action_set,
-            observer: Observer::new(py, kind, &engine, (stack, copy), action_set.held()),
-            info: InfoWriter::new(py, &engine, InfoOptions { actions: action_set, events, bot_action }),
-            acts: vec![Act::IDLE; engine.n_agents()],
-            actions: vec![Action::Idle; engine.n_agents()],
-            scratch: Scratch::default(),
-            recorder: Recorder::default(),
-            engine,
-        })
+        let info = InfoOptions { actions: action_set, events, bot_action };
+        Ok(Environment::around(py, engine, (kind, stack, copy), info))
     }
 
     /// The agents, left before right.
@@ -219,31 +210,31 @@ impl Environment {
     /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the interpreter meanwhile.
     fn step<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
         actions::read(action, self.action_set, &mut self.acts)?;
-        for (agent, (act, action)) in self.acts.iter().zip(&mut self.actions).enumerate() {
-            *action = act.action;
-            if act.steer.is_some() {
-                self.engine.steer(agent, act.steer);
-            }
-            self.recorder.note(act.action, act.steer);
+        for agent in 0..self.acts.len() {
+            self.press(agent, self.acts[agent]);
         }
-        let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
-        let played = py.detach(|| engine.step(actions, scratch));
-        let result = played.map_err(|why| {
-            self.recorder.keep(self.engine.steps(), self.actions.len());
-            from_episode(py, why.into())
-        })?;
-        let observation = self.observer.observe(py, &mut self.engine, false)?;
-        let reward = match self.engine.rewards() {
-            [one] => f64::from(*one).into_pyobject(py)?.into_any(),
-            several => PyArray1::from_slice(py, several).into_any(),
-        };
-        let info = self.info.write(py, &self.engine)?;
-        (observation, reward, result.terminated, result.truncated, info).into_pyobject(py)
+        self.play(py)
+    }
+
+    /// Plays the step of a recorded episode: as `step` with what the agents did in it.
+    fn replayed<'py>(&mut self, py: Python<'py>, replay: &Replay) -> PyResult<Bound<'py, PyTuple>> {
+        let n_agents = self.actions.len();
+        let acts = replay.inner().acts().skip(self.engine.steps() as usize * n_agents).take(n_agents);
+        for (agent, (action, steer)) in acts.enumerate() {
+            self.press(agent, Act { action, steer });
+        }
+        self.play(py)
+    }
+
+    /// The fingerprint of the state, 16 hexadecimal digits.
+    #[getter]
+    fn digest(&self) -> String {
+        format!("{:016x}", self.engine.digest())
     }
 
     /// The episode as far as it has been played, as bytes that play it again.
     fn replay<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = Replay::of(&self.engine, &self.recorder).and_then(|replay| replay.to_bytes());
+        let bytes = Recording::of(&self.engine, &self.recorder).and_then(|replay| replay.to_bytes());
         Ok(PyBytes::new(py, &bytes.map_err(|why| errors::from_facade(py, &why))?))
     }
 
@@ -265,6 +256,54 @@ impl Environment {
 }
 
 impl Environment {
+    /// An engine with everything around it: how it is observed (kind, stack, fresh arrays) and told of.
+    pub(crate) fn around(
+        py: Python<'_>,
+        engine: Engine,
+        (kind, stack, copy): (Kind, usize, bool),
+        info: InfoOptions,
+    ) -> Environment {
+        let action_set = info.actions;
+        Environment {
+            kind,
+            stack,
+            action_set,
+            observer: Observer::new(py, kind, &engine, (stack, copy), action_set.held()),
+            info: InfoWriter::new(py, &engine, info),
+            acts: vec![Act::IDLE; engine.n_agents()],
+            actions: vec![Action::Idle; engine.n_agents()],
+            scratch: Scratch::default(),
+            recorder: Recorder::default(),
+            engine,
+        }
+    }
+
+    /// Notes what an agent does in the step to come.
+    fn press(&mut self, agent: usize, act: Act) {
+        self.actions[agent] = act.action;
+        if act.steer.is_some() {
+            self.engine.steer(agent, act.steer);
+        }
+        self.recorder.note(act.action, act.steer);
+    }
+
+    /// Plays the step.
+    fn play<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
+        let played = py.detach(|| engine.step(actions, scratch));
+        let result = played.map_err(|why| {
+            self.recorder.keep(self.engine.steps(), self.actions.len());
+            from_episode(py, why.into())
+        })?;
+        let observation = self.observer.observe(py, &mut self.engine, false)?;
+        let reward = match self.engine.rewards() {
+            [one] => f64::from(*one).into_pyobject(py)?.into_any(),
+            several => PyArray1::from_slice(py, several).into_any(),
+        };
+        let info = self.info.write(py, &self.engine)?;
+        (observation, reward, result.terminated, result.truncated, info).into_pyobject(py)
+    }
+
     /// What is observed, and the info.
     fn seen<'py>(&mut self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         Ok((self.observer.observe(py, &mut self.engine, true)?, self.info.write(py, &self.engine)?))
@@ -302,7 +341,7 @@ pub(crate) fn prepare(
 }
 
 /// The observation of a name, if the scenario has it.
-fn observable(py: Python<'_>, engine: &Engine, observation: &str, size: (usize, usize)) -> PyResult<Kind> {
+pub(crate) fn observable(py: Python<'_>, engine: &Engine, observation: &str, size: (usize, usize)) -> PyResult<Kind> {
     let kind = Kind::from_name(observation, size)
         .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
     if kind == Kind::Floats(Floats::Vector) && engine.observed_names().is_empty() {

@@ -9,6 +9,7 @@ mod info;
 mod live;
 mod observation;
 mod params;
+mod replay;
 mod scenario;
 mod seats;
 
@@ -29,6 +30,8 @@ mod _native {
     use crate::live::Live;
     #[pymodule_export]
     use crate::params::Param;
+    #[pymodule_export]
+    use crate::replay::Replay;
     #[pymodule_export]
     use crate::scenario::{Scenario, compile, library, load, restore};
 

@@ -23,6 +23,11 @@ impl Scenario {
         &self.inner
     }
 
+    /// One that came without warnings.
+    pub(crate) fn of(py: Python<'_>, inner: compiled::Scenario) -> Scenario {
+        Scenario { inner: Arc::new(inner), warnings: PyList::empty(py).unbind() }
+    }
+
     pub(crate) fn from_loaded(py: Python<'_>, loaded: Loaded) -> PyResult<Scenario> {
         let warnings = diagnostics::to_python(py, &loaded.warnings, &loaded.sources)?;
         Ok(Scenario { inner: loaded.scenario, warnings: warnings.unbind() })
@@ -160,5 +165,5 @@ pub(crate) fn library(py: Python<'_>) -> Vec<(String, String, (usize, usize))> {
 pub(crate) fn restore(py: Python<'_>, text: &str) -> PyResult<Scenario> {
     let inner =
         compiled::file::from_json(text).map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
-    Ok(Scenario { inner: Arc::new(inner), warnings: PyList::empty(py).unbind() })
+    Ok(Scenario::of(py, inner))
 }

@@ -205,8 +205,8 @@ def test_what_can_not_be_converted_is_told(tmp_path: Path, capfd: pytest.Capture
     cut.write_bytes(Path(path).read_bytes()[:-1])
     capfd.readouterr()
     for source, out, why in [
-        (cut, dump, "cut.pitchr`: it is cut off"),
-        (tmp_path / "none.pitchr", dump, "none.pitchr` can't be read"),
+        (cut, dump, "cut.pitchr`: the replay is cut off"),
+        (tmp_path / "none.pitchr", dump, "none.pitchr`"),
         (nobody, dump, "nobody was an agent"),
         (numbers, dump, "actions were continuous"),
         (path, f"{path}/x.dump", "can't be written"),

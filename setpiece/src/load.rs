@@ -70,8 +70,10 @@ pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
     if looks_like_path || path.exists() {
         return load_file(path);
     }
-    let names: Vec<&str> = stdlib::scenarios().map(|(name, _)| name).collect();
-    Err(Error::Unknown { name: name_or_path.to_owned(), similar: nearest(name_or_path, names).map(str::to_owned) })
+    // What can be played: bases that others extend are no answer.
+    let known = list();
+    let similar = nearest(name_or_path, known.iter().map(|entry| entry.name.as_str())).map(str::to_owned);
+    Err(Error::Unknown { name: name_or_path.to_owned(), similar })
 }
 
 /// Loads a `.pitch` or a compiled file in either form; which it is, its beginning tells.

@@ -14,7 +14,7 @@ use setpiece_engine::batch::EpisodeError;
 use setpiece_engine::environment::{AgentsChoice, Environment, EnvironmentOptions, Physics, ResetError, Scratch};
 use setpiece_engine::state::Steer;
 use setpiece_scenario::file::{binary, fnv1a};
-use setpiece_scenario::{Action, Bindings};
+use setpiece_scenario::{Action, Bindings, Scenario};
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
 
@@ -175,26 +175,64 @@ impl Replay {
         read(file).map_err(Error::Replay)
     }
 
-    /// Plays it: `each` is shown the start, and the environment after every step.
+    /// The scenario, bound to the parameters that it was played with.
     ///
     /// # Errors
-    /// [`Error::Replay`] where it can't be played here, or comes to another end than it did.
-    pub fn play(&self, mut each: impl FnMut(&Environment, &[Action])) -> Result<Environment, Error> {
-        let corrupt = |why: &dyn std::fmt::Display| Error::Replay(ReplayError::Corrupt(why.to_string()));
-        let scenario = binary::from_bytes(&self.scenario).map_err(|why| corrupt(&why))?;
+    /// [`Error::Replay`] where this build can't read it.
+    pub fn scenario(&self) -> Result<Scenario, Error> {
+        let mut scenario = binary::from_bytes(&self.scenario).map_err(|why| corrupt(&why))?;
+        if self.params.0.len() != scenario.params.len() {
+            return Err(corrupt(&"it has not one value for each parameter"));
+        }
+        for (param, value) in scenario.params.iter_mut().zip(&self.params.0) {
+            param.default = *value;
+        }
+        Ok(scenario)
+    }
+
+    /// An environment that it can be played in, before its start.
+    ///
+    /// # Errors
+    /// [`Error::Environment`] where this build doesn't play the scenario so, [`Error::Replay`] where it is damaged.
+    pub fn environment(&self) -> Result<Environment, Error> {
         let options = EnvironmentOptions {
-            bindings: Some(self.params.clone()),
+            bindings: None,
             rewards: self.rewards.clone(),
             physics: self.physics,
             agents: self.agents.clone(),
             from: None,
         };
-        let mut environment = Environment::new(Arc::new(scenario), options).map_err(Error::Environment)?;
-        let n_agents = environment.n_agents();
-        let noted = self.length as usize * n_agents;
+        let environment = Environment::new(Arc::new(self.scenario()?), options).map_err(Error::Environment)?;
+        let noted = self.length as usize * environment.n_agents();
         if self.acts.len() != noted || !(self.steers.is_empty() || self.steers.len() == noted) {
             return Err(corrupt(&"it has not one action for each agent and step"));
         }
+        if let Some(number) = self.acts.iter().find(|&&number| Action::from_index(number.into()).is_none()) {
+            return Err(corrupt(&format!("no action has the number {number}")));
+        }
+        Ok(environment)
+    }
+
+    /// The snapshot that it began in, where it did.
+    pub fn from(&self) -> Option<&[u8]> {
+        self.from.as_deref()
+    }
+
+    /// What agents did, agent by agent, step by step: keys, and how they steered.
+    pub fn acts(&self) -> impl ExactSizeIterator<Item = (Action, Option<Steer>)> + '_ {
+        self.acts.iter().enumerate().map(|(at, &number)| {
+            let steer = self.steers.get(at).copied().flatten();
+            let steer = steer.map(|[x, y, power]| Steer { way: Vec2::new(x, y), power });
+            (Action::from_index(number.into()).unwrap_or(Action::Idle), steer)
+        })
+    }
+
+    /// Plays it: `each` is shown the start, and the environment after every step.
+    ///
+    /// # Errors
+    /// [`Error::Replay`] where it can't be played here, or comes to another end than it did.
+    pub fn play(&self, mut each: impl FnMut(&Environment, &[Action])) -> Result<Environment, Error> {
+        let mut environment = self.environment()?;
         let broken = |why: EpisodeError| Error::Episode(Box::new(why));
         match &self.from {
             Some(from) => environment.reset_from(from, Some(self.seed), Some(self.index)).map_err(|why| match why {
@@ -205,17 +243,16 @@ impl Replay {
         }
         each(&environment, &[]);
         let mut scratch = Scratch::default();
-        let mut actions = vec![Action::Idle; n_agents];
+        let mut actions = vec![Action::Idle; environment.n_agents()];
+        let mut acts = self.acts();
         for step in 0..self.length {
             if !environment.is_running() {
                 return Err(Error::Replay(ReplayError::Differs { step }));
             }
-            for (agent, action) in actions.iter_mut().enumerate() {
-                let at = step as usize * n_agents + agent;
-                let known = Action::from_index(self.acts[at].into());
-                *action = known.ok_or_else(|| corrupt(&format!("no action has the number {}", self.acts[at])))?;
-                if let Some(Some([x, y, power])) = self.steers.get(at) {
-                    environment.steer(agent, Some(Steer { way: Vec2::new(*x, *y), power: *power }));
+            for (agent, (action, act)) in actions.iter_mut().zip(acts.by_ref()).enumerate() {
+                *action = act.0;
+                if act.1.is_some() {
+                    environment.steer(agent, act.1);
                 }
             }
             environment.step(&actions, &mut scratch).map_err(|why| broken(why.into()))?;
@@ -226,6 +263,10 @@ impl Replay {
         }
         Ok(environment)
     }
+}
+
+fn corrupt(why: &dyn std::fmt::Display) -> Error {
+    Error::Replay(ReplayError::Corrupt(why.to_string()))
 }
 
 fn read(file: &[u8]) -> Result<Replay, ReplayError> {

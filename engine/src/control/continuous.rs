@@ -18,6 +18,10 @@ pub const HIGH: [f32; WIDTH] = [1.0; WIDTH];
 pub const KINDS: [Action; 6] =
     [Action::Idle, Action::ShortPass, Action::LongPass, Action::HighPass, Action::Shot, Action::Sliding];
 
+/// What rounding may leave a way longer than 1 that has been cut to it: cut again it would be another one, and a recorded
+/// way must mean itself.
+const ROUNDING: f32 = 1e-6;
+
 /// What four numbers mean, held within their bounds; none where one is no number.
 pub fn decode(values: [f32; WIDTH]) -> Option<(Steer, Action)> {
     if values.iter().any(|value| !value.is_finite()) {
@@ -29,7 +33,9 @@ pub fn decode(values: [f32; WIDTH]) -> Option<(Steer, Action)> {
     }
     let [x, y, kind, power] = held;
     let part = ((0.5 * kind + 0.5) * KINDS.len() as f32) as usize;
-    let steer = Steer { way: Vec2::new(x, y).clamp_length_max(1.0), power };
+    let way = Vec2::new(x, y);
+    let way = if way.length_squared() > 1.0 + ROUNDING { way.normalize() } else { way };
+    let steer = Steer { way, power };
     Some((steer, KINDS[part.min(KINDS.len() - 1)]))
 }
 
@@ -51,6 +57,11 @@ mod tests {
     fn a_way_is_at_most_a_sprint_and_must_be_a_number() {
         let (steer, _) = decode([1.0, -1.0, 0.0, 7.0]).unwrap();
         assert!((steer.way.length() - 1.0).abs() < 1e-6 && steer.power == 1.0);
+        for i in 0..1000 {
+            let (x, y) = (1.0 - 0.001 * i as f32, 1.0 - 0.0007 * i as f32);
+            let way = decode([x, y, 0.0, 0.0]).unwrap().0.way;
+            assert_eq!(decode([way.x, way.y, 0.0, 0.0]).unwrap().0.way, way, "cut twice");
+        }
         assert_eq!(decode([f32::NAN, 0.0, 0.0, 0.0]), None);
         assert_eq!(decode([0.0, 0.0, f32::INFINITY, 0.0]), None);
     }

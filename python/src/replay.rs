@@ -1,0 +1,104 @@
+//! Recorded episodes: what `setpiece.Replay` is made of.
+
+use crate::actions::ActionSet;
+use crate::environment::{Environment, SMM_SIZE, observable};
+use crate::errors;
+use crate::info::InfoOptions;
+use crate::scenario::Scenario;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use setpiece::files::read_file;
+use setpiece::replay::{REPLAY_MAX_BYTES, Replay as Recording};
+use setpiece::scenario::Action;
+use std::path::PathBuf;
+
+/// A recorded episode.
+#[pyclass(frozen, module = "setpiece._native")]
+pub(crate) struct Replay {
+    inner: Recording,
+}
+
+impl Replay {
+    pub(crate) fn inner(&self) -> &Recording {
+        &self.inner
+    }
+
+    /// The smallest set of actions that has all that was done.
+    fn set(&self) -> ActionSet {
+        if self.inner.acts().any(|(_, steer)| steer.is_some()) {
+            return ActionSet::Continuous;
+        }
+        let most = self.inner.acts().map(|(action, _)| action.index()).max().unwrap_or_default();
+        let sizes = [Action::DEFAULT_SET, Action::V2_SET, Action::FULL_SET];
+        ActionSet::Keys(sizes.into_iter().find(|size| most < *size).unwrap_or(Action::FULL_SET))
+    }
+}
+
+#[pymethods]
+impl Replay {
+    #[new]
+    #[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Replay> {
+        let read = || Recording::from_bytes(&read_file(&path, REPLAY_MAX_BYTES)?);
+        Ok(Replay { inner: py.detach(read).map_err(|error| errors::from_facade(py, &error))? })
+    }
+
+    /// The scenario, bound to the parameters that it was played with.
+    fn scenario(&self, py: Python<'_>) -> PyResult<Scenario> {
+        let scenario = self.inner.scenario().map_err(|error| errors::from_facade(py, &error))?;
+        Ok(Scenario::of(py, scenario))
+    }
+
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.inner.seed
+    }
+
+    #[getter]
+    fn index(&self) -> u64 {
+        self.inner.index
+    }
+
+    /// Steps.
+    #[getter]
+    fn length(&self) -> u32 {
+        self.inner.length
+    }
+
+    /// The fingerprint of its last state, 16 hexadecimal digits.
+    #[getter]
+    fn digest(&self) -> String {
+        format!("{:016x}", self.inner.digest)
+    }
+
+    /// The snapshot that it began in; None where it began as its scenario does.
+    #[getter]
+    fn snapshot<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyBytes>> {
+        self.inner.from().map(|from| PyBytes::new(py, from))
+    }
+
+    /// The name of the smallest set of actions that has all that was done.
+    #[getter]
+    fn action_set(&self) -> &'static str {
+        let set = self.set();
+        ActionSet::NAMED.iter().find(|(_, known)| *known == set).map_or("full", |(name, _)| name)
+    }
+
+    /// What the agents did, agent by agent, step by step: an action's number; x and y of the way, and the power, where
+    /// it steered.
+    #[getter]
+    fn acts(&self) -> Vec<(usize, Option<(f32, f32, f32)>)> {
+        let numbers = |(action, steer): (Action, Option<setpiece::engine::state::Steer>)| {
+            (action.index(), steer.map(|steer| (steer.way.x, steer.way.y, steer.power)))
+        };
+        self.inner.acts().map(numbers).collect()
+    }
+
+    /// An environment that it can be played in with `replayed`, before its start.
+    fn environment(&self, py: Python<'_>, observation: &str) -> PyResult<Environment> {
+        let engine = self.inner.environment().map_err(|error| errors::from_facade(py, &error))?;
+        let kind = observable(py, &engine, observation, SMM_SIZE)?;
+        let info = InfoOptions { actions: self.set(), events: true, bot_action: false };
+        Ok(Environment::around(py, engine, (kind, 1, true), info))
+    }
+}

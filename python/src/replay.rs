@@ -12,6 +12,9 @@ use setpiece::replay::{REPLAY_MAX_BYTES, Replay as Recording};
 use setpiece::scenario::Action;
 use std::path::PathBuf;
 
+/// What an agent did in a step: an action's number; x and y of the way, and the power, where it steered.
+type Numbers = (usize, Option<(f32, f32, f32)>);
+
 /// A recorded episode.
 #[pyclass(frozen, module = "setpiece._native")]
 pub(crate) struct Replay {
@@ -84,10 +87,9 @@ impl Replay {
         ActionSet::NAMED.iter().find(|(_, known)| *known == set).map_or("full", |(name, _)| name)
     }
 
-    /// What the agents did, agent by agent, step by step: an action's number; x and y of the way, and the power, where
-    /// it steered.
+    /// What the agents did, agent by agent, step by step.
     #[getter]
-    fn acts(&self) -> Vec<(usize, Option<(f32, f32, f32)>)> {
+    fn acts(&self) -> Vec<Numbers> {
         let numbers = |(action, steer): (Action, Option<setpiece::engine::state::Steer>)| {
             (action.index(), steer.map(|steer| (steer.way.x, steer.way.y, steer.power)))
         };

@@ -14,8 +14,8 @@ const EXPLAINED: &[(u16, &str)] = &[
     (447, "as C-421"),
     (
         530,
-        "their bots of difficulty .95 score little more against a random side than those of .6; ours shoot better as they \
-         get better, which the ladder of section 7 asks for",
+        "against a random side their bots of .95 win by 0.7 goals more than those of .6, ours by 1.1; between themselves \
+         both gain as much (section 7, and the pairings of section 4)",
     ),
 ];
 

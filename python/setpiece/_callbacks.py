@@ -81,7 +81,7 @@ def reward_names(rewards: Rewards) -> list[str] | None:
         raise ParameterError(
             f"`{_name(functions[0])}` can't pay here: many matches at once know the rewards of their file alone",
             name="rewards",
-            help="put environments of `setpiece.make` into a `gymnasium.vector.SyncVectorEnv`",
+            help="put environments of `setpiece.make` (one agent each) into a `gymnasium.vector.SyncVectorEnv`",
         )
     return names
 

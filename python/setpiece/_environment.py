@@ -22,6 +22,7 @@ from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
     check_number,
+    check_params,
     check_snapshot,
     one_thread,
     read_reset_options,
@@ -137,7 +138,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             raise ParameterError("a watched file says itself who plays: write it there", name="watch")
         self._watcher = Watcher(scenario, watch, on_reload) if watch else None
         found = self._watcher.scenario if self._watcher else scripted_scenario(scenario, self._scripted)
-        self._bound = dict(params or {})
+        self._bound = check_params(params) or {}
         # Whether another scenario must have the same agents, by name: PettingZoo's keep theirs.
         self._same_agents = False
         self._enter(self._ready(found))
@@ -149,6 +150,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._index = 0
         self._params: dict[str, ParamValue] = {}
         self._playing = False
+        self._closed = False
 
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Draws a new start and returns its observation and `info`.
@@ -171,6 +173,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         `DrawError` where no start meets the scenario's requirements, `CallbackError` where a reward or ending in Python
         fails. The environment keeps its scenario then.
         """
+        self._check_open()
         wanted = read_reset_options(options)
         switched = None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
         if seed is None and self._seed is None:
@@ -216,6 +219,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         opponent does, `CallbackError` where a reward or ending in Python does; after these three a `reset` begins anew.
         """
         if not self._playing:
+            self._check_open()
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
         if self._watcher is not None and self._watcher.at_once:
             self._enter(self._watcher.at_step(self._match, self._bound))
@@ -243,6 +247,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if not self._playing:
             self._sum_up(info)
         return observation, reward, terminated, truncated, info
+
+    def close(self) -> None:
+        """Ends it: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
+        self._playing, self._closed = False, True
+        super().close()
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise gymnasium.error.ClosedEnvironmentError("the environment is closed: make another one")
 
     def save_replay(self, path: str | PathLike[str]) -> None:
         """Writes the episode as far as it has been played: `setpiece replay FILE` plays it again, bit for bit.

@@ -195,6 +195,16 @@ class CallbackError(SetpieceError, RuntimeError):
         self.function, self.agent = function, agent
 
 
+class GrfScriptError(SetpieceError, RuntimeError):
+    """A script of Google Research Football's form failed: `__cause__` is what it raised, `path` the script."""
+
+    path: str
+
+    def __init__(self, message: str, *, path: str = "", code: str | None = None, help: str | None = None) -> None:
+        super().__init__(message, code=code, help=help)
+        self.path = path
+
+
 class MissingPackageError(SetpieceError, ImportError):
     """An optional package isn't installed; `name` says which, `help` how to get it."""
 

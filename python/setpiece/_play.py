@@ -76,7 +76,7 @@ def play(
       as the left team. Else anything that `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, the
       path of an `.onnx` or `.rhai` file; a policy sees `simple115v2` where it doesn't say.
     - `left`, `right`: how many play on each side, as in `setpiece.make`; None: as the scenario says, or where it leaves
-      a side without agents, one on each, who is always the player nearest the ball.
+      a side without agents, one on each, or one against the other side's, who is always the player nearest the ball.
     - `seed`, `params`, `rewards`: as in `setpiece.make`.
     - `on_error`: `"raise"` raises the `OpponentError` of an agent that fails; with `"lose"` it loses, and the error
       stands in `errors`.
@@ -94,8 +94,13 @@ def play(
     agents = {side: _opponent(agent, clock) for side, agent in zip(SIDES, (left_agent, right_agent), strict=True)}
     scripted = behaviors(agents)
     chosen = scripted_scenario(scenario, scripted)
-    if left is None and right is None and {agent.team for agent in FootballEnv(chosen).slots} != {0, 1}:
+    seated = {agent.team for agent in FootballEnv(chosen, left=left, right=right).slots}
+    if left is None and right is None and seated != {0, 1}:
         left = right = 1
+    elif left is None and 0 not in seated:
+        left = 1
+    elif right is None and 1 not in seated:
+        right = 1
     env = FootballEnv(
         chosen, left=left, right=right, observation="raw", params=params, rewards=rewards, action_set="v2"
     )
@@ -126,7 +131,8 @@ def _played(env: FootballEnv, table: Table, seed: int, clock: _Clock, on_error: 
             observation, reward, _, _, info = env.step(actions[-1] if len(actions[-1]) > 1 else actions[-1][0])
             paid += reward
             clock.steps += 1
-    left, right = (float(paid[[agent.team == team for agent in env.slots]].mean()) for team in (0, 1))
+    sides = (paid[[agent.team == team for agent in env.slots]] for team in (0, 1))
+    left, right = (float(side.mean()) if side.size else 0.0 for side in sides)
     score = (info["score"][0], info["score"][1])
     return Played(
         score=score,

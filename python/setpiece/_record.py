@@ -25,7 +25,11 @@ class Record:
             raise ParameterError(
                 f"`record_when` is {when!r}; it can be 'always', 'goal' or a count", name="record_when"
             )
+        if not isinstance(folder, str | PathLike):
+            raise ParameterError(f"expected a folder as `record`, found `{folder!r}`", name="record")
         self._folder, self._when = Path(folder), when
+        # Now, not when an episode has been played that can't be written.
+        make_folder(self._folder)
         self._ended = 0
 
     def end(self, native: _native.Environment, name: str, score: Sequence[int]) -> str | None:
@@ -54,8 +58,16 @@ class Record:
 
 def write(path: Path, replay: bytes) -> None:
     """Writes a replay and the folders it lies in."""
+    make_folder(path.parent)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(replay)
     except OSError as error:
         raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from None
+
+
+def make_folder(folder: Path) -> None:
+    """Makes a folder and those it lies in, where they aren't there; `FileError` where it can't."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(f"`{folder}` can't be written: {error.strerror}", path=str(folder)) from None

@@ -98,7 +98,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         )
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
-        self.scenario = load(scenario).with_params(**dict(params or {}))
+        self.scenario = load(scenario).with_params(**(check_params(params) or {}))
         self._observation = check_observation(observation)
         self._stack = check_stack(stack, self._observation)
         self._batch = _native.Batch(
@@ -140,6 +140,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
         Raises `ParameterError` for other options, `DrawError` where no start meets the scenario's requirements.
         """
+        self._check_open()
         mask, params, episode = self._read_options(options)
         if seed is None and not self._begun:
             seed = self._first_seed
@@ -161,6 +162,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         Raises `ActionError` for actions of another shape or number, and nothing has been played then; `ScriptError`
         where a script of the scenario fails: its episode has ended, the others have been played.
         """
+        self._check_open()
         if not self._begun:
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
         if self._over.any() and self.autoreset_mode == AutoresetMode.DISABLED:
@@ -259,6 +261,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
         """The array without the axis of agents where there is one agent."""
         return array[:, 0] if self._agents == 1 else array
+
+    def _check_open(self) -> None:
+        if self.closed:
+            raise gymnasium.error.ClosedEnvironmentError("the environments are closed: make others")
 
     def _read_options(
         self, options: dict[str, Any] | None

@@ -3,6 +3,7 @@ import pickle
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -616,3 +617,27 @@ def test_bots_among_themselves(observation: str) -> None:
     with pytest.raises(setpiece.ActionError, match="nobody acts"):
         env.step(5)
     assert pickle.loads(pickle.dumps(env)).step([])[4]["score"] == [0, 0]
+
+
+@pytest.mark.parametrize("kind", ["single", "vector", "parallel"])
+def test_what_is_closed_says_so(kind: str) -> None:
+    made: dict[str, Callable[[], Any]] = {
+        "single": lambda: setpiece.make("academy_corner"),
+        "vector": lambda: setpiece.make_vec("academy_corner", 2),
+        "parallel": lambda: setpiece.parallel_env("academy_corner"),
+    }
+    env = made[kind]()
+    env.reset(seed=1)
+    env.close()
+    env.close()
+    with pytest.raises(gymnasium.error.ClosedEnvironmentError, match="closed"):
+        env.reset()
+    if kind != "parallel":
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError, match="closed"):
+            env.step([0, 0] if kind == "vector" else 0)
+
+
+@pytest.mark.parametrize("maker", [setpiece.make, setpiece.parallel_env, partial(setpiece.make_vec, num_envs=2)])
+def test_parameters_are_a_mapping(maker: Callable[..., Any]) -> None:
+    with pytest.raises(setpiece.ParameterError, match="expected `params` as a mapping"):
+        maker("academy_corner", params=[1])

@@ -522,3 +522,20 @@ def test_the_level_of_a_whole_team_shows_one_player() -> None:
     (seen,) = env.reset()
     assert seen["active"] == seen["designated"]
     assert env.unwrapped._config.number_of_left_players() == 11
+
+
+@pytest.mark.parametrize(
+    ("script", "why"),
+    [
+        ("def build_scenario(builder):\n    raise ValueError('hm')\n", "ValueError: hm"),
+        ("def build_scenario(builder)\n", "SyntaxError"),
+        ("import sys\nsys.exit(3)\n", "SystemExit: 3"),
+    ],
+)
+def test_a_script_that_fails_is_named(tmp_path: Path, script: str, why: str) -> None:
+    path = tmp_path / "broken.py"
+    path.write_text(script)
+    with pytest.raises(setpiece.GrfScriptError, match=why) as caught:
+        create_environment(str(path)).reset()
+    assert "broken.py` failed" in str(caught.value)
+    assert main(["grf", str(path)]) == 1

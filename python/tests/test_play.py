@@ -137,3 +137,13 @@ def test_options_that_are_not_there() -> None:
     assert setpiece.play(setpiece.load(DUEL), runner, runner).length > 0
     with pytest.raises(setpiece.UnknownScenarioError):
         setpiece.play("1_vs_1_eazy", runner, runner)
+
+
+def test_who_tells_one_side_alone_meets_one_of_the_other() -> None:
+    def still(observation: dict[str, Any]) -> list[int]:
+        return [0] * observation["controlled_players"]
+
+    played = setpiece.play("academy_corner", still, still, left="all")
+    assert [slot.split("_")[0] for slot in played.slots].count("right") == 1
+    nobody = setpiece.play("academy_empty_goal_close", "bot", "bot", left=1, right=0)
+    assert nobody.rewards[1] == 0.0

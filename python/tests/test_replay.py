@@ -140,3 +140,11 @@ def test_a_vector_says_that_it_records_nothing(tmp_path: Path) -> None:
     with pytest.raises(setpiece.UnavailableError, match="a vector records no replays") as caught:
         setpiece.make_vec(CLOSE, 2, record=tmp_path)
     assert caught.value.name == "record"
+
+
+def test_a_folder_that_can_not_be_made_is_told_at_once(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(setpiece.FileError, match="can't be written"):
+        setpiece.make(CLOSE, record=tmp_path / "file")
+    with pytest.raises(setpiece.ParameterError, match="expected a folder"):
+        setpiece.make(CLOSE, record=3)  # type: ignore[arg-type]

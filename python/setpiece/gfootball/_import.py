@@ -23,8 +23,8 @@ LATER = (3, 4, 5, 6)
 def import_script(path: str) -> str:
     """Returns the text of a script's file; it compiles, and is laid out as `setpiece fmt` does.
 
-    Raises `FileError`, `TranslationError` for what a text can't say, `CompileError` for what no scenario may say, and
-    whatever the script raises.
+    Raises `FileError`, `TranslationError` for what a text can't say, `CompileError` for what no scenario may say,
+    `GrfScriptError` where the script fails.
     """
     script = script_of(load_script(path), path)
     even, odd = record(script, EVEN), record(script, ODD)
@@ -78,10 +78,6 @@ def main(arguments: Sequence[str]) -> int:
             _write(parsed.output, text)
     except SetpieceError as error:
         sys.stderr.write(f"{error}\n")
-        return 1
-    except Exception as error:
-        # Whatever the script of a user raises, told by its own name.
-        sys.stderr.write(f"`{parsed.file}` failed: {type(error).__name__}: {error}\n")
         return 1
     return 0
 

@@ -6,7 +6,8 @@ import importlib
 import importlib.util
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -15,7 +16,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import setpiece
-from setpiece._errors import FileError, ParameterError, SetpieceError, UnknownScenarioError
+from setpiece._errors import FileError, GrfScriptError, ParameterError, SetpieceError, UnknownScenarioError
 from setpiece.gfootball import scenarios
 from setpiece.gfootball._translation import identifier, to_pitch
 from setpiece.gfootball._words import similar
@@ -92,9 +93,13 @@ class Recorder:
 
 
 def record(script: Script, episode_number: int) -> ScenarioConfig:
-    """Runs a script for one episode and returns what it set; a team without players gets a lazy keeper, as in GRF."""
+    """Runs a script for one episode and returns what it set; a team without players gets a lazy keeper, as in GRF.
+
+    Raises `GrfScriptError` where the script fails.
+    """
     recorder = Recorder(episode_number)
-    script(recorder)
+    with _running(getattr(getattr(script, "__code__", None), "co_filename", repr(script))):
+        script(recorder)
     for team in (recorder.recorded.left_team, recorder.recorded.right_team):
         if not team:
             team.append(FormationEntry((-1.0, 0.42), PlayerRole.e_PlayerRole_GK, lazy=True))
@@ -212,12 +217,23 @@ def find(level: object) -> Source | Script:
 def load_script(path: str) -> ModuleType:
     """Runs the file of a script as a module of the package of scenarios, so that `from . import *` works in it.
 
-    Raises `FileError` where there is no such file.
+    Raises `FileError` where there is no such file, `GrfScriptError` where it fails.
     """
     file = Path(path)
     if not file.is_file():
         raise FileError(f"no file `{path}`", path=path)
     return _load_script(str(file.resolve()), file.stat().st_mtime_ns)
+
+
+@contextmanager
+def _running(path: str) -> Iterator[None]:
+    """Whatever a user's script raises, an exit too, is told with its name."""
+    try:
+        yield
+    except SetpieceError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise GrfScriptError(f"`{path}` failed: {type(error).__name__}: {error}", path=path) from error
 
 
 @lru_cache(maxsize=64)
@@ -227,7 +243,8 @@ def _load_script(path: str, _changed: int) -> ModuleType:
     if spec is None or spec.loader is None:
         raise FileError(f"`{path}` is no Python file", path=path)
     module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    with _running(path):
+        spec.loader.exec_module(module)
     return module
 
 

@@ -31,9 +31,6 @@ const LIFT_M: f32 = 0.05;
 const KICK_MPS: f32 = 36.0;
 /// The most that a player moves in a tick, metres.
 const STRIDE_M: f32 = 0.24;
-/// How near two men on their feet, who have stood apart, come to each other, metres: in a crowd that presses them into a
-/// corner, far into each other; they never change sides.
-const NEAREST_M: f32 = 0.05;
 /// How near a player's middle comes to a net or post, metres.
 const NET_M: f32 = 0.2;
 
@@ -78,7 +75,8 @@ impl Film {
         circle(now)
     }
 
-    /// Two men on their feet don't run through each other.
+    /// Two men on their feet don't run through each other: however far a crowd presses them into each other, they never
+    /// change sides.
     pub(super) fn pair(&mut self, was: &Match, now: &Match, i: usize, j: usize) -> Result<(), Failure> {
         let between = |game: &Match| game.players[j].pos - game.players[i].pos;
         let (from, to) = (between(was), between(now));
@@ -86,8 +84,7 @@ impl Film {
         if !up {
             self.apart[i] &= !(1 << j);
         } else if self.apart[i] & (1 << j) != 0 {
-            let (near, far) = (to.length(), from.dot(to));
-            must(near >= NEAREST_M && far > 0.0, || format!("players {i} and {j} come through: {from} to {to}"))?;
+            must(from.dot(to) > 0.0, || format!("players {i} and {j} come through: {from} to {to}"))?;
         } else if to.length() >= separation::CONTACT_M {
             self.apart[i] |= 1 << j;
         }

@@ -124,7 +124,7 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
     let chance = if point.truncate().distance(player.pos) < BODY_M {
         0.95
     } else if ratio < 1.0 {
-        (1.0 - 0.26 * ratio * ratio) * timely * skill
+        (1.0 - 0.15 * ratio * ratio) * timely * skill
     } else {
         0.0
     };

@@ -52,8 +52,7 @@ pub fn decide(game: &mut Match, view: &View, id: PlayerId) {
     if player.body.kick.is_some() || now < player.body.mind.decide_at_step {
         return;
     }
-    let slow = u32::from(player.body.level < 0.6);
-    game.players[id.index()].body.mind.decide_at_step = now + PAUSE_STEPS + slow;
+    game.players[id.index()].body.mind.decide_at_step = now + PAUSE_STEPS;
     let choice = best(game, view, id, true);
     perform(game, view, id, choice);
 }

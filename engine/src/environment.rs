@@ -229,6 +229,17 @@ impl Environment {
         Ok(StepResult { terminated, truncated })
     }
 
+    /// Ends the episode where it stands, for a reason that is the caller's own: as an ending of the scenario would, in
+    /// the place of its limit where that was reached in the same step. Does nothing before an episode's first step and
+    /// where an ending of the scenario has ended it.
+    pub fn end(&mut self, outcome: Outcome) {
+        let ended = self.outcome.as_ref().is_some_and(|outcome| !outcome.truncated);
+        if self.started && self.game.step > 0 && !ended {
+            self.running = false;
+            self.outcome = Some(outcome);
+        }
+    }
+
     /// Steers an agent's player from the next step on: a way of any angle and pace in the place of a held direction,
     /// until a direction is pressed. Does nothing for no such agent.
     pub fn steer(&mut self, agent: usize, steer: Option<Steer>) {

@@ -94,18 +94,11 @@ def read_ends(ends: Ends) -> list[EndFunction]:
     return [*given]
 
 
-@dataclass
-class Tally:
-    """What an episode has paid by term, a float or float64 `(n,)`, and its steps: since its `reset` or `restore`."""
-
-    paid: dict[str, Any]
-    steps: int
-
-
 class Callbacks:
     """The rewards and endings in Python of one environment, and what they need to remember."""
 
-    tally: Tally
+    tally: dict[str, Any]
+    """What each function has paid since the last `reset` or `restore`: a float, or float64 `(n,)`."""
 
     def __init__(
         self, rewards: Sequence[RewardFunction], ends: Sequence[EndFunction], *, show_events: bool = False
@@ -122,7 +115,7 @@ class Callbacks:
             )
         self._show_events = show_events
         self._before: list[dict[str, Any]] = []
-        self.tally = Tally({}, 0)
+        self.tally = {}
 
     def begin(self, views: list[dict[str, Any]], info: dict[str, Any]) -> None:
         """Begins an episode; adds the functions' terms to its first `info`."""
@@ -146,7 +139,7 @@ class Callbacks:
         if "setpiece" in info:
             info["setpiece"]["return"].update({name: _shaped(nothing) for name in self.rewards})
         self._before = views
-        self.tally = Tally(dict.fromkeys(info["reward_terms"], 0.0), 0)
+        self.tally = dict.fromkeys(self.rewards, 0.0)
 
     def judge(
         self,
@@ -154,11 +147,12 @@ class Callbacks:
         action: Any,
         views: list[dict[str, Any]],
         result: tuple[Any, bool, bool, dict[str, Any]],
+        end: Callable[[str], dict[str, Any]],
     ) -> tuple[Any, bool, bool, dict[str, Any]]:
         """Judges a step of these agents: takes and returns reward, terminated, truncated and `info`.
 
-        Puts the functions' terms into `info`, and where one of them ends the episode the outcome and a summary. Raises
-        `CallbackError`.
+        Puts the functions' terms into `info`. Where one of them ends the episode, `end` ends the match with its label
+        and returns what the last `info` tells of that. Raises `CallbackError`.
         """
         reward, terminated, truncated, info = result
         events = self._events_of(info)
@@ -174,13 +168,12 @@ class Callbacks:
         paid = {name: [_paid(function, step) for step in steps] for name, function in self.rewards.items()}
         self._before = views
         info["reward_terms"].update({name: _shaped(values) for name, values in paid.items()})
-        sums = {name: self.tally.paid[name] + value for name, value in info["reward_terms"].items()}
-        self.tally = Tally(sums, self.tally.steps + 1)
+        self.tally = {name: self.tally[name] + info["reward_terms"][name] for name in self.rewards}
         if label is not None:
             terminated, truncated = True, False
-            self._end(label, info)
+            info.update(end(label))
         if "setpiece" in info:
-            info["setpiece"]["return"].update({name: sums[name] for name in self.rewards})
+            info["setpiece"]["return"].update(self.tally)
         for values in paid.values():
             reward = reward + (values[0] if len(values) == 1 else np.array(values, np.float32))
         return reward, terminated, truncated, info
@@ -206,13 +199,6 @@ class Callbacks:
             elif verdict:
                 return _name(function)
         return None
-
-    def _end(self, label: str, info: dict[str, Any]) -> None:
-        """Writes the end of an episode that the file's own endings haven't ended, or have by the limit alone."""
-        info["outcome"] = label
-        info.setdefault("records", {})
-        info.setdefault("setpiece", {"return": dict(self.tally.paid), "length": self.tally.steps})
-        info["setpiece"]["success"] = label == "success"
 
 
 def _name(function: Callable[..., Any]) -> str:

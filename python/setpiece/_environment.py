@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._callbacks import Callbacks, Ends, Rewards, Tally, read_ends, read_rewards, rewards_of
+from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards, rewards_of
 from setpiece._errors import CallbackError, InUseError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
@@ -233,7 +233,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 reward = self._table.paid(reward)
             if self._callbacks is not None:
                 reward, terminated, truncated, info = self._callbacks.judge(
-                    self._match.slots, given, self._match.views(), (reward, terminated, truncated, info)
+                    self._match.slots,
+                    given,
+                    self._match.views(),
+                    (reward, terminated, truncated, info),
+                    self._match.end,
                 )
         except (ScriptError, OpponentError, CallbackError):
             self._playing = False
@@ -427,9 +431,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _sum_up(self, info: dict[str, Any]) -> None:
         """Completes the summary of an episode that has ended."""
-        summary, episode = info["setpiece"], self._native.episode
-        if episode is not None:
-            summary["seed"], summary["index"] = episode
+        summary = info["setpiece"]
         summary["scenario"] = self._match.digest
         if self._record is not None:
             summary["replay"] = self._record.end(self._native, self.scenario.name, info["score"])
@@ -469,7 +471,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 def _revived(
     kwargs: dict[str, Any],
     snapshot: tuple[bytes, bytes] | None,
-    tally: Tally | None,
+    tally: dict[str, Any] | None,
     attributes: dict[str, Any],
 ) -> FootballEnv:
     """Returns the environment of a copy or pickle."""

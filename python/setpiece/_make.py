@@ -71,13 +71,12 @@ def make(
       scenario says.
     - `rewards`: names that replace the scenario's own choice: `"scoring,checkpoints"` or a list; functions in the list
       pay beside them, or beside the scenario's own choice where there are no names; `"none"` is no reward of the
-      scenario. A function gets a `Step` of one
-      agent and returns a finite number; it is called for each of the caller's agents, its term is its name. An object
-      with `__call__` may have a `reset()`, called when an episode begins.
+      scenario. A function gets a `Step` of one agent and returns a finite number; it is called for each of the
+      caller's agents, its term is its name. An object with `__call__` may have a `reset()`, called when an episode
+      begins.
     - `ends`: functions that end episodes beside the scenario's endings, asked after these and before its limit. They
       get the `Step` of the first of the caller's agents and return False or None, True (the outcome is the function's
-      name) or the outcome as a string. `"success"` counts as one; `info["setpiece"]` has no `digest` or `faults` then,
-      and `records` are empty. A function that fails raises `CallbackError`.
+      name) or the outcome as a string; `"success"` counts as one. A function that fails raises `CallbackError`.
     - `params`: parameters to bind: SI units, or strings as the language writes them.
     - `seed`: the seed of the first `reset` that gets none.
     - `events`: whether `info["events"]` lists what happened in each step.

@@ -9,9 +9,8 @@ from typing import Any
 from gymnasium import spaces
 
 from setpiece import _native
-from setpiece._errors import ParameterError
 from setpiece._native import AgentInfo, Scenario
-from setpiece._opponents import Opponent, Table
+from setpiece._opponents import Opponent, Table, native_action_set
 from setpiece._spaces import action_space, difference, observation_space
 
 
@@ -39,6 +38,11 @@ class Match:
         """Returns the caller's part of what all agents see."""
         return (observation, info) if self.table is None else self.table.shown(observation, info)
 
+    def end(self, label: str) -> dict[str, Any]:
+        """Ends the episode for a reason of the caller's; returns what the last `info` tells the caller of that."""
+        told = self.native.end(label, label == "success")
+        return told if self.table is None else self.table.told(told)
+
     def views(self) -> list[dict[str, Any]]:
         """Returns the raw observation of each of the caller's agents."""
         raws = self.native.look("raw")
@@ -64,15 +68,9 @@ class Match:
 def match_of(scenario: Scenario, opponents: Mapping[str, Opponent] | None, options: Mapping[str, Any]) -> Match:
     """Makes a scenario ready; `options` are those of the native environment."""
     observation, action_set = options["observation"], options["action_set"]
-    # Opponents may hand a step over to the bot, whatever the caller may.
-    narrow = opponents is not None and action_set == "default"
-    native = _native.Environment(scenario, **{**options, **({"action_set": "v2"} if narrow else {})})
+    native = _native.Environment(scenario, **{**options, "action_set": native_action_set(action_set, opponents)})
     agents, table = native.agents, None
     if opponents is not None:
-        if action_set == "continuous":
-            raise ParameterError(
-                "beside opponents the caller presses keys: continuous actions are for all agents", name="action_set"
-            )
         table = Table(agents, opponents, observation, _native.ACTION_SETS[action_set])
         agents = [agents[at] for at in table.mine]
         for kind in table.observations:

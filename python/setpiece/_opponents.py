@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Literal, TypeGuard
@@ -17,6 +16,7 @@ from setpiece._onnx import onnx_policy
 from setpiece._rows import Picker, pick_info
 from setpiece._spaces import check_observation
 from setpiece._vocabulary import Action
+from setpiece._words import similar
 
 SIDES: tuple[Literal["left"], Literal["right"]] = ("left", "right")
 BOT = "bot"
@@ -65,8 +65,17 @@ def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] |
     return {who: BOT if who in scripted else one for who, one in _read(opponents).items()} or None
 
 
+def native_action_set(action_set: str, opponents: Mapping[str, Opponent] | None) -> str:
+    """Returns the set of everyone's actions: opponents may hand a step over to the bot, whatever the caller may."""
+    if opponents is not None and action_set == "continuous":
+        raise ParameterError(
+            "beside opponents the caller presses keys: continuous actions are for all agents", name="action_set"
+        )
+    return "v2" if opponents is not None and action_set == "default" else action_set
+
+
 @dataclass(frozen=True)
-class _Seat:
+class Seat:
     """Agents that one opponent plays."""
 
     agents: tuple[str, ...]
@@ -80,17 +89,25 @@ class _Seat:
 class Table:
     """The agents of a match, some of them the caller's, each other one with the opponent who plays it."""
 
+    n_agents: int
+    """How many agents there are."""
+    n_actions: int
+    """How many actions the caller has."""
+    kind: str
+    """What the caller sees, and an opponent who asks for nothing else."""
     mine: list[int]
     """The caller's agents, among all."""
+    seats: list[Seat]
+    """The opponents that are asked: the engine plays the others."""
 
     def __init__(
         self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], observation: str, n_actions: int
     ) -> None:
-        self._n, self._n_actions, self._kind = len(agents), n_actions, observation
+        self.n_agents, self.n_actions, self.kind = len(agents), n_actions, observation
         owner = _owners(agents, _read(opponents))
-        self.mine = [at for at in range(self._n) if at not in owner]
-        self._pick = Picker(self._n, self.mine[0] if len(self.mine) == 1 else self.mine)
-        self._seats = []
+        self.mine = [at for at in range(self.n_agents) if at not in owner]
+        self._pick = Picker(self.n_agents, self.mine[0] if len(self.mine) == 1 else self.mine)
+        self.seats = []
         for who, opponent in opponents.items():
             at = [slot for slot, key in owner.items() if key == who]
             if not at or _is_word(opponent):
@@ -99,18 +116,22 @@ class Table:
             ids = tuple(agents[slot].id for slot in at)
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
-            self._seats.append(_Seat(ids, at, Picker(self._n, at), policy, _function(policy), side))
+            self.seats.append(Seat(ids, at, Picker(self.n_agents, at), policy, _function(policy), side))
         self._seen: Any = None
 
     @property
     def observations(self) -> set[str]:
         """What the opponents see beside the caller's own observation."""
-        return {seat.policy.observation for seat in self._seats if seat.policy.observation} - {self._kind}
+        return {seat.policy.observation for seat in self.seats if seat.policy.observation} - {self.kind}
 
     def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
         """Returns the caller's part of what all agents see, and keeps the rest for the opponents."""
         self._seen = observation
-        return self._pick(observation), pick_info(info, self._pick, self._n, self._n_actions)
+        return self._pick(observation), self.told(info)
+
+    def told(self, info: dict[str, Any]) -> dict[str, Any]:
+        """Returns the caller's part of what an `info` tells of everyone."""
+        return pick_info(info, self._pick, self.n_agents, self.n_actions)
 
     def paid(self, reward: Any) -> Any:
         """Returns the caller's part of the rewards."""
@@ -119,7 +140,7 @@ class Table:
 
     def mask(self, mask: Any) -> Any:
         """Returns the caller's part of everyone's masks."""
-        return self._pick(mask)[..., : self._n_actions]
+        return self._pick(mask)[..., : self.n_actions]
 
     def actions(self, action: Any, look: Callable[[str], Any]) -> list[int]:
         """Returns everyone's action: the caller's, and what the opponents say to the last thing shown.
@@ -127,24 +148,24 @@ class Table:
         `look` observes the match in another observation. Raises `ActionError` for the caller's action, `OpponentError`
         where an opponent fails.
         """
-        all_actions = [int(Action.BUILTIN_AI)] * self._n
+        all_actions = [int(Action.BUILTIN_AI)] * self.n_agents
         for at, one in zip(self.mine, self._read_actions(action), strict=True):
             all_actions[at] = one
-        looks = {self._kind: self._seen}
-        for seat in self._seats:
-            kind = seat.policy.observation or self._kind
+        looks = {self.kind: self._seen}
+        for seat in self.seats:
+            kind = seat.policy.observation or self.kind
             if kind not in looks:
                 looks[kind] = look(kind)
-            for at, one in zip(seat.at, _ask(seat, seat.pick(looks[kind])), strict=True):
+            for at, one in zip(seat.at, ask(seat, seat.pick(looks[kind]), len(seat.at)), strict=True):
                 all_actions[at] = one
         return all_actions
 
     def _read_actions(self, action: Any) -> list[int]:
-        actions = integers(action, len(self.mine), self._n_actions, alone=len(self.mine) == 1)
+        actions = integers(action, len(self.mine), self.n_actions, alone=len(self.mine) == 1)
         if actions is None:
             n = len(self.mine)
             what = "an integer" if n == 1 else f"{n} actions, integers"
-            raise ActionError(f"expected {what} in 0..{self._n_actions - 1}, found `{action!r}`")
+            raise ActionError(f"expected {what} in 0..{self.n_actions - 1}, found `{action!r}`")
         return actions
 
 
@@ -164,17 +185,17 @@ def integers(value: Any, n: int, n_actions: int, *, alone: bool = False) -> list
     return actions
 
 
-def _ask(seat: _Seat, seen: Any) -> list[int]:
-    """Lets an opponent play its agents."""
+def ask(seat: Seat, seen: Any, n: int) -> list[int]:
+    """Returns the n actions of an opponent for what its agents see, row by row; raises `OpponentError`."""
     try:
         given = seat.play(seen) if seat.policy.batched else [seat.play(one) for one in seen]
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
         raise OpponentError(f"the opponent {_whose(seat)} {why}", slots=seat.agents, side=seat.side) from error
-    actions = integers(given, len(seat.at), ACTION_SETS["v2"])
+    actions = integers(given, n, ACTION_SETS["v2"])
     if actions is None:
         found = given if seat.policy.batched or len(given) != 1 else given[0]
-        what = f"{len(seat.at)} actions, integers" if seat.policy.batched else "an integer"
+        what = f"{n} actions, integers" if seat.policy.batched else "an integer"
         last = ACTION_SETS["v2"] - 1
         raise OpponentError(
             f"the opponent {_whose(seat)} gave no action: expected {what} in 0..{last}, found `{found!r}`",
@@ -184,7 +205,7 @@ def _ask(seat: _Seat, seen: Any) -> list[int]:
     return actions
 
 
-def _whose(seat: _Seat) -> str:
+def _whose(seat: Seat) -> str:
     return f"of {', '.join(f'`{agent}`' for agent in seat.agents)}"
 
 
@@ -213,11 +234,10 @@ def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> d
         elif who in ids:
             owner[ids.index(who)] = who
         else:
-            similar = get_close_matches(str(who), [*SIDES, *ids], n=1)
             raise ParameterError(
                 f"no agent `{who}`; opponents play `left`, `right` or one of {', '.join(f'`{one}`' for one in ids)}",
                 name="opponents",
-                help=f"did you mean `{similar[0]}`?" if similar else None,
+                help=similar(who, [*SIDES, *ids]),
             )
     return dict(sorted(owner.items()))
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from difflib import get_close_matches
 from operator import index
 from typing import Any
 
 from setpiece._errors import InUseError, ParameterError
 from setpiece._source import Source
+from setpiece._words import similar
 
 ParamValue = bool | int | float | str
 """A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
@@ -48,11 +48,10 @@ def check_keys(options: Mapping[str, Any] | None, known: tuple[str, ...]) -> Map
         raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
     for key in options:
         if key not in known:
-            similar = get_close_matches(str(key), known, n=1)
             raise ParameterError(
                 f"no reset option `{key}`; there are `{'`, `'.join(known)}`",
                 name=str(key),
-                help=f"did you mean `{similar[0]}`?" if similar else None,
+                help=similar(key, known),
             )
     return options
 

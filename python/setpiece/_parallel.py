@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Mapping
-from difflib import get_close_matches
 from os import PathLike
 from typing import Any
 
@@ -25,6 +24,7 @@ from setpiece._rows import Picker, split_info
 from setpiece._spaces import observation_space, one_action_space
 from setpiece._state import state, state_space
 from setpiece._vocabulary import Action
+from setpiece._words import similar
 
 SWITCHING = re.compile(r"(left|right)_\d+")
 """The id of an agent that changes players."""
@@ -170,11 +170,10 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     def _known(self, agent: str) -> str:
         if agent in self._pickers:
             return agent
-        similar = get_close_matches(str(agent), self.possible_agents, n=1)
         raise ParameterError(
             f"no agent `{agent}`; there are {', '.join(f'`{one}`' for one in self.possible_agents)}",
             name="agent",
-            help=f"did you mean `{similar[0]}`?" if similar else None,
+            help=similar(agent, self.possible_agents),
         )
 
     def _begun(self, observation: Any, info: dict[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
@@ -204,10 +203,9 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         for agent in actions:
             if agent not in self.agents:
                 gone = agent in self._pickers
-                similar = get_close_matches(str(agent), self.agents, n=1)
                 raise ActionError(
                     f"an action for `{agent}`, who {'plays no more' if gone else 'is no agent'}",
-                    help=f"did you mean `{similar[0]}`?" if similar and not gone else None,
+                    help=None if gone else similar(agent, self.agents),
                 )
         for agent in self.agents:
             if agent not in actions:

@@ -31,8 +31,11 @@ class Picker:
 
 def pick_info(info: dict[str, Any], pick: Picker, n_agents: int, n_actions: int) -> dict[str, Any]:
     """Returns the info with what tells of agents picked; masks are those of the first `n_actions` actions."""
-    picked = {**info, "reward_terms": {name: pick(paid) for name, paid in info["reward_terms"].items()}}
-    picked["action_mask"] = pick(info["action_mask"])[..., :n_actions]
+    picked = dict(info)
+    if "reward_terms" in info:
+        picked["reward_terms"] = {name: pick(paid) for name, paid in info["reward_terms"].items()}
+    if "action_mask" in info:
+        picked["action_mask"] = pick(info["action_mask"])[..., :n_actions]
     if "bot_action" in info:
         picked["bot_action"] = pick(info["bot_action"])
     if "setpiece" in info:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from math import isfinite
 from numbers import Real
 from typing import Any, TypedDict
@@ -11,6 +10,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from setpiece._errors import ParameterError
+from setpiece._words import similar
 
 Value = bool | float | str | Sequence[Any] | Mapping[str, Any]
 """A value: True and False are `on` and `off`, a tuple is `(a, b)`, a dict `{ key: value }`; a string is the language's
@@ -209,11 +209,10 @@ def _check_keys(given: object, known: tuple[str, ...], where: str) -> None:
         raise _wrong(where, "a dict", given)
     for key in given:
         if key not in known:
-            similar = get_close_matches(str(key), known, n=1)
             raise ParameterError(
                 f"a {where} has no `{key}`; it has `{'`, `'.join(known)}`",
                 name=str(key),
-                help=f"did you mean `{similar[0]}`?" if similar else None,
+                help=similar(key, known),
             )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from difflib import get_close_matches
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._errors import ParameterError
+from setpiece._words import check_word
 
 COUNT_MAX = 2**32 - 1
 """Greatest count of goals or steps: the engine counts in 32 bits."""
@@ -70,12 +70,12 @@ Layout = tuple[Block, ...] | tuple[Key, ...]
 def check_observation(name: object) -> str:
     """Returns the name of an observation, or raises `ParameterError`."""
     name = ALIASES.get(name, name) if isinstance(name, str) else name
-    return _check_name("observation", name, OBSERVATIONS)
+    return check_word("observation", name, OBSERVATIONS)
 
 
 def check_action_set(name: object) -> str:
     """Returns the name of a set of actions, or raises `ParameterError`."""
-    return _check_name("action_set", name, tuple(_native.ACTION_SETS))
+    return check_word("action_set", name, tuple(_native.ACTION_SETS))
 
 
 def check_stack(stack: object, observation: str) -> int:
@@ -96,17 +96,6 @@ def check_size(size: object) -> tuple[int, int]:
     ):
         return int(size[0]), int(size[1])
     raise ParameterError(f"`size` is {size!r}; it can be (width, height), each in 1..{SIZE_MAX}", name="size")
-
-
-def _check_name(option: str, name: object, known: tuple[str, ...]) -> str:
-    if isinstance(name, str) and name in known:
-        return name
-    similar = get_close_matches(str(name), known, n=1)
-    raise ParameterError(
-        f"no {option.replace('_', ' ')} `{name}`; there are `{'`, `'.join(known)}`",
-        name=option,
-        help=f"did you mean `{similar[0]}`?" if similar else None,
-    )
 
 
 def one_action_space(action_set: str) -> spaces.Discrete | spaces.Box:

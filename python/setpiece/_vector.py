@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._callbacks import Rewards, reward_names
+from setpiece._crowd import Crowd
 from setpiece._errors import ParameterError, UnavailableError
+from setpiece._opponents import Opponent, Table, behaviors, native_action_set, revivable
 from setpiece._options import ParamValue, check_keys, check_number, check_params, one_thread
-from setpiece._seats import Seats
-from setpiece._source import Source, load
+from setpiece._seats import Seats, scripted_scenario
+from setpiece._source import Source
 from setpiece._spaces import (
     Layout,
     action_space,
@@ -50,8 +52,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
       `(num_envs,)`; float32 is what one environment of several agents pays, `(num_envs, agents)`), terminations,
       truncations (bool `(num_envs,)`) and infos.
     - `infos`, in Gymnasium's form, always: `action_mask` (int8), `score` (int64 `(num_envs, 2)`), `reward_terms`
-      {"reward/label": float64}. Where episodes have ended also `setpiece`, `outcome` and their masks `_setpiece`,
-      `_outcome`.
+      {"reward/label": float64}. Where episodes have ended also `setpiece`, `outcome`, `records` {name: float64, NaN
+      where there is none, or objects} and their masks `_setpiece`, `_outcome`, `_records`.
     - `metadata["autoreset_mode"]`: `NEXT_STEP` begins the next episode in the step after the last, whose action is left
       alone; `SAME_STEP` at once, with the last observation in `infos["final_obs"]` and the last infos in
       `infos["final_info"]`; `DISABLED` when `reset(options={"reset_mask": …})` asks for it.
@@ -78,6 +80,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         size: tuple[int, int] = (96, 72),
         left: Seats = None,
         right: Seats = None,
+        opponents: Mapping[str, Opponent] | None = None,
         switching: Literal["auto", "fixed"] | None = None,
         render_mode: str | None = None,
         record: str | PathLike[str] | None = None,
@@ -98,7 +101,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         )
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
-        self.scenario = load(scenario).with_params(**(check_params(params) or {}))
+        scripted, played = behaviors(opponents), revivable(opponents)
+        self.scenario = scripted_scenario(scenario, scripted).with_params(**(check_params(params) or {}))
         self._observation = check_observation(observation)
         self._stack = check_stack(stack, self._observation)
         self._batch = _native.Batch(
@@ -107,7 +111,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             threads,
             observation=self._observation,
             rewards=reward_names(rewards),
-            action_set=check_action_set(action_set),
+            action_set=native_action_set(check_action_set(action_set), played),
             next_step=self.autoreset_mode == AutoresetMode.NEXT_STEP,
             stack=self._stack,
             size=check_size(size),
@@ -115,18 +119,31 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             right=right,
             switching=switching,
         )
-        self._agents = len(self._batch.agents)
-        self.agents = tuple(agent.id for agent in self._batch.agents)
-        self.single_observation_space = observation_space(self._batch, self._observation)
-        self.single_action_space = action_space(self._agents, action_set)
+        agents, self._n_actions = self._batch.agents, _native.ACTION_SETS[action_set]
+        mine = [*range(len(agents))]
+        self._crowd = None
+        if played is not None:
+            table = Table(agents, played, self._observation, self._n_actions)
+            self._crowd, mine = Crowd(table, self.num_envs), table.mine
+            for kind in table.observations:
+                self._batch.look(kind)
+            if not mine:
+                raise ParameterError("the opponents leave the caller no agent", name="opponents")
+        # One agent of the caller's has no axis of its own; a run of them needs no copy.
+        run = bool(mine) and mine == [*range(mine[0], mine[-1] + 1)]
+        self._pick: Any = mine[0] if len(mine) == 1 else slice(mine[0], mine[-1] + 1) if run else mine
+        self.agents = tuple(agents[at].id for at in mine)
+        self.single_observation_space = observation_space(self._batch, self._observation, [agents[at] for at in mine])
+        self.single_action_space = action_space(len(mine), action_set)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._arrays = self._batch.arrays()
+        self._view = self._of_agents(self._arrays.observations)
         self._copy = copy
         self._first_seed = None if seed is None else check_number("seed", seed)
         self._begun = False
         self._over = np.ones(self.num_envs, bool)
-        self._views = self._viewed()
+        self._marks = np.ones(self.num_envs, bool)
         self._terms = self._batch.terms
 
     def reset(
@@ -159,8 +176,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def step(self, actions: Any) -> tuple[Any, Any, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Plays 100 ms of every match.
 
-        Raises `ActionError` for actions of another shape or number, and nothing has been played then; `ScriptError`
-        where a script of the scenario fails: its episode has ended, the others have been played.
+        Raises `ActionError` for actions of another shape or number and `OpponentError` where an opponent fails, and
+        nothing has been played then; `ScriptError` where a script of the scenario fails: its episode has ended, the
+        others have been played.
         """
         self._check_open()
         if not self._begun:
@@ -171,6 +189,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
             )
         with one_thread():
+            if self._crowd is not None:
+                actions = self._crowd.actions(actions, self._arrays.observations, self._batch.look)
             self._batch.step(self._arrays, actions)
         over = self._arrays.terminated | self._arrays.truncated
         infos = self._infos()
@@ -190,7 +210,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns what `infos["action_mask"]` shows now."""
-        masks: NDArray[np.int8] = self._of_agents(self._arrays.masks).copy()
+        masks: NDArray[np.int8] = self._of_agents(self._arrays.masks)[..., : self._n_actions].copy()
         return masks
 
     def render(self) -> tuple[str, ...] | None:
@@ -216,24 +236,36 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _tell(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> None:
         """Adds how episodes have ended."""
         outcomes = np.full(self.num_envs, None, dtype=object)
-        summaries: dict[str, Any] = {}
+        summaries: dict[str, Any] = {"return": {}}
+        records: dict[str, Any] = {}
         for at in np.flatnonzero(over):
             summary = self._batch.summary(int(at))
             if summary is None:
                 continue
             outcomes[at] = summary.pop("outcome")
-            paid = np.array(summary.pop("return"), np.float64).reshape(self._agents, len(self._terms))
-            returns = summaries.setdefault("return", {})
+            for name, value in summary.pop("records").items():
+                number = value is None or isinstance(value, float)
+                column = np.full(self.num_envs, np.nan if number else None, float if number else object)
+                records.setdefault(name, column)[at] = np.nan if value is None else self._of_record(value)
+            paid = np.array(summary.pop("return"), np.float64).reshape(len(self._batch.agents), len(self._terms))
+            paid = paid[self._pick]
             for term, name in enumerate(self._terms):
-                shape = self.num_envs if self._agents == 1 else (self.num_envs, self._agents)
-                returns.setdefault(name, np.zeros(shape))[at] = paid[0, term] if self._agents == 1 else paid[:, term]
+                column = np.zeros((self.num_envs, *paid.shape[:-1]))
+                summaries["return"].setdefault(name, column)[at] = paid[..., term]
             for key, value in summary.items():
                 dtype = object if isinstance(value, str) else np.uint64 if key in ("seed", "index") else None
-                column = summaries.setdefault(key, np.zeros(self.num_envs, dtype or np.array(value).dtype))
-                column[at] = value
+                column = np.zeros(self.num_envs, dtype or np.array(value).dtype)
+                summaries.setdefault(key, column)[at] = value
         summaries["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
-        infos["outcome"], infos["_outcome"] = outcomes, over.copy()
-        infos["setpiece"], infos["_setpiece"] = summaries, over.copy()
+        for key, told in (("outcome", outcomes), ("records", records), ("setpiece", summaries)):
+            infos[key], infos[f"_{key}"] = told, over.copy()
+
+    def _of_record(self, value: Any) -> Any:
+        """The caller's part of what a record says: with several agents a list has a part for each."""
+        if not isinstance(value, list):
+            return value
+        part = np.fromiter(value, object, len(value))[self._pick]
+        return part if isinstance(self._pick, int) else [*part]
 
     def _infos(self) -> dict[str, Any]:
         marks = self._marks
@@ -243,24 +275,21 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             "_score": marks,
             "reward_terms": terms,
             "_reward_terms": marks,
-            "action_mask": self._of_agents(self._arrays.masks).copy(),
+            "action_mask": self.action_masks(),
             "_action_mask": marks,
         }
 
-    def _viewed(self) -> tuple[NDArray[Any], NDArray[np.float64]]:
-        self._marks = np.ones(self.num_envs, bool)
-        return self._of_agents(self._arrays.observations), self._of_agents(self._arrays.rewards)
-
     def _shown(self) -> Any:
-        return self._views[0].copy() if self._copy else self._views[0]
+        shown = self._of_agents(self._arrays.observations) if isinstance(self._pick, list) else self._view
+        return shown.copy() if self._copy else shown
 
     def _outcomes(self) -> tuple[Any, NDArray[np.bool_], NDArray[np.bool_]]:
         arrays = self._arrays
-        return self._views[1].copy(), arrays.terminated.copy(), arrays.truncated.copy()
+        return self._of_agents(arrays.rewards).copy(), arrays.terminated.copy(), arrays.truncated.copy()
 
     def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
-        """The array without the axis of agents where there is one agent."""
-        return array[:, 0] if self._agents == 1 else array
+        """The part of the caller's agents, without their axis where there is one."""
+        return array[:, self._pick]
 
     def _check_open(self) -> None:
         if self.closed:
@@ -289,7 +318,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
         if seed is None:
             return [None] * self.num_envs
-        if isinstance(seed, Sequence | np.ndarray):
+        if isinstance(seed, list | tuple | np.ndarray):
             if len(seed) != self.num_envs:
                 raise ParameterError(f"expected {self.num_envs} seeds, found {len(seed)}", name="seed")
             return [None if one is None else check_number("seed", one) for one in seed]
@@ -313,6 +342,7 @@ def make_vec(
     size: tuple[int, int] = (96, 72),
     left: Seats = None,
     right: Seats = None,
+    opponents: Mapping[str, Opponent] | None = None,
     switching: Literal["auto", "fixed"] | None = None,
     render_mode: str | None = None,
     record: str | PathLike[str] | None = None,
@@ -323,6 +353,7 @@ def make_vec(
     - `autoreset_mode`: when an episode that has ended is followed by the next: see `FootballVectorEnv`.
     - `copy`: False returns the same array of observations every time, overwritten by the next `step`.
     - `record`: for single environments; here it raises `UnavailableError`.
+    - `opponents`: asked once for all environments: a policy over batches sees `num_envs` rows for each of its agents.
     - The rest is as in `setpiece.make`; raw observations, and rewards and endings in Python, are for single
       environments.
 
@@ -347,6 +378,7 @@ def make_vec(
         "size": size,
         "left": left,
         "right": right,
+        "opponents": opponents,
         "switching": switching,
         "render_mode": render_mode,
         "record": record,

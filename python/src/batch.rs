@@ -4,10 +4,10 @@
 //! few threads, without the interpreter.
 
 use crate::actions::{self, Act, ActionSet};
-use crate::environment::{AgentInfo, agents_of, from_episode, players_of, prepare};
+use crate::environment::{AgentInfo, SMM_SIZE, agents_of, from_episode, observable, players_of, prepare};
 use crate::errors;
-use crate::info::write_mask;
-use crate::observation::{self, Kind, Stack, write_floats, write_map};
+use crate::info::{records, write_mask};
+use crate::observation::{self, Kind, Observer, Stack, write_floats, write_map};
 use crate::params::bind;
 use crate::scenario::Scenario;
 use crate::seats::Seats;
@@ -249,14 +249,15 @@ impl Batch {
         self.told(py)
     }
 
-    /// What became of the episode of an environment that has ended: outcome, success, length, seed, index, digest,
-    /// faults, return by term and agent.
+    /// What became of the episode of an environment that has ended: outcome, records, success, length, seed, index,
+    /// digest, faults, return by term and agent.
     fn summary<'py>(&self, py: Python<'py>, at: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(lane) = self.lanes.lanes().get(at) else { return Ok(None) };
         let engine = &lane.engine;
         let Some(outcome) = engine.outcome() else { return Ok(None) };
         let dict = PyDict::new(py);
         dict.set_item("outcome", &*outcome.label)?;
+        dict.set_item("records", records(py, engine)?)?;
         dict.set_item("success", outcome.verdict == Some(Verdict::Success))?;
         dict.set_item("length", engine.steps())?;
         dict.set_item("seed", engine.seed())?;
@@ -267,6 +268,16 @@ impl Batch {
             (0..engine.n_agents()).map(|agent| PyList::new(py, engine.term_sums(agent))).collect();
         dict.set_item("return", PyList::new(py, sums?)?)?;
         Ok(Some(dict))
+    }
+
+    /// What all agents of each environment see now in an observation of any kind; looking changes nothing.
+    fn look<'py>(&mut self, py: Python<'py>, observation: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let held = self.action_set.held();
+        let look = |lane: &mut Lane| {
+            let kind = observable(py, &lane.engine, observation, SMM_SIZE)?;
+            Observer::new(py, kind, &lane.engine, (1, true), held).observe(py, &mut lane.engine, true)
+        };
+        self.lanes.lanes_mut().iter_mut().map(look).collect()
     }
 
     /// A drawing of an environment's pitch in text.

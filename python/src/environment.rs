@@ -15,12 +15,13 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 use setpiece::Error;
 use setpiece::engine::batch::EpisodeError;
 use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, ResetError, Scratch};
+use setpiece::engine::judge::Outcome;
 use setpiece::engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH};
 use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
 use setpiece::replay::{Recorder, Replay as Recording};
 use setpiece::scenario::pitch::TEAM_MAX;
-use setpiece::scenario::{Action, Team};
+use setpiece::scenario::{Action, Team, Verdict};
 
 /// Width and height of GRF's super mini map.
 pub(crate) const SMM_SIZE: (usize, usize) = (SMM_WIDTH, SMM_HEIGHT);
@@ -213,7 +214,16 @@ impl Environment {
         for agent in 0..self.acts.len() {
             self.press(agent, self.acts[agent]);
         }
-        self.play(py)
+        self.play(py, None)
+    }
+
+    /// Ends the episode where it stands, for a reason of the caller's; returns outcome, records and summary.
+    fn end<'py>(&mut self, py: Python<'py>, label: &str, success: bool) -> PyResult<Bound<'py, PyDict>> {
+        let verdict = success.then_some(Verdict::Success);
+        self.engine.end(Outcome { label: label.into(), verdict, truncated: false });
+        let told = PyDict::new(py);
+        self.info.sum_up(py, &self.engine, &told)?;
+        Ok(told)
     }
 
     /// Plays the step of a recorded episode: as `step` with what the agents did in it.
@@ -223,7 +233,7 @@ impl Environment {
         for (agent, (action, steer)) in acts.enumerate() {
             self.press(agent, Act { action, steer });
         }
-        self.play(py)
+        self.play(py, Some(replay.inner()))
     }
 
     /// The fingerprint of the state, 16 hexadecimal digits.
@@ -287,21 +297,26 @@ impl Environment {
         self.recorder.note(act.action, act.steer);
     }
 
-    /// Plays the step.
-    fn play<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+    /// Plays the step, of a recorded episode where there is one.
+    fn play<'py>(&mut self, py: Python<'py>, recorded: Option<&Recording>) -> PyResult<Bound<'py, PyTuple>> {
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
         let played = py.detach(|| engine.step(actions, scratch));
-        let result = played.map_err(|why| {
+        played.map_err(|why| {
             self.recorder.keep(self.engine.steps(), self.actions.len());
             from_episode(py, why.into())
         })?;
+        if let Some(recorded) = recorded {
+            recorded.end(&mut self.engine);
+        }
         let observation = self.observer.observe(py, &mut self.engine, false)?;
         let reward = match self.engine.rewards() {
             [one] => f64::from(*one).into_pyobject(py)?.into_any(),
             several => PyArray1::from_slice(py, several).into_any(),
         };
         let info = self.info.write(py, &self.engine)?;
-        (observation, reward, result.terminated, result.truncated, info).into_pyobject(py)
+        let truncated = self.engine.outcome().is_some_and(|outcome| outcome.truncated);
+        let terminated = self.engine.outcome().is_some_and(|outcome| !outcome.truncated);
+        (observation, reward, terminated, truncated, info).into_pyobject(py)
     }
 
     /// What is observed, and the info.

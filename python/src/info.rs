@@ -58,6 +58,12 @@ impl InfoWriter {
             let events: PyResult<Vec<_>> = engine.events().iter().map(|event| self.event(py, event)).collect();
             info.set_item(intern!(py, "events"), events?)?;
         }
+        self.sum_up(py, engine, &info)?;
+        Ok(info)
+    }
+
+    /// Adds how the episode has ended, if it has: outcome, records and summary.
+    pub(crate) fn sum_up<'py>(&self, py: Python<'py>, engine: &Engine, info: &Bound<'py, PyDict>) -> PyResult<()> {
         if let Some(outcome) = engine.outcome() {
             info.set_item(intern!(py, "outcome"), &*outcome.label)?;
             info.set_item(intern!(py, "records"), records(py, engine)?)?;
@@ -71,7 +77,7 @@ impl InfoWriter {
             summary.set_item("faults", engine.faults())?;
             info.set_item(intern!(py, "setpiece"), summary)?;
         }
-        Ok(info)
+        Ok(())
     }
 
     /// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n; 20 with the set `v2`, 33 with
@@ -143,7 +149,7 @@ impl InfoWriter {
 
 /// The records: floats (`None` where one could not be computed), `(x, y)` for a place, float64 arrays for series:
 /// `(steps,)` or `(steps, 2)`; with several agents what depends on the agent is a list.
-fn records<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn records<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     for (name, value) in engine.records() {
         dict.set_item(name, recorded(py, value)?)?;

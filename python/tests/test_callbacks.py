@@ -164,6 +164,8 @@ def test_an_ending_terminates_the_episode_with_its_label(verdict: Any, outcome: 
     assert info["records"] == {}
     assert info["setpiece"] == {
         "return": {"time/step": 2.0, "kept": 1.0},
+        "digest": info["setpiece"]["digest"],
+        "faults": 0,
         "length": 4,
         "seed": 7,
         "index": 0,
@@ -174,6 +176,21 @@ def test_an_ending_terminates_the_episode_with_its_label(verdict: Any, outcome: 
         env.step(Action.RIGHT)
     asked = 0
     assert play(env, None, right)[-1][4]["setpiece"]["index"] == 1
+
+
+def test_an_episode_that_python_ended_is_told_of_and_replayed_as_any_other(tmp_path: Path) -> None:
+    text = TEN.replace("reward time", "record way = ball.x\n    reward time")
+    env = setpiece.make(text, ends=lambda step: "far" if step.now["steps_left"] == 4 else None, record=tmp_path)
+    info = play(env, 2, right)[-1][4]
+    told = info["setpiece"]
+    assert info["records"].keys() == {"way"}
+    assert told["digest"] == env.unwrapped._native.digest
+    replay = setpiece.Replay(told["replay"])
+    assert (replay.outcome, replay.digest, replay.length) == ("far", told["digest"], 6)
+    assert [*replay][-1].info["setpiece"]["return"] == told["return"]
+    restored = setpiece.make(text)
+    last = restored.restore(env.snapshot())[1]
+    assert last["outcome"] == "far"
 
 
 def test_a_reward_sees_how_an_ending_in_python_ended() -> None:

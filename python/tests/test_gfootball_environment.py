@@ -496,7 +496,9 @@ def test_what_is_not_here_says_so_later() -> None:
 @pytest.mark.parametrize(
     ("kwargs", "words"),
     [
-        ({"env_name": ""}, "env_name"),
+        ({"env_name": ""}, "`env_name` is empty"),
+        ({"env_name": 3}, "`env_name` is 3"),
+        ({"other_config_options": 3}, "other_config_options"),
         ({"representation": "simple115v3"}, "did you mean `simple115v2`"),
         ({"rewards": "checkpoints"}, "lacks `scoring`"),
         ({"rewards": "scoring,checkpoint"}, "did you mean `checkpoints`"),
@@ -546,6 +548,11 @@ def test_config() -> None:
     assert (recorded.game_duration, recorded.controllable_left_players, recorded.left_agents) == (400, 4, 1)
     assert recorded.dynamic_player_selection
     assert config["game_engine_random_seed"] == 7
+    twin = Config({"level": THREE, **SEEDED})
+    assert config != twin
+    twin.NewScenario()
+    assert config == twin
+    assert config.serialize()["level"] == THREE
     with pytest.raises(ParameterError, match="did you mean `level`"):
         config["levell"]
     with pytest.raises(ParameterError, match="did you mean `game_duration`"):

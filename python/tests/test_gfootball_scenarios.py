@@ -316,6 +316,28 @@ def test_to_pitch_of_a_recorded_scenario() -> None:
     assert setpiece.compile(text).name == "small"
 
 
+def test_an_episode_longer_than_a_limit_has_none() -> None:
+    said = ScenarioConfig(game_duration=1_000_000, ball_position=[0.5, 0.0, 0.0])
+    assert "end limit 1000000 steps" in to_pitch(said, "long")
+    said.game_duration += 1
+    text = to_pitch(said, "longer")
+    assert "game_duration of 1000001 steps" in text
+    assert "end limit" not in text
+    assert setpiece.compile(text).name == "longer"
+
+
+def test_a_text_has_no_order_of_teams() -> None:
+    with pytest.raises(TranslationError, match="reverse_team_processing"):
+        to_pitch(ScenarioConfig(reverse_team_processing=True), "turned")
+
+
+@pytest.mark.parametrize("call", ["AddPlayer(math.nan, 0, 1)", "AddPlayer(0, 'x', 1)", "SetBallPosition(0, math.inf)"])
+def test_places_are_numbers(call: str, tmp_path: Path) -> None:
+    path = script_file(tmp_path, f"    import math\n    builder.{call}\n", "odd")
+    with pytest.raises(SetpieceError, match=call.partition("(")[0]):
+        create_environment(path)
+
+
 def test_a_fixed_seed_makes_the_same_match(tmp_path: Path) -> None:
     def play(seed: int) -> list[Any]:
         text = f"    config.deterministic = True\n    config.game_engine_random_seed = {seed}\n" + SIDES_TAKE_TURNS

@@ -68,7 +68,7 @@ def test_which_episodes_are_recorded(tmp_path: Path) -> None:
 
 def test_an_episode_under_way_is_saved(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     env = setpiece.make(THREE)
-    with pytest.raises(setpiece.ReplayError, match="nothing has been played"):
+    with pytest.raises(setpiece.ReplayError, match="no episode has begun"):
         env.save_replay(tmp_path / "none.pitchr")
     env.reset(seed=1)
     for _ in range(5):
@@ -78,7 +78,7 @@ def test_an_episode_under_way_is_saved(tmp_path: Path, capfd: pytest.CaptureFixt
     env.save_replay(tmp_path / "five.pitchr")
     assert "not ended after 5 steps" in replayed(tmp_path / "five.pitchr", capfd)
     env.restore(env.snapshot())
-    with pytest.raises(setpiece.ReplayError):
+    with pytest.raises(setpiece.ReplayError, match="goes on from a restored snapshot"):
         env.save_replay(tmp_path / "none.pitchr")
 
 

@@ -20,10 +20,95 @@ def actions(rng: np.random.Generator, envs: setpiece.FootballVectorEnv) -> Any:
     return rng.integers(19, size=shape)
 
 
+def hashed(observations: Any) -> Any:
+    """A policy of every action, which depends on the whole of what it sees."""
+    return (np.abs(observations).reshape(len(observations), -1).sum(axis=1) * 31).astype(int) % 20
+
+
+def of_dicts(views: Any) -> list[int]:
+    return [(int(view["steps_left"]) + int(view["active"])) % 20 for view in views]
+
+
 @pytest.mark.parametrize("observation", KINDS)
 @pytest.mark.parametrize("stack", [1, 4])
 def test_a_vector_plays_what_single_environments_play(observation: str, stack: int) -> None:
-    kwargs: dict[str, Any] = {"observation": observation, "stack": stack, "left": 2, "switching": "fixed"}
+    check_parity({"observation": observation, "stack": stack, "left": 2, "switching": "fixed"})
+
+
+@pytest.mark.parametrize(
+    "opponents",
+    [
+        {"left_CM_2": "bot"},
+        {"left_CM_1": setpiece.Policy(hashed), "left_CM_3": "bot"},
+        {"left_CM_1": setpiece.Policy(hashed, observation="egocentric"), "right": setpiece.Policy(of_dicts, "raw")},
+        {"left_CM_3": lambda seen: int(seen.sum() * 31) % 19, "right": setpiece.Policy(hashed, "smm")},
+        {"left_CM_2": setpiece.Policy(hashed, observation="simple115v2")},
+        {"right": "lazy"},
+    ],
+)
+@pytest.mark.parametrize("stack", [1, 2])
+def test_opponents_play_in_a_vector_as_in_single_environments(opponents: dict[str, Any], stack: int) -> None:
+    right = None if opponents.get("right") in (None, "lazy") else 1
+    check_parity({"left": 3, "right": right, "switching": "fixed", "opponents": opponents, "stack": stack})
+
+
+def test_an_opponent_that_fails_leaves_a_vector_as_it_is() -> None:
+    asked: list[int] = []
+
+    def fails_once(seen: Any) -> Any:
+        asked.append(len(seen))
+        return [0] * (3 if len(asked) == 1 else 8)
+
+    opponents = {"right": setpiece.Policy(fails_once)}
+    envs = setpiece.make_vec("5_vs_5", 4, left=1, right=2, opponents=opponents, observation="egocentric")
+    before, _ = envs.reset(seed=1)
+    assert envs.agents == ("left_0",)
+    with pytest.raises(setpiece.OpponentError, match=r"expected 8 actions, integers in 0\.\.19") as caught:
+        envs.step(np.zeros(4, int))
+    assert caught.value.side == "right"
+    for wrong in (np.zeros(3, int), np.zeros(4), np.full(4, 19), [0, 0, 0, -1]):
+        with pytest.raises(setpiece.ActionError):
+            envs.step(wrong)
+    assert same(before, envs._shown())
+    envs.step([0, 0, 0, 18])
+    assert asked == [8, 8]
+    with pytest.raises(setpiece.ParameterError, match="leave the caller no agent"):
+        setpiece.make_vec(THREE, 2, opponents={"left": "bot"})
+
+
+def test_records_are_told_by_environment() -> None:
+    text = """
+        scenario measured {
+            ball at (0.1, 0)
+            team left { CF at (0, 0) CF at (0, 0.2) }
+            team right { CF at (0.5, 0.3) }
+            agents { left: all }
+            record way = ball.x
+            record mine = me.x
+            record unknown = 1 / count of goal
+            record places = series of ball
+            end limit 5 steps
+        }"""
+    for opponents in (None, {"left_CF_2": "bot"}):
+        envs = setpiece.make_vec(text, 2, opponents=opponents)
+        envs.reset(seed=1)
+        for _ in range(5):
+            infos = envs.step(np.zeros(envs.action_space.shape, int))[-1]
+        assert infos["_records"].all()
+        for at in range(2):
+            env = setpiece.make(text, opponents=opponents)
+            env.reset(seed=1 + at)
+            for _ in range(5):
+                info = env.step(np.zeros(env.action_space.shape, int))[-1]
+            own = info["records"]
+            assert own["unknown"] is None
+            assert np.isnan(infos["records"]["unknown"][at])
+            assert infos["records"]["way"][at] == own["way"]
+            assert same(infos["records"]["mine"][at], own["mine"])
+            assert same(infos["records"]["places"][at], own["places"])
+
+
+def check_parity(kwargs: dict[str, Any]) -> None:
     envs = setpiece.make_vec(THREE, 5, threads=2, **kwargs)
     singles = [setpiece.make(THREE, **kwargs) for _ in range(5)]
     rng = np.random.default_rng(1)

@@ -121,7 +121,10 @@ enum Command {
     /// Play a recorded episode again, bit for bit, and tell what it was
     #[command(after_help = "Examples:
   setpiece replay runs/academy_corner_7_0.pitchr
-  setpiece replay goal.pitchr --format jsonl | head -1")]
+  setpiece replay goal.pitchr --format jsonl | head -1
+
+The Python package's command also writes Google Research Football's dumps: `--format grf -o goal.dump`;
+`setpiece.Replay` reads the file in Python.")]
     Replay(replay::ReplayArgs),
 }
 

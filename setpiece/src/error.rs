@@ -144,7 +144,7 @@ impl Error {
             Error::File { why: FileFault::Missing { similar }, .. } | Error::Param { similar, .. } => {
                 similar.as_ref().map(meant)
             }
-            Error::File { why: FileFault::Directory, .. } => Some("name a .pitch file in it".to_owned()),
+            Error::File { why: FileFault::Directory, .. } => Some("name a file in it".to_owned()),
             Error::File { why: FileFault::NotUtf8 { .. }, path } if path.extension().is_some_and(|e| e == "pitchc") => {
                 Some("it is damaged: build it again from its source".to_owned())
             }
@@ -156,6 +156,9 @@ impl Error {
             Error::Snapshot(why) | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
             Error::Replay(ReplayError::NotAReplay) => {
                 Some("`setpiece.make(…, record=\"runs\")` writes them, and `env.unwrapped.save_replay`".to_owned())
+            }
+            Error::Replay(ReplayError::Beginning) => {
+                Some("save the replay of an episode that `reset` began; `snapshot` keeps this one's state".to_owned())
             }
             _ => None,
         }

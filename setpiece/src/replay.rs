@@ -12,9 +12,10 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use setpiece_engine::batch::EpisodeError;
 use setpiece_engine::environment::{AgentsChoice, Environment, EnvironmentOptions, Physics, ResetError, Scratch};
+use setpiece_engine::judge::Outcome;
 use setpiece_engine::state::Steer;
 use setpiece_scenario::file::{binary, fnv1a};
-use setpiece_scenario::{Action, Bindings, Scenario};
+use setpiece_scenario::{Action, Bindings, Scenario, Verdict};
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
 
@@ -48,8 +49,11 @@ pub enum ReplayError {
     #[error("the replay is damaged: {0}")]
     Corrupt(String),
     /// It has no episode.
-    #[error("nothing has been played yet")]
+    #[error("no episode has begun: there is nothing to replay")]
     NotBegun,
+    /// How its episode began is not known.
+    #[error("the episode goes on from a restored snapshot: how it came there is not known")]
+    Beginning,
     /// This build plays it otherwise.
     #[error("step {step}: this build plays the episode otherwise than the one that wrote it")]
     Differs {
@@ -114,17 +118,23 @@ pub struct Replay {
     acts: Vec<u8>,
     /// Way and power, where agents steered.
     steers: Vec<Option<[f32; 3]>>,
+    /// How it ended: label, verdict, whether by the limit. A caller may have [ended](Environment::end) it.
+    #[serde(default)]
+    outcome: Option<(String, Option<Verdict>, bool)>,
 }
 
 impl Replay {
     /// The episode of an environment as far as it has been played.
     ///
     /// # Errors
-    /// [`Error::Replay`] where no episode has begun, or what came before is not known.
+    /// [`Error::Replay`] where no episode has begun, or how it began is not known.
     pub fn of(environment: &Environment, recorder: &Recorder) -> Result<Replay, Error> {
+        if !environment.has_begun() {
+            return Err(Error::Replay(ReplayError::NotBegun));
+        }
         let noted = environment.steps() as usize * environment.n_agents();
         if !recorder.whole || recorder.acts.len() != noted {
-            return Err(Error::Replay(ReplayError::NotBegun));
+            return Err(Error::Replay(ReplayError::Beginning));
         }
         let scenario = binary::to_bytes(environment.scenario())
             .map_err(|why| Error::Replay(ReplayError::Corrupt(why.to_string())))?;
@@ -144,6 +154,7 @@ impl Replay {
             digest: environment.digest(),
             acts: recorder.acts.clone(),
             steers: if steered { recorder.steers.iter().map(numbers).collect() } else { Vec::new() },
+            outcome: environment.outcome().map(|it| (it.label.to_string(), it.verdict, it.truncated)),
         })
     }
 
@@ -227,6 +238,15 @@ impl Replay {
         })
     }
 
+    /// Ends an environment that has played it as the episode was ended, where nothing of the scenario ended it.
+    pub fn end(&self, environment: &mut Environment) {
+        if let Some((label, verdict, truncated)) = &self.outcome
+            && environment.steps() == self.length
+        {
+            environment.end(Outcome { label: label.as_str().into(), verdict: *verdict, truncated: *truncated });
+        }
+    }
+
     /// Plays it: `each` is shown the start, and the environment after every step.
     ///
     /// # Errors
@@ -256,6 +276,7 @@ impl Replay {
                 }
             }
             environment.step(&actions, &mut scratch).map_err(|why| broken(why.into()))?;
+            self.end(&mut environment);
             each(&environment, &actions);
         }
         if environment.digest() != self.digest {

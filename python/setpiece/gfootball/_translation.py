@@ -40,6 +40,10 @@ def to_pitch(recorded: ScenarioConfig, name: str, other: ScenarioConfig | None =
     `alternate(…, …)` can say.
     """
     other = recorded if other is None else other
+    if recorded.reverse_team_processing or other.reverse_team_processing:
+        raise TranslationError(
+            "`reverse_team_processing` is no order that a text can ask for", help="leave it out, or False"
+        )
     _check_same(recorded, other)
     kickoff = _kickoff(recorded, other)
     formations = [] if kickoff is None else kickoff.formations(name)
@@ -93,8 +97,10 @@ def _endings(recorded: ScenarioConfig) -> list[str]:
         endings.append("    end out when out_of_play or ball_dead")
     if recorded.end_episode_on_possession_change:
         endings.append("    end possession when possession changes")
-    if recorded.game_duration < LIMIT_MAX:
+    if recorded.game_duration <= LIMIT_MAX:
         endings.append(f"    end limit {recorded.game_duration} steps")
+    else:
+        endings.append(f"    // Its game_duration of {recorded.game_duration} steps is more than a limit can be: none.")
     return endings
 
 

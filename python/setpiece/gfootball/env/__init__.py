@@ -15,7 +15,8 @@ from typing import Any
 import gymnasium
 
 from setpiece._errors import ParameterError
-from setpiece.gfootball._words import check_word, similar, unavailable
+from setpiece._words import check_word, similar
+from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env import config as _config
 from setpiece.gfootball.env import football_action_set, football_env, observation_preprocessing, wrappers
 from setpiece.gfootball.env.config import Config
@@ -75,7 +76,14 @@ def create_environment(
     """
     if not isinstance(env_name, str) or not env_name:
         raise ParameterError(
-            "`env_name` is empty", name="env_name", help="name a level, for example `academy_3_vs_1_with_keeper`"
+            "`env_name` is empty" if env_name == "" else f"`env_name` is {env_name!r}; it is a name",
+            name="env_name",
+            help="name a level, for example `academy_3_vs_1_with_keeper`",
+        )
+    if other_config_options is not None and not isinstance(other_config_options, Mapping):
+        raise ParameterError(
+            f"expected `other_config_options` as a mapping, found `{other_config_options!r}`",
+            name="other_config_options",
         )
     if render:
         raise _config.no_pictures("render")

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from setpiece._errors import ParameterError
-from setpiece.gfootball._words import check_word, similar, unavailable
+from setpiece._words import check_word, similar
+from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env.football_action_set import action_set_dict
 from setpiece.gfootball.env.scenario_builder import Scenario
 from setpiece.gfootball.env.scenario_config import ScenarioConfig
@@ -132,6 +133,15 @@ class Config:
 
     def __repr__(self) -> str:
         return f"Config({self.get_dictionary()})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Config) and self.get_dictionary() == other.get_dictionary()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def serialize(self) -> dict[str, Any]:
+        """Returns the settings without those of this episode."""
+        return dict(self._values)
 
     def get(self, key: str, default: Any = None) -> Any:
         """Returns a setting, or `default` where it has no value."""

@@ -10,7 +10,7 @@ from operator import index
 from typing import TYPE_CHECKING, Any
 
 from setpiece._errors import ActionError
-from setpiece.gfootball._words import check_word
+from setpiece._words import check_word
 
 if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config

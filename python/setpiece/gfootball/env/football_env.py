@@ -15,7 +15,8 @@ import numpy as np
 from gymnasium import spaces
 
 from setpiece._errors import ParameterError, SnapshotError
-from setpiece.gfootball._words import similar, unavailable
+from setpiece._words import similar
+from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env._old_gym import Stepped, refuse_seed
 from setpiece.gfootball.env.config import Config, no_pictures, parse_player_definition
 from setpiece.gfootball.env.football_action_set import (

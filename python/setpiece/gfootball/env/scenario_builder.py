@@ -11,15 +11,16 @@ from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import lru_cache
+from math import isfinite
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import setpiece
 from setpiece._errors import FileError, GrfScriptError, ParameterError, SetpieceError, UnknownScenarioError
+from setpiece._words import similar
 from setpiece.gfootball import scenarios
 from setpiece.gfootball._translation import identifier, to_pitch
-from setpiece.gfootball._words import similar
 from setpiece.gfootball.env.scenario_config import NEVER, FormationEntry, ScenarioConfig
 from setpiece.gfootball.scenarios import PlayerRole, Team
 
@@ -74,7 +75,7 @@ class Recorder:
     ) -> None:
         """Adds a player, in his team's own frame: his own goal is at x = -1."""
         try:
-            entry = FormationEntry((float(x), float(y)), PlayerRole(role), bool(lazy), bool(controllable))
+            entry = FormationEntry(_place(x, y), PlayerRole(role), bool(lazy), bool(controllable))
         except (TypeError, ValueError):
             raise ParameterError(
                 f"AddPlayer({x!r}, {y!r}, {role!r}) is no player",
@@ -85,11 +86,24 @@ class Recorder:
 
     def SetBallPosition(self, x: float, y: float) -> None:  # noqa: N802
         """Lays the ball down, in the left team's frame."""
-        self.recorded.ball_position[:2] = [float(x), float(y)]
+        try:
+            self.recorded.ball_position[:2] = _place(x, y)
+        except (TypeError, ValueError):
+            raise ParameterError(
+                f"SetBallPosition({x!r}, {y!r}) is no place", name="SetBallPosition", help="write two numbers"
+            ) from None
 
     def EpisodeNumber(self) -> int:  # noqa: N802
         """Returns the number of the episode; that of the first `reset` is 2."""
         return self.episode_number
+
+
+def _place(x: float, y: float) -> tuple[float, float]:
+    """Two finite numbers; raises `TypeError` or `ValueError` for anything else."""
+    place = float(x), float(y)
+    if not all(map(isfinite, place)):
+        raise ValueError("not finite")
+    return place
 
 
 def record(script: Script, episode_number: int) -> ScenarioConfig:

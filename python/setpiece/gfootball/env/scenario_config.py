@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 from setpiece._errors import ParameterError
-from setpiece.gfootball._words import similar
+from setpiece._words import similar
 from setpiece.gfootball.scenarios import PlayerRole
 
 NEVER = 999_999_999

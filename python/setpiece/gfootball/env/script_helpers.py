@@ -7,7 +7,7 @@ from pprint import pformat
 from typing import Any
 
 from setpiece._errors import FileError, FormatError, ParameterError
-from setpiece.gfootball._words import unavailable
+from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env.config import Config, no_pictures
 from setpiece.gfootball.env.football_env import FootballEnv
 from setpiece.gfootball.env.observation_processor import read_dump

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from setpiece.gfootball._words import unavailable
+from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env.player_base import PlayerBase
 
 

@@ -1,0 +1,61 @@
+"""Opponents in many matches at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from setpiece._errors import ActionError
+from setpiece._opponents import Table, ask
+from setpiece._vocabulary import Action
+
+
+class Crowd:
+    """The agents of a vector of matches, some of them the caller's, each other one with the opponent who plays it.
+
+    An opponent is asked once for all matches: it sees a row for each of its agents, match by match.
+    """
+
+    def __init__(self, table: Table, num_envs: int) -> None:
+        self._table, self._num_envs = table, num_envs
+
+    def actions(self, given: Any, observations: NDArray[Any], look: Callable[[str], list[Any]]) -> NDArray[np.int64]:
+        """Returns everyone's actions, int64 `(num_envs, agents)`: the caller's, and what the opponents say.
+
+        `observations` has a row for every match and agent; `look` observes each match in another observation. Raises
+        `ActionError` for the caller's actions, `OpponentError` where an opponent fails.
+        """
+        table = self._table
+        actions = np.full((self._num_envs, table.n_agents), int(Action.BUILTIN_AI), np.int64)
+        actions[:, table.mine] = self._read(given)
+        looks: dict[str, Any] = {table.kind: observations}
+        for seat in table.seats:
+            kind = seat.policy.observation or table.kind
+            if kind not in looks:
+                looks[kind] = look(kind)
+            acts = ask(seat, _rows(looks[kind], seat.at), self._num_envs * len(seat.at))
+            actions[:, seat.at] = np.reshape(acts, (self._num_envs, len(seat.at)))
+        return actions
+
+    def _read(self, given: Any) -> NDArray[np.int64]:
+        mine = len(self._table.mine)
+        shape = (self._num_envs,) if mine == 1 else (self._num_envs, mine)
+        last = self._table.n_actions - 1
+        array = np.asarray(given)
+        if array.shape != shape or array.dtype.kind not in "iu":
+            raise ActionError(f"expected integers in 0..{last} of shape {shape}, found {array.dtype} {array.shape}")
+        if array.min() < 0 or array.max() > last:
+            wrong = next(one for one in array.flat if not 0 <= one <= last)
+            raise ActionError(f"expected actions 0..{last}, found {wrong}")
+        return array.astype(np.int64).reshape(self._num_envs, mine)
+
+
+def _rows(seen: Any, at: list[int]) -> Any:
+    """The rows of some agents of every match: an array, or a tuple of dicts."""
+    if isinstance(seen, list) and isinstance(seen[0], tuple):
+        return tuple(views[one] for views in seen for one in at)
+    picked = np.asarray(seen)[:, at]
+    return picked.reshape(-1, *picked.shape[2:])

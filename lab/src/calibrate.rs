@@ -12,11 +12,6 @@ const EXPLAINED: &[(u16, &str)] = &[
     (257, "he follows the ball round the turn, and the ball comes round at its own next touch"),
     (421, "our teams build up a little longer; the thirds beside it are inside"),
     (447, "as C-421"),
-    (
-        530,
-        "against a random side their bots of .95 win by 0.7 goals more than those of .6, ours by 1.1; between themselves \
-         both gain as much (section 7, and the pairings of section 4)",
-    ),
 ];
 
 /// What is asked for.

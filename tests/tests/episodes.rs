@@ -39,6 +39,25 @@ fn whoever_does_nothing_never_scores() {
 }
 
 #[test]
+fn who_stands_on_the_ball_loses_it() {
+    for base in ["11_vs_11_stochastic", "5_vs_5"] {
+        let text =
+            format!("scenario s extends {base} {{ end failure still when held(ball.speed < 0.1m/s, for: 30s) }}");
+        let loaded = setpiece::compile_text(&text, "<test>").unwrap();
+        let options = RunOptions {
+            episodes: 0..40,
+            seed: 0,
+            agent: Agent::Idle,
+            threads: 2,
+            environment: EnvironmentOptions::default(),
+        };
+        let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
+        let still = summary.episodes.iter().flatten().filter(|episode| episode.outcome == "still").count();
+        assert!(still <= 4, "{base}: {still} of 40 stood still for 30 s");
+    }
+}
+
+#[test]
 fn chance_scores_now_and_then() {
     let summary = play("academy_3_vs_1_with_keeper", Agent::Random, 400);
     assert!(summary.success_rate > 0.0 && summary.success_rate < 0.3, "{:?}", summary.outcomes);

@@ -2,13 +2,13 @@
 //!
 //! What is constant is checked now; what is drawn or depends on parameters becomes a requirement of the draw.
 
-use crate::ast::Span;
+use crate::ast::{ScenarioStmtKind, Span};
 use crate::lower::Lower;
 use crate::lower::roster::Rostered;
 use crate::lower::team::PlayerOptions;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
-use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Instr, Reg, UnaryOp};
 
 /// Nearer than this two players stand on one spot.
@@ -26,12 +26,19 @@ pub(crate) fn check_places(
     options: &[PlayerOptions],
     ball: Option<&BallStart>,
 ) {
-    if let (Some(ball), Some((stmt, _))) = (ball, lower.world.flat.ball) {
+    let free_kick = match lower.world.flat.start.map(|stmt| &stmt.kind) {
+        Some(ScenarioStmtKind::Start { kind, at: Some(at), .. }) if kind.node == StartKind::FreeKick.name() => {
+            Some(at.span)
+        }
+        _ => None,
+    };
+    let said = lower.world.flat.ball.map(|(stmt, _)| stmt.place.span).or(free_kick);
+    if let (Some(ball), Some(span)) = (ball, said) {
         let (place, limit) = ((ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M));
-        if check_on_pitch(lower, place, limit, "the ball", stmt.place.span) == Known::Later {
+        if check_on_pitch(lower, place, limit, "the ball", span) == Known::Later {
             let inside = within(lower, place, limit);
             let help = "place it where every draw lies between the lines".to_owned();
-            lower.imply(inside, "the ball lies on the pitch".to_owned(), Some(stmt.place.span), help);
+            lower.imply(inside, "the ball lies on the pitch".to_owned(), Some(span), help);
         }
     }
     let mut on_pitch = Vec::new();

@@ -10,6 +10,8 @@ use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
 /// Ticks until a player whom the ball has hit can play it.
 const STUNNED_TICKS: i32 = 30;
+/// A shot slower than this has run dead, m/s; chosen.
+const SPENT_MPS: f32 = 2.0;
 
 /// Records that a player touches the ball; false if that was an offence that stops play.
 pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) -> bool {
@@ -74,7 +76,10 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
     }
     if let Some(shot) = game.play.shot {
         if shot.by.team() != by.team() {
-            events.push(of_shot(game, EventKind::Shot, shot).qualified(Qualifier::Blocked));
+            // One that has run dead was never stopped by anybody.
+            let spent = game.ball.vel.length() < SPENT_MPS;
+            let verdict = if spent { Qualifier::OffTarget } else { Qualifier::Blocked };
+            events.push(of_shot(game, EventKind::Shot, shot).qualified(verdict));
             game.play.shot = None;
         } else if shot.by != by || game.tick > shot.tick + 20 {
             game.play.shot = None;

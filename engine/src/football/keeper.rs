@@ -54,7 +54,7 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
     let team = id.team();
     let index = team.index();
     if game.play.save[index].is_none() {
-        game.play.save[index] = Some(plan(game, id));
+        game.play.save[index] = plan(game, id);
     }
     let Some(save) = game.play.save[index] else { return };
     if save.at_tick == u32::MAX || game.tick < save.from_tick {
@@ -85,15 +85,15 @@ const PAST_POST_M: f32 = 1.5;
 /// The plan that names no moment: nothing to save.
 const IDLE: Save = Save { at_tick: u32::MAX, from_tick: u32::MAX, point: Vec2::ZERO, reaches: false, holds: false };
 
-/// Judges whether the ball is on its way into the goal, and whether he gets there.
-fn plan(game: &mut Match, id: PlayerId) -> Save {
+/// Judges whether the ball is on its way into the goal, and whether he gets there; none while it is too far away to say.
+fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     let team = id.team();
     let side = team.side() as f32;
     let speed = game.ball.vel.length();
     let ours = game.last_touch.is_some_and(|last| last == id)
         || game.play.kicked_by.is_some_and(|last| last.team() == team && game.rule(Rule::BackPass));
     if speed < SHOT_MPS || game.ball.vel.x * side > -3.0 || ours {
-        return IDLE;
+        return Some(IDLE);
     }
     let goal_x = -(HALF_LENGTH_M as f32) * side;
     let player = *game.player(id);
@@ -104,7 +104,7 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
     let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let react_s = (reaction - since as f32 * 0.01).max(0.02);
     let mut best: Option<(f32, f32, Vec3)> = None;
-    let mut enters = false;
+    let mut enters = None;
     let mut before: Option<Vec3> = None;
     for (time_s, point) in game.play.forecast.from(game.tick) {
         if let Some(last) = before {
@@ -112,12 +112,14 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
         }
         consider(&player, react_s, time_s, point, team, &mut best);
         if (point.x - goal_x) * side < 0.0 {
-            enters = point.y.abs() < panic && point.z < 2.9;
+            enters = Some(point.y.abs() < panic && point.z < 2.9);
             break;
         }
         before = Some(point);
     }
-    let Some((ratio, time_s, point)) = best.filter(|_| enters) else { return IDLE };
+    let Some((ratio, time_s, point)) = best.filter(|_| enters == Some(true)) else {
+        return enters.map(|_| IDLE);
+    };
     let skill = 0.81 + 0.19 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
     let spare = (time_s - react_s).max(0.0);
     let timely = (0.66 + 1.4 * spare).min(0.99);
@@ -131,13 +133,13 @@ fn plan(game: &mut Match, id: PlayerId) -> Save {
     let reaches = noise::happens(game, chance);
     let at_hand = game.ball.vel.length();
     let holds = noise::happens(game, (1.2 - at_hand / 30.0 - 0.5 * ratio).clamp(0.05, 0.95));
-    Save {
+    Some(Save {
         at_tick: game.tick + ((time_s * 100.0) as u32).max(1),
         from_tick: game.tick + (react_s * 100.0) as u32,
         point: point.truncate(),
         reaches,
         holds,
-    }
+    })
 }
 
 /// Weighs a point of the ball's path: the share of his reach that it takes.

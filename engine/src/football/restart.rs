@@ -57,6 +57,9 @@ pub fn place(game: &mut Match, restart: Restart) {
     crate::control::switching::reassign(game);
 }
 
+/// Times that a crowd at the circle is gone through.
+const CLEARING_PASSES: usize = 4;
+
 /// Everyone to his place of the kick-off. Play is on at once: the mode says until when it has not been taken.
 fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     for (i, player) in game.players.iter_mut().enumerate() {
@@ -69,6 +72,18 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     game.last_touch = None;
     game.play.kick_off = Some(team);
     game.play.kick_off_tick = game.tick;
+    clear_circle(game, team, spot);
+    if let Some(kicker) = bring_kicker(game, team, spot) {
+        // Who is moved aside may stand in the circle again, and who leaves it in somebody.
+        for _ in 0..CLEARING_PASSES {
+            set_piece::spread_out(game, kicker);
+            clear_circle(game, team, spot);
+        }
+    }
+}
+
+/// Opponents of the team that kicks off leave the circle, unless the rule is off.
+fn clear_circle(game: &mut Match, team: Team, spot: Vec2) {
     if game.rule(Rule::KickoffCircle) {
         let side = team.other().side() as f32;
         for (i, player) in game.players.iter_mut().enumerate() {
@@ -79,7 +94,6 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
             }
         }
     }
-    bring_kicker(game, team, spot);
 }
 
 /// The kick-off has been taken, or given up.
@@ -89,8 +103,8 @@ pub fn end_kick_off(game: &mut Match) {
     }
 }
 
-/// Someone of the team that kicks off must stand by the ball.
-fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) {
+/// Someone of the team that kicks off must stand by the ball: returns him.
+fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(team) {
         let keeper = if player.role == Role::GK { 1.0e4 } else { 0.0 };
@@ -99,11 +113,11 @@ fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) {
             best = Some((distance, id));
         }
     }
-    if let Some((distance, id)) = best
-        && distance > 2.5
-    {
+    let (distance, id) = best?;
+    if distance > 2.5 {
         game.players[id.index()].pos = spot - Vec2::new(0.9 * team.side() as f32, 0.0);
     }
+    Some(id)
 }
 
 /// Ends everything under way: flights, poses, wishes.

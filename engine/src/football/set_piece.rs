@@ -1,12 +1,13 @@
 //! Set pieces: who takes one and where everybody stands.
 
+use crate::football::offside;
 use crate::football::play::Restart;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{
     BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX,
 };
-use setpiece_scenario::vocabulary::{GameMode, Role, Team};
+use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// How far a wall stands from the ball, metres. Laws.
 const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
@@ -16,6 +17,8 @@ const PENALTY_M: f32 = 9.65 + 0.4;
 pub const WALL_WITHIN_M: f32 = 40.0;
 /// How near two men stand at a set piece at the nearest, metres: about a body's breadth.
 const APART_M: f32 = 0.74;
+/// How far behind the offside line attackers wait for a free kick, metres; chosen: they may be moved apart yet.
+const ONSIDE_M: f32 = 1.0;
 /// Times that a crowd is gone through until nobody stands in anybody.
 const SPREAD_PASSES: usize = 8;
 /// How high the ball is held before a throw-in, metres; chosen.
@@ -55,6 +58,9 @@ pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
     }
     keep_distance(game, restart);
     build_wall(game, restart);
+    if restart.mode == GameMode::FreeKick && game.rule(Rule::Offside) {
+        keep_onside(game, restart.team);
+    }
     let side = restart.team.side() as f32;
     let behind = match restart.mode {
         GameMode::ThrowIn => Vec2::new(0.0, 0.35 * restart.spot.y.signum()),
@@ -68,8 +74,19 @@ pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
     spread_out(game, taker);
 }
 
-/// Moves those apart who would stand inside each other; the taker, keepers and a wall stay.
-fn spread_out(game: &mut Match, taker: PlayerId) {
+/// Nobody of the team that takes a free kick waits in an offside position.
+fn keep_onside(game: &mut Match, team: Team) {
+    let side = team.side() as f32;
+    let line = offside::line(game, team) - ONSIDE_M;
+    for (i, player) in game.players.iter_mut().enumerate() {
+        if player.active && PlayerId(i as u8).team() == team && player.pos.x * side > line {
+            player.pos.x = line * side;
+        }
+    }
+}
+
+/// Moves those apart who would stand inside each other; the taker and keepers stay.
+pub fn spread_out(game: &mut Match, taker: PlayerId) {
     for _ in 0..SPREAD_PASSES {
         let mut moved = false;
         for a in game.order() {

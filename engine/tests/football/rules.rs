@@ -38,6 +38,76 @@ fn a_wall_stands_in_the_way_of_a_free_kick_near_goal() {
 }
 
 #[test]
+fn nobody_waits_offside_for_his_teams_free_kick() {
+    for (i, team) in [Team::Left, Team::Right].into_iter().cycle().take(24).enumerate() {
+        let spot = Vec2::new(i as f32 * 4.0 - 46.0, i as f32 * 2.5 - 30.0);
+        let mut bench = bench(&[], i as u64);
+        place(&mut bench.game, Restart { mode: GameMode::FreeKick, team, spot });
+        let taker = bench.game.play.set_piece.unwrap().taker;
+        assert_eq!(offside::positions(&bench.game, taker), 0, "{team} at {spot}");
+    }
+}
+
+#[test]
+fn a_long_shot_at_a_lone_keeper_is_seen_coming() {
+    for x in [-10.0, -2.0, 5.0] {
+        let mut goals = 0;
+        for seed in 0..50 {
+            let mut bench = bench(&[], seed);
+            for player in &mut bench.game.players {
+                player.pos = Vec2::new(-30.0, 30.0);
+            }
+            bench.game.players[11].pos = Vec2::new(50.0, 0.0);
+            let man = PlayerId(2);
+            let from = Vec2::new(x, 0.0);
+            bench.game.players[man.index()].pos = from;
+            let aim = (Vec2::new(55.0, (seed % 7) as f32 - 3.0) - from).normalize();
+            let vel = (aim * 33.0).extend(9.0);
+            bench.game.ball = Ball { pos: from.extend(0.11), vel, spin: Vec3::ZERO };
+            flight::note(&mut bench.game, man, flight::Touch::Played);
+            for _ in 0..60 {
+                bench.step(Action::Idle);
+                if bench.game.dead || bench.game.play.hands.is_some() {
+                    break;
+                }
+            }
+            goals += u32::from(bench.game.score[0]);
+        }
+        assert!(goals < 10, "{goals} of 50 from {x}");
+    }
+}
+
+#[test]
+fn a_shot_that_has_run_dead_is_off_target_whoever_comes_for_it() {
+    let mut bench = bench(&[], 0);
+    let (by, rival) = (PlayerId(5), PlayerId(14));
+    let mut told = |speed: f32| {
+        flight::shot_struck(&mut bench.game, &mut bench.events, by, Vec2::ZERO);
+        bench.game.ball.vel = Vec3::new(speed, 0.0, 0.0);
+        bench.events.clear();
+        flight::touched(&mut bench.game, &mut bench.events, rival, false);
+        bench.seen(EventKind::Shot).and_then(|event| event.qualifier)
+    };
+    assert_eq!(told(20.0), Some(Qualifier::Blocked));
+    assert_eq!(told(0.0), Some(Qualifier::OffTarget));
+}
+
+#[test]
+fn nobody_stands_in_anybody_at_a_kick_off() {
+    let mut start = drawn(Layout::Eleven, 1);
+    for player in start.players.iter_mut().skip(12).take(3).flatten() {
+        player.kickoff = Some([Vec2::new(1.0, 0.5); 2]);
+    }
+    let mut bench = Bench::of(&start);
+    place(&mut bench.game, Restart { mode: GameMode::KickOff, team: Team::Left, spot: Vec2::ZERO });
+    let places: Vec<Vec2> = bench.game.players[12..15].iter().map(|player| player.pos).collect();
+    for (one, two) in [(0, 1), (1, 2), (0, 2)] {
+        assert!(places[one].distance(places[two]) > 0.7, "{places:?}");
+    }
+    assert!(places.iter().all(|place| place.length() > 9.15), "{places:?}");
+}
+
+#[test]
 fn nobody_stands_in_anybody_at_a_restart() {
     for mode in [GameMode::GoalKick, GameMode::FreeKick, GameMode::Corner, GameMode::ThrowIn, GameMode::Penalty] {
         for (i, team) in [Team::Left, Team::Right].into_iter().cycle().take(20).enumerate() {

@@ -160,6 +160,7 @@ impl Lower<'_, '_> {
                 let problem = Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "");
                 self.report(match kind {
                     StartKind::Open => problem.help("write, for example, `ball at (0.6, 0)`"),
+                    StartKind::ThrowIn => problem.help("say where: `start throw_in for left at (0.5, 0.42)`"),
                     kind => problem.help(format!("say where: `start {kind} for left at (0.5, 0.2)`")),
                 });
                 return None;
@@ -196,7 +197,8 @@ impl Lower<'_, '_> {
                 ("a corner is taken from a corner of the other end", help)
             }
             StartKind::ThrowIn if !on_side_line => {
-                ("a throw-in is taken from a side line", "their y is -0.42 and 0.42: `at (0.3, 0.42)`".to_owned())
+                let help = "their y is -0.42 and 0.42: `at (0.3, 0.42)`".to_owned();
+                ("a throw-in is taken from a side line", help)
             }
             _ => return,
         };

@@ -9,6 +9,13 @@ use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};
 
+/// A carrier slower than this stands, m/s.
+const STANDS_MPS: f32 = 1.0;
+/// He is behind the carrier whose direction and the ball's, seen from there, have a smaller cosine.
+const BEHIND: f32 = -0.2;
+/// How far he passes from the carrier's middle, metres.
+const ROUND_M: f32 = 0.9;
+
 /// The first man.
 pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     let rival = view.owner.filter(|owner| owner.team() != view.team);
@@ -48,13 +55,14 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     let zeal = if view.ball.x > 12.0 { zeal * 1.6 } else { zeal };
     let goal_near = view.ball.x < -20.0;
     let told = game.play.team_pressure[view.team.index()];
-    if gap > zeal && !goal_near && deep < 95.0 && !told {
+    let stands = carrier.vel.length() < STANDS_MPS;
+    if gap > zeal && !goal_near && deep < 95.0 && !told && !stands {
         cover(game, view, id);
         return;
     }
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
-    body.intent = match past_him(view, own, &carrier) {
+    body.intent = match past_him(view, own, &carrier).or_else(|| around_him(view, own, &carrier)) {
         Some(point) => Intent::Go(point * view.side, SPRINT_MPS),
         None => Intent::Ball(SPRINT_MPS),
     };
@@ -75,6 +83,19 @@ fn past_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     }
     let way = (-GOAL - view.ball).normalize_or(Vec2::NEG_X);
     Some(view.ball + way * (gap * 0.6).clamp(1.5, 6.0) + carrier.vel * view.side * 0.3)
+}
+
+/// Where he runs who has a standing carrier between himself and the ball, in his own frame: round him.
+fn around_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
+    let middle = carrier.pos * view.side;
+    let from = own - middle;
+    let Some(way) = (view.ball - middle).try_normalize() else { return None };
+    let stands = carrier.vel.length() < STANDS_MPS && from.length() < 2.0;
+    if !stands || from.normalize_or_zero().dot(way) > BEHIND {
+        return None;
+    }
+    let side = if way.perp_dot(from) < 0.0 { -way.perp() } else { way.perp() };
+    Some(middle + side * ROUND_M + way * 0.3)
 }
 
 /// Slides where a standing tackle comes too late.

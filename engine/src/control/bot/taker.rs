@@ -4,6 +4,7 @@ use crate::control::bot::GOAL;
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::kick;
 use crate::football::noise;
+use crate::football::offside;
 use crate::football::play::SetPiece;
 use crate::math;
 use crate::state::{Match, PlayerId};
@@ -62,12 +63,15 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     }
 }
 
-/// The mate nearest to a world point, the taker left out.
+/// The mate nearest to a world point, the taker left out, and who would be offside.
 fn nearest(game: &Match, taker: PlayerId, point: Vec2) -> Option<PlayerId> {
+    let free_kick = game.play.set_piece.is_some_and(|it| it.mode == GameMode::FreeKick);
+    let offside = if free_kick { offside::positions(game, taker) } else { 0 };
     let mut best: Option<(f32, PlayerId)> = None;
     for (mate, other) in game.team(taker.team()) {
         let distance = other.pos.distance_squared(point);
-        if mate != taker && best.is_none_or(|(least, _)| distance < least) {
+        let may = mate != taker && offside & (1 << mate.0) == 0;
+        if may && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, mate));
         }
     }

@@ -31,10 +31,10 @@ class Crowd:
         table = self._table
         actions = np.full((self._num_envs, table.n_agents), int(Action.BUILTIN_AI), np.int64)
         actions[:, table.mine] = self._read(given)
-        looks: dict[str, Any] = {table.kind: observations}
+        looks: dict[str | None, Any] = {None: observations}
         for seat in table.seats:
-            kind = seat.policy.observation or table.kind
-            if kind not in looks:
+            kind = seat.policy.observation
+            if kind is not None and kind not in looks:
                 looks[kind] = look(kind)
             acts = ask(seat, _rows(looks[kind], seat.at), self._num_envs * len(seat.at))
             actions[:, seat.at] = np.reshape(acts, (self._num_envs, len(seat.at)))

@@ -66,7 +66,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
       scenario's digest.
 
     With `opponents` some of the scenario's agents are played by others; the caller's are what is left, and all that is
-    said above is said of those. (`success` is still told from the left side where both sides have agents.)
+    said above is said of those.
 
     `rewards` and `ends` may be functions, whose terms and labels stand among those of the scenario: see `make`. `reset`
     may go over to another scenario.
@@ -284,8 +284,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
         Returns the observation and `info` of the step after which it was taken; every later step is that of the
         straight run, but for what opponents, and rewards and endings in Python, remember. Raises `SnapshotError` for
-        anything else, and nothing has changed then.
+        anything else, and nothing has changed then; `ClosedEnvironmentError` for a closed environment.
         """
+        self._check_open()
         snapshot = check_snapshot(snapshot)
         with one_thread():
             observation, info = self._native.restore(snapshot)
@@ -350,7 +351,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return self._native.look(check_observation(observation))
 
     def clone(self) -> FootballEnv:
-        """Returns an independent environment in the same state; it watches no files, and its opponents are the same.
+        """Returns an independent environment in the same state, with the same opponents; it doesn't watch or record.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
@@ -377,6 +378,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             kwargs["ends"] = self._callbacks.ends
             tally = self._callbacks.tally
         snapshot = None if self._native.episode is None else (self.snapshot(), self._native.frames())
+        # A stack of frames can't be told from the state.
+        seen = None if self._table is None else self._table.seen
         attributes = {
             "spec": self.spec,
             "_np_random": self._np_random,
@@ -385,13 +388,16 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             "_same_agents": self._same_agents,
             "_scripted": self._scripted,
         }
-        return _revived, (kwargs, snapshot, tally, attributes)
+        return _revived, (kwargs, snapshot, tally, seen, attributes)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
-        """A copy shares its opponents, rewards and endings: they may be large, or hold what can't be copied."""
-        kwargs, snapshot, tally, attributes = self.__reduce__()[1]
+        """A copy shares its opponents: they may be large, or hold what can't be copied."""
+        kwargs, snapshot, tally, seen, attributes = self.__reduce__()[1]
+        for name in ("rewards", "ends"):
+            if name in kwargs:
+                kwargs[name] = deepcopy(kwargs[name], memo)
         attributes["_np_random"] = deepcopy(attributes["_np_random"], memo)
-        return _revived(kwargs, snapshot, tally, attributes)
+        return _revived(kwargs, snapshot, deepcopy(tally, memo), deepcopy(seen, memo), attributes)
 
     @property
     def _native(self) -> _native.Environment:
@@ -428,6 +434,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 help="make another environment for it",
             )
         return match
+
+    def _cut(self, label: str) -> dict[str, Any]:
+        """Ends the episode by a limit of the caller's; returns what `info` tells of that."""
+        told = self._match.end(label, truncated=True)
+        if self._callbacks is not None:
+            told["setpiece"]["return"].update(self._callbacks.tally)
+        self._playing = False
+        self._sum_up(told)
+        return told
 
     def _sum_up(self, info: dict[str, Any]) -> None:
         """Completes the summary of an episode that has ended."""
@@ -472,6 +487,7 @@ def _revived(
     kwargs: dict[str, Any],
     snapshot: tuple[bytes, bytes] | None,
     tally: dict[str, Any] | None,
+    seen: Any,
     attributes: dict[str, Any],
 ) -> FootballEnv:
     """Returns the environment of a copy or pickle."""
@@ -479,6 +495,8 @@ def _revived(
     if snapshot is not None:
         env.restore(snapshot[0])
         env._native.set_frames(snapshot[1])
+    if env._table is not None:
+        env._table.seen = seen
     if env._callbacks is not None and tally is not None:
         env._callbacks.tally = tally
     for name, value in attributes.items():

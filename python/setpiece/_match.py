@@ -38,9 +38,9 @@ class Match:
         """Returns the caller's part of what all agents see."""
         return (observation, info) if self.table is None else self.table.shown(observation, info)
 
-    def end(self, label: str) -> dict[str, Any]:
+    def end(self, label: str, *, truncated: bool = False) -> dict[str, Any]:
         """Ends the episode for a reason of the caller's; returns what the last `info` tells the caller of that."""
-        told = self.native.end(label, label == "success")
+        told = self.native.end(label, label == "success", truncated)
         return told if self.table is None else self.table.told(told)
 
     def views(self) -> list[dict[str, Any]]:
@@ -71,7 +71,7 @@ def match_of(scenario: Scenario, opponents: Mapping[str, Opponent] | None, optio
     native = _native.Environment(scenario, **{**options, "action_set": native_action_set(action_set, opponents)})
     agents, table = native.agents, None
     if opponents is not None:
-        table = Table(agents, opponents, observation, _native.ACTION_SETS[action_set])
+        table = Table(agents, opponents, _native.ACTION_SETS[action_set])
         agents = [agents[at] for at in table.mine]
         for kind in table.observations:
             native.look(kind)

@@ -28,7 +28,7 @@ class Policy:
 
     - `play`: a function of observations that returns actions, the path of an `.onnx` file, or an object with the
       `predict` of Stable-Baselines3.
-    - `observation`: what it sees, as in `setpiece.make`; None: what the caller sees.
+    - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the caller sees, stacked as his.
     - `batched`: True: it gets the observations of all its n agents at once, an array with a leading axis n (a tuple of
       n dicts for `"raw"`), and returns n actions. False: it gets one agent's and returns one, agent by agent.
 
@@ -93,17 +93,15 @@ class Table:
     """How many agents there are."""
     n_actions: int
     """How many actions the caller has."""
-    kind: str
-    """What the caller sees, and an opponent who asks for nothing else."""
     mine: list[int]
     """The caller's agents, among all."""
     seats: list[Seat]
     """The opponents that are asked: the engine plays the others."""
+    seen: Any
+    """What all agents were shown last: what opponents see who ask for nothing else."""
 
-    def __init__(
-        self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], observation: str, n_actions: int
-    ) -> None:
-        self.n_agents, self.n_actions, self.kind = len(agents), n_actions, observation
+    def __init__(self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], n_actions: int) -> None:
+        self.n_agents, self.n_actions = len(agents), n_actions
         owner = _owners(agents, _read(opponents))
         self.mine = [at for at in range(self.n_agents) if at not in owner]
         self._pick = Picker(self.n_agents, self.mine[0] if len(self.mine) == 1 else self.mine)
@@ -117,16 +115,16 @@ class Table:
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
             self.seats.append(Seat(ids, at, Picker(self.n_agents, at), policy, _function(policy), side))
-        self._seen: Any = None
+        self.seen = None
 
     @property
     def observations(self) -> set[str]:
-        """What the opponents see beside the caller's own observation."""
-        return {seat.policy.observation for seat in self.seats if seat.policy.observation} - {self.kind}
+        """What opponents see who ask for something."""
+        return {seat.policy.observation for seat in self.seats if seat.policy.observation}
 
     def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
         """Returns the caller's part of what all agents see, and keeps the rest for the opponents."""
-        self._seen = observation
+        self.seen = observation
         return self._pick(observation), self.told(info)
 
     def told(self, info: dict[str, Any]) -> dict[str, Any]:
@@ -151,10 +149,10 @@ class Table:
         all_actions = [int(Action.BUILTIN_AI)] * self.n_agents
         for at, one in zip(self.mine, self._read_actions(action), strict=True):
             all_actions[at] = one
-        looks = {self.kind: self._seen}
+        looks: dict[str | None, Any] = {None: self.seen}
         for seat in self.seats:
-            kind = seat.policy.observation or self.kind
-            if kind not in looks:
+            kind = seat.policy.observation
+            if kind is not None and kind not in looks:
                 looks[kind] = look(kind)
             for at, one in zip(seat.at, ask(seat, seat.pick(looks[kind]), len(seat.at)), strict=True):
                 all_actions[at] = one

@@ -21,10 +21,13 @@ from setpiece._opponents import integers
 from setpiece._options import RESET_OPTIONS
 from setpiece._record import Record
 from setpiece._rows import Picker, split_info
-from setpiece._spaces import observation_space, one_action_space
+from setpiece._spaces import Layout, observation_space, one_action_space
 from setpiece._state import state, state_space
 from setpiece._vocabulary import Action
 from setpiece._words import similar
+
+STANDS = np.array([0, 0, -1, 0], np.float32)
+"""The continuous action of an agent that plays no more."""
 
 SWITCHING = re.compile(r"(left|right)_\d+")
 """The id of an agent that changes players."""
@@ -96,6 +99,11 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         """Returns the space of an agent's actions, always the same object."""
         return self.action_spaces[self._known(agent)]
 
+    @property
+    def observation_layout(self) -> Layout:
+        """How an agent's observation lies: see `FootballEnv.observation_layout`."""
+        return self.env.observation_layout
+
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
@@ -123,10 +131,11 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         acting = self.agents
         observation, reward, terminated, truncated, info = self.env.step(self._joined(actions))
         self._cycles += 1
-        if self.max_cycles is not None and self._cycles >= self.max_cycles and not terminated:
+        if self.max_cycles is not None and self._cycles >= self.max_cycles and not (terminated or truncated):
             truncated = True
+            info.update(self.env._cut("max_cycles"))
         infos = self._infos(info, acting)
-        gone = self._gone(info)
+        gone = self._gone()
         terminations = {agent: terminated or agent in gone for agent in acting}
         truncations = {agent: truncated and not terminations[agent] for agent in acting}
         self.agents = [agent for agent in acting if not (terminations[agent] or truncations[agent])]
@@ -179,7 +188,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     def _begun(self, observation: Any, info: dict[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
         """What `reset` and `restore` return; from a snapshot an episode may begin without a man, or at its end."""
         infos = self._infos(info, self.possible_agents)
-        over, gone = "outcome" in info, self._gone(info)
+        over, gone = "outcome" in info, self._gone()
         self.agents = [agent for agent in self.possible_agents if not (over or agent in gone)]
         shown = self.possible_agents if over else self.agents
         return self._parts(observation, shown), {agent: infos[agent] for agent in shown}
@@ -191,10 +200,10 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         infos = dict(zip(self.possible_agents, split_info(info, len(self.possible_agents)), strict=True))
         return {agent: infos[agent] for agent in agents}
 
-    def _gone(self, info: dict[str, Any]) -> set[str]:
-        """The agents whose players have been sent off: only then can one do nothing but `idle`."""
-        able = np.atleast_2d(info["action_mask"])[:, 1:].max(axis=1)
-        return {agent for agent, can in zip(self.possible_agents, able.tolist(), strict=True) if not can}
+    def _gone(self) -> set[str]:
+        """The agents whose players have been sent off."""
+        gone = dict(zip((agent.id for agent in self.env._native.agents), self.env._native.gone, strict=True))
+        return {agent for agent in self.possible_agents if gone[agent]}
 
     def _joined(self, actions: Any) -> Any:
         """Everyone's action, from those of the agents that are left."""
@@ -210,11 +219,23 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         for agent in self.agents:
             if agent not in actions:
                 raise ActionError(f"no action for `{agent}`")
+        if self.env.action_set == "continuous":
+            return self._steered(actions)
         given = {agent: actions.get(agent, int(Action.IDLE)) for agent in self.possible_agents}
         joined = integers(list(given.values()), len(given), self._n_actions)
         if joined is None:
             joined = [self._read(agent, action) for agent, action in given.items()]
         return joined[0] if len(joined) == 1 else joined
+
+    def _steered(self, actions: Mapping[str, Any]) -> Any:
+        """Everyone's continuous action; the engine reads the numbers."""
+        rows = []
+        for agent in self.possible_agents:
+            row = np.asarray(actions.get(agent, STANDS))
+            if row.shape != (4,) or row.dtype.kind not in "fiu":
+                raise ActionError(f"expected four numbers for `{agent}`, found `{actions[agent]!r}`")
+            rows.append(row.astype(np.float32))
+        return rows[0] if len(rows) == 1 else np.stack(rows)
 
     def _read(self, agent: str, action: Any) -> int:
         """One agent's action; says whose is wrong."""

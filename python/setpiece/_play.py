@@ -104,7 +104,7 @@ def play(
     env = FootballEnv(
         chosen, left=left, right=right, observation="raw", params=params, rewards=rewards, action_set="v2"
     )
-    table = Table(env.slots, revivable(agents) or {}, "raw", ACTION_SETS["v2"])
+    table = Table(env.slots, revivable(agents) or {}, ACTION_SETS["v2"])
     return _played(env, table, seed, clock, on_error)
 
 

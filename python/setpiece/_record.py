@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import count
 from os import PathLike
 from pathlib import Path
 from typing import Literal
@@ -20,8 +21,8 @@ class Record:
     """A folder, and which episodes are written there."""
 
     def __init__(self, folder: str | PathLike[str], when: When) -> None:
-        count = isinstance(when, int | np.integer) and not isinstance(when, bool) and when >= 1
-        if not count and when not in ("always", "goal"):
+        every = isinstance(when, int | np.integer) and not isinstance(when, bool) and when >= 1
+        if not every and when not in ("always", "goal"):
             raise ParameterError(
                 f"`record_when` is {when!r}; it can be 'always', 'goal' or a count", name="record_when"
             )
@@ -42,7 +43,7 @@ class Record:
         if not wanted or native.episode is None:
             return None
         seed, index = native.episode
-        path = self._folder / f"{name}_{seed}_{index}.pitchr"
+        path = _free(self._folder / f"{name}_{seed}_{index}.pitchr")
         try:
             replay = native.replay()
         except ReplayError:
@@ -54,6 +55,12 @@ class Record:
         if self._when == "goal":
             return any(score)
         return self._when == "always" or self._ended % int(self._when) == 0
+
+
+def _free(path: Path) -> Path:
+    """The path, or with a number behind its name where an episode of the same draw lies there already."""
+    names = (path.with_stem(f"{path.stem}_{number}") for number in count(2))
+    return next((other for other in names if not other.exists()), path) if path.exists() else path
 
 
 def write(path: Path, replay: bytes) -> None:

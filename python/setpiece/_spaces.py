@@ -10,7 +10,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import ParameterError
+from setpiece._errors import ParameterError, UnavailableError
 from setpiece._words import check_word
 
 COUNT_MAX = 2**32 - 1
@@ -70,6 +70,8 @@ Layout = tuple[Block, ...] | tuple[Key, ...]
 def check_observation(name: object) -> str:
     """Returns the name of an observation, or raises `ParameterError`."""
     name = ALIASES.get(name, name) if isinstance(name, str) else name
+    if isinstance(name, str) and name.startswith("pixels"):
+        raise UnavailableError("pixels are not in this version", name="observation", help="`smm` is a map of the pitch")
     return check_word("observation", name, OBSERVATIONS)
 
 

@@ -123,7 +123,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         mine = [*range(len(agents))]
         self._crowd = None
         if played is not None:
-            table = Table(agents, played, self._observation, self._n_actions)
+            table = Table(agents, played, self._n_actions)
             self._crowd, mine = Crowd(table, self.num_envs), table.mine
             for kind in table.observations:
                 self._batch.look(kind)
@@ -144,6 +144,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self._begun = False
         self._over = np.ones(self.num_envs, bool)
         self._marks = np.ones(self.num_envs, bool)
+        self._marks.flags.writeable = False
         self._terms = self._batch.terms
 
     def reset(
@@ -254,7 +255,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 summaries["return"].setdefault(name, column)[at] = paid[..., term]
             for key, value in summary.items():
                 dtype = object if isinstance(value, str) else np.uint64 if key in ("seed", "index") else None
-                column = np.zeros(self.num_envs, dtype or np.array(value).dtype)
+                column = np.full(self.num_envs, None if dtype is object else 0, dtype or np.array(value).dtype)
                 summaries.setdefault(key, column)[at] = value
         summaries["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
         for key, told in (("outcome", outcomes), ("records", records), ("setpiece", summaries)):

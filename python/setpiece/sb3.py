@@ -11,8 +11,8 @@ PPO("MlpPolicy", envs).learn(100_000)
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Sequence
+from copy import deepcopy
 from typing import Any
 
 import gymnasium
@@ -28,7 +28,6 @@ from setpiece._native import Scenario
 from setpiece._opponents import behaviors
 from setpiece._optional import need
 from setpiece._source import Source, load
-from setpiece._vector import FootballVectorEnv
 from setpiece._vector import make_vec as make_batch
 
 need("stable_baselines3", "sb3", "`setpiece.sb3`")
@@ -38,7 +37,7 @@ __all__ = ["Sb3VecEnv", "make_vec"]
 
 FINAL = ("final_info", "final_obs")
 
-ALONE = ("opponents", "ends", "events", "bot_action", "watch", "on_reload", "record", "record_when")
+ALONE = ("ends", "events", "bot_action", "watch", "on_reload", "record", "record_when")
 """What `setpiece.make` takes and a batch does not."""
 
 Indices = int | Iterable[int] | None
@@ -92,8 +91,6 @@ class Sb3VecEnv(VecEnv):
         for at in np.flatnonzero(dones).tolist():
             self.reset_infos[at] = listed[at]
             listed[at] = _one(infos["final_info"], at)
-            if isinstance(self.envs, FootballVectorEnv):
-                listed[at]["records"] = {}  # `make_vec` makes a batch of scenarios without records alone.
             listed[at]["terminal_observation"] = _at(infos["final_obs"], at)
         for at, info in enumerate(listed):
             info["TimeLimit.truncated"] = bool(truncations[at] and not terminations[at])
@@ -166,9 +163,9 @@ def make_vec(
     - `seed`: that of the first environment's first episode; each other one has the next higher one.
     - `threads`: how many play; None: one per core. Results don't depend on them.
 
-    The environments are one batch (`setpiece.make_vec`). What a batch can't do (`opponents`, `events`, `bot_action`,
-    `watch`, `record`, rewards and endings in Python, raw observations, a scenario's records) is played by single
-    environments, one after the other.
+    The environments are one batch (`setpiece.make_vec`). What a batch can't do (`events`, `bot_action`, `watch`,
+    `record`, rewards and endings in Python, raw observations) is played by single environments, one after the other;
+    each has rewards and endings of its own, copies of those given.
 
     Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
     `ParameterError` for a scenario that leaves the caller none or several, and else what `setpiece.make` does.
@@ -180,7 +177,7 @@ def make_vec(
     if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")):
         scenario = load(scenario)
     alone = any(kwargs.get(name) for name in ALONE) or bool(read_rewards(kwargs.get("rewards"))[1])
-    if kwargs.get("observation") == "raw" or alone or _has_records(scenario):
+    if kwargs.get("observation") == "raw" or alone:
         envs = SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)
     else:
         kwargs = {name: value for name, value in kwargs.items() if name not in ALONE}
@@ -192,13 +189,10 @@ def make_vec(
     return vec
 
 
-def _has_records(scenario: Source) -> bool:
-    """Whether the ends of episodes bring records, which a batch does not tell."""
-    return isinstance(scenario, Scenario) and bool(json.loads(scenario.__reduce__()[1][0])["scenario"].get("records"))
-
-
 def _alone(scenario: Source, kwargs: dict[str, Any]) -> FootballEnv:
-    env = make(scenario, **kwargs)
+    # What rewards and endings remember belongs to one environment.
+    own = {name: deepcopy(kwargs[name]) for name in ("rewards", "ends") if name in kwargs}
+    env = make(scenario, **(kwargs | own))
     _check_one(env.agents, env.scenario)
     return env
 

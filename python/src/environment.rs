@@ -142,7 +142,12 @@ impl Environment {
     /// Goes on with another version of the scenario's scripts at once; False, and nothing done, where anything else is
     /// another.
     fn adopt_scripts(&mut self, py: Python<'_>, scenario: &Scenario) -> PyResult<bool> {
-        self.engine.adopt_scripts(scenario.inner()).map_err(|error| from_engine(py, error))
+        let adopted = self.engine.adopt_scripts(scenario.inner()).map_err(|error| from_engine(py, error))?;
+        if adopted {
+            // What was played before was played by others.
+            self.recorder.lose();
+        }
+        Ok(adopted)
     }
 
     /// Begins the episode of a seed and an index under parameters, in the state of a snapshot where there is one;
@@ -192,6 +197,14 @@ impl Environment {
         self.engine.has_begun().then(|| (self.engine.seed(), self.engine.index()))
     }
 
+    /// Whether each agent has nobody left to play: his player was sent off.
+    #[getter]
+    fn gone(&self) -> Vec<bool> {
+        let game = self.engine.state();
+        let left = |player: PlayerId| game.player(player).active;
+        self.engine.agents().iter().map(|slot| !slot.player.is_some_and(left)).collect()
+    }
+
     /// Whether it can be stepped.
     #[getter]
     fn running(&self) -> bool {
@@ -218,9 +231,15 @@ impl Environment {
     }
 
     /// Ends the episode where it stands, for a reason of the caller's; returns outcome, records and summary.
-    fn end<'py>(&mut self, py: Python<'py>, label: &str, success: bool) -> PyResult<Bound<'py, PyDict>> {
+    fn end<'py>(
+        &mut self,
+        py: Python<'py>,
+        label: &str,
+        success: bool,
+        truncated: bool,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let verdict = success.then_some(Verdict::Success);
-        self.engine.end(Outcome { label: label.into(), verdict, truncated: false });
+        self.engine.end(Outcome { label: label.into(), verdict, truncated });
         let told = PyDict::new(py);
         self.info.sum_up(py, &self.engine, &told)?;
         Ok(told)

@@ -641,3 +641,8 @@ def test_what_is_closed_says_so(kind: str) -> None:
 def test_parameters_are_a_mapping(maker: Callable[..., Any]) -> None:
     with pytest.raises(setpiece.ParameterError, match="expected `params` as a mapping"):
         maker("academy_corner", params=[1])
+
+
+def test_pixels_are_not_there_yet() -> None:
+    with pytest.raises(setpiece.UnavailableError, match="pixels are not in this version"):
+        setpiece.make(THREE, observation="pixels")

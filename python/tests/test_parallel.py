@@ -16,7 +16,7 @@ from pettingzoo.test.state_test import state_test
 from pettingzoo.utils import parallel_to_aec
 
 import setpiece
-from setpiece import Action, FootballEnv, parallel_env
+from setpiece import Action, ActionError, FootballEnv, parallel_env
 
 THREE = "academy_3_vs_1_with_keeper"
 FULL = "11_vs_11_stochastic"
@@ -181,11 +181,34 @@ def test_an_ending_terminates_and_the_limit_truncates_everyone() -> None:
         assert set(truncations.values()) == {cycle == 5}
         assert set(terminations.values()) == {False}
     assert env.agents == []
-    assert "outcome" not in infos["left_RM_1"], "the scenario hasn't ended"
+    told = infos["left_RM_1"]
+    assert told["outcome"] == "max_cycles"
+    assert (told["setpiece"]["length"], told["setpiece"]["success"]) == (5, False)
+    assert told["setpiece"]["digest"] == env.env._native.digest
     with pytest.raises(gymnasium.error.ResetNeeded):
         env.step({})
     env.reset()
     assert env.agents == env.possible_agents
+
+
+def test_continuous_actions_are_those_of_an_environment() -> None:
+    env = parallel_env("5_vs_5", left=2, action_set="continuous")
+    single = setpiece.make("5_vs_5", left=2, switching="fixed", action_set="continuous")
+    seen, _ = env.reset(seed=1)
+    expected, _ = single.reset(seed=1)
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        acts = rng.uniform([-1, -1, -1, 0], 1, (2, 4)).astype(np.float32)
+        seen = env.step(dict(zip(env.agents, acts, strict=True)))[0]
+        expected = single.step(acts)[0]
+        assert np.array_equal(np.stack([*seen.values()]), expected)
+    first, second = env.agents
+    for wrong in (3, [0.0] * 3, "run", np.zeros(4, bool)):
+        with pytest.raises(ActionError, match=f"four numbers for `{second}`"):
+            env.step({first: acts[0], second: wrong})
+    with pytest.raises(ActionError):
+        env.step({first: acts[0], second: np.full(4, np.nan)})
+    assert env.observation_layout == single.observation_layout
 
 
 def test_an_agent_whose_player_is_sent_off_is_terminated(pitch_file: PitchFile) -> None:

@@ -126,6 +126,8 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
     assert env.last_reload is not None
     assert env.last_reload.state == "applied"
     assert env.scenario.digest != first
+    with pytest.raises(setpiece.ReplayError, match="changed scripts"):
+        env.save_replay(path.with_suffix(".pitchr"))
     # A broken script is told at once, and the last good one goes on.
     path.write_text(text("100.0 +"))
     assert steps(lambda: env.last_reload is not None and env.last_reload.state == "broken") > 101.0

@@ -186,3 +186,46 @@ def test_copies_keep_the_actions_and_the_bots_choice() -> None:
         assert other.restore(state)[1]["bot_action"] == env.restore(state)[1]["bot_action"]
         assert other.played() == env.played()
         assert same(other.step(19), env.step(19))
+
+
+def hashed(seen: Any) -> int:
+    return int(np.abs(seen).sum() * 31) % 19
+
+
+@pytest.mark.parametrize("stack", [1, 4])
+@pytest.mark.parametrize("copied", [setpiece.FootballEnv.clone, lambda env: pickle.loads(pickle.dumps(env))])
+def test_a_copy_goes_on_with_what_opponents_have_seen(stack: int, copied: Any) -> None:
+    env = setpiece.make("5_vs_5", left=1, right=1, opponents={"right": hashed}, stack=stack)
+    env.reset(seed=1)
+    for _ in range(20):
+        env.step(5)
+    twin = copied(env)
+    for _ in range(20):
+        assert np.array_equal(env.step(5)[0], twin.step(5)[0])
+
+
+class Counting:
+    def reset(self) -> None:
+        self.steps = 0
+
+    def __call__(self, _step: setpiece.Step) -> float:
+        self.steps += 1
+        return float(self.steps)
+
+
+def test_a_clone_has_rewards_of_its_own() -> None:
+    env = setpiece.make("5_vs_5", rewards=["none", Counting()])
+    env.reset(seed=1)
+    env.step(0)
+    twin = env.clone()
+    assert [twin.step(0)[1] for _ in range(3)] == [2.0, 3.0, 4.0]
+    assert env.step(0)[1] == 2.0
+
+
+def test_what_is_closed_stays_closed() -> None:
+    env = setpiece.make("5_vs_5")
+    env.reset(seed=1)
+    snapshot = env.snapshot()
+    env.close()
+    with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+        env.restore(snapshot)

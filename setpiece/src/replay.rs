@@ -52,7 +52,7 @@ pub enum ReplayError {
     #[error("no episode has begun: there is nothing to replay")]
     NotBegun,
     /// How its episode began is not known.
-    #[error("the episode goes on from a restored snapshot: how it came there is not known")]
+    #[error("the episode goes on from a restored snapshot or with changed scripts: a replay can't tell how it began")]
     Beginning,
     /// This build plays it otherwise.
     #[error("step {step}: this build plays the episode otherwise than the one that wrote it")]

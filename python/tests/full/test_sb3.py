@@ -124,11 +124,11 @@ def test_what_a_batch_does_not_tell_is_played_by_single_environments() -> None:
     text = (
         "scenario s extends academy { ball at (0.9, 0)  team left { CB at (0.89, 0) }  record shots = count of shot }"
     )
-    for vec, action in (
-        (make_vec(setpiece.compile(text), 2, seed=1), Action.SHOT),
-        (make_vec(CLOSE, 2, seed=1, events=True), Action.RIGHT),
+    for vec, action, kind in (
+        (make_vec(setpiece.compile(text), 2, seed=1), Action.SHOT, FootballVectorEnv),
+        (make_vec(CLOSE, 2, seed=1, events=True), Action.RIGHT, SyncVectorEnv),
     ):
-        assert isinstance(vec.envs, SyncVectorEnv)
+        assert isinstance(vec.envs, kind)
         vec.reset()
         dones = np.zeros(2, bool)
         while not dones.any():
@@ -226,6 +226,36 @@ def test_rewards_and_endings_in_python_are_played_by_single_environments() -> No
     assert "deep" in outcomes
 
 
+class Counting:
+    def reset(self) -> None:
+        self.steps = 0
+
+    def __call__(self, _step: setpiece.Step) -> float:
+        self.steps += 1
+        return float(self.steps)
+
+
+def test_each_environment_has_rewards_of_its_own() -> None:
+    vec = make_vec("5_vs_5", 3, rewards=["none", Counting()], seed=0)
+    vec.reset()
+    for step in range(1, 4):
+        assert vec.step(np.zeros(3, int))[1].tolist() == [step] * 3
+
+
+def test_opponents_play_in_a_batch() -> None:
+    seen: list[int] = []
+
+    def forward(observations: Any) -> list[Action]:
+        seen.append(len(observations))
+        return [Action.RIGHT] * len(observations)
+
+    vec = make_vec("5_vs_5", 3, right=2, opponents={"right": setpiece.Policy(forward)}, seed=0)
+    assert isinstance(vec.envs, FootballVectorEnv)
+    vec.reset()
+    vec.step(np.zeros(3, int))
+    assert seen == [6]
+
+
 def test_behaviours_play_a_side(tmp_path: Path) -> None:
     path = tmp_path / "deserted.pitch"
     path.write_text(
@@ -241,7 +271,7 @@ def test_behaviours_play_a_side(tmp_path: Path) -> None:
         """,
         encoding="utf-8",
     )
-    vec = make_vec(path, 1, opponents={"right": "homesick"}, seed=1)
+    vec = make_vec(path, 1, opponents={"right": "homesick"}, events=True, seed=1)
     vec.reset()
     vec.step(np.array([Action.IDLE]))
     assert vec.env_method("played")[0]["right_CB_1"] == Action.LEFT

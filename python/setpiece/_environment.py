@@ -61,9 +61,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     or int64 `(n,)`), going on from what the agent holds. In the last step it has also:
 
     - `outcome`: the ending's name; `records`: the scenario's own records.
-    - `setpiece`: `return` by term, `length` in steps, `seed`, `index`, `digest` of the final state, `success` of the
-      side with agents, `faults`: payments that were impossible (a division by zero) and left out, and `scenario`: the
-      scenario's digest.
+    - `setpiece`: `return` by term, `length` in steps, `seed`, `index`, `digest` of the final state, `success`: whether
+      the ending is one that the scenario calls a success, whoever plays, `faults`: payments that were impossible (a
+      division by zero) and left out, and `scenario`: the scenario's digest.
 
     With `opponents` some of the scenario's agents are played by others; the caller's are what is left, and all that is
     said above is said of those.

@@ -76,7 +76,9 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     if let Some(kicker) = bring_kicker(game, team, spot) {
         // Who is moved aside may stand in the circle again, and who leaves it in somebody.
         for _ in 0..CLEARING_PASSES {
-            set_piece::spread_out(game, kicker);
+            if !set_piece::spread_out(game, kicker) {
+                break;
+            }
             clear_circle(game, team, spot);
         }
     }

@@ -85,9 +85,9 @@ fn keep_onside(game: &mut Match, team: Team) {
     }
 }
 
-/// Moves those apart who would stand inside each other; the taker and keepers stay.
-pub fn spread_out(game: &mut Match, taker: PlayerId) {
-    for _ in 0..SPREAD_PASSES {
+/// Moves those apart who would stand inside each other; the taker and keepers stay. Returns whether anybody was moved.
+pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
+    for pass in 0..SPREAD_PASSES {
         let mut moved = false;
         for a in game.order() {
             for b in game.order() {
@@ -107,9 +107,10 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) {
             }
         }
         if !moved {
-            return;
+            return pass > 0;
         }
     }
+    true
 }
 
 /// Where a player of a slot stands: his slot stretched over the part of the pitch that the set piece is about.

@@ -92,18 +92,16 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
         for a in game.order() {
             for b in game.order() {
                 let (first, second) = (game.player(a), game.player(b));
+                let between = second.pos - first.pos;
+                let near = between.length_squared() < APART_M * APART_M;
                 let stays = b == taker || second.role == Role::GK;
-                if a == b || stays || !first.active || !second.active {
+                if !near || a == b || stays || !first.active || !second.active {
                     continue;
                 }
-                let between = second.pos - first.pos;
                 let distance = between.length();
-                if distance < APART_M {
-                    let away =
-                        if distance > 1e-3 { between / distance } else { Vec2::new(0.0, a.team().side() as f32) };
-                    game.players[b.index()].pos = first.pos + away * (APART_M + 0.01);
-                    moved = true;
-                }
+                let away = if distance > 1e-3 { between / distance } else { Vec2::new(0.0, a.team().side() as f32) };
+                game.players[b.index()].pos = first.pos + away * (APART_M + 0.01);
+                moved = true;
             }
         }
         if !moved {

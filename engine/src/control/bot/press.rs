@@ -89,7 +89,7 @@ fn past_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
 fn around_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let middle = carrier.pos * view.side;
     let from = own - middle;
-    let Some(way) = (view.ball - middle).try_normalize() else { return None };
+    let way = (view.ball - middle).try_normalize()?;
     let stands = carrier.vel.length() < STANDS_MPS && from.length() < 2.0;
     if !stands || from.normalize_or_zero().dot(way) > BEHIND {
         return None;

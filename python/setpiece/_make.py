@@ -91,7 +91,8 @@ def make(
       (33: orders to team mates too) or `"continuous"` (a `Box` of float32 `(4,)`: x and y of the way to run, whose
       length is the pace; what to do with the ball, six kinds in equal parts of -1..1: nothing, short, long, high pass,
       shot, slide; and the power of a kick, 0..1: how hard a shot is and how far a pass goes, 0 as a key's).
-    - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr`: of all, of those with a goal
+    - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr` (with `_2` and so on behind it where
+      one of the same draw lies there already): of all, of those with a goal
       (`record_when="goal"`), or of the first and each n-th after it (`record_when=n`). The last `info["setpiece"]` has
       `replay`, the path or None; `setpiece replay FILE` plays one again, and so does `setpiece.Replay`.
     - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.

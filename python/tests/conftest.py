@@ -8,6 +8,8 @@ import gymnasium
 import numpy as np
 import pytest
 
+from setpiece import Step
+
 Trajectory = list[tuple[Any, Any, bool, bool, dict[str, Any]]]
 
 
@@ -64,3 +66,17 @@ def same(a: Any, b: Any) -> bool:
     if isinstance(a, np.ndarray):
         return isinstance(b, np.ndarray) and a.dtype == b.dtype and np.array_equal(a, b)
     return type(a) is type(b) and a == b
+
+
+class Counter:
+    """A reward that remembers: the number of the step in its episode."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+
+    def reset(self) -> None:
+        self.steps = 0
+
+    def __call__(self, _step: Step) -> float:
+        self.steps += 1
+        return float(self.steps)

@@ -8,7 +8,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from conftest import play, same
+from conftest import Counter, play, same
 from gymnasium.utils.env_checker import check_env
 
 import setpiece
@@ -43,20 +43,6 @@ def deep(step: Step) -> bool:
 
 def never(_step: Step) -> None:
     return None
-
-
-class Counter:
-    """A reward that remembers: the number of the step in its episode."""
-
-    def __init__(self) -> None:
-        self.steps = 0
-
-    def reset(self) -> None:
-        self.steps = 0
-
-    def __call__(self, _step: Step) -> float:
-        self.steps += 1
-        return float(self.steps)
 
 
 def right() -> Action:

@@ -6,7 +6,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from conftest import play, same
+from conftest import Counter, play, same
 
 import setpiece
 from setpiece import Action
@@ -204,17 +204,8 @@ def test_a_copy_goes_on_with_what_opponents_have_seen(stack: int, copied: Any) -
         assert np.array_equal(env.step(5)[0], twin.step(5)[0])
 
 
-class Counting:
-    def reset(self) -> None:
-        self.steps = 0
-
-    def __call__(self, _step: setpiece.Step) -> float:
-        self.steps += 1
-        return float(self.steps)
-
-
 def test_a_clone_has_rewards_of_its_own() -> None:
-    env = setpiece.make("5_vs_5", rewards=["none", Counting()])
+    env = setpiece.make("5_vs_5", rewards=["none", Counter()])
     env.reset(seed=1)
     env.step(0)
     twin = env.clone()

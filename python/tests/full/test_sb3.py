@@ -4,7 +4,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from conftest import same
+from conftest import Counter, same
 
 import setpiece
 from setpiece import Action
@@ -226,17 +226,8 @@ def test_rewards_and_endings_in_python_are_played_by_single_environments() -> No
     assert "deep" in outcomes
 
 
-class Counting:
-    def reset(self) -> None:
-        self.steps = 0
-
-    def __call__(self, _step: setpiece.Step) -> float:
-        self.steps += 1
-        return float(self.steps)
-
-
 def test_each_environment_has_rewards_of_its_own() -> None:
-    vec = make_vec("5_vs_5", 3, rewards=["none", Counting()], seed=0)
+    vec = make_vec("5_vs_5", 3, rewards=["none", Counter()], seed=0)
     vec.reset()
     for step in range(1, 4):
         assert vec.step(np.zeros(3, int))[1].tolist() == [step] * 3

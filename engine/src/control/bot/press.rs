@@ -55,8 +55,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     let zeal = if view.ball.x > 12.0 { zeal * 1.6 } else { zeal };
     let goal_near = view.ball.x < -20.0;
     let told = game.play.team_pressure[view.team.index()];
-    let stands = carrier.vel.length() < STANDS_MPS;
-    if gap > zeal && !goal_near && deep < 95.0 && !told && !stands {
+    if gap > zeal && !goal_near && deep < 95.0 && !told && !stands(&carrier) {
         cover(game, view, id);
         return;
     }
@@ -85,13 +84,18 @@ fn past_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     Some(view.ball + way * (gap * 0.6).clamp(1.5, 6.0) + carrier.vel * view.side * 0.3)
 }
 
+/// Whether he stands still with the ball.
+fn stands(carrier: &Player) -> bool {
+    carrier.vel.length() < STANDS_MPS
+}
+
 /// Where he runs who has a standing carrier between himself and the ball, in his own frame: round him.
 fn around_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let middle = carrier.pos * view.side;
     let from = own - middle;
     let way = (view.ball - middle).try_normalize()?;
-    let stands = carrier.vel.length() < STANDS_MPS && from.length() < 2.0;
-    if !stands || from.normalize_or_zero().dot(way) > BEHIND {
+    let near = from.length() < 2.0;
+    if !near || !stands(carrier) || from.normalize_or_zero().dot(way) > BEHIND {
         return None;
     }
     let side = if way.perp_dot(from) < 0.0 { -way.perp() } else { way.perp() };

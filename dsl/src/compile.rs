@@ -1,9 +1,13 @@
 //! The compiler's entry: a root file in, a scenario and everything that is wrong with it out.
 
+mod cast;
 mod scripts;
 mod unused;
 
+pub use cast::{Cast, Whom};
+
 use crate::ast::{ItemKind, ScenarioItem, Span};
+use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
 use crate::lower::{World, behavior, ending, hidden, observation, param, record, reward, roster, start};
@@ -24,6 +28,8 @@ pub struct CompileOptions<'a> {
     pub prelude: Option<&'a Prelude>,
     /// Checks scripts; without it they are embedded unread.
     pub scripts: Option<&'a dyn ScriptApi>,
+    /// Who plays players, whatever the text says; of several for one player the last wins.
+    pub cast: &'a [Cast],
 }
 
 /// What came out.
@@ -89,9 +95,11 @@ pub fn parts(text: &str) -> Option<Vec<String>> {
 #[allow(clippy::needless_pass_by_value, reason = "a caller has no more use for the root, which the outcome holds")]
 pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> Outcome {
     let mut problems = Vec::new();
-    let mut library = load(&root, loader, options.prelude, &mut problems);
+    let texts: Vec<Source> = options.cast.iter().map(Cast::source).collect();
+    let (mut library, guests) = load(&root, loader, options.prelude, &texts, &mut problems);
     let mut scripts = Scripts::new(options.scripts);
     scripts::load(&mut library, &mut scripts, loader);
+    let casting = cast::read(options.cast, &guests, &library, &mut problems);
 
     let mut chosen = None;
     let root_items: Vec<_> = library.files.first().map_or(&[][..], |file| &file.items).iter().collect();
@@ -108,14 +116,16 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     for (item, doc) in &candidates {
         if item.is_abstract {
             let mut found = Vec::new();
-            compile_one(&library, &scripts, item, doc, &mut found, &mut unused);
+            compile_one(&library, &scripts, &[], item, doc, &mut found, &mut unused);
             // What is missing, a child may bring.
             found.retain(|problem| !follows_from_gaps(problem.code) && problem.code != Code::UnknownName);
             problems.append(&mut found);
             continue;
         }
-        let lowered = compile_one(&library, &scripts, item, doc, &mut problems, &mut unused);
-        if wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item)) {
+        let is_wanted = wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item));
+        let casting = if is_wanted { casting.as_slice() } else { &[] };
+        let lowered = compile_one(&library, &scripts, casting, item, doc, &mut problems, &mut unused);
+        if is_wanted {
             chosen = Some(lowered);
         }
     }
@@ -240,6 +250,7 @@ fn pick<'a>(
 fn compile_one<'a>(
     library: &'a Library,
     scripts: &'a Scripts<'a>,
+    casting: &'a [Casting<'a>],
     item: &'a ScenarioItem,
     doc: &'a str,
     problems: &mut Vec<Problem>,
@@ -256,6 +267,7 @@ fn compile_one<'a>(
         params: Vec::new(),
         lets: Vec::new(),
         mirror,
+        casting,
         roster: Vec::new(),
         whole_roster: false,
         agents: None,

@@ -6,6 +6,7 @@
 pub(crate) mod agents;
 pub(crate) mod behavior;
 pub(crate) mod builder;
+pub(crate) mod casting;
 pub(crate) mod ending;
 pub(crate) mod expr;
 pub(crate) mod fold;
@@ -30,6 +31,7 @@ use crate::compile::RequireOrigin;
 use crate::problem::{Code, Problem};
 use crate::resolve::{Flat, Library};
 use builder::Builder;
+use casting::Casting;
 use interval::Interval;
 use mirror::Mirror;
 use param::ParamInfo;
@@ -53,6 +55,8 @@ pub(crate) struct World<'w> {
     pub(crate) lets: Vec<LetSlot<'w>>,
     /// Whether it is seen in a mirror.
     pub(crate) mirror: Mirror,
+    /// Who plays players, whatever the text says.
+    pub(crate) casting: &'w [Casting<'w>],
     /// Its players.
     pub(crate) roster: Vec<Rostered<'w>>,
     /// Whether the list of players was read without a mistake.

@@ -128,7 +128,7 @@ class Callbacks:
                 try:
                     reset()
                 except Exception as error:
-                    raise _failed(function, None, error) from error
+                    raise failed(function, None, error) from error
         self.go_on(views, info)
 
     def go_on(self, views: list[dict[str, Any]], info: dict[str, Any]) -> None:
@@ -233,10 +233,11 @@ def _call(function: Callable[[Step], Any], agent: str, step: Step) -> Any:
     try:
         return function(step)
     except Exception as error:
-        raise _failed(function, agent, error) from error
+        raise failed(function, agent, error) from error
 
 
-def _failed(function: Callable[..., Any], agent: str | None, error: Exception) -> CallbackError:
+def failed(function: Callable[..., Any], agent: str | None, error: Exception) -> CallbackError:
+    """The error for a caller's function that raised one, for an agent or for nobody."""
     whom = "" if agent is None else f" for `{agent}`"
     return CallbackError(
         f"`{_name(function)}` failed{whom}: {type(error).__name__}: {error}", function=_name(function), agent=agent

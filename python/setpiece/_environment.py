@@ -21,13 +21,14 @@ from setpiece._opponents import Opponent, Table, behaviors, revivable
 from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
+    check_flag,
     check_number,
     check_params,
     check_snapshot,
     one_thread,
     read_reset_options,
 )
-from setpiece._record import Record, When, write
+from setpiece._record import When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
 from setpiece._seats import Seats, scripted_scenario
 from setpiece._source import Source
@@ -113,19 +114,19 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
         self.render_mode = render_mode
         check_watch(watch)
-        self._record = None if record is None else Record(record, record_when)
+        self._record = read_record(record, record_when)
         names, functions = read_rewards(rewards)
         endings = read_ends(ends)
-        self._events = bool(events)
+        self._events = check_flag("events", events)
         self._callbacks = Callbacks(functions, endings, show_events=self._events) if functions or endings else None
         self._observation = check_observation(observation)
         self._options: dict[str, Any] = {
             "observation": self._observation,
             "rewards": names,
             "events": self._events or self._callbacks is not None,
-            "copy": copy,
+            "copy": check_flag("copy", copy),
             "action_set": check_action_set(action_set),
-            "bot_action": bool(bot_action),
+            "bot_action": check_flag("bot_action", bot_action),
             "stack": check_stack(stack, self._observation),
             "size": check_size(size),
             "left": left,
@@ -137,8 +138,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if watch and self._scripted:
             raise ParameterError("a watched file says itself who plays: write it there", name="watch")
         self._watcher = Watcher(scenario, watch, on_reload) if watch else None
-        found = self._watcher.scenario if self._watcher else scripted_scenario(scenario, self._scripted)
         self._bound = check_params(params) or {}
+        found = self._watcher.scenario if self._watcher else self._cast(scenario, self._bound)
         # Whether another scenario must have the same agents, by name: PettingZoo's keep theirs.
         self._same_agents = False
         self._enter(self._ready(found))
@@ -151,6 +152,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._params: dict[str, ParamValue] = {}
         self._playing = False
         self._closed = False
+        # Somebody else's code is being asked in the middle of a step or reset.
+        self._asking = False
 
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Draws a new start and returns its observation and `info`.
@@ -191,14 +194,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             params = {}
         self._playing = False
         if self._watcher is not None:
-            self._enter(self._watcher.at_reset(self._match, self._ready))
+            self._take_over(*self._watcher.at_reset(self._match, self._ready))
         match = self._match if switched is None else switched
         with one_thread():
             observation, info = match.native.reset(number, at, params, wanted.snapshot)
             views = match.views() if self._callbacks is not None else []
         observation, info = match.shown(observation, info)
         if self._callbacks is not None:
-            self._callbacks.begin(views, info)
+            self._asking = True
+            try:
+                self._callbacks.begin(views, info)
+            finally:
+                self._asking = False
         # A reset that fails leaves no trace but that nothing is being played.
         if switched is not None:
             self._enter(switched)
@@ -218,12 +225,12 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         `ActionError` for another action, `ScriptError` where a script of the scenario fails, `OpponentError` where an
         opponent does, `CallbackError` where a reward or ending in Python does; after these three a `reset` begins anew.
         """
-        if not self._playing:
+        if not self._playing or self._asking:
             self._check_open()
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
         if self._watcher is not None and self._watcher.at_once:
-            self._enter(self._watcher.at_step(self._match, self._bound))
-        given = action
+            self._take_over(*self._watcher.at_step(self._match, self._bound))
+        given, self._asking = action, True
         try:
             if self._table is not None:
                 action = self._table.actions(action, self.look)
@@ -247,8 +254,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             if "borrowed" not in str(error):
                 raise
             raise InUseError("another thread is using this environment: make one for each thread") from None
-        self._playing = not (terminated or truncated)
-        if not self._playing:
+        finally:
+            self._asking = False
+        self._playing = not (terminated or truncated or self._closed)
+        if terminated or truncated:
             self._sum_up(info)
         return observation, reward, terminated, truncated, info
 
@@ -258,6 +267,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         super().close()
 
     def _check_open(self) -> None:
+        if self._asking:
+            raise InUseError(
+                "this environment is in the middle of a step: make one for each thread, and let no reward, ending or "
+                "opponent play it"
+            )
         if self._closed:
             raise gymnasium.error.ClosedEnvironmentError("the environment is closed: make another one")
 
@@ -417,6 +431,17 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         bound = self._bound if params is None else params
         return match_of(scenario.with_params(**bound), self._opponents, self._options)
 
+    def _cast(self, source: Source, params: Mapping[str, ParamValue]) -> Scenario:
+        """A scenario with the behaviours that play in this environment."""
+        seats = {name: self._options[name] for name in ("left", "right", "switching")}
+        return scripted_scenario(source, self._scripted, params=params, **seats)
+
+    def _take_over(self, match: Match, reload: Reload | None) -> None:
+        """Plays another match from here on, and tells of the change that brought it."""
+        self._enter(match)
+        if reload is not None and self._watcher is not None:
+            self._watcher.tell(reload)
+
     def _switched(self, source: Source, params: Mapping[str, ParamValue] | None) -> Match:
         """Makes another scenario ready that can be played in this environment."""
         if self._watcher is not None:
@@ -425,7 +450,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 name="scenario",
                 help="leave out `watch`",
             )
-        match = self._ready(scripted_scenario(source, self._scripted), params or {})
+        match = self._ready(self._cast(source, params or {}), params or {})
         change = match.change(self._match, agents=self._same_agents, players=self._same_agents)
         if change is not None:
             raise ParameterError(

@@ -51,9 +51,9 @@ def make(
     - `opponents`: who plays some of these agents instead of the caller: by side (`"left"`, `"right"`) or by agent,
       who wins over his side:
       - `"bot"`: the built-in bot, or the player's own `ai` where the scenario gives him one;
-      - a behaviour of the scenario, as `ai:` says it (`"marker(3m)"`, `"lazy"`), for a side: it plays all players of
-        the side that have no agent of the caller's and no `ai` of their own;
-      - a script: the path of a `.rhai` file with an `act` hook, likewise for a side;
+      - a behaviour of the scenario, as `ai:` says it (`"marker(3m)"`, `"lazy"`): for a side it plays all its players
+        that have no agent of the caller's and no `ai` of their own, for an agent the player whom the agent keeps;
+      - a script: the path of a `.rhai` file with an `act` hook, likewise;
       - a function of one agent's observation that returns its action, called agent by agent;
       - a `Policy`: with its own observation, over one agent or a batch of them;
       - an object with the `predict` of Stable-Baselines3, called with a batch;
@@ -91,10 +91,10 @@ def make(
       (33: orders to team mates too) or `"continuous"` (a `Box` of float32 `(4,)`: x and y of the way to run, whose
       length is the pace; what to do with the ball, six kinds in equal parts of -1..1: nothing, short, long, high pass,
       shot, slide; and the power of a kick, 0..1: how hard a shot is and how far a pass goes, 0 as a key's).
-    - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr` (with `_2` and so on behind it where
-      one of the same draw lies there already): of all, of those with a goal
-      (`record_when="goal"`), or of the first and each n-th after it (`record_when=n`). The last `info["setpiece"]` has
-      `replay`, the path or None; `setpiece replay FILE` plays one again, and so does `setpiece.Replay`.
+    - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr` (with `_2` and so on behind it
+      where one of the same draw lies there already): of all, of those with a goal (`record_when="goal"`), or of the
+      first and each n-th after it (`record_when=n`). The last `info["setpiece"]` has `replay`, the path or None;
+      `setpiece replay FILE` plays one again, and so does `setpiece.Replay`.
     - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.

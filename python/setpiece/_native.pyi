@@ -24,9 +24,12 @@ __all__ = [
     "Replay",
     "Scenario",
     "__version__",
+    "agents",
     "compile",
+    "compile_cast",
     "library",
     "load",
+    "load_cast",
     "restore",
     "run_command",
 ]
@@ -80,6 +83,8 @@ class AgentInfo:
     def id(self) -> str: ...
     @property
     def team(self) -> int: ...
+    @property
+    def place(self) -> int | None: ...
 
 @final
 class Environment:
@@ -236,5 +241,14 @@ class Live:
 def library() -> list[tuple[str, str, tuple[int, int]]]: ...
 def load(name_or_path: str | PathLike[str]) -> Scenario: ...
 def compile(text: str, name: str = "<text>") -> Scenario: ...
+def load_cast(name_or_path: str | PathLike[str], casting: Sequence[tuple[int, int | None, str]]) -> Scenario: ...
+def compile_cast(text: str, name: str, casting: Sequence[tuple[int, int | None, str]]) -> Scenario: ...
+def agents(
+    scenario: Scenario,
+    *,
+    left: int | str | Sequence[str] | None,
+    right: int | str | Sequence[str] | None,
+    switching: str | None,
+) -> list[AgentInfo]: ...
 def restore(text: str) -> Scenario: ...
 def run_command(arguments: Sequence[str]) -> int: ...

@@ -45,18 +45,14 @@ Opponent = Policy | Callable[[Any], Any] | str | PathLike[str] | Any
 
 
 def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
-    """Returns the sides that behaviours of the scenario play, with what stands behind `ai:`."""
-    found: dict[str, str] = {}
-    for who, opponent in _read(opponents).items():
-        if _is_word(opponent) and opponent != BOT:
-            if who not in SIDES:
-                raise ParameterError(
-                    f"`{opponent}` can't play `{who}` alone: behaviours play the whole of a side",
-                    name="opponents",
-                    help=f"write `{who}: … {{ ai: {opponent} }}` in the scenario, and play it with 'bot'",
-                )
-            found[who] = _ai(opponent)
-    return found
+    """Returns the sides and agents that behaviours play, with what stands behind `ai:`.
+
+    Beside them the agents that the bot was named for: it plays them in a side that a behaviour plays, too.
+    """
+    words = {who: _ai(one) for who, one in _read(opponents).items() if _is_word(one)}
+    if all(word == BOT for word in words.values()):
+        return {}
+    return {who: word for who, word in words.items() if word != BOT or who not in SIDES}
 
 
 def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] | None:
@@ -232,12 +228,17 @@ def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> d
         elif who in ids:
             owner[ids.index(who)] = who
         else:
-            raise ParameterError(
-                f"no agent `{who}`; opponents play `left`, `right` or one of {', '.join(f'`{one}`' for one in ids)}",
-                name="opponents",
-                help=similar(who, [*SIDES, *ids]),
-            )
+            raise no_agent(who, ids)
     return dict(sorted(owner.items()))
+
+
+def no_agent(who: str, ids: Sequence[str]) -> ParameterError:
+    """The error for an opponent of somebody who isn't there."""
+    return ParameterError(
+        f"no agent `{who}`; opponents play `left`, `right` or one of {', '.join(f'`{one}`' for one in ids)}",
+        name="opponents",
+        help=similar(who, [*SIDES, *ids]),
+    )
 
 
 def _policy(who: str, opponent: Opponent) -> Policy:

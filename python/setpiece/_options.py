@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from operator import index
 from typing import Any
 
+import numpy as np
+
 from setpiece._errors import InUseError, ParameterError
 from setpiece._source import Source
 from setpiece._words import similar
@@ -74,6 +76,13 @@ def check_number(name: str, value: object) -> int:
     if not 0 <= number <= NUMBER_MAX:
         raise ParameterError(f"`{name}` is {number}, outside 0..2**64-1", name=name)
     return number
+
+
+def check_flag(name: str, value: object) -> bool:
+    """Returns a bool, or raises `ParameterError`."""
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    raise ParameterError(f"expected True or False as `{name}`, found `{value!r}`", name=name)
 
 
 def check_snapshot(snapshot: object) -> bytes:

@@ -17,6 +17,15 @@ When = Literal["always", "goal"] | int
 """Which episodes are recorded: all, those with a goal, or each n-th."""
 
 
+def read_record(folder: str | PathLike[str] | None, when: When) -> Record | None:
+    """Returns where episodes are recorded, if they are."""
+    if folder is not None:
+        return Record(folder, when)
+    if when != "always":
+        raise ParameterError(f"`record_when={when!r}` needs a folder: `record=…`", name="record_when")
+    return None
+
+
 class Record:
     """A folder, and which episodes are written there."""
 

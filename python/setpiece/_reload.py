@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from setpiece._callbacks import failed
 from setpiece._errors import ParameterError, SetpieceError
 from setpiece._match import Match
 from setpiece._native import Live, Scenario
@@ -47,29 +48,26 @@ class Watcher:
         self.scenario, self.last = self._live.scenario, None
         self.at_once = watch == "now"
 
-    def at_reset(self, match: Match, ready: Callable[[Scenario], Match]) -> Match:
-        """Returns the match to play from here on: that of the changed files, or the one given."""
-        fresh = self._changed()
+    def at_reset(self, match: Match, ready: Callable[[Scenario], Match]) -> tuple[Match, Reload | None]:
+        """Returns the match to play from here on, that of the changed files or the one given, and what to tell."""
+        fresh, broken = self._changed()
         if fresh is None:
-            return match
+            return match, broken
         self._waiting = None
         try:
             new = ready(fresh)
         except SetpieceError as error:
-            self._tell(Reload("held back", fresh, error, f"no environment can be made of it: {error}"))
-            return match
+            return match, Reload("held back", fresh, error, f"no environment can be made of it: {error}")
         change = new.change(match, agents=True, players=False)
         if change is not None:
-            self._tell(Reload("held back", fresh, None, change))
-            return match
-        self._tell(Reload("applied", fresh, None, f"`{fresh.name}` is played from this episode on"))
-        return new
+            return match, Reload("held back", fresh, None, change)
+        return new, Reload("applied", fresh, None, f"`{fresh.name}` is played from this episode on")
 
-    def at_step(self, match: Match, params: Mapping[str, ParamValue]) -> Match:
-        """Takes over changed scripts at once and returns the match with them; other changes wait for a reset."""
-        fresh = self._changed()
+    def at_step(self, match: Match, params: Mapping[str, ParamValue]) -> tuple[Match, Reload | None]:
+        """Takes over changed scripts at once; other changes wait for a reset. Returns the match and what to tell."""
+        fresh, broken = self._changed()
         if fresh is None or fresh is self._waiting:
-            return match
+            return match, broken
         try:
             scenario = fresh.with_params(**params)
             adopted = match.native.adopt_scripts(scenario)
@@ -77,22 +75,26 @@ class Watcher:
             adopted = False
         if not adopted:
             self._waiting = fresh
-            return match
-        self._tell(Reload("applied", fresh, None, f"the scripts of `{fresh.name}` are run from this step on"))
-        return replace(match, scenario=scenario, digest=scenario.digest)
+            return match, None
+        new = replace(match, scenario=scenario, digest=scenario.digest)
+        return new, Reload("applied", fresh, None, f"the scripts of `{fresh.name}` are run from this step on")
 
-    def _changed(self) -> Scenario | None:
-        """The scenario of files that have changed, or one that is still waiting."""
-        try:
-            return self._live.poll() or self._waiting
-        except SetpieceError as error:
-            self._tell(Reload("broken", None, error, "the scenario's files have errors"))
-            return None
-
-    def _tell(self, reload: Reload) -> None:
+    def tell(self, reload: Reload) -> None:
+        """Tells of a change that has been taken over, or not; raises `CallbackError` where `on_reload` fails."""
         self.last = reload
-        if self._on_reload is not None:
+        if self._on_reload is None:
+            return
+        try:
             self._on_reload(reload)
+        except Exception as error:
+            raise failed(self._on_reload, None, error) from error
+
+    def _changed(self) -> tuple[Scenario | None, Reload | None]:
+        """The scenario of files that have changed, or one that is still waiting; or what broke them."""
+        try:
+            return self._live.poll() or self._waiting, None
+        except SetpieceError as error:
+            return None, Reload("broken", None, error, "the scenario's files have errors")
 
 
 def check_watch(watch: object) -> None:

@@ -3,59 +3,76 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
+from typing import Any
 
-from setpiece import _library
+from setpiece import _native
 from setpiece._errors import CompileError, ParameterError
-from setpiece._native import Scenario, compile
-from setpiece._source import Source, load, path_of, text_of
+from setpiece._native import AgentInfo, Scenario
+from setpiece._opponents import BOT, SIDES, no_agent
+from setpiece._source import Source, load, name_of, path_of, text_of
 
 Seats = int | str | Sequence[str] | None
 """How many agents play on a side: a count, `"all"`, the names of players, or None for what the scenario says."""
 
 
-def scripted_scenario(scenario: Source, ai: Mapping[str, str]) -> Scenario:
-    """Returns a scenario whose sides are played by behaviours.
+def scripted_scenario(
+    scenario: Source,
+    ai: Mapping[str, str],
+    *,
+    params: Mapping[str, Any] | None = None,
+    left: Seats = None,
+    right: Seats = None,
+    switching: str | None = None,
+) -> Scenario:
+    """Returns a scenario whose players are played by behaviours.
 
-    - `ai`: by side, who plays its players without an agent, as `ai:` of the language says it: `"lazy"`, `"marker(3m)"`.
-      A player with an `ai` of his own keeps it.
+    - `ai`: by side or agent, who plays, as `ai:` of the language says it: `"lazy"`, `"marker(3m)"`. A side's plays its
+      players who have no `ai` of their own, an agent's the player that the agent keeps.
+    - `params`, `left`, `right`, `switching`: those of `setpiece.make`, which agents depend on.
 
-    Raises `ParameterError` for a behaviour that the scenario hasn't got, and for a compiled one, which is as it is.
+    Raises `ParameterError` for a behaviour that the scenario hasn't got, for an agent that isn't there or changes
+    players, and for a compiled scenario, which is as it is.
     """
     base = load(scenario)
     if not ai:
         return base
-    words = ", ".join(f"`{who}`" for who in ai.values())
-    text = text_of(scenario)
-    if isinstance(scenario, Scenario) or (text is None and Path(path_of(scenario)).suffix == ".pitchc"):
+    sides = {who: word for who, word in ai.items() if who in SIDES}
+    casting: list[tuple[int, int | None, str]] = [(SIDES.index(side), None, word) for side, word in sides.items()]
+    named = {who: word for who, word in ai.items() if who not in SIDES}
+    if named:
+        agents = _native.agents(base.with_params(**(params or {})), left=left, right=right, switching=switching)
+        casting += [one for who, word in named.items() if (one := _of_agent(who, word, agents, ai)) is not None]
+    words = ", ".join(f"`{word}`" for _, _, word in casting)
+    if isinstance(scenario, Scenario):
         raise ParameterError(
             f"a compiled scenario keeps who plays its players: {words} can't change them",
-            name=next(iter(ai)),
+            name="opponents",
             help="give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text",
         )
-    teams = [f"team {side} {{ each all {{ ai: {who} }} }}" for side, who in ai.items()]
-    origin, name, parent = _origin(path_of(scenario), base) if text is None else (text, *_heir(base))
-    doc = f"/// {base.title}\n" if base.title else ""
-    body = "\n".join(teams)
+    text = text_of(scenario)
     try:
-        return compile(f"{origin}\n{doc}scenario {name} extends {parent} {{\n{body}\n}}", base.name)
+        if text is None:
+            return _native.load_cast(path_of(scenario), casting)
+        return _native.compile_cast(text, name_of(scenario), casting)
     except CompileError as error:
         first = error.diagnostics[0]
         message = f"`{base.name}` can't be played with {words}: {first.message}"
-        raise ParameterError(message, name=next(iter(ai)), code=first.code, help=first.help) from None
+        raise ParameterError(message, name="opponents", code=first.code, help=first.help) from None
 
 
-def _origin(scenario: str, base: Scenario) -> tuple[str, str, str]:
-    """The import that brings a scenario, what its child is called, and what it is called itself."""
-    if scenario in _library.list():
-        return "", *_heir(base)
-    path = Path(scenario).resolve().as_posix()
-    if '"' in path or "\n" in path:
-        raise ParameterError(f"the path of the scenario can't be imported: {path!r}", name="scenario")
-    # Twice: `origin` brings the scenario under another name than its child's, the other what `ai:` may name.
-    return f'import "{path}" as origin\nimport "{path}"', base.name, f"origin.{base.name}"
-
-
-def _heir(base: Scenario) -> tuple[str, str]:
-    """What the child of a scenario is called that stands beside it, and the scenario itself."""
-    return f"{base.name}_scripted", base.name
+def _of_agent(
+    who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str, str]
+) -> tuple[int, int | None, str] | None:
+    """Whose `ai` an agent's opponent is; None for a bot that is there anyway."""
+    agent = next((agent for agent in agents if agent.id == who), None)
+    if agent is None:
+        raise no_agent(who, [agent.id for agent in agents])
+    if word == BOT and SIDES[agent.team] not in ai:
+        return None
+    if agent.place is None:
+        raise ParameterError(
+            f"`{word}` can't play `{who}`, who changes players: a behaviour plays one of them",
+            name="opponents",
+            help=f"let him keep his player (`switching='fixed'`), or give it the whole side: {SIDES[agent.team]!r}",
+        )
+    return agent.team, agent.place, word

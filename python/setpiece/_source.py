@@ -28,7 +28,7 @@ def load(source: Source) -> Scenario:
         return source
     text = text_of(source)
     if text is not None:
-        return _native.compile(text, scenario_name(source) if isinstance(source, Mapping) else "<text>")
+        return _native.compile(text, name_of(source))
     return _native.load(path_of(source))
 
 
@@ -38,6 +38,11 @@ def text_of(source: Source) -> str | None:
         return pitch_text(source)
     is_text = isinstance(source, str) and "{" in source and not source.endswith((".pitch", ".pitchc"))
     return source if is_text and isinstance(source, str) else None
+
+
+def name_of(source: Source) -> str:
+    """Returns what reports call a text."""
+    return scenario_name(source) if isinstance(source, Mapping) else "<text>"
 
 
 def path_of(source: object) -> str:

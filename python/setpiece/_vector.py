@@ -102,7 +102,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
         scripted, played = behaviors(opponents), revivable(opponents)
-        self.scenario = scripted_scenario(scenario, scripted).with_params(**(check_params(params) or {}))
+        bound = check_params(params) or {}
+        cast = scripted_scenario(scenario, scripted, params=bound, left=left, right=right, switching=switching)
+        self.scenario = cast.with_params(**bound)
         self._observation = check_observation(observation)
         self._stack = check_stack(stack, self._observation)
         self._batch = _native.Batch(

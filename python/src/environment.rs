@@ -35,6 +35,9 @@ pub(crate) struct AgentInfo {
     /// Its team: 0 left, 1 right.
     #[pyo3(get)]
     team: usize,
+    /// The place in its team of the player it keeps; `None` where it changes players.
+    #[pyo3(get)]
+    place: Option<usize>,
 }
 
 /// One match of a scenario, judged and observed: what `setpiece.FootballEnv` is made of.
@@ -346,8 +349,30 @@ impl Environment {
 
 /// The agents of an engine, left before right.
 pub(crate) fn agents_of(engine: &Engine) -> Vec<AgentInfo> {
-    let teams = engine.roster().agents.iter().map(|(team, _)| team.index());
-    engine.agent_ids().iter().zip(teams).map(|(id, team)| AgentInfo { id: id.clone(), team }).collect()
+    let agents = engine.agent_ids().iter().zip(&engine.roster().agents);
+    agents
+        .map(|(id, (team, player))| AgentInfo {
+            id: id.clone(),
+            team: team.index(),
+            place: player.map(|player| player.index() % TEAM_MAX),
+        })
+        .collect()
+}
+
+/// The agents that a scenario would have, left before right.
+#[pyfunction]
+#[pyo3(signature = (scenario, *, left, right, switching))]
+pub(crate) fn agents(
+    py: Python<'_>,
+    scenario: &Scenario,
+    left: Option<&Bound<'_, PyAny>>,
+    right: Option<&Bound<'_, PyAny>>,
+    switching: Option<&str>,
+) -> PyResult<Vec<AgentInfo>> {
+    let agents = read_seats(py, &Seats { left, right, switching })?;
+    let options = EnvironmentOptions { agents, ..EnvironmentOptions::default() };
+    let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
+    Ok(agents_of(&engine))
 }
 
 /// Players of the left and the right team, as raw observations count them.

@@ -91,6 +91,10 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
             }
             EpisodeError::Step(_) | EpisodeError::Endless(_) => "SetpieceError",
         },
+        Error::Cast { .. } => {
+            fields.set_item("name", "opponents")?;
+            "ParameterError"
+        }
         Error::Threads(_) | Error::NoStep { .. } => "SetpieceError",
         Error::Format { .. } | Error::Compile(_) => "FormatError",
     };

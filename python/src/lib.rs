@@ -25,7 +25,7 @@ mod _native {
     #[pymodule_export]
     use crate::batch::{Arrays, Batch};
     #[pymodule_export]
-    use crate::environment::{AgentInfo, Environment};
+    use crate::environment::{AgentInfo, Environment, agents};
     #[pymodule_export]
     use crate::live::Live;
     #[pymodule_export]
@@ -33,7 +33,7 @@ mod _native {
     #[pymodule_export]
     use crate::replay::Replay;
     #[pymodule_export]
-    use crate::scenario::{Scenario, compile, library, load, restore};
+    use crate::scenario::{Scenario, compile, compile_cast, library, load, load_cast, restore};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -4,8 +4,8 @@ use crate::params::{Param, bind};
 use crate::{diagnostics, errors};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMappingProxy};
-use setpiece::Loaded;
-use setpiece::scenario::{self as compiled, Bindings};
+use setpiece::scenario::{self as compiled, Bindings, Team};
+use setpiece::{Cast, Loaded, Whom};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -150,6 +150,32 @@ pub(crate) fn load(py: Python<'_>, name_or_path: PathBuf) -> PyResult<Scenario> 
 #[pyo3(signature = (text, name = "<text>"))]
 pub(crate) fn compile(py: Python<'_>, text: &str, name: &str) -> PyResult<Scenario> {
     let loaded = py.detach(|| setpiece::compile_text(text, name));
+    Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
+}
+
+/// A cast as Python writes it: of a team (0 left, 1 right) or its player at a place, what stands behind `ai:`.
+type Casting = Vec<(usize, Option<usize>, String)>;
+
+fn cast_of(casting: Casting) -> Vec<Cast> {
+    let whom = |team: usize, place: Option<usize>| {
+        let team = if team == 0 { Team::Left } else { Team::Right };
+        place.map_or(Whom::Team(team), |place| Whom::Player(team, place))
+    };
+    casting.into_iter().map(|(team, place, ai)| Cast { whom: whom(team, place), ai }).collect()
+}
+
+/// Loads a scenario as `load` does, its players played by a cast.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
+pub(crate) fn load_cast(py: Python<'_>, name_or_path: PathBuf, casting: Casting) -> PyResult<Scenario> {
+    let loaded = py.detach(|| setpiece::load_cast(&name_or_path.to_string_lossy(), &cast_of(casting)));
+    Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
+}
+
+/// Compiles a text as `compile` does, its players played by a cast.
+#[pyfunction]
+pub(crate) fn compile_cast(py: Python<'_>, text: &str, name: &str, casting: Casting) -> PyResult<Scenario> {
+    let loaded = py.detach(|| setpiece::compile_text_cast(text, name, &cast_of(casting)));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 

@@ -341,3 +341,49 @@ def test_each_agent_of_a_parallel_environment_is_paid_and_all_end() -> None:
 def test_kaggles_agents_are_paid_by_functions_too(pitch_file: Callable[..., Path]) -> None:
     played = setpiece.play(pitch_file(TEN), "bot", "bot", rewards=["none", kept])
     assert played.rewards == (2.5, 2.5)
+
+
+class Meddler:
+    """Plays the environment that asks it."""
+
+    env: Any = None
+
+    def __init__(self, call: str) -> None:
+        self.call = call
+
+    def __call__(self, _seen: Any) -> int:
+        if self.env is not None:
+            getattr(self.env, self.call)(*{"step": (0,), "restore": (b"",)}.get(self.call, ()))
+        return 0
+
+
+class AtReset(Meddler):
+    def reset(self) -> None:
+        self(None)
+
+    def __call__(self, seen: Any) -> int:
+        return 0 if seen is not None else super().__call__(seen)
+
+
+@pytest.mark.parametrize("call", ["reset", "step", "restore"])
+@pytest.mark.parametrize("what", ["reward", "reward's reset", "ending", "opponent"])
+def test_who_judges_a_step_can_not_play_it(what: str, call: str) -> None:
+    meddler = (AtReset if "reset" in what else Meddler)(call)
+    ending: Callable[[Step], bool] = lambda step: bool(meddler(step))  # noqa: E731
+    kwargs: dict[str, Any] = {"ending": {"ends": [ending]}, "opponent": {"right": 1, "opponents": {"right": meddler}}}
+    env = setpiece.make("1_vs_1_easy", **kwargs.get(what, {"rewards": [meddler]}))
+    env.reset(seed=1)
+    meddler.env = env
+    with pytest.raises((setpiece.CallbackError, setpiece.OpponentError), match="InUseError"):
+        play(env, 1, lambda: 0)
+    meddler.env = None
+    env.reset(seed=1)
+    env.step(0)
+
+
+def test_flags_are_flags() -> None:
+    for wrong in ({"copy": "x"}, {"events": "no"}, {"bot_action": 1}):
+        with pytest.raises(setpiece.ParameterError, match="expected True or False"):
+            setpiece.make(CLOSE, **wrong)
+    with pytest.raises(setpiece.ParameterError, match="needs a folder"):
+        setpiece.make(CLOSE, record_when="goal")

@@ -1,5 +1,6 @@
 """`create_environment`: every parameter, the shapes of every representation, rewards, states, bad input."""
 
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -360,6 +361,18 @@ def test_a_state_of_something_else_is_refused() -> None:
         with pytest.raises(SnapshotError):
             env.set_state(state)
         assert env.get_state() == before
+    for part in ("agents", "source", "snapshot", "played", "waiting"):
+        for damage in (None, "x", 7):
+            state = pickle.loads(before)
+            if damage is None:
+                del state["core"][part]
+            elif part not in ("waiting",):
+                state["core"][part] = damage
+            else:
+                continue
+            with pytest.raises(SnapshotError):
+                env.set_state(pickle.dumps(state))
+            assert env.get_state() == before
 
 
 def test_observation_shows_without_playing() -> None:

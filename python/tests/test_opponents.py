@@ -178,13 +178,75 @@ def test_behaviours_play_a_side(pitch_file: PitchFile) -> None:
     assert moved[1] < 0.01, "dora has an `ai` of her own"
     lazy = setpiece.make(path, right=0, opponents={"right": "lazy", "left": "bot"})
     assert lazy.agents == ()
-    with pytest.raises(setpiece.ParameterError, match="`chaser` can't play `carla` alone"):
-        setpiece.make(path, opponents={"carla": "chaser"})
     with pytest.raises(setpiece.ParameterError, match="can't be played with `chase`") as caught:
         setpiece.make(path, opponents={"right": "chase"})
     assert caught.value.help
     with pytest.raises(setpiece.ParameterError, match="a compiled scenario keeps who plays its players"):
         setpiece.make(setpiece.load(path), opponents={"right": "chaser"})
+
+
+def moved(env: Any, side: str = "right_team", steps: int = 20) -> list[bool]:
+    """Who of a side runs while the caller idles."""
+    first, _ = env.reset(seed=1)
+    for _ in range(steps):
+        after, *_ = env.step([Action.IDLE] * len(env.agents) if len(env.agents) != 1 else Action.IDLE)
+    after, first = (one[0] if isinstance(one, tuple) else one for one in (after, first))
+    return [bool(way > 0.03) for way in np.hypot(*(after[side] - first[side]).T)]
+
+
+def test_a_behaviour_plays_one_agent(pitch_file: PitchFile) -> None:
+    """An agent's behaviour plays its player alone, and wins over an `ai` of his own."""
+    path = pitch_file(MARKED)
+    for opponents, expected in [
+        ({"carla": "chaser", "dora": "lazy"}, [True, False]),
+        ({"carla": "lazy", "dora": "chaser(2m)"}, [False, True]),
+        ({"right": "chaser", "carla": "lazy"}, [False, False]),
+        ({"right": "lazy", "dora": "chaser"}, [False, True]),
+        ({"right": "lazy", "carla": "bot"}, [True, False]),
+        ({"right": "hold", "carla": lambda _: Action.LEFT}, [True, False]),
+    ]:
+        env = setpiece.make(path, opponents=opponents, observation="raw")
+        assert env.agents == ("anna",)
+        assert moved(env) == expected, opponents
+
+
+def test_a_behaviour_plays_an_agent_without_a_name_in_the_file() -> None:
+    env = setpiece.make(THREE, left="all", opponents={"left_CM_2": "lazy", "left_GK_1": "lazy"}, observation="raw")
+    assert env.agents == ("left_CM_1", "left_CM_3")
+    env.reset(seed=1)
+    env.step([Action.RIGHT] * 2)
+    assert "left_CM_2" not in env.played(), "nobody plays who is lazy"
+    twin = setpiece.make(THREE, left="all", observation="raw")
+    assert env.scenario.name == twin.scenario.name
+    vec = setpiece.make_vec(THREE, 2, left="all", opponents={"left_CM_2": "lazy", "left_GK_1": "lazy"})
+    assert vec.agents == env.agents
+    assert vec.scenario.digest == env.scenario.digest
+
+
+def test_a_behaviour_follows_its_agent_to_another_scenario(pitch_file: PitchFile) -> None:
+    env = setpiece.make(pitch_file(MARKED), opponents={"carla": "chaser", "dora": "lazy"}, observation="raw")
+    other = MARKED.replace("dora: CB", "dora: LB").replace("carla: CB at (0.3, 0)", "carla: CB at (0.35, 0)")
+    env.reset(seed=1)
+    for copy in (env, env.clone(), pickle.loads(pickle.dumps(env))):
+        copy.reset(seed=1, options={"scenario": other})
+        for _ in range(20):
+            observation, *_ = copy.step(Action.IDLE)
+        assert observation["right_team"][0, 0] < 0.32, "carla chases the ball"
+        assert observation["right_team"][1, 0] > 0.28, "dora doesn't"
+
+
+def test_a_behaviour_needs_an_agent_that_keeps_its_player() -> None:
+    with pytest.raises(setpiece.ParameterError, match="`lazy` can't play `right_0`, who changes players") as caught:
+        setpiece.make("5_vs_5", right=1, opponents={"right_0": "lazy"})
+    assert "switching='fixed'" in str(caught.value.help)
+    env = setpiece.make("5_vs_5", right=1, switching="fixed", opponents={"right_RM_1": "lazy"})
+    assert env.agents == ("left_RM_1",)
+
+
+def test_a_behaviour_from_outside_is_one_word() -> None:
+    for wrong in ("lazy } } } scenario x { ball at centre", "", "lazy, difficulty: 1", "3", "marker("):
+        with pytest.raises(setpiece.ParameterError, match="can't be played with"):
+            setpiece.make(MARKED, opponents={"carla": wrong})
 
 
 CLIMBER = """
@@ -212,8 +274,8 @@ def test_a_script_that_is_not_one_is_named(tmp_path: Path) -> None:
         setpiece.make(DUEL, opponents={"right": broken})
     with pytest.raises(setpiece.ParameterError, match=r"missing\.rhai"):
         setpiece.make(DUEL, opponents={"right": "missing.rhai"})
-    with pytest.raises(setpiece.ParameterError, match="behaviours play the whole of a side"):
-        setpiece.make(DUEL, right=1, opponents={"right_GK_1": "chaser.rhai"})
+    with pytest.raises(setpiece.ParameterError, match=r"missing\.rhai"):
+        setpiece.make(DUEL, right="all", opponents={"right_GK_1": "missing.rhai"})
 
 
 def test_an_opponent_that_fails_is_named_and_the_next_episode_plays() -> None:

@@ -141,3 +141,20 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
     assert env.step(0)[1] == 5.0
     with pytest.raises(setpiece.ParameterError, match="'soon'"):
         setpiece.make(path, watch="soon")  # type: ignore[arg-type]
+
+
+def test_an_on_reload_that_fails_is_told_and_loses_nothing(pitch_file: Callable[[str], Path]) -> None:
+    path = pitch_file(SHOT.replace("LIMIT", "5"))
+    told: list[setpiece.Reload] = []
+
+    def fails(reload: setpiece.Reload) -> None:
+        told.append(reload)
+        raise ValueError("a full disk")
+
+    env = setpiece.make(path, watch=True, on_reload=fails)
+    env.reset(seed=1)
+    save(path, SHOT.replace("LIMIT", "7"))
+    with pytest.raises(setpiece.CallbackError, match="`fails` failed: ValueError: a full disk"):
+        wait_for_reload(env, None)
+    assert [reload.state for reload in told] == ["applied"]
+    assert length(env) == 7

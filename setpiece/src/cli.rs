@@ -30,6 +30,9 @@ const FAULT: u8 = 1;
 /// Football scenarios from text files, and the engine that runs them.
 #[derive(Parser, Debug)]
 #[command(name = "setpiece", version, about, max_term_width = 100, arg_required_else_help = true)]
+#[command(
+    after_help = "With the Python package: `setpiece import grf FILE.py` turns a GRF scenario into a .pitch file"
+)]
 pub(crate) struct Args {
     /// When to colour the output
     #[arg(long, global = true, value_enum, default_value_t = Colour::Auto, value_name = "WHEN")]

@@ -35,6 +35,11 @@ pub enum Error {
         /// Why.
         why: FormatError,
     },
+    /// A compiled scenario keeps who plays its players.
+    Cast {
+        /// Who was to play some of them.
+        ai: String,
+    },
     /// A snapshot can't be taken, restored or begun from.
     Snapshot(SnapshotError),
     /// A replay can't be read or played.
@@ -111,6 +116,7 @@ impl Error {
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
             Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, |problem| problem.code),
             Error::Format { .. } => Code::BadCompiled,
+            Error::Cast { .. } => Code::BadAgents,
             Error::Param { .. } => Code::BadParameter,
             Error::Environment(why) => match why {
                 EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => Code::UnknownReward,
@@ -152,6 +158,9 @@ impl Error {
             Error::Environment(EnvironmentError::Reward { name, known }) => {
                 nearest(name, known.iter().map(String::as_str)).map(|name| format!("did you mean `{name}`?"))
             }
+            Error::Cast { .. } => Some(
+                "give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text".to_owned(),
+            ),
             Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
             Error::Snapshot(why) | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
             Error::Replay(ReplayError::NotAReplay) => {
@@ -203,6 +212,9 @@ impl std::fmt::Display for Error {
                 }
             }
             Error::Format { path, why } => write!(f, "`{}`: {why}", path.display()),
+            Error::Cast { ai } => {
+                write!(f, "a compiled scenario keeps who plays its players: `{ai}` can't change them")
+            }
             Error::Param { why, .. } => why.fmt(f),
             Error::Snapshot(why) => why.fmt(f),
             Error::Replay(why) => why.fmt(f),

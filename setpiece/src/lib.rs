@@ -28,7 +28,9 @@ pub mod watch;
 pub use error::Error;
 #[cfg(feature = "watch")]
 pub use live::Live;
-pub use load::{Checked, Entry, Loaded, bind, check, compile_text, list, load, load_file};
+pub use load::{
+    Cast, Checked, Entry, Loaded, Whom, bind, check, compile_text, compile_text_cast, list, load, load_cast, load_file,
+};
 pub use setpiece_dsl as dsl;
 pub use setpiece_engine as engine;
 pub use setpiece_scenario as scenario;

@@ -6,6 +6,7 @@ use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
+pub use setpiece_dsl::{Cast, Whom};
 use setpiece_dsl::{CompileOptions, Origins, Prelude, compile};
 use setpiece_scenario::file::{self, binary};
 use setpiece_scenario::{Bindings, Scenario, Team};
@@ -44,7 +45,7 @@ pub struct Entry {
 pub fn list() -> Vec<Entry> {
     let mut entries: Vec<Entry> = stdlib::scenarios()
         .filter_map(|(name, source)| {
-            let scenario = compile_source(source).ok()?.scenario;
+            let scenario = compile_source(source, &[]).ok()?.scenario;
             Some(Entry {
                 name: name.to_owned(),
                 title: scenario.title().to_owned(),
@@ -61,14 +62,22 @@ pub fn list() -> Vec<Entry> {
 /// # Errors
 /// [`Error`], for everything that can be wrong with a name, a file or its content.
 pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
+    load_cast(name_or_path, &[])
+}
+
+/// Loads a scenario as [`load`] does, its players played by a cast.
+///
+/// # Errors
+/// As [`load`], and [`Error::Cast`] for a compiled file, which stays as it is.
+pub fn load_cast(name_or_path: &str, cast: &[Cast]) -> Result<Loaded, Error> {
     if let Some(source) = stdlib::scenario(name_or_path) {
-        return compile_source(source);
+        return compile_source(source, cast);
     }
     let path = Path::new(name_or_path);
     let looks_like_path = name_or_path.contains(['/', '\\'])
         || path.extension().is_some_and(|ending| ending == "pitch" || ending == "pitchc");
     if looks_like_path || path.exists() {
-        return load_file(path);
+        return load_file_cast(path, cast);
     }
     // What can be played: bases that others extend are no answer.
     let known = list();
@@ -81,29 +90,36 @@ pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
 /// # Errors
 /// As [`load`].
 pub fn load_file(path: &Path) -> Result<Loaded, Error> {
+    load_file_cast(path, &[])
+}
+
+fn load_file_cast(path: &Path, cast: &[Cast]) -> Result<Loaded, Error> {
     let compiled = path.extension().is_some_and(|ending| ending == "pitchc");
     let bytes = read_file(path, if compiled { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES })?;
     let format = |why| Error::Format { path: path.to_owned(), why };
     if bytes.starts_with(binary::MAGIC) {
-        return Ok(of_file(binary::from_bytes(&bytes).map_err(format)?, path));
+        return of_file(binary::from_bytes(&bytes).map_err(format)?, path, cast);
     }
     let text = into_text(bytes, path)?;
     if compiled || text.starts_with("{\"format\"") {
-        return Ok(of_file(file::from_json(&text).map_err(format)?, path));
+        return of_file(file::from_json(&text).map_err(format)?, path, cast);
     }
-    compile_source(Source { name: path.to_string_lossy().into_owned(), text: text.into() })
+    compile_source(Source { name: path.to_string_lossy().into_owned(), text: text.into() }, cast)
 }
 
 /// A scenario that a file holds compiled.
-fn of_file(scenario: Scenario, path: &Path) -> Loaded {
-    Loaded {
+fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Error> {
+    if let Some(cast) = cast.first() {
+        return Err(Error::Cast { ai: cast.ai.clone() });
+    }
+    Ok(Loaded {
         scenario: Arc::new(scenario),
         warnings: Vec::new(),
         sources: Sources::default(),
         origin: None,
         origins: Origins::default(),
         inputs: vec![path.to_owned()],
-    }
+    })
 }
 
 /// Compiles a text; `name` is how reports call it.
@@ -111,10 +127,18 @@ fn of_file(scenario: Scenario, path: &Path) -> Loaded {
 /// # Errors
 /// [`Error::Compile`] with every report; [`Error::File`] where it is larger than a file may be.
 pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
+    compile_text_cast(text, name, &[])
+}
+
+/// Compiles a text as [`compile_text`] does, its players played by a cast.
+///
+/// # Errors
+/// As [`compile_text`].
+pub fn compile_text_cast(text: &str, name: &str, cast: &[Cast]) -> Result<Loaded, Error> {
     if text.len() as u64 > SOURCE_MAX_BYTES {
         return Err(Error::File { path: name.into(), why: FileFault::TooLarge { max: SOURCE_MAX_BYTES } });
     }
-    compile_source(Source { name: name.to_owned(), text: text.into() })
+    compile_source(Source { name: name.to_owned(), text: text.into() }, cast)
 }
 
 /// What a check found.
@@ -159,8 +183,8 @@ pub fn check(name_or_path: &str) -> Result<Checked, Error> {
     Ok(Checked { problems: outcome.problems, sources: outcome.sources, inputs: failure.inputs })
 }
 
-fn compile_source(source: Source) -> Result<Loaded, Error> {
-    let options = compile_options();
+fn compile_source(source: Source, cast: &[Cast]) -> Result<Loaded, Error> {
+    let options = CompileOptions { cast, ..compile_options() };
     let outcome = compile(source, &FileLoader, &options);
     let (problems, sources) = (outcome.problems, outcome.sources);
     let inputs = outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect();
@@ -181,7 +205,7 @@ fn compile_source(source: Source) -> Result<Loaded, Error> {
 fn compile_options() -> CompileOptions<'static> {
     static PRELUDE: OnceLock<Prelude> = OnceLock::new();
     let prelude = PRELUDE.get_or_init(|| Prelude::load(&FileLoader));
-    CompileOptions { scenario: None, prelude: Some(prelude), scripts: Some(&EngineScripts) }
+    CompileOptions { scenario: None, prelude: Some(prelude), scripts: Some(&EngineScripts), cast: &[] }
 }
 
 /// Whether a source's name is a path: not the library's and not a text from memory.

@@ -1,11 +1,12 @@
 //! Who plays: formations and players of both teams as one list.
 
 use super::value::{Frame, Repr, Scope, Value};
-use super::{Lower, Stage, World};
+use super::{Lower, Stage, World, casting};
 use crate::ast::{
     Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
 };
 use crate::check::types::Ty;
+use crate::compile::Whom;
 use crate::problem::{Code, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
 use setpiece_scenario::pitch::TEAM_MAX;
@@ -86,7 +87,11 @@ pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
         };
         adjust(world, &mut players, &flat.absent, &flat.overrides, &Scope::new(true, Frame::World));
         // What a parent says of a role that the child has not is said of nobody.
-        apply_each(world, &mut players, &flat.each, *team, &|who| world.flat.is_own(who));
+        let side =
+            world.casting.iter().filter(|cast| cast.whom == Whom::Team(*team)).map(|cast| (cast.who, cast.fields));
+        let each: Vec<_> = flat.each.iter().copied().chain(side).collect();
+        apply_each(world, &mut players, &each, *team, &|who| world.flat.is_own(who));
+        casting::apply(world, &mut players, *team);
         check_size(world, &players, *team);
         for (index, player) in players.iter_mut().enumerate() {
             player.id = (team.index() * TEAM_MAX + index) as u8;

@@ -73,13 +73,14 @@ impl Prelude {
     }
 }
 
-/// Loads a root and everything it imports.
+/// Loads a root and everything it imports; `guests` are texts that see what the root sees, and are seen by nobody.
 pub(crate) fn load(
     root: &Source,
     loader: &dyn SourceLoader,
     prelude: Option<&Prelude>,
+    guests: &[Source],
     problems: &mut Vec<Problem>,
-) -> Library {
+) -> (Library, Vec<FileId>) {
     let mut library = Library::empty(loader);
     library.inputs.push(root.name.clone());
     let own = prelude.is_none().then(|| Prelude::load(loader));
@@ -89,9 +90,10 @@ pub(crate) fn load(
         loading.adopt(prelude);
     }
     loading.imports_of(id);
+    let guests = guests.iter().map(|guest| loading.guest(guest, id)).collect();
     loading.extended_scenarios();
     library.collect_names(problems);
-    library
+    (library, guests)
 }
 
 struct Loading<'a> {
@@ -155,6 +157,14 @@ impl Loading<'_> {
         let file = parse(source, id, self.problems);
         self.library.files.push(Arc::new(file));
         self.library.imports.push(Vec::new());
+        id
+    }
+
+    fn guest(&mut self, source: &Source, root: FileId) -> FileId {
+        let id = self.add(source);
+        if let Some(list) = self.library.imports.get_mut(id.0 as usize) {
+            list.push(Import { file: root, alias: None });
+        }
         id
     }
 

@@ -127,7 +127,12 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             raise SnapshotError("these bytes are no state of `get_state`, or damaged") from error
         if level != self._config["level"]:
             raise SnapshotError(f"the state is one of `{level}`, not of `{self._config['level']}`")
-        self._core.set_state(core)
+        try:
+            self._core.set_state(core)
+        except SnapshotError:
+            raise
+        except Exception as error:
+            raise SnapshotError(f"the state is damaged: {error}") from error
         kept: dict[str, Any] = wrappers
         return kept
 

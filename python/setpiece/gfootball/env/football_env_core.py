@@ -114,6 +114,7 @@ class FootballEnvCore:
         """Goes on from a state; `SnapshotError` for one of other slots or another scenario, and nothing has changed."""
         if tuple(state["agents"]) != self._asked:
             raise SnapshotError(f"the state has {state['agents']} played players, this environment {self._asked}")
+        counts = state["waiting"], state["step_count"], state["cumulative_reward"], state["done"]
         source = Source(*state["source"])
         if self._source is None or source.name != self._source.name:
             raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
@@ -122,11 +123,10 @@ class FootballEnvCore:
             self._enter(source, state["limit"], state["played"])
             assert self._env is not None
             observed, info = self._env.restore(state["snapshot"])
-        except setpiece.SetpieceError:
+        except Exception:
             self._env, self._source, self._limit, self._played = before
             raise
-        self.waiting, self.step_count = state["waiting"], state["step_count"]
-        self.cumulative_reward, self.done = state["cumulative_reward"], state["done"]
+        self.waiting, self.step_count, self.cumulative_reward, self.done = counts
         self._see(observed, info)
 
     def _enter(self, source: Source, limit: int | None, played: tuple[int, int]) -> None:

@@ -1,0 +1,77 @@
+//! Who plays players, whatever the text says: `ai`s that a caller brings from outside.
+
+use crate::ast::{Field, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
+use crate::lower::casting::Casting;
+use crate::problem::{Code, Problem, Severity};
+use crate::resolve::Library;
+use crate::source::{FileId, Source, Span};
+use setpiece_scenario::vocabulary::Team;
+
+/// An `ai` from outside.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cast {
+    /// Whose.
+    pub whom: Whom,
+    /// What stands behind `ai:`: `lazy`, `marker(3m)`, `script "f.rhai"`. It sees what the root file sees.
+    pub ai: String,
+}
+
+/// Whose `ai` it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Whom {
+    /// That of every player of a team who has none of his own.
+    Team(Team),
+    /// That of one player, by his team and his place in it.
+    Player(Team, usize),
+}
+
+impl Cast {
+    /// The text that is read in its place.
+    pub(super) fn source(&self) -> Source {
+        Source { name: "<ai>".to_owned(), text: format!("{BEFORE}{}{AFTER}", self.ai).into() }
+    }
+}
+
+/// What stands around the `ai` in its text.
+const BEFORE: &str = "scenario cast { team left { each all { ai: ";
+const AFTER: &str = " } } }";
+
+/// Reads the texts of a cast, which lie in the files `guests`.
+pub(super) fn read<'a>(
+    cast: &[Cast],
+    guests: &[FileId],
+    library: &'a Library,
+    problems: &mut Vec<Problem>,
+) -> Vec<Casting<'a>> {
+    let mut casting = Vec::new();
+    for (cast, file) in cast.iter().zip(guests) {
+        match the_statement(library, *file) {
+            Some((who, fields)) => casting.push(Casting { whom: cast.whom, who, fields }),
+            None if problems.iter().any(|problem| is_error_in(problem, *file)) => {}
+            None => {
+                let start = BEFORE.len() as u32;
+                let span = Span { file: *file, start, end: start + cast.ai.len() as u32 };
+                problems.push(
+                    Problem::new(Code::WrongType, span, format!("`{}` is not who plays a player", cast.ai), "")
+                        .help("it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"f.rhai\"`"),
+                );
+            }
+        }
+    }
+    casting
+}
+
+/// The one `each` of the one team of the one scenario, if the text has nothing else.
+fn the_statement(library: &Library, file: FileId) -> Option<(&Ident, &[Field])> {
+    let [item] = library.files.get(file.0 as usize)?.items.as_slice() else { return None };
+    let ItemKind::Scenario(scenario) = &item.kind else { return None };
+    let [stmt] = scenario.body.as_slice() else { return None };
+    let ScenarioStmtKind::Team { body, .. } = &stmt.kind else { return None };
+    let [stmt] = body.as_slice() else { return None };
+    let TeamStmtKind::Each { who, fields } = &stmt.kind else { return None };
+    (fields.len() == 1).then_some((who, fields))
+}
+
+fn is_error_in(problem: &Problem, file: FileId) -> bool {
+    problem.severity() == Severity::Error && problem.labels.first().is_some_and(|label| label.span.file == file)
+}

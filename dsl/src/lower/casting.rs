@@ -1,0 +1,38 @@
+//! Who plays players, whatever the text says.
+
+use super::World;
+use super::roster::Rostered;
+use crate::ast::{Field, Ident};
+use crate::compile::Whom;
+use crate::problem::{Code, Problem};
+use setpiece_scenario::vocabulary::Team;
+
+/// An `ai` from outside, read: `each all { ai: … }` in a text of its own.
+#[derive(Clone, Copy)]
+pub(crate) struct Casting<'w> {
+    /// Whose.
+    pub(crate) whom: Whom,
+    /// The `all`.
+    pub(crate) who: &'w Ident,
+    /// The `ai`.
+    pub(crate) fields: &'w [Field],
+}
+
+/// Gives single players theirs: it stands behind what they have of their own, and wins.
+pub(super) fn apply<'w>(world: &World<'w>, players: &mut [Rostered<'w>], team: Team) {
+    for cast in world.casting {
+        let Whom::Player(side, place) = cast.whom else { continue };
+        if side != team {
+            continue;
+        }
+        match players.get_mut(place) {
+            Some(player) => player.fields.extend(cast.fields),
+            None => world.report(Problem::new(
+                Code::UnknownName,
+                cast.who.span,
+                format!("the {team} team has no player {place}"),
+                "",
+            )),
+        }
+    }
+}

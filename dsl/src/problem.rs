@@ -164,6 +164,7 @@ codes! {
     NoStep = 12 Error "an episode has no such step";
     BadSnapshot = 13 Error "a snapshot can't be used";
     BadReplay = 14 Error "a replay can't be played";
+    CompiledCast = 15 Error "a compiled scenario keeps who plays its players";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

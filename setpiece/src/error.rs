@@ -116,7 +116,7 @@ impl Error {
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
             Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, |problem| problem.code),
             Error::Format { .. } => Code::BadCompiled,
-            Error::Cast { .. } => Code::BadAgents,
+            Error::Cast { .. } => Code::CompiledCast,
             Error::Param { .. } => Code::BadParameter,
             Error::Environment(why) => match why {
                 EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => Code::UnknownReward,

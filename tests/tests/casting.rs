@@ -58,6 +58,7 @@ fn a_cast_that_is_none_is_told() {
         ("chase", "no player's `ai` is called `chase`"),
         ("lazy } } } scenario x { ball at centre team left { each all { ai: lazy", "is not who plays a player"),
         ("lazy, difficulty: 1", "is not who plays a player"),
+        ("lazy } } } //", "is not who plays a player"),
         ("3", "expected who plays him"),
         ("chaser(", ""),
         ("", ""),
@@ -68,6 +69,15 @@ fn a_cast_that_is_none_is_told() {
         assert!(told, "{ai}: {:?}", failure.problems);
     }
     let Err(Error::Compile(_)) = cast(&[(Whom::Player(Team::Left, 7), "lazy")]) else { panic!("nobody was cast") };
+}
+
+/// What a cast is read in has names of its own, which hide none of the text's.
+#[test]
+fn a_behavior_may_have_any_name() {
+    let text = TEXT.replace("chaser", "cast");
+    let cast = [Cast { whom: Whom::Team(Team::Left), ai: "cast".to_owned() }];
+    let scenario = compile_text_cast(&text, "<text>", &cast).unwrap().scenario;
+    assert_eq!(scenario.behaviors.len(), 1);
 }
 
 #[test]

@@ -2,9 +2,10 @@
 //!
 //! What is constant is checked now; what is drawn or depends on parameters becomes a requirement of the draw.
 
-use crate::ast::{ScenarioStmtKind, Span};
+use crate::ast::Span;
 use crate::lower::Lower;
 use crate::lower::roster::Rostered;
+use crate::lower::start::NEAR_M;
 use crate::lower::team::PlayerOptions;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
@@ -26,20 +27,8 @@ pub(crate) fn check_places(
     options: &[PlayerOptions],
     ball: Option<&BallStart>,
 ) {
-    let free_kick = match lower.world.flat.start.map(|stmt| &stmt.kind) {
-        Some(ScenarioStmtKind::Start { kind, at: Some(at), .. }) if kind.node == StartKind::FreeKick.name() => {
-            Some(at.span)
-        }
-        _ => None,
-    };
-    let said = lower.world.flat.ball.map(|(stmt, _)| stmt.place.span).or(free_kick);
-    if let (Some(ball), Some(span)) = (ball, said) {
-        let (place, limit) = ((ball.x, ball.y), (HALF_LENGTH_M, HALF_WIDTH_M));
-        if check_on_pitch(lower, place, limit, "the ball", span) == Known::Later {
-            let inside = within(lower, place, limit);
-            let help = "place it where every draw lies between the lines".to_owned();
-            lower.imply(inside, "the ball lies on the pitch".to_owned(), Some(span), help);
-        }
+    if let (Some(ball), Some((kind, span))) = (ball, lower.said_place()) {
+        check_ball(lower, (ball.x, ball.y), kind, span);
     }
     let mut on_pitch = Vec::new();
     let mut apart = Vec::new();
@@ -72,6 +61,33 @@ pub(crate) fn check_places(
         let regs = parts.into_iter().map(|(reg, _)| reg);
         if let Some(all) = regs.reduce(|a, b| lower.code.binary(BinaryOp::And, a, b)) {
             lower.imply(all, label.to_owned(), span, help.to_owned());
+        }
+    }
+}
+
+/// Checks where the ball lies, at a throw-in beside a side line: it is put on it.
+fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, span: Span) {
+    let aside = if kind == StartKind::ThrowIn { NEAR_M } else { 0.0 };
+    let limit = (HALF_LENGTH_M, HALF_WIDTH_M + aside);
+    if check_on_pitch(lower, place, limit, "the ball", span) == Known::Later {
+        let inside = within(lower, place, limit);
+        let help = "place it where every draw lies between the lines".to_owned();
+        lower.imply(inside, "the ball lies on the pitch".to_owned(), Some(span), help);
+    }
+    if kind != StartKind::ThrowIn {
+        return;
+    }
+    let nearest = HALF_WIDTH_M - NEAR_M;
+    let help = "their y is -0.42 and 0.42: `at (0.3, 0.42)`";
+    match lower.interval(place.1) {
+        Some((low, high)) if low >= nearest || high <= -nearest => {}
+        Some((low, high)) if low > -nearest && high < nearest => lower.report(
+            Problem::new(Code::OutOfRange, span, "a throw-in is taken from a side line", "lies elsewhere").help(help),
+        ),
+        _ => {
+            let (least, aside) = (lower.code.constant(nearest), lower.code.unary(UnaryOp::Abs, place.1));
+            let beside = lower.code.binary(BinaryOp::Ge, aside, least);
+            lower.imply(beside, "the throw-in is taken from a side line".to_owned(), Some(span), help.to_owned());
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Who plays players, whatever the text says: `ai`s that a caller brings from outside.
 
-use crate::ast::{Field, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
+use crate::ast::{Field, FieldValue, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
 use crate::lower::casting::Casting;
 use crate::problem::{Code, Problem, Severity};
 use crate::resolve::Library;
@@ -45,8 +45,8 @@ pub(super) fn read<'a>(
 ) -> Vec<Casting<'a>> {
     let mut casting = Vec::new();
     for (cast, file) in cast.iter().zip(guests) {
-        match the_statement(library, *file) {
-            Some((who, fields)) => casting.push(Casting { whom: cast.whom, who, fields }),
+        match the_statement(library, *file).filter(|(_, field)| is_whole(field, cast)) {
+            Some((who, field)) => casting.push(Casting { whom: cast.whom, who, field }),
             None if problems.iter().any(|problem| is_error_in(problem, *file)) => {}
             None => {
                 let start = BEFORE.len() as u32;
@@ -61,15 +61,26 @@ pub(super) fn read<'a>(
     casting
 }
 
-/// The one `each` of the one team of the one scenario, if the text has nothing else.
-fn the_statement(library: &Library, file: FileId) -> Option<(&Ident, &[Field])> {
+/// The one option of the one `each` of the one team of the one scenario, if the text has nothing else.
+fn the_statement(library: &Library, file: FileId) -> Option<(&Ident, &Field)> {
     let [item] = library.files.get(file.0 as usize)?.items.as_slice() else { return None };
     let ItemKind::Scenario(scenario) = &item.kind else { return None };
     let [stmt] = scenario.body.as_slice() else { return None };
     let ScenarioStmtKind::Team { body, .. } = &stmt.kind else { return None };
     let [stmt] = body.as_slice() else { return None };
     let TeamStmtKind::Each { who, fields } = &stmt.kind else { return None };
-    (fields.len() == 1).then_some((who, fields))
+    let [field] = fields.as_slice() else { return None };
+    Some((who, field))
+}
+
+/// Whether the option is all that the cast says, and not a part of it before a comment.
+fn is_whole(field: &Field, cast: &Cast) -> bool {
+    let end = (BEFORE.len() + cast.ai.trim_end().len()) as u32;
+    match &field.value {
+        FieldValue::Expr(expr) => expr.span.end == end,
+        FieldValue::Script(script) => script.span.end == end,
+        FieldValue::Fields(..) => false,
+    }
 }
 
 fn is_error_in(problem: &Problem, file: FileId) -> bool {

@@ -15,7 +15,7 @@ pub(crate) struct Casting<'w> {
     /// The `all`.
     pub(crate) who: &'w Ident,
     /// The `ai`.
-    pub(crate) fields: &'w [Field],
+    pub(crate) field: &'w Field,
 }
 
 /// Gives single players theirs: it stands behind what they have of their own, and wins.
@@ -26,7 +26,7 @@ pub(super) fn apply<'w>(world: &World<'w>, players: &mut [Rostered<'w>], team: T
             continue;
         }
         match players.get_mut(place) {
-            Some(player) => player.fields.extend(cast.fields),
+            Some(player) => player.fields.push(cast.field),
             None => world.report(Problem::new(
                 Code::UnknownName,
                 cast.who.span,

@@ -87,8 +87,11 @@ pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
         };
         adjust(world, &mut players, &flat.absent, &flat.overrides, &Scope::new(true, Frame::World));
         // What a parent says of a role that the child has not is said of nobody.
-        let side =
-            world.casting.iter().filter(|cast| cast.whom == Whom::Team(*team)).map(|cast| (cast.who, cast.fields));
+        let side = world
+            .casting
+            .iter()
+            .filter(|cast| cast.whom == Whom::Team(*team))
+            .map(|cast| (cast.who, std::slice::from_ref(cast.field)));
         let each: Vec<_> = flat.each.iter().copied().chain(side).collect();
         apply_each(world, &mut players, &each, *team, &|who| world.flat.is_own(who));
         casting::apply(world, &mut players, *team);

@@ -4,6 +4,8 @@ mod fields;
 mod kind;
 mod remap;
 
+pub(crate) use kind::NEAR_M;
+
 use super::agents::{lower_agents, side_with_agents};
 use super::behavior::BehaviorUse;
 use super::builder::Layout;

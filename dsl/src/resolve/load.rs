@@ -90,9 +90,9 @@ pub(crate) fn load(
         loading.adopt(prelude);
     }
     loading.imports_of(id);
-    let guests = guests.iter().map(|guest| loading.guest(guest, id)).collect();
+    let guests: Vec<FileId> = guests.iter().map(|guest| loading.guest(guest, id)).collect();
     loading.extended_scenarios();
-    library.collect_names(problems);
+    library.collect_names(&guests, problems);
     (library, guests)
 }
 
@@ -275,8 +275,13 @@ impl Library {
         Some(NamedItem { item, name: item_name(item)? })
     }
 
-    fn collect_names(&mut self, problems: &mut Vec<Problem>) {
-        let own: Vec<_> = self.files.iter().map(|file| own_names(file, problems)).collect();
+    fn collect_names(&mut self, guests: &[FileId], problems: &mut Vec<Problem>) {
+        // A guest declares nothing: what it is made of would hide a name of the root's.
+        let own = self.files.iter().map(|file| match guests.contains(&file.id) {
+            true => BTreeMap::new(),
+            false => own_names(file, problems),
+        });
+        let own: Vec<_> = own.collect();
         let mut seen = Vec::with_capacity(self.files.len());
         for id in 0..self.files.len() {
             let file = FileId(id as u32);

@@ -4,7 +4,7 @@
 
 use crate::event::Events;
 use crate::football::body::{KickKind, KickPlan, NEVER};
-use crate::football::{flight, forecast, noise, pass_target, report, shot, touch};
+use crate::football::{flight, forecast, noise, offside, pass_target, report, shot, touch};
 use crate::physics::constants::GRAVITY;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
@@ -98,7 +98,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     let mode = set_piece.map(|s| s.mode);
     game.play.hands = None;
     game.play.set_piece = None;
-    let exempt = matches!(mode, Some(GameMode::ThrowIn | GameMode::Corner | GameMode::GoalKick));
+    let exempt = mode.is_some_and(offside::exempt);
     let rough = roughness(game.player(id), game, plan.kind);
     let mut receiver = None;
     match plan.kind {

@@ -23,6 +23,11 @@ pub fn line(game: &Match, attackers: Team) -> f32 {
     second.max(game.ball.pos.x * side).max(0.0)
 }
 
+/// Whether nobody is offside at the kick of such a restart.
+pub fn exempt(mode: GameMode) -> bool {
+    matches!(mode, GameMode::ThrowIn | GameMode::Corner | GameMode::GoalKick)
+}
+
 /// The mates of the toucher who are beyond the line now, a bit each.
 pub fn positions(game: &Match, toucher: PlayerId) -> u32 {
     if !game.rule(Rule::Offside) {

@@ -122,7 +122,9 @@ fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
     match kind {
         "open" => ball(text, random, teams),
         "free_kick" | "throw_in" => {
-            let _ = writeln!(text, "    ball at ({:.3}, {:.3})", spread(random) * 0.9, spread(random) * 0.4);
+            let (x, y) = (spread(random) * 0.9, spread(random) * 0.4);
+            let y = if kind == "throw_in" { 0.42_f32.copysign(y) } else { y };
+            let _ = writeln!(text, "    ball at ({x:.3}, {y:.3})");
         }
         _ => {}
     }

@@ -180,7 +180,7 @@ impl Lower<'_, '_> {
 }
 
 impl Lower<'_, '_> {
-    /// Reports a corner or a throw-in whose place is known and lies elsewhere.
+    /// Reports a corner whose place is known and lies elsewhere.
     fn check_place_of_start(&self, kind: StartKind, team: Option<Reg>, place: (Reg, Reg), span: Span) {
         let (Some(x), Some(y)) = (self.code.constant_of(place.0), self.code.constant_of(place.1)) else { return };
         let side = match team.and_then(|team| self.code.constant_of(team)) {
@@ -190,24 +190,31 @@ impl Lower<'_, '_> {
         };
         let on_side_line = (y.abs() - HALF_WIDTH_M).abs() <= NEAR_M;
         let on_byline = (x * side - HALF_LENGTH_M).abs() <= NEAR_M;
-        let (message, help) = match kind {
-            StartKind::Corner if !(on_side_line && on_byline) => {
-                let end = if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };
-                let help = format!("write `at {end}.corner.top` or `at {end}.corner.bottom`");
-                ("a corner is taken from a corner of the other end", help)
-            }
-            StartKind::ThrowIn if !on_side_line => {
-                let help = "their y is -0.42 and 0.42: `at (0.3, 0.42)`".to_owned();
-                ("a throw-in is taken from a side line", help)
-            }
-            _ => return,
+        if kind == StartKind::Corner && !(on_side_line && on_byline) {
+            let end = if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };
+            let message = "a corner is taken from a corner of the other end";
+            self.report(
+                Problem::new(Code::OutOfRange, span, message, "lies elsewhere")
+                    .help(format!("write `at {end}.corner.top` or `at {end}.corner.bottom`")),
+            );
+        }
+    }
+
+    /// Where the author says that the ball lies, and at what start: by `ball …`, or by the `at …` of a free kick or
+    /// throw-in. A corner's only tells which of the two.
+    pub(crate) fn said_place(&self) -> Option<(StartKind, Span)> {
+        let (kind, at) = match self.world.flat.start.map(|stmt| &stmt.kind) {
+            Some(ScenarioStmtKind::Start { kind, at, .. }) => (StartKind::from_name(&kind.node)?, at.as_ref()),
+            _ => (StartKind::Open, None),
         };
-        self.report(Problem::new(Code::OutOfRange, span, message, "lies elsewhere").help(help));
+        let at = at.filter(|_| matches!(kind, StartKind::FreeKick | StartKind::ThrowIn)).map(|at| at.span);
+        let ball = self.world.flat.ball.map(|(stmt, _)| stmt.place.span);
+        ball.or(at).map(|span| (kind, span))
     }
 }
 
 /// How far from its line the ball of a corner or throw-in may be said to lie; it is put on the line.
-const NEAR_M: f64 = 1.5;
+pub(crate) const NEAR_M: f64 = 1.5;
 
 /// Whether `at …` says where it is: a corner's tells which of the two.
 fn has_place(kind: StartKind) -> bool {

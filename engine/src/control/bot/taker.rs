@@ -65,8 +65,8 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
 
 /// The mate nearest to a world point, the taker left out, and who would be offside.
 fn nearest(game: &Match, taker: PlayerId, point: Vec2) -> Option<PlayerId> {
-    let free_kick = game.play.set_piece.is_some_and(|it| it.mode == GameMode::FreeKick);
-    let offside = if free_kick { offside::positions(game, taker) } else { 0 };
+    let knows_offside = game.play.set_piece.is_some_and(|it| !offside::exempt(it.mode));
+    let offside = if knows_offside { offside::positions(game, taker) } else { 0 };
     let mut best: Option<(f32, PlayerId)> = None;
     for (mate, other) in game.team(taker.team()) {
         let distance = other.pos.distance_squared(point);

@@ -19,6 +19,7 @@ use crate::event::{Event, Events};
 use crate::football;
 use crate::judge::script::Scripts;
 use crate::judge::{Judge, Outcome, Recorded};
+use crate::laps::Phase;
 use crate::observe::layout::{self, Layout};
 use crate::observe::{self, Floats, ObserveError};
 use crate::snapshot::begin_from;
@@ -199,6 +200,7 @@ impl Environment {
         if actions.len() != self.game.agents.len() {
             return Err(StepError::Actions { found: actions.len(), expected: self.game.agents.len() });
         }
+        scratch.laps().start();
         let before = self.events.as_slice().get(..self.judged).unwrap_or_default();
         if let Err(error) = self.actors.choose(&mut self.game, before, actions) {
             self.running = false;
@@ -220,8 +222,11 @@ impl Environment {
         if self.game.dead {
             *self.stopped = self.game.clone();
         }
+        scratch.laps().end(Phase::Judge);
         football::go_on(&mut self.game);
+        scratch.laps().end(Phase::Reach);
         self.judge.settle(&self.game);
+        scratch.laps().end(Phase::Judge);
         let truncated = outcome.as_ref().is_some_and(|outcome| outcome.truncated);
         let terminated = outcome.is_some() && !truncated;
         self.running = outcome.is_none();

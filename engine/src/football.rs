@@ -38,6 +38,7 @@ pub mod touch;
 
 use crate::control;
 use crate::event::Events;
+use crate::laps::Phase;
 use crate::physics::Scratch;
 use crate::start::Drawn;
 use crate::state::Match;
@@ -55,6 +56,7 @@ pub fn play_step(game: &mut Match, actions: &[Action], events: &mut Events, scra
     let from = game.tick;
     if !game.dead {
         control::command(game, actions, events);
+        scratch.laps().end(Phase::Bots);
         for _ in 0..TICKS_PER_STEP {
             tick::advance(game, events, scratch);
             if game.dead {
@@ -66,6 +68,7 @@ pub fn play_step(game: &mut Match, actions: &[Action], events: &mut Events, scra
         }
         possession::remember(game);
         fatigue::tire(game, game.tick - from);
+        scratch.laps().end(Phase::Movement);
     }
     clock::end_step(game, events);
 }

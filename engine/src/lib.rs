@@ -6,7 +6,7 @@
 //! - [`observe`]: the state written into the caller's buffers.
 //! - [`environment`]: one match and its judge, as an agent meets them; [`batch`]: many.
 //! - [`snapshot`]: an episode as bytes, and back.
-//! - [`statistics`], [`digest`]: what a match was like, and a fingerprint of its state.
+//! - [`statistics`], [`digest`]: what a match was like, and a fingerprint of its state; [`laps`]: where the time goes.
 
 pub mod batch;
 pub mod control;
@@ -16,6 +16,7 @@ pub mod environment;
 pub mod event;
 pub mod football;
 pub mod judge;
+pub mod laps;
 pub mod math;
 pub mod observe;
 pub mod physics;

@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 fine, 1 the input has errors, 2 the command line has.
 
+mod bench;
 mod check;
 mod doc;
 mod explain;
@@ -129,6 +130,13 @@ enum Command {
 The Python package's command also writes Google Research Football's dumps: `--format grf -o goal.dump`;
 `setpiece.Replay` reads the file in Python.")]
     Replay(replay::ReplayArgs),
+    /// Measure how fast scenarios are played here: steps per second and CPU-second, and where the time goes
+    #[command(after_help = "Examples:
+  setpiece bench
+  setpiece bench 5_vs_5 corner.pitch --threads 1,2,4 --observation smm
+  setpiece bench --format jsonl > before.jsonl
+  setpiece bench --against before.jsonl")]
+    Bench(bench::BenchArgs),
 }
 
 /// How a compiled scenario is written.
@@ -179,6 +187,7 @@ fn run(args: Args) -> u8 {
         Command::Render(args) => render::render(&args, &out),
         Command::Snapshot(args) => snapshot::snapshot(&args, &out),
         Command::Replay(args) => replay::replay(&args, &out),
+        Command::Bench(args) => bench::bench(&args, &out),
     };
     match result {
         Ok(_) if out.failed() => {

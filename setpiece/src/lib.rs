@@ -4,6 +4,7 @@
 //! scenario, [`run`] plays episodes of it, [`mod@render`] draws them, [`watch`] recompiles it when its files change, [`probe`] looks
 //! for what only a dry run can find.
 
+pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod doc;

@@ -1,14 +1,13 @@
 //! Running: episodes of a scenario, played by a ready-made agent, and what came of them.
 
 use crate::error::Error;
-use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, run_episodes};
+use setpiece_engine::batch::{EpisodeError, EpisodeSummary, ReadyMade, run_episodes};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::digest;
 use setpiece_engine::environment::{Environment, EnvironmentOptions};
-use setpiece_engine::random::{Purpose, Stream};
 use setpiece_engine::statistics::{MatchMeans, MatchStatistics};
 use setpiece_scenario::Scenario;
-use setpiece_scenario::vocabulary::{Action, Verdict};
+use setpiece_scenario::vocabulary::Verdict;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
@@ -60,22 +59,6 @@ pub struct Summary {
     pub match_stats: MatchMeans,
 }
 
-/// A ready-made agent for every slot of an environment.
-struct Players {
-    agent: Agent,
-    stream: Stream,
-}
-
-impl Policy for Players {
-    fn begin(&mut self, environment: &Environment) {
-        self.stream = Stream::new(environment.seed(), environment.index(), Purpose::Agent);
-    }
-
-    fn act(&mut self, environment: &Environment, agent: usize) -> Action {
-        self.agent.act(environment.state(), agent, &mut self.stream)
-    }
-}
-
 /// Plays the episodes. `progress` is called with the length of each that is done, from any thread.
 ///
 /// # Errors
@@ -86,7 +69,7 @@ pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32
     }
     let environment = Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
     let begin = Instant::now();
-    let players = || Players { agent: options.agent, stream: Stream::new(options.seed, 0, Purpose::Agent) };
+    let players = || ReadyMade::new(options.agent);
     let episodes = run_episodes(
         &environment,
         options.seed,

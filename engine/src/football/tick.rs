@@ -6,6 +6,7 @@ use crate::football::{
     advantage, flight, forecast, foul, keeper, kick, movement, possession, reach, referee, report, restart, separation,
     slide, touch,
 };
+use crate::laps::Phase;
 use crate::physics::{self, Body, Contact, Scratch};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
@@ -21,24 +22,32 @@ const BODIES_MAX: usize = 8;
 /// Plays one tick.
 pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     forecast::refresh(game);
-    if game.tick.is_multiple_of(2) {
+    let even = game.tick.is_multiple_of(2);
+    if even {
         reach::refresh(game);
+    }
+    scratch.laps().end(Phase::Reach);
+    if even {
         separation::separate(game, events);
     }
     movement::advance(game);
     keep_circle(game);
+    scratch.laps().end(Phase::Movement);
     keeper::use_hands(game, events);
     slide::resolve(game, events);
     kick::kick_ball(game, events);
     touch::play_ball(game, events);
+    scratch.laps().end(Phase::Play);
     if !game.dead {
         let before = game.ball.pos;
         move_ball(game, events, scratch);
+        scratch.laps().end(Phase::Physics);
         possession::update(game, events);
         referee::judge(game, events, before);
         if !game.dead {
             advantage::watch(game, events);
         }
+        scratch.laps().end(Phase::Referee);
     }
     game.tick += 1;
 }

@@ -7,6 +7,7 @@
 use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
 use super::scene::{BODIES_MAX, Part, Workspace, World};
 use super::{Body, Contact};
+use crate::laps::Laps;
 use crate::state::Ball;
 use glam::{Vec2, Vec3};
 
@@ -17,13 +18,21 @@ pub struct Scratch {
     templates: [World; BODIES_MAX + 1],
     live: World,
     workspace: Workspace,
+    laps: Laps,
+}
+
+impl Scratch {
+    /// What its steps have taken, where that is measured.
+    pub fn laps(&mut self) -> &mut Laps {
+        &mut self.laps
+    }
 }
 
 impl Default for Scratch {
     fn default() -> Scratch {
         let mut workspace = Workspace::default();
         let templates: [World; BODIES_MAX + 1] = std::array::from_fn(|bodies| World::template(bodies, &mut workspace));
-        Scratch { live: templates[0].clone(), templates, workspace }
+        Scratch { live: templates[0].clone(), templates, workspace, laps: Laps::default() }
     }
 }
 

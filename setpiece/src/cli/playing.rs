@@ -32,7 +32,7 @@ pub(crate) struct Playing {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
-enum AgentName {
+pub(crate) enum AgentName {
     /// The 19 actions at random
     Random,
     /// Nothing
@@ -58,15 +58,22 @@ fn pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
-impl Playing {
-    /// Who plays for the agents.
-    pub(crate) fn agent(&self) -> Agent {
-        match self.agent {
+impl AgentName {
+    /// Who that is.
+    pub(crate) fn agent(self) -> Agent {
+        match self {
             AgentName::Random => Agent::Random,
             AgentName::Idle => Agent::Idle,
             AgentName::RunAndShoot => Agent::RunAndShoot,
             AgentName::Bot => Agent::Bot,
         }
+    }
+}
+
+impl Playing {
+    /// Who plays for the agents.
+    pub(crate) fn agent(&self) -> Agent {
+        self.agent.agent()
     }
 
     /// The parameters, the physics and the snapshot to begin from, with the scenario's own rewards.

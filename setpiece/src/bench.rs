@@ -1,0 +1,220 @@
+//! How fast a scenario is played here: many matches at once, step after step, episodes following each other.
+
+use crate::Error;
+use cpu_time::ProcessTime;
+use setpiece_engine::batch::{Batch, EpisodeError, Policy, ReadyMade};
+use setpiece_engine::control::agents::Agent;
+use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece_engine::laps::{Laps, Phase};
+use setpiece_engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH, smm, smm_size};
+use setpiece_scenario::Scenario;
+use setpiece_scenario::vocabulary::Action;
+use std::hint::black_box;
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
+
+/// What is measured.
+#[derive(Clone, Debug)]
+pub struct BenchOptions {
+    /// How many matches are stepped together.
+    pub matches: usize,
+    /// On how many threads.
+    pub threads: usize,
+    /// How long.
+    pub duration: Duration,
+    /// Who plays for every agent.
+    pub agent: Agent,
+    /// What every agent is shown after every step.
+    pub observation: Observation,
+    /// Match k plays the episodes of the seed `seed + k`.
+    pub seed: u64,
+    /// Parameters, physics.
+    pub environment: EnvironmentOptions,
+}
+
+/// What an agent is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Observation {
+    /// Nothing.
+    None,
+    /// GRF's 115 floats.
+    Simple115v2,
+    /// GRF's super mini map, 72 by 96 by 4 bytes.
+    Smm,
+}
+
+/// What came out.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Steps that were played, of all matches; resets are in the time.
+    pub steps: u64,
+    /// Episodes that began meanwhile.
+    pub resets: u64,
+    /// Wall time.
+    pub wall: Duration,
+    /// CPU time of the process.
+    pub cpu: Duration,
+}
+
+impl Measured {
+    /// Steps per second of wall time.
+    pub fn per_second(&self) -> f64 {
+        self.steps as f64 / self.wall.as_secs_f64()
+    }
+
+    /// Steps per second of CPU time.
+    pub fn per_cpu_second(&self) -> f64 {
+        self.steps as f64 / self.cpu.as_secs_f64()
+    }
+}
+
+/// Plays many matches on threads for a while.
+///
+/// # Errors
+/// [`Error`] where the environment or the threads can't be had, and where an episode breaks off.
+pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measured, Error> {
+    let threads = |why: setpiece_engine::batch::BatchError| Error::Threads(why.to_string());
+    let mut batch = Batch::new(lanes(scenario, options)?, options.threads).map_err(threads)?;
+    let mut play = |until: Duration| -> Result<Measured, Error> {
+        let counted = |batch: &Batch<Lane>| {
+            let lanes = batch.lanes().iter();
+            lanes.fold((0, 0), |(steps, resets), lane| (steps + lane.steps, resets + lane.resets))
+        };
+        let before = counted(&batch);
+        let (wall, cpu) = (Instant::now(), ProcessTime::now());
+        while wall.elapsed() < until {
+            batch.each(vec![(); options.matches], |_, lane, (), scratch| lane.advance(scratch));
+        }
+        let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
+        let after = counted(&batch);
+        match batch.lanes_mut().iter_mut().find_map(|lane| lane.failed.take()) {
+            Some(error) => Err(Error::Episode(error)),
+            None => Ok(Measured { steps: after.0 - before.0, resets: after.1 - before.1, wall, cpu }),
+        }
+    };
+    // Everything begun, every buffer at its size, every page touched.
+    play(options.duration / 5)?;
+    play(options.duration)
+}
+
+/// The microseconds that a step takes, phase by phase, on one thread.
+///
+/// # Errors
+/// As [`measure`].
+pub fn phases(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<(Phase, f64)>, Error> {
+    let mut lanes = lanes(scenario, options)?;
+    let mut scratch = Scratch::default();
+    let reading = reading_ns();
+    let mut steps = 0;
+    for (until, measured) in [(options.duration / 5, false), (options.duration, true)] {
+        if measured {
+            steps = lanes.iter().map(|lane| lane.steps).sum();
+            *scratch.laps() = Laps::with(now_ns);
+        }
+        let begun = Instant::now();
+        while begun.elapsed() < until {
+            for lane in &mut lanes {
+                lane.advance(&mut scratch);
+            }
+        }
+    }
+    if let Some(error) = lanes.iter_mut().find_map(|lane| lane.failed.take()) {
+        return Err(Error::Episode(error));
+    }
+    let steps = lanes.iter().map(|lane| lane.steps).sum::<u64>() - steps;
+    let per_step = |(phase, _): (Phase, &str)| {
+        let (ns, times) = scratch.laps().of(phase);
+        (phase, (ns as f64 - times as f64 * reading).max(0.0) / 1e3 / steps.max(1) as f64)
+    };
+    Ok(Phase::NAMED.map(per_step).to_vec())
+}
+
+/// Nanoseconds since the first reading.
+fn now_ns() -> u64 {
+    static BEGUN: OnceLock<Instant> = OnceLock::new();
+    BEGUN.get_or_init(Instant::now).elapsed().as_nanos() as u64
+}
+
+/// What a reading of the clock takes, nanoseconds.
+fn reading_ns() -> f64 {
+    const READINGS: u32 = 10_000;
+    let begun = now_ns();
+    for _ in 0..READINGS {
+        black_box(now_ns());
+    }
+    (now_ns() - begun) as f64 / f64::from(READINGS)
+}
+
+/// A match, who plays it and what he is shown.
+struct Lane {
+    environment: Environment,
+    agent: ReadyMade,
+    seed: u64,
+    actions: Vec<Action>,
+    observation: Observation,
+    floats: Vec<f32>,
+    map: Vec<u8>,
+    steps: u64,
+    resets: u64,
+    failed: Option<Box<EpisodeError>>,
+}
+
+fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<Lane>, Error> {
+    let prototype = Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
+    let (floats, map) = match options.observation {
+        Observation::None => (0, 0),
+        Observation::Simple115v2 => (prototype.layout(Floats::Simple115v2).len(), 0),
+        Observation::Smm => (0, smm_size(SMM_WIDTH, SMM_HEIGHT)),
+    };
+    let lane = |at: usize| Lane {
+        environment: prototype.clone(),
+        agent: ReadyMade::new(options.agent),
+        seed: options.seed.wrapping_add(at as u64),
+        actions: vec![Action::Idle; prototype.n_agents()],
+        observation: options.observation,
+        floats: vec![0.0; floats],
+        map: vec![0; map],
+        steps: 0,
+        resets: 0,
+        failed: None,
+    };
+    Ok((0..options.matches).map(lane).collect())
+}
+
+impl Lane {
+    /// A step of the match, or the beginning of the next episode where it has ended; does nothing once it has failed.
+    fn advance(&mut self, scratch: &mut Scratch) {
+        if self.failed.is_none()
+            && let Err(error) = self.try_advance(scratch)
+        {
+            self.failed = Some(Box::new(error));
+        }
+    }
+
+    fn try_advance(&mut self, scratch: &mut Scratch) -> Result<(), EpisodeError> {
+        if !self.environment.is_running() {
+            scratch.laps().start();
+            let index = self.environment.has_begun().then(|| self.environment.index().wrapping_add(1));
+            self.environment.reset(Some(self.seed), Some(index.unwrap_or(0)))?;
+            self.agent.begin(&self.environment);
+            self.resets += 1;
+            scratch.laps().end(Phase::Draw);
+        }
+        for (agent, action) in self.actions.iter_mut().enumerate() {
+            *action = self.agent.act(&self.environment, agent);
+        }
+        self.environment.step(&self.actions, scratch)?;
+        self.steps += 1;
+        for agent in 0..self.actions.len() {
+            // Buffers have the sizes that their observations ask for.
+            let _ = match self.observation {
+                Observation::None => Ok(()),
+                Observation::Simple115v2 => self.environment.observe(Floats::Simple115v2, agent, &mut self.floats),
+                Observation::Smm => smm(self.environment.state(), agent, SMM_WIDTH, SMM_HEIGHT, &mut self.map),
+            };
+            black_box((&self.floats, &self.map));
+        }
+        scratch.laps().end(Phase::Observe);
+        Ok(())
+    }
+}

@@ -1,0 +1,204 @@
+//! `setpiece bench`: how fast scenarios are played on this machine.
+
+use super::playing::AgentName;
+use super::{FINE, out::Out};
+use crate::Error;
+use crate::bench::{BenchOptions, Measured, Observation, measure, phases};
+use crate::engine::environment::EnvironmentOptions;
+use crate::files::{SOURCE_MAX_BYTES, into_text, read_file};
+use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// What is measured unless something is named: the game of eleven, a small one, an empty one.
+const SCENARIOS: [&str; 3] = ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper", "academy_empty_goal_close"];
+
+#[derive(Args, Debug)]
+pub(crate) struct BenchArgs {
+    /// Scenarios of the library, .pitch or .pitchc files [default: 11_vs_11_stochastic, academy_3_vs_1_with_keeper,
+    /// academy_empty_goal_close]
+    #[arg(value_name = "SCENARIO")]
+    scenarios: Vec<String>,
+    /// Threads; several numbers with commas between them [default: 1 and one per core]
+    #[arg(short, long, value_name = "N", value_delimiter = ',', value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
+    threads: Vec<u16>,
+    /// How many matches are stepped together
+    #[arg(short, long, value_name = "N", default_value_t = 64, value_parser = RangedU64ValueParser::<u32>::new().range(1..=100_000))]
+    matches: u32,
+    /// How long each line of the table is measured
+    #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds)]
+    seconds: f64,
+    /// Who plays for the agents
+    #[arg(short, long, value_enum, default_value_t = AgentName::Random)]
+    agent: AgentName,
+    /// What the agents are shown after every step
+    #[arg(short, long, value_enum, default_value_t = ObservationName::Simple115v2)]
+    observation: ObservationName,
+    /// How to print what came out
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Compare with what `--format jsonl` printed before: the ratio of steps per CPU-second
+    #[arg(long, value_name = "FILE")]
+    against: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ObservationName {
+    /// GRF's 115 floats
+    Simple115v2,
+    /// GRF's super mini map, 72 by 96 by 4 bytes
+    Smm,
+    /// Nothing
+    None,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A table
+    Text,
+    /// One JSON object a line, for `--against`
+    Jsonl,
+}
+
+/// A line of the table.
+#[derive(Serialize, Deserialize, Clone, Debug)]
+struct Row {
+    scenario: String,
+    threads: usize,
+    matches: usize,
+    observation: String,
+    agent: String,
+    steps_per_second: f64,
+    steps_per_cpu_second: f64,
+    resets_per_step: f64,
+    /// By phase; on one thread alone.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    microseconds: BTreeMap<String, f64>,
+}
+
+impl Row {
+    fn compares_with(&self, other: &Row) -> bool {
+        let key = |row: &Row| (row.scenario.clone(), row.threads, row.observation.clone(), row.agent.clone());
+        key(self) == key(other)
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.01..=3600.0).contains(&seconds) => Ok(seconds),
+        _ => Err("write a number of seconds, 0.01 to 3600".to_owned()),
+    }
+}
+
+/// Runs the command.
+pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
+    let before = args.against.as_deref().map(read).transpose()?.unwrap_or_default();
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut threads: Vec<usize> = args.threads.iter().copied().map(usize::from).collect();
+    if threads.is_empty() {
+        threads = if cores == 1 { vec![1] } else { vec![1, cores] };
+    }
+    let named = args.scenarios.iter().map(String::as_str);
+    let names: Vec<&str> = if args.scenarios.is_empty() { SCENARIOS.to_vec() } else { named.collect() };
+    let loaded = names.iter().map(|name| crate::load(name)).collect::<Result<Vec<_>, _>>()?;
+    let observation =
+        args.observation.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
+    let agent = args.agent.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
+    let mut rows = Vec::new();
+    for loaded in &loaded {
+        out.warnings(loaded);
+        for &threads in &threads {
+            let options = BenchOptions {
+                matches: args.matches as usize,
+                threads,
+                duration: Duration::from_secs_f64(args.seconds),
+                agent: args.agent.agent(),
+                observation: match args.observation {
+                    ObservationName::None => Observation::None,
+                    ObservationName::Simple115v2 => Observation::Simple115v2,
+                    ObservationName::Smm => Observation::Smm,
+                },
+                seed: 0,
+                environment: EnvironmentOptions::default(),
+            };
+            let measured = measure(&loaded.scenario, &options)?;
+            let mut row = row(&loaded.scenario.name, threads, &measured, (&observation, &agent), args);
+            if threads == 1 {
+                let phases = phases(&loaded.scenario, &options)?;
+                let named = crate::engine::laps::Phase::NAMED.iter().zip(phases);
+                row.microseconds =
+                    named.map(|((_, name), (_, microseconds))| ((*name).to_owned(), microseconds)).collect();
+            }
+            if args.format == Format::Jsonl {
+                out.line(&serde_json::to_string(&row).unwrap_or_default());
+            }
+            rows.push(row);
+        }
+    }
+    if args.format == Format::Text {
+        print(&rows, &before, (&observation, &agent), args, out);
+    }
+    Ok(FINE)
+}
+
+fn row(scenario: &str, threads: usize, measured: &Measured, words: (&str, &str), args: &BenchArgs) -> Row {
+    Row {
+        scenario: scenario.to_owned(),
+        threads,
+        matches: args.matches as usize,
+        observation: words.0.to_owned(),
+        agent: words.1.to_owned(),
+        steps_per_second: measured.per_second(),
+        steps_per_cpu_second: measured.per_cpu_second(),
+        resets_per_step: measured.resets as f64 / measured.steps.max(1) as f64,
+        microseconds: BTreeMap::new(),
+    }
+}
+
+fn print(rows: &[Row], before: &[Row], words: (&str, &str), args: &BenchArgs, out: &Out) {
+    let (observation, agent) = words;
+    out.line(&format!(
+        "{} matches at once · agent {agent} · observation {observation} · resets included",
+        args.matches
+    ));
+    out.line("");
+    let width = rows.iter().map(|row| row.scenario.len()).max().unwrap_or(0).max(8);
+    let against = if before.is_empty() { "" } else { "   ratio" };
+    out.line(&out.dim(&format!("{:width$}  threads  steps/s  steps/CPU-s{against}", "scenario")));
+    for row in rows {
+        let ratio = before.iter().find(|earlier| row.compares_with(earlier)).map_or(String::new(), |earlier| {
+            format!("{:>8.2}", row.steps_per_cpu_second / earlier.steps_per_cpu_second)
+        });
+        out.line(&format!(
+            "{:width$}  {:>7}  {:>7.0}  {:>11.0}{ratio}",
+            row.scenario, row.threads, row.steps_per_second, row.steps_per_cpu_second
+        ));
+    }
+    let measured: Vec<&Row> = rows.iter().filter(|row| !row.microseconds.is_empty()).collect();
+    if measured.is_empty() {
+        return;
+    }
+    let names = crate::engine::laps::Phase::NAMED.map(|(_, name)| name);
+    out.line("");
+    let head: String = names.iter().map(|name| format!("{name:>10}")).collect();
+    out.line(&out.dim(&format!("{:width$}{head}", "µs a step")));
+    for row in measured {
+        let times: String =
+            names.iter().map(|name| format!("{:>10.2}", row.microseconds.get(*name).copied().unwrap_or(0.0))).collect();
+        out.line(&format!("{:width$}{times}", row.scenario));
+    }
+}
+
+/// The rows of an earlier run.
+fn read(path: &Path) -> Result<Vec<Row>, Error> {
+    let text = into_text(read_file(path, SOURCE_MAX_BYTES)?, path)?;
+    let row = |line: &str| {
+        serde_json::from_str(line).map_err(|why| Error::File {
+            path: path.to_owned(),
+            why: crate::error::FileFault::Io(format!("it is no table of `setpiece bench --format jsonl`: {why}")),
+        })
+    };
+    text.lines().filter(|line| !line.trim().is_empty()).map(row).collect()
+}

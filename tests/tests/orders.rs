@@ -158,3 +158,45 @@ fn the_power_of_a_steered_pass_is_how_far_it_goes() {
     assert!(near.y > 3.0 && far.y > 3.0, "along the way: {near} {far}");
     assert!(far.length() > near.length() + 3.0, "{near} {far}");
 }
+
+/// As GRF's: a held direction leads the ball over the line.
+#[test]
+fn an_agent_runs_the_ball_off_the_pitch() {
+    for (at, action) in [("(0.9, 0.3)", Action::Right), ("(0.3, 0.38)", Action::Bottom)] {
+        let body = format!(
+            "ball at {at} {{ owner: anna }}
+            team left {{ GK at (-1, 0) anna: CM at {at} }}
+            agents {{ left: [anna] }}
+            team right {{ GK at (1, 0) {{ ai: lazy }} CB at (0, 0) {{ ai: lazy }} }}"
+        );
+        let mut environment = environment(&body);
+        let mut scratch = Scratch::default();
+        let out = (0..60).any(|_| {
+            environment.step(&[action], &mut scratch).unwrap();
+            environment.events().iter().any(|event| event.kind == EventKind::OutOfPlay)
+        });
+        assert!(out, "{action:?} from {at} stays on the pitch");
+    }
+}
+
+/// As GRF's: who is lazy passes no ball, a resting one neither.
+#[test]
+fn the_lazy_take_no_set_piece_unless_all_are() {
+    let kick = |team: &str| {
+        let body = format!(
+            "start free_kick for left at (0.2, 0.1) team left {{ {team} }} team right {{ GK at own (-1, 0) }}
+            agents {{ left: 0 }}"
+        );
+        let mut environment = environment(&body);
+        let mut scratch = Scratch::default();
+        let taker = environment.state().play.set_piece.unwrap().taker;
+        for _ in 0..60 {
+            environment.step(&[], &mut scratch).unwrap();
+        }
+        (taker, environment.state().play.set_piece.is_none())
+    };
+    let mixed = "GK at (-1, 0) CM at (0.2, 0.12) { ai: lazy } CM at (-0.3, 0)";
+    assert_eq!(kick(mixed), (PlayerId::new(Team::Left, 2), true));
+    let lazy = "GK at (-1, 0) { ai: lazy } CM at (0.2, 0.12) { ai: lazy }";
+    assert_eq!(kick(lazy), (PlayerId::new(Team::Left, 1), false));
+}

@@ -1,9 +1,11 @@
 //! Set pieces: who takes one and where everybody stands.
 
+use crate::control::switching;
 use crate::football::offside;
 use crate::football::play::Restart;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::{
     BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX,
 };
@@ -26,13 +28,15 @@ const OVERHEAD_M: f32 = 1.9;
 /// From one man of a wall to the next, metres.
 const WALL_SPACING_M: f32 = 0.75;
 
-/// Who takes a set piece: the nearest, but the keeper for goal kicks and nobody but an outfielder else.
+/// Who takes a set piece: the nearest, but the keeper for goal kicks and nobody but an outfielder else, and who is lazy
+/// only where everybody is.
 pub fn taker(game: &Match, restart: Restart) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(restart.team) {
         let keeper = player.role == Role::GK;
         let misplaced = if keeper == (restart.mode == GameMode::GoalKick) { 0.0 } else { 1.0e4 };
-        let distance = player.pos.distance(restart.spot) + misplaced;
+        let unwilling = if player.ai == Ai::Lazy && !switching::controlled(game, id) { 1.0e5 } else { 0.0 };
+        let distance = player.pos.distance(restart.spot) + misplaced + unwilling;
         if best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, id));
         }

@@ -70,14 +70,18 @@ pub fn controller(game: &Match) -> Option<PlayerId> {
     (player.active && near && own && game.ball.pos.z < 0.9).then_some(id)
 }
 
+/// Whether an agent, or a behaviour, presses for him.
+fn is_driven(game: &Match, id: PlayerId) -> bool {
+    game.play.driven & (1 << id.0) != 0
+}
+
 /// Whether a player would play the ball that is near him.
 fn wants_ball(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     if (game.tick as i32) < player.body.ready_at {
         return false;
     }
-    let driven = game.play.driven & (1 << id.0) != 0;
-    if player.ai == Ai::Lazy && !driven {
+    if player.ai == Ai::Lazy && !is_driven(game, id) {
         return false;
     }
     if game.last_touch == Some(id) {
@@ -135,22 +139,31 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
             ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
         }
     }
-    let velocity = touch_ahead(&player, to_ball, ahead, speed, pressed(game, id));
+    let care = Care { pressed: pressed(game, id), lines: !is_driven(game, id) };
+    let velocity = touch_ahead(&player, to_ball, ahead, speed, care);
     let wild = 0.09 * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
     let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
     push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
     true
 }
 
+/// What a dribbler minds.
+struct Care {
+    /// An opponent who is about to get at him.
+    pressed: bool,
+    /// The lines: whom an agent drives may run the ball off the pitch.
+    lines: bool,
+}
+
 /// The ball's velocity with which he meets it again a moment later, running at `speed` along `ahead`.
-fn touch_ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, pressed: bool) -> Vec2 {
+fn touch_ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: Care) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     let gait = speed / 8.0;
-    let shy = if pressed { 0.8 } else { 1.0 };
+    let shy = if care.pressed { 0.8 } else { 1.0 };
     let time = (0.25 + 0.5 * gait * gait) * shy;
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
     let free = ahead * (mean * time + 0.42 + 0.03 * speed);
-    let cut = within_lines(player.pos, free);
+    let cut = if care.lines { within_lines(player.pos, free) } else { None };
     let place = cut.unwrap_or(free);
     let way = place - to_ball;
     let distance = way.length();
@@ -212,8 +225,9 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     let keep = ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (0.85 - 0.55 * control) * (0.15 + 0.75 * wildness);
     let wish = player.body.dribble;
     let to_ball = ball.pos.truncate() - player.pos;
+    let care = Care { pressed: false, lines: !is_driven(game, id) };
     let soft = if wish.length_squared() > 0.25 {
-        touch_ahead(&player, to_ball, wish.normalize_or_zero(), wish.length().min(5.5), false) * 0.85
+        touch_ahead(&player, to_ball, wish.normalize_or_zero(), wish.length().min(5.5), care) * 0.85
     } else {
         player.vel * 0.5
     };

@@ -9,6 +9,7 @@ use crate::football::play::SetPiece;
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::GameMode;
 
@@ -25,7 +26,9 @@ pub fn think(game: &mut Match) {
     }
     let taker = set_piece.taker;
     let driven = game.play.driven & (1 << taker.0) != 0;
-    if driven || set_piece.waited_steps < WAIT_STEPS || game.player(taker).body.kick.is_some() {
+    // As GRF's: a team of the lazy plays no more.
+    let lazy = game.player(taker).ai == Ai::Lazy;
+    if driven || lazy || set_piece.waited_steps < WAIT_STEPS || game.player(taker).body.kick.is_some() {
         return;
     }
     let plan = choose(game, set_piece);

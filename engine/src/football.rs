@@ -2,7 +2,7 @@
 //!
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
-//! [`movement`], [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the ball first; [`touch`], [`duel`],
+//! [`movement`] (with `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the ball first; [`touch`], [`duel`],
 //! [`slide`], [`kick`] and [`keeper`] play it; [`flight`] says what that means; [`referee`], [`offside`], [`foul`] stop
 //! play, [`advantage`] lets it run, and [`mod@restart`] goes on.
 
@@ -33,6 +33,7 @@ pub mod set_piece;
 pub mod shot;
 pub mod slide;
 pub mod stats;
+mod stride;
 pub mod tick;
 pub mod touch;
 

@@ -1,12 +1,13 @@
 //! How a body runs, turns and stops.
 //!
-//! The curves are fitted to the measured ones (speed step by step from a standstill, ticks to turn, length of a stop).
-//! Decides where a player's body goes; leaves to `control` where he wants to go.
+//! Decides where a player's body goes: what each wants to run is one man's, and [`super::stride`] does the running for
+//! all of them. Leaves to `control` where he wants to go.
 
 use crate::football::body::{Intent, Pose};
+use crate::football::stride::Strides;
 use crate::state::{Match, Player};
 use glam::Vec2;
-use setpiece_scenario::pitch::{RIM_X_M, RIM_Y_M};
+use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
 
 /// Speed with the dribble key, m/s.
@@ -26,19 +27,14 @@ pub const WITH_BALL: f32 = 0.955;
 pub const DT: f32 = 0.01;
 /// Metres of distance to m/s of speed wanted.
 pub const ARRIVAL_PER_S: f32 = 2.6;
-/// Braking, m/s².
-const BRAKE_MPS2: f32 = 14.0;
-/// Sideways acceleration of a turn, m/s².
-const TURN_MPS2: f32 = 17.0;
-/// Ticks from the wish to the first push.
-const LAG_TICKS: u8 = 3;
-
 /// Moves every player on by a tick.
 pub fn advance(game: &mut Match) {
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
     let owner = game.owner;
     let frozen = game.play.set_piece.map(|set_piece| set_piece.taker);
+    let mut strides = Strides::still();
+    let mut on_feet = [false; PLAYERS_MAX];
     for (i, player) in game.players.iter_mut().enumerate() {
         if !player.active {
             continue;
@@ -68,12 +64,34 @@ pub fn advance(game: &mut Match) {
         if frozen.is_some_and(|taker| taker.index() != i) {
             want = Vec2::ZERO;
         }
-        let top = if has_ball { WITH_BALL * player.body.speed_top_mps } else { player.body.speed_top_mps };
         keep_inside(player.pos, &mut want);
-        steer(player, want, top);
-        go(player);
-        turn_body(player, ball);
+        take(&mut strides, i, player, want, has_ball);
+        on_feet[i] = true;
     }
+    strides.steer();
+    strides.go();
+    strides.turn(ball.x, ball.y);
+    for (i, player) in game.players.iter_mut().enumerate().filter(|(i, _)| on_feet[*i]) {
+        player.pos = Vec2::new(strides.x[i], strides.y[i]);
+        player.vel = Vec2::new(strides.vx[i], strides.vy[i]);
+        player.body.lag_ticks = strides.lag[i] as u8;
+        player.body.facing = Vec2::new(strides.facing_x[i], strides.facing_y[i]);
+    }
+}
+
+/// Puts a player into his lane.
+fn take(strides: &mut Strides, i: usize, player: &Player, want: Vec2, has_ball: bool) {
+    let body = &player.body;
+    let pushed = (body.push_m * (10.0 - 5.0 * player.skill(Stat::Balance)) - 0.1).clamp(0.0, 0.3);
+    (strides.x[i], strides.y[i]) = (player.pos.x, player.pos.y);
+    (strides.vx[i], strides.vy[i]) = (player.vel.x, player.vel.y);
+    (strides.want_x[i], strides.want_y[i]) = (want.x, want.y);
+    strides.top[i] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
+    strides.lag[i] = f32::from(body.lag_ticks);
+    strides.turn[i] = 0.85 + 0.2 * player.skill(Stat::Agility);
+    strides.burst[i] = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
+    strides.free[i] = 1.0 - pushed;
+    (strides.facing_x[i], strides.facing_y[i]) = (body.facing.x, body.facing.y);
 }
 
 /// Carries a player along his velocity, no further than the rim.
@@ -129,63 +147,6 @@ fn keep_inside(pos: Vec2, want: &mut Vec2) {
     }
 }
 
-/// Brings the velocity nearer to the wish, as a body can in a tick.
-pub fn steer(player: &mut Player, want: Vec2, top: f32) {
-    let speed = player.vel.length();
-    let wish = want.length().min(top);
-    if wish < 0.15 {
-        player.body.lag_ticks = 0;
-        let slower = (speed - BRAKE_MPS2 * DT).max(0.0);
-        player.vel = if speed > 1e-3 { player.vel * (slower / speed) } else { Vec2::ZERO };
-        return;
-    }
-    let aim = want / want.length();
-    if speed < 0.3 {
-        if player.body.lag_ticks < LAG_TICKS {
-            player.body.lag_ticks += 1;
-            return;
-        }
-        player.vel = aim * (speed + push(speed, top, player) * DT).min(wish);
-        return;
-    }
-    player.body.lag_ticks = LAG_TICKS;
-    let ahead = player.vel / speed;
-    let cos = ahead.dot(aim).clamp(-1.0, 1.0);
-    let sin = ahead.perp_dot(aim);
-    let mut next = if speed < wish {
-        (speed + push(speed, top, player) * DT).min(wish)
-    } else {
-        (speed - BRAKE_MPS2 * DT).max(wish)
-    };
-    let mut direction = aim;
-    // Beyond a few degrees he leans into an arc and loses speed; about turns brake first.
-    if cos < 0.996 {
-        if cos < -0.5 && speed > 2.0 {
-            next = speed - BRAKE_MPS2 * DT;
-            direction = ahead;
-        } else {
-            let agility = 0.85 + 0.2 * player.skill(Stat::Agility);
-            let angle = (TURN_MPS2 * agility / speed.max(1.2) * DT).min(0.35);
-            let turned = sin.abs().max(if cos < 0.0 { 1.0 } else { 0.0 });
-            if turned > angle {
-                let left = if sin < 0.0 { -angle } else { angle };
-                direction = Vec2::new(ahead.x - ahead.y * left, ahead.y + ahead.x * left).normalize_or_zero();
-            }
-            let sharp = if cos > 0.0 { (1.05 * sin.abs()).min(1.0) } else { 1.0 };
-            next = (speed - BRAKE_MPS2 * 0.9 * sharp * DT).max(next.min(1.5)).min(next);
-        }
-    }
-    player.vel = direction * next.max(0.0);
-}
-
-/// Acceleration at a speed, m/s²: measured from standstill to sprint.
-fn push(speed: f32, top: f32, player: &Player) -> f32 {
-    let early = if speed < 2.0 { 18.0 } else { (9.4 - 1.8 * (speed - 2.4).max(0.0)).clamp(4.4, 9.4) };
-    let stat = 0.9 + 0.13 * player.body.stats[Stat::Acceleration.index()];
-    let pushed = (player.body.push_m * (10.0 - 5.0 * player.skill(Stat::Balance)) - 0.1).clamp(0.0, 0.3);
-    early.min(3.0 * (top - speed) + 0.05) * stat * (1.0 - pushed)
-}
-
 /// Braking of a body that slides or lies.
 fn slow_down(player: &mut Player, brake: f32) {
     let speed = player.vel.length();
@@ -197,15 +158,5 @@ fn pass_time(player: &mut Player, next: Pose, ticks: u8) {
     player.body.pose_ticks = player.body.pose_ticks.saturating_sub(1);
     if player.body.pose_ticks == 0 {
         player.body.strike_pose(next, ticks);
-    }
-}
-
-/// Faces where he runs, or the ball.
-fn turn_body(player: &mut Player, ball: Vec2) {
-    let towards = if player.vel.length_squared() > 1.0 { player.vel } else { ball - player.pos };
-    let mixed = player.body.facing + towards.normalize_or_zero() * 0.12;
-    let length = mixed.length();
-    if length > 0.05 {
-        player.body.facing = mixed / length;
     }
 }

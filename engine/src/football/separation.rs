@@ -29,18 +29,22 @@ pub fn separate(game: &mut Match, events: &mut Events) {
     for player in &mut game.players {
         player.body.push_m *= SHOVE_LEFT;
     }
-    let mut places = [Vec2::splat(1.0e6); PLAYERS_MAX];
+    let (mut xs, mut ys) = ([0.0_f32; PLAYERS_MAX], [0.0_f32; PLAYERS_MAX]);
     let mut ids = [PlayerId(0); PLAYERS_MAX];
-    for (i, (id, (place, slot))) in game.order().zip(places.iter_mut().zip(&mut ids)).enumerate() {
+    for (i, id) in game.order().enumerate() {
         let player = game.player(id);
         // Whoever is not there stands far away, each at a place of his own.
-        *place = if player.active { player.pos } else { Vec2::new(1.0e6 + 10.0 * i as f32, 0.0) };
-        *slot = id;
+        let place = if player.active { player.pos } else { Vec2::new(1.0e6 + 10.0 * i as f32, 0.0) };
+        (xs[i], ys[i], ids[i]) = (place.x, place.y, id);
     }
-    for (i, here) in places.iter().enumerate() {
-        for (j, there) in places.iter().enumerate().skip(i + 1) {
-            let (dx, dy) = (there.x - here.x, there.y - here.y);
-            if dx * dx + dy * dy < CONTACT_M * CONTACT_M {
+    for i in 0..PLAYERS_MAX {
+        let meets = |j: usize| {
+            let (dx, dy) = (xs[j] - xs[i], ys[j] - ys[i]);
+            dx * dx + dy * dy < CONTACT_M * CONTACT_M
+        };
+        // Nearly always nobody: all are asked without a branch first.
+        if (0..PLAYERS_MAX).fold(0, |count, j| count + u32::from(meets(j))) > 1 {
+            for j in (i + 1..PLAYERS_MAX).filter(|j| meets(*j)) {
                 part(game, events, ids[i], ids[j]);
             }
         }

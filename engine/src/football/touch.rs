@@ -22,6 +22,8 @@ const TRAP_M: f32 = 0.75;
 const CHEST_M: f32 = 1.25;
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
+/// Whom an agent drives minds a line until he is as near to it, metres; chosen.
+const AT_LINE_M: f32 = 0.8;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 
@@ -73,6 +75,13 @@ pub fn controller(game: &Match) -> Option<PlayerId> {
 /// Whether an agent, or a behaviour, presses for him.
 fn is_driven(game: &Match, id: PlayerId) -> bool {
     game.play.driven & (1 << id.0) != 0
+}
+
+/// Whether he keeps the ball on the pitch: whom an agent drives does until he is at the line himself.
+fn minds_lines(game: &Match, id: PlayerId) -> bool {
+    let pos = game.player(id).pos.abs();
+    let (x, y) = (HALF_LENGTH_M as f32 - AT_LINE_M, HALF_WIDTH_M as f32 - AT_LINE_M);
+    !is_driven(game, id) || (pos.x < x && pos.y < y)
 }
 
 /// Whether a player would play the ball that is near him.
@@ -139,7 +148,7 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
             ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
         }
     }
-    let care = Care { pressed: pressed(game, id), lines: !is_driven(game, id) };
+    let care = Care { pressed: pressed(game, id), lines: minds_lines(game, id) };
     let velocity = touch_ahead(&player, to_ball, ahead, speed, care);
     let wild = 0.09 * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
     let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
@@ -151,7 +160,7 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
 struct Care {
     /// An opponent who is about to get at him.
     pressed: bool,
-    /// The lines: whom an agent drives may run the ball off the pitch.
+    /// The lines: he doesn't push the ball over them.
     lines: bool,
 }
 
@@ -225,7 +234,7 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     let keep = ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (0.85 - 0.55 * control) * (0.15 + 0.75 * wildness);
     let wish = player.body.dribble;
     let to_ball = ball.pos.truncate() - player.pos;
-    let care = Care { pressed: false, lines: !is_driven(game, id) };
+    let care = Care { pressed: false, lines: minds_lines(game, id) };
     let soft = if wish.length_squared() > 0.25 {
         touch_ahead(&player, to_ball, wish.normalize_or_zero(), wish.length().min(5.5), care) * 0.85
     } else {

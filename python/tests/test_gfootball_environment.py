@@ -252,7 +252,10 @@ def test_directions_of_agents_on_the_right_are_turned() -> None:
 
 @pytest.mark.parametrize(
     "action",
-    [5, np.int32(5), np.int64(5), [5], np.array([5]), np.array(5), actions.action_right, [actions.action_right]],
+    [
+        *(5, np.int32(5), np.int64(5), [5], np.array([5]), np.array(5), actions.action_right, [actions.action_right]),
+        *(np.array(actions.action_right), np.array([actions.action_right])),
+    ],
 )
 def test_action_formats(action: Any) -> None:
     env = make(representation="raw")
@@ -260,7 +263,7 @@ def test_action_formats(action: Any) -> None:
     assert env.step(action)[0][0]["sticky_actions"][4] == 1
 
 
-@pytest.mark.parametrize("action", [19, -1, 1.5, "right", None, [1, 2], [], True])
+@pytest.mark.parametrize("action", [19, -1, 1.5, "right", None, [1, 2], [], True, np.True_, np.array("right")])
 def test_a_bad_action_leaves_the_episode_untouched(action: Any) -> None:
     env = make()
     env.reset()

@@ -12,6 +12,7 @@ from setpiece.gfootball.env.football_action_set import (
     action_set_dict,
     get_action_set,
     get_sticky_actions,
+    held_by,
     named_action_from_action_set,
 )
 
@@ -75,4 +76,4 @@ def flip_single_action(action: Any, config: Config | dict[str, Any]) -> Any:
     actions = get_action_set(config)
     named = named_action_from_action_set(actions, action)
     turned = _ACTIONS[_OPPOSITE.get(named.name, named.name)]
-    return turned if isinstance(action, CoreAction) else actions.index(turned)
+    return turned if isinstance(held_by(action), CoreAction) else actions.index(turned)

@@ -457,6 +457,65 @@ def test_players_who_were_sent_off() -> None:
     assert np.count_nonzero(generate_smm([raw], config)[0, :, :, 0]) == 4
 
 
+def listed(seen: dict[str, Any]) -> dict[str, Any]:
+    """An observation as it comes out of JSON."""
+    return {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in seen.items()}
+
+
+def test_lists_are_shown_as_arrays_are() -> None:
+    raw = make(representation="raw", left=2, right=1).reset()
+    for seen in raw:
+        seen["left_team_active"][1] = False
+    lists = [listed(seen) for seen in raw]
+    assert np.array_equal(generate_smm(lists), generate_smm(raw))
+    for fixed in (False, True):
+        for kept in (False, True):
+            numbers = Simple115StateWrapper.convert_observation(lists, fixed, kept)
+            assert np.array_equal(numbers, Simple115StateWrapper.convert_observation(raw, fixed, kept))
+    config = Config({"level": THREE})
+    for seen, plain in zip(raw, lists, strict=True):
+        turned, expected = flip_observation(plain, config), flip_observation(seen, config)
+        assert same(listed(turned), listed(expected))
+
+
+def test_an_agent_of_kaggles_kind_makes_a_minimap() -> None:
+    def agent(observation: Any) -> list[int]:
+        assert generate_smm(observation["players_raw"]).shape == (1, 72, 96, 4)
+        return [5]
+
+    assert not setpiece.play("academy_empty_goal_close", agent, "bot", seed=1).errors
+
+
+def test_observations_that_do_not_tell_all() -> None:
+    raw = make(representation="raw").reset()
+    untold = [{key: value for key, value in seen.items() if not key.endswith("_active")} for seen in raw]
+    assert np.array_equal(generate_smm(untold), generate_smm(raw))
+    convert = Simple115StateWrapper.convert_observation
+    assert np.array_equal(convert(untold, fixed_positions=True), convert(raw, fixed_positions=True))
+    env = make(representation="raw")
+    seen = env.reset()
+    whole = [inside(env)._core.whole]
+    assert np.array_equal(generate_smm(whole)[..., :3], generate_smm(seen)[..., :3])
+    assert not generate_smm(whole)[..., 3].any(), "nobody is the active one of a whole match"
+    assert np.array_equal(convert(whole, fixed_positions=True)[:, :97], convert(seen, fixed_positions=True)[:, :97])
+    assert not convert(whole, fixed_positions=True)[:, 97:108].any()
+    assert not generate_smm([{"ball": [0.0, 0.0, 0.1]}])[..., :2].any()
+
+
+@pytest.mark.parametrize("config", [None, {"action_set": "default"}, {}, 7, "smm", Config({"level": THREE})])
+def test_a_minimap_needs_no_config(config: Any) -> None:
+    raw = make(representation="raw").reset()
+    assert np.array_equal(generate_smm(raw, config), generate_smm(raw))
+
+
+def test_settings_of_a_dump_wish_bugs_back_too() -> None:
+    raw = make(representation="raw").reset()
+    raw[0]["left_team_active"][2] = False
+    for bugs, marked in [(True, 4), (["sent_off"], 4), ("sent_off", 4), (False, 3), (["kick_off_mode"], 3)]:
+        settings = Config({"level": THREE, "grf_bugs": bugs}).get_dictionary()
+        assert np.count_nonzero(generate_smm(raw, settings)[0, :, :, 0]) == marked
+
+
 def test_minimap_is_the_native_one() -> None:
     scenario = setpiece.compile(f"scenario same extends {THREE} {{ end limit 401 steps }}")
     native = setpiece.make(scenario, observation="smm", action_set="v2")

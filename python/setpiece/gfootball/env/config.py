@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -174,8 +174,7 @@ class Config:
 
     def has_bug(self, name: str) -> bool:
         """Whether a bug of GRF is wished back."""
-        bugs = self["grf_bugs"]
-        return bugs if isinstance(bugs, bool) else name in ([bugs] if isinstance(bugs, str) else bugs)
+        return has_bug(self, name)
 
     def Scenario(self) -> Scenario:  # noqa: N802  # GRF's names
         """Returns the scenario of this episode."""
@@ -206,6 +205,14 @@ class Config:
 
 def _no_reverse() -> Exception:
     return unavailable("reverse_team_processing", "an order in which the teams are moved", "leave it out, or False")
+
+
+def has_bug(config: object, name: str) -> bool:
+    """Whether a bug of GRF is wished back: by a `Config`, or a dict of its settings; anything else wishes none."""
+    bugs = config["grf_bugs"] if isinstance(config, (Config, Mapping)) and "grf_bugs" in config else False
+    if isinstance(bugs, str):
+        return bugs == name
+    return name in bugs if isinstance(bugs, (list, tuple)) else bugs is True
 
 
 def _check(key: str, value: Any) -> None:

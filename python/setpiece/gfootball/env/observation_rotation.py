@@ -37,7 +37,7 @@ def flip_team_observation(
 ) -> None:
     """Writes a team of an observation into another one, turned, as the other team: `left` or `right`."""
     for key in _TURNED:
-        result[to_team + key] = -observation[from_team + key]
+        result[to_team + key] = -np.asarray(observation[from_team + key])
     for key in _KEPT:
         if from_team + key in observation:
             result[to_team + key] = observation[from_team + key]
@@ -47,7 +47,10 @@ def flip_team_observation(
 
 
 def flip_observation(observation: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:
-    """Returns an observation as the other side sees it: that of the whole match, or an agent's own."""
+    """Returns an observation as the other side sees it: that of the whole match, or an agent's own.
+
+    What is turned is an array, of a list too.
+    """
     result = dict(observation)
     flip_team_observation(observation, result, config, "left", "right")
     flip_team_observation(observation, result, config, "right", "left")

@@ -132,15 +132,17 @@ class Simple115StateWrapper(ObservationWrapper):
         """Returns the numbers of raw observations: float32 `(n, 115)`.
 
         - `sent_off_stay`: whether players who were sent off keep their last numbers, as in GRF, or have -1.
+        - `observation`: with arrays or lists. Without `*_team_active` everybody plays, without `active` nobody is shown
+          as active.
         """
         result = np.zeros((len(observation), SIMPLE), np.float32)
         for row, seen in zip(result, observation, strict=True):
             row[: 4 * BLOCK] = -1.0
             at = 0
             for number, block in enumerate(BLOCKS):
-                values = seen[block]
+                values = np.asarray(seen[block], np.float64)
                 if not sent_off_stay:
-                    playing = seen[f"{block.removesuffix('_direction')}_active"]
+                    playing = observation_preprocessing.playing(seen, block.removesuffix("_direction"))
                     values = np.where(playing[:, None], values, -1.0)
                 values = values.ravel()
                 at = number * BLOCK if fixed_positions else at
@@ -149,7 +151,7 @@ class Simple115StateWrapper(ObservationWrapper):
             row[88:91] = seen["ball"]
             row[91:94] = seen["ball_direction"]
             row[94 + seen["ball_owned_team"] + 1] = 1.0
-            if seen["active"] != -1:
+            if seen.get("active", -1) != -1:
                 row[97 + seen["active"]] = 1.0
             row[108 + seen["game_mode"]] = 1.0
         return result

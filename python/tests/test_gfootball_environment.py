@@ -582,6 +582,16 @@ def test_what_is_not_here_says_so_later() -> None:
         ({"number_of_right_players_agent_controls": 12}, "at most 11"),
         ({"dump_frequency": 0}, "dump_frequency"),
         ({"channel_dimensions": (0, 5)}, "channel_dimensions"),
+        ({"channel_dimensions": (10,), "representation": "simple115v2"}, "channel_dimensions"),
+        ({"channel_dimensions": (9.5, 9), "representation": "raw"}, "channel_dimensions"),
+        ({"logdir": 5}, "`logdir` is 5"),
+        ({"number_of_left_players_agent_controls": True}, "number_of_left"),
+        ({"number_of_left_players_agent_controls": 1.0}, "number_of_left"),
+        ({"extra_players": 5}, "`extra_players` is a list"),
+        ({"other_config_options": {"tracesdir": 5}}, "`tracesdir` is 5"),
+        ({"other_config_options": {"episode_number": "x"}}, "episode_number"),
+        ({"other_config_options": {"render_resolution_x": "x"}}, "render_resolution_x"),
+        ({"other_config_options": {"game_engine_random_seed": -1}}, "from 0 on"),
         ({"extra_players": "lazy"}, "extra_players"),
         ({"extra_players": ["bott:right_players=1"]}, "did you mean `bot`"),
         ({"extra_players": ["agent:right_players=1"]}, "at most one `agent`"),
@@ -597,6 +607,23 @@ def test_bad_input(kwargs: dict[str, Any], words: str) -> None:
     with pytest.raises(ParameterError, match=words) as caught:
         create_environment(**{"env_name": CLOSE, **kwargs})
     assert isinstance(caught.value, ValueError)
+
+
+def test_numbers_of_numpy_are_numbers(tmp_path: Path) -> None:
+    env = create_environment(
+        THREE,
+        representation="raw",
+        logdir=tmp_path,
+        dump_frequency=np.int64(2),
+        number_of_left_players_agent_controls=np.int64(2),
+        number_of_right_players_agent_controls=np.uint8(1),
+        channel_dimensions=np.array([10, 20]),
+        other_config_options={"game_engine_random_seed": np.int64(7), "episode_number": np.int32(2)},
+    )
+    assert same(env.reset()[0], make(representation="raw", left=2, right=1).reset()[0])
+    config = inside(env)._config
+    assert type(config["game_engine_random_seed"]) is int
+    assert config["tracesdir"] == str(tmp_path)
 
 
 def test_unknown_scenario() -> None:

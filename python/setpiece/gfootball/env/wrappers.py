@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
+from operator import index
 from typing import Any
 
 import gymnasium
@@ -131,9 +132,9 @@ class Simple115StateWrapper(ObservationWrapper):
     ) -> NDArray[np.float32]:
         """Returns the numbers of raw observations: float32 `(n, 115)`.
 
-        - `sent_off_stay`: whether players who were sent off keep their last numbers, as in GRF, or have -1.
         - `observation`: with arrays or lists. Without `*_team_active` everybody plays, without `active` nobody is shown
           as active.
+        - `sent_off_stay`: whether players who were sent off keep their last numbers, as in GRF, or have -1.
         """
         result = np.zeros((len(observation), SIMPLE), np.float32)
         for row, seen in zip(result, observation, strict=True):
@@ -172,7 +173,7 @@ class SMMWrapper(ObservationWrapper):
         ),
     ) -> None:
         super().__init__(env)
-        self._channel_dimensions = _check_dimensions(channel_dimensions)
+        self._channel_dimensions = check_dimensions(channel_dimensions)
         width, height = self._channel_dimensions
         layers = len(observation_preprocessing.get_smm_layers())
         self.observation_space = spaces.Box(0, 255, (agents_of(env), height, width, layers), np.uint8)
@@ -308,9 +309,10 @@ class MultiAgentToSingleAgent(Wrapper):
         return [observation[slot] for slot in self._chosen]
 
 
-def _check_dimensions(dimensions: Any) -> tuple[int, int]:
+def check_dimensions(dimensions: Any) -> tuple[int, int]:
+    """Returns the width and height of a minimap; `ParameterError` for anything but two whole numbers from 1 on."""
     try:
-        width, height = (int(each) for each in dimensions)
+        width, height = (index(each) for each in dimensions)
         if width < 1 or height < 1:
             raise ValueError
     except (TypeError, ValueError):

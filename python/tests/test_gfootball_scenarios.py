@@ -632,6 +632,15 @@ def test_a_list_filled_with_something_else_is_named(
     assert why in told
 
 
+@pytest.mark.parametrize("name", ["position", "role"])
+def test_a_players_place_and_role_are_said_once(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    added = "    builder.AddPlayer(-1, 0, e_PlayerRole_GK)\n    config.left_team[0].lazy = True\n"
+    path = script_file(tmp_path, added + f"    config.left_team[0].{name} = None\n")
+    assert main(["grf", path]) == 1
+    assert capsys.readouterr().err.startswith(f"`{path}` at line 7: a player's `{name}` can only be read\n")
+    assert "GK at (-1, 0) { ai: lazy" in import_script(script_file(tmp_path, added, "lazy_one"))
+
+
 def test_settings_may_be_numbers_of_numpy(tmp_path: Path) -> None:
     text = """
     import numpy

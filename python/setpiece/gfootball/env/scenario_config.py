@@ -22,12 +22,20 @@ FIXED_SEED = 42
 
 @dataclass
 class FormationEntry:
-    """A player: his place in his team's own frame, who plays him and whether agents may."""
+    """A player: his place in his team's own frame, who plays him and whether agents may.
+
+    Place and role can only be read, as in GRF: setting them anew raises `ParameterError`.
+    """
 
     position: tuple[float, float]
     role: PlayerRole
     lazy: bool = False
     controllable: bool = True
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in ("position", "role") and name in self.__dict__:
+            raise ParameterError(f"a player's `{name}` can only be read", name=name, help="say it in `AddPlayer`")
+        super().__setattr__(name, value)
 
 
 @dataclass

@@ -47,6 +47,9 @@ def test_an_action_by_its_number() -> None:
     default = actions.get_action_set(DEFAULT)
     assert actions.named_action_from_action_set(default, np.int32(12)) is actions.action_shot
     assert actions.named_action_from_action_set(default, actions.action_switch) is actions.action_switch
+    assert actions.named_action_from_action_set(default, np.array(actions.action_shot)) is actions.action_shot
+    with pytest.raises(ActionError, match="found `array"):
+        actions.named_action_from_action_set(default, np.array([1, 2]))
     with pytest.raises(ActionError, match=r"outside 0\.\.18"):
         actions.named_action_from_action_set(default, 19)
     with pytest.raises(ParameterError, match="did you mean `full`"):
@@ -60,6 +63,7 @@ def test_only_directions_turn(number: int, turned: int) -> None:
     assert flip_single_action(number, DEFAULT) == turned
     named = actions.get_action_set(DEFAULT)
     assert flip_single_action(named[number], DEFAULT) is named[turned]
+    assert flip_single_action(np.array(named[number]), DEFAULT) is named[turned]
 
 
 def test_sticky_directions_turn() -> None:

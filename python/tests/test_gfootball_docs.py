@@ -1,6 +1,7 @@
 """Every example of docs/gfootball.md runs, and its lists are complete."""
 
 import re
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -18,3 +19,11 @@ def test_every_example_runs(example: str, nothing_installed: None) -> None:  # n
 
 def test_every_bug_is_listed() -> None:
     assert tuple(re.findall(r"^\| `(\w+)` \|", PAGE, re.MULTILINE)) == BUGS
+
+
+def test_modules_that_are_not_here_are_not() -> None:
+    listed = PAGE.split("Of GRF's modules these are not here:", 1)[1].split("\n\n")[1]
+    names = re.findall(r"`([a-z_.]+)`", listed)
+    assert "play_game" in names
+    for name in names:
+        assert find_spec(f"setpiece.gfootball.{name}") is None, name

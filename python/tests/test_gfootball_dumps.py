@@ -10,6 +10,7 @@ import pytest
 from conftest import same
 
 from setpiece import ActionError, FileError, FormatError, ParameterError, UnavailableError
+from setpiece.gfootball.dump_to_txt import main as dump_to_txt
 from setpiece.gfootball.env import create_environment
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env.config import Config, count_players, parse_player_definition
@@ -235,6 +236,23 @@ def test_a_dump_as_text(tmp_path: Path) -> None:
     ScriptHelpers().dump_to_txt(dump["dump"], str(text), include_debug=False)
     assert "frame_cnt" not in text.read_text()
     assert "steps_left" in text.read_text()
+
+
+def test_the_command_writes_a_dump_as_text(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    env = create_environment(CLOSE, write_full_episode_dumps=True, logdir=str(tmp_path))
+    [dump] = play(env)
+    text = tmp_path / "dump.txt"
+    files = [f"--trace_file={dump['dump']}", f"--output={text}"]
+    for flags in ([], ["--include_debug"], ["--include_debug=true"]):
+        assert dump_to_txt([*files, *flags]) == 0
+        assert "frame_cnt" in text.read_text()
+    for flags in (["--noinclude_debug"], ["--include_debug=False"]):
+        assert dump_to_txt([*files, *flags]) == 0
+        assert "frame_cnt" not in text.read_text()
+    assert capsys.readouterr() == ("", "")
+    assert dump_to_txt(["--trace_file", str(tmp_path / "none.dump"), "--output", str(text)]) == 1
+    assert "none.dump` can't be read" in capsys.readouterr().err
+    assert dump_to_txt(files[:1]) == dump_to_txt([*files, "--include_debug=x"]) == 2
 
 
 def test_replaying_beyond_the_end(tmp_path: Path) -> None:

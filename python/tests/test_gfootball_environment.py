@@ -252,7 +252,10 @@ def test_directions_of_agents_on_the_right_are_turned() -> None:
 
 @pytest.mark.parametrize(
     "action",
-    [5, np.int32(5), np.int64(5), [5], np.array([5]), np.array(5), actions.action_right, [actions.action_right]],
+    [
+        *(5, np.int32(5), np.int64(5), [5], np.array([5]), np.array(5), actions.action_right, [actions.action_right]),
+        *(np.array(actions.action_right), np.array([actions.action_right])),
+    ],
 )
 def test_action_formats(action: Any) -> None:
     env = make(representation="raw")
@@ -260,7 +263,7 @@ def test_action_formats(action: Any) -> None:
     assert env.step(action)[0][0]["sticky_actions"][4] == 1
 
 
-@pytest.mark.parametrize("action", [19, -1, 1.5, "right", None, [1, 2], [], True])
+@pytest.mark.parametrize("action", [19, -1, 1.5, "right", None, [1, 2], [], True, np.True_, np.array("right")])
 def test_a_bad_action_leaves_the_episode_untouched(action: Any) -> None:
     env = make()
     env.reset()
@@ -454,6 +457,65 @@ def test_players_who_were_sent_off() -> None:
     assert np.count_nonzero(generate_smm([raw], config)[0, :, :, 0]) == 4
 
 
+def listed(seen: dict[str, Any]) -> dict[str, Any]:
+    """An observation as it comes out of JSON."""
+    return {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in seen.items()}
+
+
+def test_lists_are_shown_as_arrays_are() -> None:
+    raw = make(representation="raw", left=2, right=1).reset()
+    for seen in raw:
+        seen["left_team_active"][1] = False
+    lists = [listed(seen) for seen in raw]
+    assert np.array_equal(generate_smm(lists), generate_smm(raw))
+    for fixed in (False, True):
+        for kept in (False, True):
+            numbers = Simple115StateWrapper.convert_observation(lists, fixed, kept)
+            assert np.array_equal(numbers, Simple115StateWrapper.convert_observation(raw, fixed, kept))
+    config = Config({"level": THREE})
+    for seen, plain in zip(raw, lists, strict=True):
+        turned, expected = flip_observation(plain, config), flip_observation(seen, config)
+        assert same(listed(turned), listed(expected))
+
+
+def test_an_agent_of_kaggles_kind_makes_a_minimap() -> None:
+    def agent(observation: Any) -> list[int]:
+        assert generate_smm(observation["players_raw"]).shape == (1, 72, 96, 4)
+        return [5]
+
+    assert not setpiece.play("academy_empty_goal_close", agent, "bot", seed=1).errors
+
+
+def test_observations_that_do_not_tell_all() -> None:
+    raw = make(representation="raw").reset()
+    untold = [{key: value for key, value in seen.items() if not key.endswith("_active")} for seen in raw]
+    assert np.array_equal(generate_smm(untold), generate_smm(raw))
+    convert = Simple115StateWrapper.convert_observation
+    assert np.array_equal(convert(untold, fixed_positions=True), convert(raw, fixed_positions=True))
+    env = make(representation="raw")
+    seen = env.reset()
+    whole = [inside(env)._core.whole]
+    assert np.array_equal(generate_smm(whole)[..., :3], generate_smm(seen)[..., :3])
+    assert not generate_smm(whole)[..., 3].any(), "nobody is the active one of a whole match"
+    assert np.array_equal(convert(whole, fixed_positions=True)[:, :97], convert(seen, fixed_positions=True)[:, :97])
+    assert not convert(whole, fixed_positions=True)[:, 97:108].any()
+    assert not generate_smm([{"ball": [0.0, 0.0, 0.1]}])[..., :2].any()
+
+
+@pytest.mark.parametrize("config", [None, {"action_set": "default"}, {}, 7, "smm", Config({"level": THREE})])
+def test_a_minimap_needs_no_config(config: Any) -> None:
+    raw = make(representation="raw").reset()
+    assert np.array_equal(generate_smm(raw, config), generate_smm(raw))
+
+
+def test_settings_of_a_dump_wish_bugs_back_too() -> None:
+    raw = make(representation="raw").reset()
+    raw[0]["left_team_active"][2] = False
+    for bugs, marked in [(True, 4), (["sent_off"], 4), ("sent_off", 4), (False, 3), (["kick_off_mode"], 3)]:
+        settings = Config({"level": THREE, "grf_bugs": bugs}).get_dictionary()
+        assert np.count_nonzero(generate_smm(raw, settings)[0, :, :, 0]) == marked
+
+
 def test_minimap_is_the_native_one() -> None:
     scenario = setpiece.compile(f"scenario same extends {THREE} {{ end limit 401 steps }}")
     native = setpiece.make(scenario, observation="smm", action_set="v2")
@@ -520,6 +582,16 @@ def test_what_is_not_here_says_so_later() -> None:
         ({"number_of_right_players_agent_controls": 12}, "at most 11"),
         ({"dump_frequency": 0}, "dump_frequency"),
         ({"channel_dimensions": (0, 5)}, "channel_dimensions"),
+        ({"channel_dimensions": (10,), "representation": "simple115v2"}, "channel_dimensions"),
+        ({"channel_dimensions": (9.5, 9), "representation": "raw"}, "channel_dimensions"),
+        ({"logdir": 5}, "`logdir` is 5"),
+        ({"number_of_left_players_agent_controls": True}, "number_of_left"),
+        ({"number_of_left_players_agent_controls": 1.0}, "number_of_left"),
+        ({"extra_players": 5}, "`extra_players` is a list"),
+        ({"other_config_options": {"tracesdir": 5}}, "`tracesdir` is 5"),
+        ({"other_config_options": {"episode_number": "x"}}, "episode_number"),
+        ({"other_config_options": {"render_resolution_x": "x"}}, "render_resolution_x"),
+        ({"other_config_options": {"game_engine_random_seed": -1}}, "from 0 on"),
         ({"extra_players": "lazy"}, "extra_players"),
         ({"extra_players": ["bott:right_players=1"]}, "did you mean `bot`"),
         ({"extra_players": ["agent:right_players=1"]}, "at most one `agent`"),
@@ -535,6 +607,23 @@ def test_bad_input(kwargs: dict[str, Any], words: str) -> None:
     with pytest.raises(ParameterError, match=words) as caught:
         create_environment(**{"env_name": CLOSE, **kwargs})
     assert isinstance(caught.value, ValueError)
+
+
+def test_numbers_of_numpy_are_numbers(tmp_path: Path) -> None:
+    env = create_environment(
+        THREE,
+        representation="raw",
+        logdir=tmp_path,
+        dump_frequency=np.int64(2),
+        number_of_left_players_agent_controls=np.int64(2),
+        number_of_right_players_agent_controls=np.uint8(1),
+        channel_dimensions=np.array([10, 20]),
+        other_config_options={"game_engine_random_seed": np.int64(7), "episode_number": np.int32(2)},
+    )
+    assert same(env.reset()[0], make(representation="raw", left=2, right=1).reset()[0])
+    config = inside(env)._config
+    assert type(config["game_engine_random_seed"]) is int
+    assert config["tracesdir"] == str(tmp_path)
 
 
 def test_unknown_scenario() -> None:

@@ -9,7 +9,7 @@ import gymnasium
 import pytest
 
 import setpiece
-from setpiece import InUseError, gfootball
+from setpiece import InUseError, UnavailableError, gfootball
 
 pytestmark = pytest.mark.usefixtures("nothing_installed")
 
@@ -47,6 +47,14 @@ def test_ids(suffix: str, shape: tuple[int, ...]) -> None:
     env = gymnasium.make(f"GFootball-academy_empty_goal_close-{suffix}-v0", rewards="scoring,checkpoints")
     assert env.reset().shape == shape  # type: ignore[attr-defined]
     assert len(env.step(0)) == 4
+
+
+def test_ids_of_pixels_say_that_there_are_none() -> None:
+    gfootball.install()
+    for name in setpiece.list():
+        assert f"GFootball-{name}-Pixels-v0" in gymnasium.registry
+    with pytest.raises(UnavailableError, match="a picture of the pitch"):
+        gymnasium.make("GFootball-academy_corner-Pixels-v0")
 
 
 def test_wrappers_of_gymnasium_go_around_it() -> None:

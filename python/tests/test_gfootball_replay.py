@@ -11,6 +11,7 @@ from conftest import play, same
 
 import setpiece
 from setpiece._replay_command import main
+from setpiece.gfootball import replay_to_dump
 from setpiece.gfootball.env import create_environment
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env.script_helpers import ScriptHelpers
@@ -216,3 +217,17 @@ def test_what_can_not_be_converted_is_told(tmp_path: Path, capfd: pytest.Capture
         assert told.out == ""
         assert why in told.err
         assert not Path(dump).exists()
+
+
+def test_a_replay_is_given_by_its_path_too(tmp_path: Path) -> None:
+    path = recorded(tmp_path / "x.pitchr", CLOSE, steps=3)
+    dumps = []
+    for number, replay in enumerate([setpiece.Replay(path), path, str(path)]):
+        dump = tmp_path / f"{number}.dump"
+        replay_to_dump(replay, dump)
+        dumps.append(dump.read_bytes())
+    assert dumps[0] == dumps[1] == dumps[2]
+    with pytest.raises(setpiece.FileError):
+        replay_to_dump(tmp_path / "none.pitchr", tmp_path / "x.dump")
+    with pytest.raises(setpiece.ParameterError, match="a `Replay` or the path of one"):
+        replay_to_dump(5, tmp_path / "x.dump")  # type: ignore[arg-type]

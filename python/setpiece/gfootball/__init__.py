@@ -24,14 +24,15 @@ from setpiece.gfootball._dump import replay_to_dump
 __all__ = ["env", "install", "replay_to_dump", "scenarios"]
 
 ALIAS = "gfootball"
-REPRESENTATIONS = {"SMM": "extracted", "simple115": "simple115", "simple115v2": "simple115v2"}
+REPRESENTATIONS = {"SMM": "extracted", "Pixels": "pixels", "simple115": "simple115", "simple115v2": "simple115v2"}
 
 
 def install() -> None:
     """Lets `import gfootball` and all below it find this package, and registers GRF's ids with Gymnasium.
 
     `gymnasium.make("GFootball-NAME-simple115v2-v0")` makes an environment by `create_environment`, with the interface
-    of old Gym. Calling it again changes nothing. Raises `InUseError` where the real `gfootball` is imported already.
+    of old Gym; `-Pixels-v0` raises `UnavailableError`. Calling it again changes nothing. Raises `InUseError` where the
+    real `gfootball` is imported already.
     """
     there = sys.modules.get(ALIAS)
     if there is not None and there is not sys.modules[__name__]:

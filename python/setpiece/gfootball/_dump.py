@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import setpiece
-from setpiece._errors import UnavailableError
+from setpiece._errors import ParameterError, UnavailableError
 from setpiece._replay import Moment, Replay
 from setpiece.gfootball.env._whole_match import slot_view, whole_match
 from setpiece.gfootball.env.config import defaults
@@ -22,16 +22,20 @@ FIRST_EPISODE = 2
 """The number of the episode whose index is 0; later ones take turns with it and the next."""
 
 
-def replay_to_dump(replay: Replay, path: str | PathLike[str]) -> None:
-    """Writes a replay as the dump of a whole episode: a record of every step, which `ScriptHelpers` reads.
+def replay_to_dump(replay: Replay | str | PathLike[str], path: str | PathLike[str]) -> None:
+    """Writes a replay, or that of a file, as the dump of a whole episode: a record of every step for `ScriptHelpers`.
 
     `reward` is how the left team's lead has changed, `time` in seconds from the start. `ScriptHelpers.replay` plays the
     match again where the drop-in can: a scenario of the library as it is, one of its first two episodes, and no set
     piece that waits for so long that the drop-in takes it. Else the dump's `level` is the replay's path, which is none.
 
     Raises `UnavailableError` where no agent played, or one with continuous actions; `ReplayError` where this build
-    plays the episode otherwise; `FileError` where the file can't be written.
+    plays the episode otherwise, or a file is no replay; `FileError` where one can't be read or written.
     """
+    if isinstance(replay, (str, PathLike)):
+        replay = Replay(replay)
+    elif not isinstance(replay, Replay):
+        raise ParameterError(f"expected a `Replay` or the path of one, found `{replay!r}`", name="replay")
     if not replay.agents:
         raise _untellable(replay, "agents", "nobody was an agent, and a dump tells what agents see and do")
     if replay.action_set == "continuous":

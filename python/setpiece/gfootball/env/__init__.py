@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from typing import Any
 
 import gymnasium
@@ -46,7 +47,7 @@ def create_environment(
     render: bool = False,
     write_video: bool = False,
     dump_frequency: int = 1,
-    logdir: str = "",
+    logdir: str | PathLike[str] = "",
     extra_players: Sequence[str] | None = None,
     number_of_left_players_agent_controls: int = 1,
     number_of_right_players_agent_controls: int = 0,
@@ -96,12 +97,14 @@ def create_environment(
     left = _check_count("number_of_left_players_agent_controls", number_of_left_players_agent_controls)
     right = _check_count("number_of_right_players_agent_controls", number_of_right_players_agent_controls)
     frequency = _check_count("dump_frequency", dump_frequency, 1)
+    dimensions = wrappers.check_dimensions(channel_dimensions)
+    folder = _config.check_folder("logdir", logdir)
     values: dict[str, Any] = {
         "dump_full_episodes": bool(write_full_episode_dumps),
         "dump_scores": bool(write_goal_dumps),
         "level": env_name,
         "write_video": bool(write_video),
-        **({"tracesdir": logdir} if logdir else {}),
+        **({"tracesdir": folder} if folder else {}),
     }
     options = dict(other_config_options or {})
     slots = _slots(options.get("level", env_name), left, right)
@@ -113,7 +116,7 @@ def create_environment(
         env = wrappers.PeriodicDumpWriter(env, frequency)
     if checkpoints:
         env = wrappers.CheckpointRewardWrapper(env)
-    return wrappers.GetStateWrapper(_shown(env, wrappers.agents_of(env), representation, channel_dimensions, stacked))
+    return wrappers.GetStateWrapper(_shown(env, wrappers.agents_of(env), representation, dimensions, stacked))
 
 
 def _shown(env: Env, agents: int, representation: str, channel_dimensions: tuple[int, int], stacked: bool) -> Env:
@@ -158,17 +161,18 @@ def _check_rewards(rewards: object) -> list[str]:
 
 
 def _check_count(name: str, value: object, least: int = 0) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or value < least or value > 10**9:
-        raise ParameterError(f"`{name}` is {value!r}; it is an integer from {least} on", name=name)
-    if name.startswith("number_of") and value > 11:
-        raise ParameterError(f"`{name}` is {value}; a team has at most 11 players", name=name)
-    return value
+    count = _config.check_whole(name, value, least)
+    if name.startswith("number_of") and count > 11:
+        raise ParameterError(f"`{name}` is {count}; a team has at most 11 players", name=name)
+    return count
 
 
 def _check_players(players: Sequence[str] | None) -> list[str]:
-    if isinstance(players, str):
+    if players is None:
+        return []
+    if not isinstance(players, (list, tuple)):
         raise ParameterError(f"`extra_players` is a list: [{players!r}]", name="extra_players")
-    return list(players or [])
+    return list(players)
 
 
 def create_remote_environment(

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import random
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from operator import index
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,8 @@ SEED_MAX = 2_000_000_000
 """Greatest seed that is drawn for an episode."""
 BUGS = ("first_active", "kick_off_mode", "sent_off")
 """What `grf_bugs` can restore; see docs/gfootball.md."""
+WHOLE = ("episode_number", "render_resolution_x", "render_resolution_y")
+"""Settings that are any whole number."""
 OPTIONAL = ("game_engine_random_seed", "reverse_team_processing", "episode_number", "grf_bugs")
 """Settings without a default."""
 
@@ -111,8 +115,9 @@ class Config:
         self.draw: Callable[[int, int], int] = random.randint
         values = dict(values or {})
         if "render_resolution_x" in values and "render_resolution_y" not in values:
-            values["render_resolution_y"] = int(0.5625 * values["render_resolution_x"])
-        number = values.pop("episode_number", 0)
+            width = _checked("render_resolution_x", values["render_resolution_x"])
+            values["render_resolution_y"] = int(0.5625 * width)
+        number = _checked("episode_number", values.pop("episode_number", 0))
         self.update(values)
         self._values["episode_number"] = number
         self.NewScenario()
@@ -125,8 +130,7 @@ class Config:
         return self._values[key]
 
     def __setitem__(self, key: str, value: Any) -> None:
-        _check(key, value)
-        self._values[key] = value
+        self._values[key] = _checked(key, value)
 
     def __contains__(self, key: object) -> bool:
         return key in self._scenario_values or key in self._values
@@ -174,8 +178,7 @@ class Config:
 
     def has_bug(self, name: str) -> bool:
         """Whether a bug of GRF is wished back."""
-        bugs = self["grf_bugs"]
-        return bugs if isinstance(bugs, bool) else name in ([bugs] if isinstance(bugs, str) else bugs)
+        return has_bug(self, name)
 
     def Scenario(self) -> Scenario:  # noqa: N802  # GRF's names
         """Returns the scenario of this episode."""
@@ -204,12 +207,23 @@ class Config:
         self._scenario_values["game_engine_random_seed"] = recorded.game_engine_random_seed
 
 
+def has_bug(config: object, name: str) -> bool:
+    """Whether a bug of GRF is wished back: by a `Config`, or a dict of its settings; anything else wishes none."""
+    bugs = config["grf_bugs"] if isinstance(config, (Config, Mapping)) and "grf_bugs" in config else False
+    if isinstance(bugs, str):
+        return bugs == name
+    return name in bugs if isinstance(bugs, (list, tuple)) else bugs is True
+
+
 def _no_reverse() -> Exception:
     return unavailable("reverse_team_processing", "an order in which the teams are moved", "leave it out, or False")
 
 
-def _check(key: str, value: Any) -> None:
-    """Raises where a setting is not there, can't have a value, or asks for what this version has not."""
+def _checked(key: str, value: Any) -> Any:
+    """Returns a setting's value; raises where one is not there, can't have it, or asks for what this version has not.
+
+    Whole numbers come back as Python's own, paths as text: dumps hold them.
+    """
     known = (*defaults(), *OPTIONAL)
     if key not in known:
         raise ParameterError(f"no setting `{key}`", name=str(key), help=similar(key, known))
@@ -220,6 +234,10 @@ def _check(key: str, value: Any) -> None:
             raise ParameterError("the level needs a name", name=key, help="for example `academy_3_vs_1_with_keeper`")
     elif key == "players":
         _check_players(value)
+    elif key == "tracesdir":
+        return check_folder(key, value)
+    elif key in WHOLE:
+        return check_whole(key, value)
     elif key == "physics_steps_per_frame" and value != 10:
         raise unavailable(key, "another length of a step than 100 ms", "leave it at 10")
     elif key == "write_video" and value:
@@ -229,14 +247,37 @@ def _check(key: str, value: Any) -> None:
     elif key == "video_format":
         check_word(key, value, ("avi", "webm"))
     elif key == "game_engine_random_seed":
-        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            raise ParameterError(f"`{key}` is {value!r}; it is an integer from 0 on", name=key)
+        return check_whole(key, value, 0)
     elif key == "grf_bugs" and not isinstance(value, bool):
         names = [value] if isinstance(value, str) else value
         if not isinstance(names, (list, tuple)):
             raise ParameterError(f"`{key}` is {value!r}; it is True, False or a list of names", name=key)
         for name in names:
             check_word(key, name, BUGS)
+    return value
+
+
+def check_whole(name: str, value: object, least: int | None = None) -> int:
+    """Returns a whole number, of Python or NumPy, as Python's; `ParameterError` for anything else."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        number = index(value)  # type: ignore[arg-type]
+        if least is not None and number < least:
+            raise TypeError
+    except TypeError:
+        reach = "" if least is None else f" from {least} on"
+        raise ParameterError(f"`{name}` is {value!r}; it is an integer{reach}", name=name) from None
+    return number
+
+
+def check_folder(name: str, value: object) -> str:
+    """Returns a folder's path as text; `ParameterError` for anything that is no path."""
+    if isinstance(value, (str, PathLike)):
+        path = fspath(value)
+        if isinstance(path, str):
+            return path
+    raise ParameterError(f"`{name}` is {value!r}; it is the path of a folder", name=name)
 
 
 def _check_players(definitions: Any) -> None:

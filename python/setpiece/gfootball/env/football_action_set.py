@@ -145,18 +145,23 @@ def get_sticky_actions(config: Config | dict[str, Any]) -> list[CoreAction]:
     return [action for action in get_action_set(config) if action.sticky]
 
 
+def held_by(action: object) -> object:
+    """Returns what a NumPy array or number holds, anything else as it is; `ValueError` for an array of several."""
+    return action.item() if hasattr(action, "item") else action
+
+
 def named_action_from_action_set(action_set: list[CoreAction], action: object) -> CoreAction:
     """Returns an action of a set by its number; an action object comes back as it is.
 
-    Raises `ActionError` for anything else.
+    A NumPy array of one of them stands for it. Raises `ActionError` for anything else.
     """
-    if isinstance(action, CoreAction):
-        return action
     try:
-        if isinstance(action, bool):
+        held = held_by(action)
+        if isinstance(held, CoreAction):
+            return held
+        if isinstance(held, bool):
             raise TypeError
-        # A NumPy array of one number is one, too.
-        number = index(action.item() if hasattr(action, "item") else action)  # type: ignore[arg-type]
+        number = index(held)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise ActionError(f"expected an action's number or a `CoreAction`, found `{action!r}`") from None
     if not 0 <= number < len(action_set):

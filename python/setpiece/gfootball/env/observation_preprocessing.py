@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from setpiece.gfootball.env.config import has_bug
+
 SMM_WIDTH = 96
 SMM_HEIGHT = 72
 SMM_LAYERS = ["left_team", "right_team", "ball", "active"]
@@ -44,19 +46,32 @@ def generate_smm(
 ) -> NDArray[np.uint8]:
     """Returns the minimaps of n raw observations: uint8 `(n, height, width, 4)`, 0 or 255.
 
-    - `config`: GRF marks players who were sent off too; with `grf_bugs` in the config they are here as well.
+    - `observation`: with arrays or lists; what one lacks is a blank channel, and without `*_active` everybody plays.
+    - `config`: GRF marks players who were sent off too; with `grf_bugs` in a config they are here as well.
     - `channel_dimensions`: width and height.
     """
-    keep = config is not None and config.has_bug("sent_off")
+    keep = has_bug(config, "sent_off")
     layers = get_smm_layers(config)
     width, height = channel_dimensions
     frames = np.zeros((len(observation), height, width, len(layers)), np.uint8)
     for frame, seen in zip(frames, observation, strict=True):
         for index, layer in enumerate(layers):
-            if layer == "ball":
-                mark_points(frame[:, :, index], seen["ball"][:2])
-            elif layer != "active":
-                mark_points(frame[:, :, index], seen[layer] if keep else seen[layer][seen[f"{layer}_active"]])
-            elif seen["active"] != -1:
-                mark_points(frame[:, :, index], seen["left_team"][seen["active"]])
+            if layer in seen:
+                mark_points(frame[:, :, index], _points(seen, layer, keep))
     return frames
+
+
+def _points(seen: dict[str, Any], layer: str, keep: bool) -> Any:
+    """Where somebody stands whom a channel shows; those who were sent off only with `keep`."""
+    if layer == "ball":
+        return seen["ball"][:2]
+    if layer == "active":
+        return [] if seen["active"] == -1 else seen["left_team"][seen["active"]]
+    team = np.asarray(seen[layer], np.float64)
+    return team if keep else team[playing(seen, layer)]
+
+
+def playing(seen: dict[str, Any], team: str) -> NDArray[np.bool_]:
+    """Returns who of a team, `left_team` or `right_team`, is on the pitch: everybody where it isn't told."""
+    told = seen.get(f"{team}_active")
+    return np.ones(len(seen[team]), np.bool_) if told is None else np.asarray(told, np.bool_)

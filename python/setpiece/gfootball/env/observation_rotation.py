@@ -12,6 +12,7 @@ from setpiece.gfootball.env.football_action_set import (
     action_set_dict,
     get_action_set,
     get_sticky_actions,
+    held_by,
     named_action_from_action_set,
 )
 
@@ -36,7 +37,7 @@ def flip_team_observation(
 ) -> None:
     """Writes a team of an observation into another one, turned, as the other team: `left` or `right`."""
     for key in _TURNED:
-        result[to_team + key] = -observation[from_team + key]
+        result[to_team + key] = -np.asarray(observation[from_team + key])
     for key in _KEPT:
         if from_team + key in observation:
             result[to_team + key] = observation[from_team + key]
@@ -46,7 +47,10 @@ def flip_team_observation(
 
 
 def flip_observation(observation: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:
-    """Returns an observation as the other side sees it: that of the whole match, or an agent's own."""
+    """Returns an observation as the other side sees it: that of the whole match, or an agent's own.
+
+    What is turned is an array, of a list too.
+    """
     result = dict(observation)
     flip_team_observation(observation, result, config, "left", "right")
     flip_team_observation(observation, result, config, "right", "left")
@@ -75,4 +79,4 @@ def flip_single_action(action: Any, config: Config | dict[str, Any]) -> Any:
     actions = get_action_set(config)
     named = named_action_from_action_set(actions, action)
     turned = _ACTIONS[_OPPOSITE.get(named.name, named.name)]
-    return turned if isinstance(action, CoreAction) else actions.index(turned)
+    return turned if isinstance(held_by(action), CoreAction) else actions.index(turned)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from math import isfinite
 from pathlib import Path
+from traceback import walk_tb
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ from setpiece._errors import FileError, GrfScriptError, ParameterError, Setpiece
 from setpiece._words import similar
 from setpiece.gfootball import scenarios
 from setpiece.gfootball._translation import identifier, to_pitch
+from setpiece.gfootball.env import scenario_config
 from setpiece.gfootball.env.scenario_config import NEVER, FormationEntry, ScenarioConfig
 from setpiece.gfootball.scenarios import PlayerRole, Team
 
@@ -109,11 +111,12 @@ def _place(x: float, y: float) -> tuple[float, float]:
 def record(script: Script, episode_number: int) -> ScenarioConfig:
     """Runs a script for one episode and returns what it set; a team without players gets a lazy keeper, as in GRF.
 
-    Raises `GrfScriptError` where the script fails.
+    Raises `GrfScriptError` where the script fails, `ParameterError` for a value that a scenario can't have.
     """
     recorder = Recorder(episode_number)
     with _running(getattr(getattr(script, "__code__", None), "co_filename", repr(script))):
         script(recorder)
+        recorder.recorded.check()
     for team in (recorder.recorded.left_team, recorder.recorded.right_team):
         if not team:
             team.append(FormationEntry((-1.0, 0.42), PlayerRole.e_PlayerRole_GK, lazy=True))
@@ -203,7 +206,7 @@ def find(level: object) -> Source | Script:
 
     Scenarios of the library also go by GRF's names for those of its tests: `tests.penalty` is `penalty`.
 
-    Raises `UnknownScenarioError`, or `FileError` for a path that can't be read.
+    Raises `UnknownScenarioError`, `FileError` for a path that can't be read, `GrfScriptError` for a module that fails.
     """
     if not isinstance(level, str) or not level:
         raise ParameterError("the level needs a name", name="level", help="for example `academy_3_vs_1_with_keeper`")
@@ -241,13 +244,33 @@ def load_script(path: str) -> ModuleType:
 
 @contextmanager
 def _running(path: str) -> Iterator[None]:
-    """Whatever a user's script raises, an exit too, is told with its name."""
+    """Whatever a user's script raises, an exit too, is told with its name and the line."""
     try:
         yield
+    except ParameterError as error:
+        file, line = _failed_at(error) or (path, None)
+        raise ParameterError(f"`{file}`{_at(line)}: {error.args[0]}", name=error.name, help=error.help) from error
     except SetpieceError:
         raise
     except (Exception, SystemExit) as error:
-        raise GrfScriptError(f"`{path}` failed: {type(error).__name__}: {error}", path=path) from error
+        file, line = _failed_at(error) or (path, None)
+        message = f"`{path}` failed{_at(line)}: {type(error).__name__}: {error}"
+        raise GrfScriptError(message, path=file) from error
+
+
+def _at(line: int | None) -> str:
+    return "" if line is None else f" at line {line}"
+
+
+def _failed_at(error: BaseException) -> tuple[str, int] | None:
+    """Returns the file of the script that failed, and the line that it was at; None where none of its lines ran."""
+    if isinstance(error, SyntaxError) and error.filename is not None and error.lineno is not None:
+        return error.filename, error.lineno
+    ran = [(frame.f_code.co_filename, line) for frame, line in walk_tb(error.__traceback__)]
+    # Before the script come the frames that load it, and what is checked behind its end has no line of it.
+    loading = {__file__, scenario_config.__file__, importlib.__file__}
+    file = next((file for file, _ in ran if file not in loading and not file.startswith("<frozen ")), None)
+    return None if file is None else (file, [line for each, line in ran if each == file][-1])
 
 
 @lru_cache(maxsize=64)
@@ -263,13 +286,14 @@ def _load_script(path: str, _changed: int) -> ModuleType:
 
 
 def _imported(name: str) -> ModuleType | None:
-    """Returns a module, or None where there is none of this name; an error inside it stays an error."""
-    try:
-        return importlib.import_module(name)
-    except ModuleNotFoundError as error:
-        if error.name is not None and (name == error.name or name.startswith(f"{error.name}.")):
-            return None
-        raise
+    """Returns a module, or None where there is none of this name; `GrfScriptError` where it fails."""
+    with _running(name):
+        try:
+            return importlib.import_module(name)
+        except ModuleNotFoundError as error:
+            if error.name is None or not f"{name}.".startswith(f"{error.name}."):
+                raise
+    return None
 
 
 def script_of(module: ModuleType, name: str) -> Script:

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields
+from math import isfinite
+from operator import index
 from typing import Any
+
+import numpy as np
 
 from setpiece._errors import ParameterError
 from setpiece._words import similar
@@ -17,17 +22,25 @@ FIXED_SEED = 42
 
 @dataclass
 class FormationEntry:
-    """A player: his place in his team's own frame, who plays him and whether agents may."""
+    """A player: his place in his team's own frame, who plays him and whether agents may.
+
+    Place and role can only be read, as in GRF: setting them anew raises `ParameterError`.
+    """
 
     position: tuple[float, float]
     role: PlayerRole
     lazy: bool = False
     controllable: bool = True
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in ("position", "role") and name in self.__dict__:
+            raise ParameterError(f"a player's `{name}` can only be read", name=name, help="say it in `AddPlayer`")
+        super().__setattr__(name, value)
+
 
 @dataclass
 class ScenarioConfig:
-    """All that a script can set, with GRF's defaults; another name raises `ParameterError`.
+    """All that a script can set, with GRF's defaults; another name or kind of value raises `ParameterError`.
 
     Players are in their team's own frame, the ball is in the left team's.
     """
@@ -53,10 +66,15 @@ class ScenarioConfig:
     real_time: bool = False
 
     def __setattr__(self, name: str, value: Any) -> None:
-        known = [each.name for each in fields(self)]
-        if name not in known:
-            raise ParameterError(f"no scenario setting `{name}`", name=name, help=similar(name, known))
-        super().__setattr__(name, value)
+        kinds = {each.name: each.type for each in fields(self)}
+        if name not in kinds:
+            raise ParameterError(f"no scenario setting `{name}`", name=name, help=similar(name, kinds))
+        super().__setattr__(name, _checked(name, value, str(kinds[name])))
+
+    def check(self) -> None:
+        """Raises `ParameterError` where a list was filled with what it can't hold."""
+        for each in fields(self):
+            _checked(each.name, getattr(self, each.name), str(each.type))
 
     @property
     def controllable_left_players(self) -> int:
@@ -73,3 +91,48 @@ class ScenarioConfig:
         """Whether an agent changes players: it does where a team has fewer agents than players for them."""
         left, right = self.controllable_left_players, self.controllable_right_players
         return self.left_agents not in (0, left) or self.right_agents not in (0, right)
+
+
+def _checked(name: str, value: Any, kind: str) -> Any:
+    """Returns a value as the plain kind that a setting has, or raises `ParameterError`."""
+    try:
+        return _KINDS[kind][0](value)
+    except (TypeError, ValueError, OverflowError):
+        raise ParameterError(f"`{name}` is {value!r}; it is {_KINDS[kind][1]}", name=name) from None
+
+
+def _flag(value: Any) -> bool:
+    # 0 and 1 are flags, too.
+    return bool(value) if isinstance(value, np.bool_) else bool(index(value))
+
+
+def _integer(value: Any) -> int:
+    return int(index(value))
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, (str, bytes)) or not isfinite(float(value)):
+        raise ValueError
+    return float(value)
+
+
+def _ball(value: Any) -> list[float]:
+    if len(value) not in (2, 3):
+        raise ValueError
+    return [_number(number) for number in value]
+
+
+def _team(value: Any) -> list[FormationEntry]:
+    if not all(isinstance(entry, FormationEntry) for entry in value):
+        raise TypeError
+    return list(value)
+
+
+# By the types of the fields, as they are written there.
+_KINDS: dict[str, tuple[Callable[[Any], Any], str]] = {
+    "bool": (_flag, "True or False"),
+    "int": (_integer, "an integer"),
+    "float": (_number, "a number"),
+    "list[float]": (_ball, "three numbers"),
+    "list[FormationEntry]": (_team, "a list of players"),
+}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
+from operator import index
 from typing import Any
 
 import gymnasium
@@ -131,6 +132,8 @@ class Simple115StateWrapper(ObservationWrapper):
     ) -> NDArray[np.float32]:
         """Returns the numbers of raw observations: float32 `(n, 115)`.
 
+        - `observation`: with arrays or lists. Without `*_team_active` everybody plays, without `active` nobody is shown
+          as active.
         - `sent_off_stay`: whether players who were sent off keep their last numbers, as in GRF, or have -1.
         """
         result = np.zeros((len(observation), SIMPLE), np.float32)
@@ -138,9 +141,9 @@ class Simple115StateWrapper(ObservationWrapper):
             row[: 4 * BLOCK] = -1.0
             at = 0
             for number, block in enumerate(BLOCKS):
-                values = seen[block]
+                values = np.asarray(seen[block], np.float64)
                 if not sent_off_stay:
-                    playing = seen[f"{block.removesuffix('_direction')}_active"]
+                    playing = observation_preprocessing.playing(seen, block.removesuffix("_direction"))
                     values = np.where(playing[:, None], values, -1.0)
                 values = values.ravel()
                 at = number * BLOCK if fixed_positions else at
@@ -149,7 +152,7 @@ class Simple115StateWrapper(ObservationWrapper):
             row[88:91] = seen["ball"]
             row[91:94] = seen["ball_direction"]
             row[94 + seen["ball_owned_team"] + 1] = 1.0
-            if seen["active"] != -1:
+            if seen.get("active", -1) != -1:
                 row[97 + seen["active"]] = 1.0
             row[108 + seen["game_mode"]] = 1.0
         return result
@@ -170,7 +173,7 @@ class SMMWrapper(ObservationWrapper):
         ),
     ) -> None:
         super().__init__(env)
-        self._channel_dimensions = _check_dimensions(channel_dimensions)
+        self._channel_dimensions = check_dimensions(channel_dimensions)
         width, height = self._channel_dimensions
         layers = len(observation_preprocessing.get_smm_layers())
         self.observation_space = spaces.Box(0, 255, (agents_of(env), height, width, layers), np.uint8)
@@ -306,9 +309,10 @@ class MultiAgentToSingleAgent(Wrapper):
         return [observation[slot] for slot in self._chosen]
 
 
-def _check_dimensions(dimensions: Any) -> tuple[int, int]:
+def check_dimensions(dimensions: Any) -> tuple[int, int]:
+    """Returns the width and height of a minimap; `ParameterError` for anything but two whole numbers from 1 on."""
     try:
-        width, height = (int(each) for each in dimensions)
+        width, height = (index(each) for each in dimensions)
         if width < 1 or height < 1:
             raise ValueError
     except (TypeError, ValueError):

@@ -277,10 +277,10 @@ impl Library {
 
     fn collect_names(&mut self, guests: &[FileId], problems: &mut Vec<Problem>) {
         // A guest declares nothing: what it is made of would hide a name of the root's.
-        let own = self.files.iter().map(|file| match guests.contains(&file.id) {
-            true => BTreeMap::new(),
-            false => own_names(file, problems),
-        });
+        let own = self
+            .files
+            .iter()
+            .map(|file| if guests.contains(&file.id) { BTreeMap::new() } else { own_names(file, problems) });
         let own: Vec<_> = own.collect();
         let mut seen = Vec::with_capacity(self.files.len());
         for id in 0..self.files.len() {

@@ -4,7 +4,7 @@
 //! all of them. Leaves to `control` where he wants to go.
 
 use crate::football::body::{Intent, Pose};
-use crate::football::stride::Strides;
+use crate::football::stride::{Strides, WIDTH};
 use crate::state::{Match, Player};
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
@@ -72,26 +72,28 @@ pub fn advance(game: &mut Match) {
     strides.go();
     strides.turn(ball.x, ball.y);
     for (i, player) in game.players.iter_mut().enumerate().filter(|(i, _)| on_feet[*i]) {
-        player.pos = Vec2::new(strides.x[i], strides.y[i]);
-        player.vel = Vec2::new(strides.vx[i], strides.vy[i]);
-        player.body.lag_ticks = strides.lag[i] as u8;
-        player.body.facing = Vec2::new(strides.facing_x[i], strides.facing_y[i]);
+        let (row, at) = (i / WIDTH, i % WIDTH);
+        player.pos = Vec2::new(strides.x[row][at], strides.y[row][at]);
+        player.vel = Vec2::new(strides.vx[row][at], strides.vy[row][at]);
+        player.body.lag_ticks = strides.lag[row][at] as u8;
+        player.body.facing = Vec2::new(strides.facing_x[row][at], strides.facing_y[row][at]);
     }
 }
 
 /// Puts a player into his lane.
 fn take(strides: &mut Strides, i: usize, player: &Player, want: Vec2, has_ball: bool) {
     let body = &player.body;
+    let (row, at) = (i / WIDTH, i % WIDTH);
     let pushed = (body.push_m * (10.0 - 5.0 * player.skill(Stat::Balance)) - 0.1).clamp(0.0, 0.3);
-    (strides.x[i], strides.y[i]) = (player.pos.x, player.pos.y);
-    (strides.vx[i], strides.vy[i]) = (player.vel.x, player.vel.y);
-    (strides.want_x[i], strides.want_y[i]) = (want.x, want.y);
-    strides.top[i] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
-    strides.lag[i] = f32::from(body.lag_ticks);
-    strides.turn[i] = 0.85 + 0.2 * player.skill(Stat::Agility);
-    strides.burst[i] = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
-    strides.free[i] = 1.0 - pushed;
-    (strides.facing_x[i], strides.facing_y[i]) = (body.facing.x, body.facing.y);
+    (strides.x[row][at], strides.y[row][at]) = (player.pos.x, player.pos.y);
+    (strides.vx[row][at], strides.vy[row][at]) = (player.vel.x, player.vel.y);
+    (strides.want_x[row][at], strides.want_y[row][at]) = (want.x, want.y);
+    strides.top[row][at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
+    strides.lag[row][at] = f32::from(body.lag_ticks);
+    strides.turn[row][at] = 0.85 + 0.2 * player.skill(Stat::Agility);
+    strides.burst[row][at] = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
+    strides.free[row][at] = 1.0 - pushed;
+    (strides.facing_x[row][at], strides.facing_y[row][at]) = (body.facing.x, body.facing.y);
 }
 
 /// Carries a player along his velocity, no further than the rim.

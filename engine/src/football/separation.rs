@@ -8,6 +8,7 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
+use wide::f32x4;
 
 /// Distance at which two bodies touch, metres.
 pub const CONTACT_M: f32 = 0.72;
@@ -24,28 +25,39 @@ const SHOVE_MAX_M: f32 = 0.1;
 /// Share of a push that is left after two ticks: 0.95 a tick.
 const SHOVE_LEFT: f32 = 0.9025;
 
+/// Bodies that are compared with one instruction, and how many times that holds everybody.
+const WIDTH: usize = 4;
+const ROWS: usize = PLAYERS_MAX.div_ceil(WIDTH);
+
 /// Pushes overlapping bodies apart and keeps everyone within the rim and out of the goals' frames.
 pub fn separate(game: &mut Match, events: &mut Events) {
     for player in &mut game.players {
         player.body.push_m *= SHOVE_LEFT;
     }
-    let (mut xs, mut ys) = ([0.0_f32; PLAYERS_MAX], [0.0_f32; PLAYERS_MAX]);
+    let far = |i: usize| 1.0e6 + 10.0 * i as f32;
+    // Whoever is not there stands far away, each at a place of his own.
+    let mut xs: [[f32; WIDTH]; ROWS] = std::array::from_fn(|row| std::array::from_fn(|at| far(row * WIDTH + at)));
+    let mut ys = [[0.0; WIDTH]; ROWS];
     let mut ids = [PlayerId(0); PLAYERS_MAX];
     for (i, id) in game.order().enumerate() {
         let player = game.player(id);
-        // Whoever is not there stands far away, each at a place of his own.
-        let place = if player.active { player.pos } else { Vec2::new(1.0e6 + 10.0 * i as f32, 0.0) };
-        (xs[i], ys[i], ids[i]) = (place.x, place.y, id);
+        ids[i] = id;
+        if player.active {
+            (xs[i / WIDTH][i % WIDTH], ys[i / WIDTH][i % WIDTH]) = (player.pos.x, player.pos.y);
+        }
     }
+    let near = f32x4::splat(CONTACT_M * CONTACT_M);
     for i in 0..PLAYERS_MAX {
-        let meets = |j: usize| {
-            let (dx, dy) = (xs[j] - xs[i], ys[j] - ys[i]);
-            dx * dx + dy * dy < CONTACT_M * CONTACT_M
-        };
-        // Nearly always nobody: all are asked without a branch first.
-        if (0..PLAYERS_MAX).fold(0, |count, j| count + u32::from(meets(j))) > 1 {
-            for j in (i + 1..PLAYERS_MAX).filter(|j| meets(*j)) {
-                part(game, events, ids[i], ids[j]);
+        let (x, y) = (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
+        for row in i / WIDTH..ROWS {
+            let (dx, dy) = (f32x4::new(xs[row]) - x, f32x4::new(ys[row]) - y);
+            let mut meets = (dx * dx + dy * dy).simd_lt(near).to_bitmask();
+            while meets != 0 {
+                let j = row * WIDTH + meets.trailing_zeros() as usize;
+                meets &= meets - 1;
+                if j > i {
+                    part(game, events, ids[i], ids[j]);
+                }
             }
         }
     }

@@ -8,9 +8,9 @@ use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use wide::f32x4;
 
 /// Players of a vector.
-const WIDTH: usize = 4;
-/// Players, rounded up to whole vectors.
-const LANES: usize = PLAYERS_MAX.next_multiple_of(WIDTH);
+pub(super) const WIDTH: usize = 4;
+/// Vectors that hold everybody.
+const ROWS: usize = PLAYERS_MAX.div_ceil(WIDTH);
 
 /// Braking, m/s².
 const BRAKE_MPS2: f32 = 14.0;
@@ -25,8 +25,8 @@ const WISH_MPS: f32 = 0.15;
 /// The cosine from which a change of way costs nothing.
 const STRAIGHT: f32 = 0.996;
 
-/// A number for each player.
-pub(super) type Lane = [f32; LANES];
+/// A number for each player, in rows.
+pub(super) type Lane = [[f32; WIDTH]; ROWS];
 
 /// What a stride takes and changes, by player: a structure of arrays.
 pub(super) struct Strides {
@@ -61,7 +61,7 @@ pub(super) struct Strides {
 impl Strides {
     /// All at rest, nobody wanting anything.
     pub(super) fn still() -> Strides {
-        let zero = [0.0; LANES];
+        let zero = [[0.0; WIDTH]; ROWS];
         Strides {
             x: zero,
             y: zero,
@@ -83,7 +83,7 @@ impl Strides {
     pub(super) fn steer(&mut self) {
         let is = f32x4::splat;
         let (none, one) = (f32x4::ZERO, f32x4::ONE);
-        for at in (0..LANES).step_by(WIDTH) {
+        for at in 0..ROWS {
             let (vx, vy) = (load(&self.vx, at), load(&self.vy, at));
             let (want_x, want_y) = (load(&self.want_x, at), load(&self.want_y, at));
             let (top, lag) = (load(&self.top, at), load(&self.lag, at));
@@ -136,7 +136,7 @@ impl Strides {
     pub(super) fn go(&mut self) {
         let (rim_x, rim_y) = (f32x4::splat(RIM_X_M as f32), f32x4::splat(RIM_Y_M as f32));
         let dt = f32x4::splat(DT);
-        for at in (0..LANES).step_by(WIDTH) {
+        for at in 0..ROWS {
             let x = load(&self.x, at) + load(&self.vx, at) * dt;
             let y = load(&self.y, at) + load(&self.vy, at) * dt;
             store(&mut self.x, at, x.fast_max(-rim_x).fast_min(rim_x));
@@ -147,7 +147,7 @@ impl Strides {
     /// Turns everyone to where he runs, or to the ball.
     pub(super) fn turn(&mut self, ball_x: f32, ball_y: f32) {
         let little = f32x4::splat(0.12);
-        for at in (0..LANES).step_by(WIDTH) {
+        for at in 0..ROWS {
             let (vx, vy) = (load(&self.vx, at), load(&self.vy, at));
             let (ball_x, ball_y) = (f32x4::splat(ball_x) - load(&self.x, at), f32x4::splat(ball_y) - load(&self.y, at));
             let runs = (vx * vx + vy * vy).simd_gt(f32x4::ONE);
@@ -162,14 +162,14 @@ impl Strides {
     }
 }
 
-/// The four of a lane that begin at a place.
-fn load(lane: &Lane, at: usize) -> f32x4 {
-    f32x4::new([lane[at], lane[at + 1], lane[at + 2], lane[at + 3]])
+/// The four of a lane in a row.
+fn load(lane: &Lane, row: usize) -> f32x4 {
+    f32x4::new(lane[row])
 }
 
 /// Puts four back into a lane.
-fn store(lane: &mut Lane, at: usize, four: f32x4) {
-    lane[at..at + WIDTH].copy_from_slice(&four.to_array());
+fn store(lane: &mut Lane, row: usize, four: f32x4) {
+    lane[row] = four.to_array();
 }
 
 /// The unit vector along (x, y); zero where there is none.

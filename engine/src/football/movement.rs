@@ -4,7 +4,7 @@
 //! all of them. Leaves to `control` where he wants to go.
 
 use crate::football::body::{Intent, Pose};
-use crate::football::stride::{Strides, WIDTH};
+use crate::football::stride::{NO_POINT, Strides, WIDTH};
 use crate::state::{Match, Player};
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
@@ -55,19 +55,19 @@ pub fn advance(game: &mut Match) {
             }
         }
         let has_ball = owner.is_some_and(|id| id.index() == i);
-        let mut want = match player.body.intent {
-            Intent::Stand => Vec2::ZERO,
-            Intent::Run(velocity) => velocity,
-            Intent::Go(to, speed) => arrive(player.pos, to, speed),
-            Intent::Ball(speed) => go_for_ball(player, ball, ball_vel, has_ball, speed),
+        let (want, pace) = match player.body.intent {
+            _ if frozen.is_some_and(|taker| taker.index() != i) => (Vec2::ZERO, NO_POINT),
+            Intent::Stand => (Vec2::ZERO, NO_POINT),
+            Intent::Run(velocity) => (velocity, NO_POINT),
+            Intent::Go(to, speed) => (to - player.pos, speed),
+            Intent::Ball(speed) => (go_for_ball(player, ball, ball_vel, has_ball, speed), NO_POINT),
         };
-        if frozen.is_some_and(|taker| taker.index() != i) {
-            want = Vec2::ZERO;
-        }
-        keep_inside(player.pos, &mut want);
-        take(&mut strides, i, player, want, has_ball);
+        let (row, at) = (i / WIDTH, i % WIDTH);
+        (strides.want_x[row][at], strides.want_y[row][at], strides.pace[row][at]) = (want.x, want.y, pace);
+        take(&mut strides, i, player, has_ball);
         on_feet[i] = true;
     }
+    strides.wish();
     strides.steer();
     strides.go();
     strides.turn(ball.x, ball.y);
@@ -81,18 +81,17 @@ pub fn advance(game: &mut Match) {
 }
 
 /// Puts a player into his lane.
-fn take(strides: &mut Strides, i: usize, player: &Player, want: Vec2, has_ball: bool) {
+fn take(strides: &mut Strides, i: usize, player: &Player, has_ball: bool) {
     let body = &player.body;
     let (row, at) = (i / WIDTH, i % WIDTH);
-    let pushed = (body.push_m * (10.0 - 5.0 * player.skill(Stat::Balance)) - 0.1).clamp(0.0, 0.3);
     (strides.x[row][at], strides.y[row][at]) = (player.pos.x, player.pos.y);
     (strides.vx[row][at], strides.vy[row][at]) = (player.vel.x, player.vel.y);
-    (strides.want_x[row][at], strides.want_y[row][at]) = (want.x, want.y);
     strides.top[row][at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
     strides.lag[row][at] = f32::from(body.lag_ticks);
     strides.turn[row][at] = 0.85 + 0.2 * player.skill(Stat::Agility);
     strides.burst[row][at] = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
-    strides.free[row][at] = 1.0 - pushed;
+    strides.shoved[row][at] = body.push_m;
+    strides.balance[row][at] = player.skill(Stat::Balance);
     (strides.facing_x[row][at], strides.facing_y[row][at]) = (body.facing.x, body.facing.y);
 }
 
@@ -100,13 +99,6 @@ fn take(strides: &mut Strides, i: usize, player: &Player, want: Vec2, has_ball: 
 fn go(player: &mut Player) {
     let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
     player.pos = (player.pos + player.vel * DT).clamp(-rim, rim);
-}
-
-/// The velocity that brings a player to a point and stops him there.
-fn arrive(pos: Vec2, to: Vec2, speed: f32) -> Vec2 {
-    let way = to - pos;
-    let distance = way.length();
-    if distance < 0.25 { Vec2::ZERO } else { way * ((distance * ARRIVAL_PER_S).min(speed) / distance) }
 }
 
 /// The velocity that brings a player to the ball and keeps him with it.
@@ -137,16 +129,6 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
     }
     let needed = meet_m / player.body.meet_s.max(0.05);
     to_meet * ((needed * 1.25).clamp(2.0, speed.max(2.0)).min(speed) / meet_m)
-}
-
-/// Turns the wish back that leads further out than the rim.
-fn keep_inside(pos: Vec2, want: &mut Vec2) {
-    if pos.x.abs() > RIM_X_M as f32 - 0.5 && want.x * pos.x > 0.0 {
-        want.x = 0.0;
-    }
-    if pos.y.abs() > RIM_Y_M as f32 - 0.5 && want.y * pos.y > 0.0 {
-        want.y = 0.0;
-    }
 }
 
 /// Braking of a body that slides or lies.

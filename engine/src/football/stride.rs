@@ -3,7 +3,7 @@
 //! Every lane computes both sides of what would be a branch for one man and keeps one. The curves are fitted to the
 //! measured ones (speed step by step from a standstill, ticks to turn, length of a stop).
 
-use crate::football::movement::DT;
+use crate::football::movement::{ARRIVAL_PER_S, DT};
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use wide::f32x4;
 
@@ -25,6 +25,13 @@ const WISH_MPS: f32 = 0.15;
 /// The cosine from which a change of way costs nothing.
 const STRAIGHT: f32 = 0.996;
 
+/// The pace of who runs to no point.
+pub(super) const NO_POINT: f32 = -1.0;
+/// Nearer than this he is there, metres.
+const THERE_M: f32 = 0.25;
+/// How far within the rim nobody runs on outwards, metres.
+const RIM_CARE_M: f32 = 0.5;
+
 /// A number for each player, in rows.
 pub(super) type Lane = [[f32; WIDTH]; ROWS];
 
@@ -38,10 +45,12 @@ pub(super) struct Strides {
     pub(super) vx: Lane,
     /// World m/s.
     pub(super) vy: Lane,
-    /// The velocity he wants, world m/s.
+    /// The velocity he wants, world m/s; the way to the point that he runs to, metres, where `pace` says so.
     pub(super) want_x: Lane,
-    /// The velocity he wants, world m/s.
+    /// The same along y.
     pub(super) want_y: Lane,
+    /// How fast he runs to a point at most, m/s; [`NO_POINT`] where he runs to none.
+    pub(super) pace: Lane,
     /// His top speed, m/s.
     pub(super) top: Lane,
     /// Ticks spent on getting off a standstill.
@@ -50,8 +59,10 @@ pub(super) struct Strides {
     pub(super) turn: Lane,
     /// What acceleration makes of a push: about 1.
     pub(super) burst: Lane,
-    /// What having been pushed leaves of it: 1 where he wasn't.
-    pub(super) free: Lane,
+    /// How much he has been pushed lately, metres.
+    pub(super) shoved: Lane,
+    /// His balance as it counts now.
+    pub(super) balance: Lane,
     /// The unit vector he faces.
     pub(super) facing_x: Lane,
     /// The unit vector he faces.
@@ -69,13 +80,35 @@ impl Strides {
             vy: zero,
             want_x: zero,
             want_y: zero,
+            pace: [[NO_POINT; WIDTH]; ROWS],
             top: zero,
             lag: zero,
             turn: zero,
             burst: zero,
-            free: zero,
+            shoved: zero,
+            balance: zero,
             facing_x: zero,
             facing_y: zero,
+        }
+    }
+
+    /// Turns the ways to points into velocities that stop there, and wishes back that lead further out than the rim.
+    pub(super) fn wish(&mut self) {
+        let (none, there) = (f32x4::ZERO, f32x4::splat(THERE_M));
+        let rim_x = f32x4::splat(RIM_X_M as f32 - RIM_CARE_M);
+        let rim_y = f32x4::splat(RIM_Y_M as f32 - RIM_CARE_M);
+        for at in 0..ROWS {
+            let (x, y, pace) = (load(&self.want_x, at), load(&self.want_y, at), load(&self.pace, at));
+            let distance = (x * x + y * y).sqrt();
+            let scale = (distance * f32x4::splat(ARRIVAL_PER_S)).fast_min(pace) / distance;
+            let (runs, is_there) = (pace.simd_ge(none), distance.simd_lt(there));
+            let want_x = runs.select(is_there.select(none, x * scale), x);
+            let want_y = runs.select(is_there.select(none, y * scale), y);
+            let (x, y) = (load(&self.x, at), load(&self.y, at));
+            let out_x = x.abs().simd_gt(rim_x) & (want_x * x).simd_gt(none);
+            let out_y = y.abs().simd_gt(rim_y) & (want_y * y).simd_gt(none);
+            store(&mut self.want_x, at, out_x.select(none, want_x));
+            store(&mut self.want_y, at, out_y.select(none, want_y));
         }
     }
 
@@ -98,8 +131,9 @@ impl Strides {
             let (aim_x, aim_y) = (want_x / wanted, want_y / wanted);
             let later = is(9.4) - is(1.8) * (speed - is(2.4)).fast_max(none);
             let early = speed.simd_lt(is(2.0)).select(is(18.0), later.fast_max(is(4.4)).fast_min(is(9.4)));
-            let push =
-                early.fast_min(is(3.0) * (top - speed) + is(0.05)) * load(&self.burst, at) * load(&self.free, at);
+            let shoved = load(&self.shoved, at) * (is(10.0) - is(5.0) * load(&self.balance, at)) - is(0.1);
+            let free = one - shoved.fast_max(none).fast_min(is(0.3));
+            let push = early.fast_min(is(3.0) * (top - speed) + is(0.05)) * load(&self.burst, at) * free;
             let pushed = (speed + push * is(DT)).fast_min(wish);
             let waits = lag.simd_lt(is(LAG_TICKS));
             let (off_x, off_y) = (waits.select(vx, aim_x * pushed), waits.select(vy, aim_y * pushed));

@@ -71,7 +71,8 @@ def read_rewards(rewards: Rewards) -> tuple[list[str] | None, list[RewardFunctio
 
 def rewards_of(names: list[str] | None, functions: Iterable[RewardFunction]) -> Rewards:
     """Returns what `read_rewards` has read as it was given."""
-    return [*([NONE] if names == [] else names or []), *functions]
+    given = [*functions]
+    return (given or None) if names is None else [*(names or [NONE]), *given]
 
 
 def reward_names(rewards: Rewards) -> list[str] | None:

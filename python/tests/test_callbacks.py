@@ -281,6 +281,30 @@ def test_clones_and_pickles_go_on_with_their_functions() -> None:
     assert ends[0][1]["setpiece"]["return"]["kept"] == 2.5
 
 
+@pytest.mark.parametrize("copied", [setpiece.FootballEnv.clone, lambda env: pickle.loads(pickle.dumps(env))])
+@pytest.mark.parametrize("began", [False, True])
+@pytest.mark.parametrize(
+    ("options", "terms"),
+    [
+        ({"ends": never}, ["time/step"]),
+        ({"ends": never, "rewards": "none"}, []),
+        ({"ends": never, "rewards": [kept]}, ["time/step", "kept"]),
+        ({"rewards": [kept]}, ["time/step", "kept"]),
+        ({"rewards": ["none", kept]}, ["kept"]),
+    ],
+)
+def test_a_copy_is_paid_by_the_same_rewards(
+    options: dict[str, Any], terms: list[str], began: bool, copied: Callable[[Any], Any]
+) -> None:
+    env = setpiece.make(TEN, **options)
+    if began:
+        env.reset(seed=1)
+    copy = copied(env)
+    if not began:
+        copy.reset(seed=1)
+    assert list(copy.step(Action.RIGHT)[4]["reward_terms"]) == terms
+
+
 def test_a_restored_episode_is_paid_from_there() -> None:
     env = setpiece.make(TEN, rewards=["none", forward])
     env.reset(seed=1)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards, rewards_of
+from setpiece._callbacks import Callbacks, Ends, Rewards, copied, read_ends, read_rewards, rewards_of
 from setpiece._errors import CallbackError, InUseError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
@@ -367,6 +367,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def clone(self) -> FootballEnv:
         """Returns an independent environment in the same state, with the same opponents; it doesn't watch or record.
 
+        Raises `CallbackError` for a reward or ending in Python that can't be copied, else what `snapshot` does.
+
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
         >>> _ = env.reset(seed=1)
@@ -409,7 +411,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         kwargs, snapshot, tally, seen, attributes = self.__reduce__()[1]
         for name in ("rewards", "ends"):
             if name in kwargs:
-                kwargs[name] = deepcopy(kwargs[name], memo)
+                kwargs[name] = copied(kwargs[name], memo)
         attributes["_np_random"] = deepcopy(attributes["_np_random"], memo)
         return _revived(kwargs, snapshot, deepcopy(tally, memo), deepcopy(seen, memo), attributes)
 

@@ -176,7 +176,8 @@ class OpponentError(SetpieceError, RuntimeError):
 class CallbackError(SetpieceError, RuntimeError):
     """A reward or ending in Python failed: it raised (`__cause__`) or gave something that is no payment or verdict.
 
-    `function` names it, `agent` whose step it judged; None where it failed in its own `reset`.
+    Or it can't be copied, as a copy of its environment needs. `function` names it, `agent` whose step it judged; None
+    where it judged none.
     """
 
     function: str

@@ -8,7 +8,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from conftest import Counter, play, same
+from conftest import Counter, Locked, Tracker, play, same
 from gymnasium.utils.env_checker import check_env
 
 import setpiece
@@ -303,6 +303,20 @@ def test_a_copy_is_paid_by_the_same_rewards(
     if not began:
         copy.reset(seed=1)
     assert list(copy.step(Action.RIGHT)[4]["reward_terms"]) == terms
+
+
+def test_what_rewards_and_endings_share_their_copies_share() -> None:
+    tracker = Tracker()
+    env = setpiece.make(TEN, rewards=tracker.paid, ends=tracker.tired)
+    for each in (env.clone(), pickle.loads(pickle.dumps(env)), env):
+        assert [step[4].get("outcome") for step in play(each, 1, right)] == [None, None, None, None, "tired"]
+
+
+def test_a_function_that_can_not_be_copied_is_named() -> None:
+    env = setpiece.make(TEN, rewards=Locked())
+    with pytest.raises(setpiece.CallbackError, match="`Locked` can't be copied: TypeError: cannot pickle") as failed:
+        env.clone()
+    assert (failed.value.function, failed.value.agent) == ("Locked", None)
 
 
 def test_a_restored_episode_is_paid_from_there() -> None:

@@ -1,7 +1,9 @@
 """Episodes are recorded, and played again by the command."""
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 from typing import Any
 
 import numpy as np
@@ -51,6 +53,21 @@ def test_actions_of_numbers_and_opponents_are_recorded(tmp_path: Path, capfd: py
     rival = setpiece.make(THREE, right=1, opponents={"right": lambda _: int(rng.integers(20))}, record=tmp_path)
     end = play(rival, 6)[-1][4]["setpiece"]
     assert end["digest"] in replayed(end["replay"], capfd)
+
+
+def test_threads_that_record_the_same_draw_into_one_folder_lose_none(tmp_path: Path) -> None:
+    together = Barrier(4)
+
+    def episodes() -> list[str]:
+        env = setpiece.make(CLOSE, record=tmp_path, ends=lambda _: True)
+        together.wait()
+        return [play(env, 1)[-1][4]["setpiece"]["replay"] for _ in range(25)]
+
+    with ThreadPoolExecutor(4) as threads:
+        runs = [threads.submit(episodes) for _ in range(4)]
+    paths = [path for run in runs for path in run.result()]
+    assert len(set(paths)) == 100
+    assert all(setpiece.Replay(path).length == 1 for path in paths)
 
 
 def test_which_episodes_are_recorded(tmp_path: Path) -> None:

@@ -55,7 +55,7 @@ def scripted_scenario(
             return _native.load_cast(path_of(scenario), casting)
         return _native.compile_cast(text, name_of(scenario), casting)
     except CompileError as error:
-        first = error.diagnostics[0]
+        first = next(one for one in error.diagnostics if one.severity == "error")
         message = f"`{base.name}` can't be played with {words}: {first.message}"
         raise ParameterError(message, name="opponents", code=first.code, help=first.help) from None
 

@@ -148,7 +148,7 @@ class ReplayError(SetpieceError, ValueError):
 
 
 class InUseError(SetpieceError, RuntimeError):
-    """Two threads use one environment at the same time; each needs its own."""
+    """Two threads use one environment at the same time, or somebody whom it asks plays it; each needs its own."""
 
 
 class OpponentError(SetpieceError, RuntimeError):
@@ -176,8 +176,8 @@ class OpponentError(SetpieceError, RuntimeError):
 class CallbackError(SetpieceError, RuntimeError):
     """A reward or ending in Python failed: it raised (`__cause__`) or gave something that is no payment or verdict.
 
-    Or it can't be copied, as a copy of its environment needs. `function` names it, `agent` whose step it judged; None
-    where it judged none.
+    Or it can't be copied, as a copy of its environment needs; or an `on_reload` raised. `function` names it, `agent`
+    whose step it judged; None where it judged none.
     """
 
     function: str

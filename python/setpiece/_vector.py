@@ -19,7 +19,7 @@ from setpiece._callbacks import Rewards, reward_names
 from setpiece._crowd import Crowd
 from setpiece._errors import ParameterError, UnavailableError
 from setpiece._opponents import Opponent, Table, behaviors, native_action_set, revivable
-from setpiece._options import ParamValue, check_keys, check_number, check_params, one_thread
+from setpiece._options import ParamValue, check_keys, check_number, check_params
 from setpiece._seats import Seats, scripted_scenario
 from setpiece._source import Source
 from setpiece._spaces import (
@@ -32,6 +32,7 @@ from setpiece._spaces import (
     observation_layout,
     observation_space,
 )
+from setpiece._turn import Turn, one_thread
 
 ENVS_MAX = 65_536
 """Most environments of a vector."""
@@ -143,6 +144,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self._view = self._of_agents(self._arrays.observations)
         self._copy = copy
         self._first_seed = None if seed is None else check_number("seed", seed)
+        self._turn = Turn()
         self._begun = False
         self._over = np.ones(self.num_envs, bool)
         self._marks = np.ones(self.num_envs, bool)
@@ -160,21 +162,21 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
         Raises `ParameterError` for other options, `DrawError` where no start meets the scenario's requirements.
         """
-        self._check_open()
-        mask, params, episode = self._read_options(options)
-        if seed is None and not self._begun:
-            seed = self._first_seed
-            if seed is None:
-                seed = int(self.np_random.integers(2**62))
-        seeds = self._seeds(seed)
-        super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
-        with one_thread():
-            if params is not None:
-                self._batch.bind(params)
-            self._batch.reset(self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False)
-        self._begun = True
-        self._over &= ~mask
-        return self._shown(), self._infos()
+        with self._turn:
+            mask, params, episode = self._read_options(options)
+            if seed is None and not self._begun:
+                seed = self._first_seed
+                if seed is None:
+                    seed = int(self.np_random.integers(2**62))
+            seeds = self._seeds(seed)
+            super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
+            with one_thread:
+                if params is not None:
+                    self._batch.bind(params)
+                self._batch.reset(self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False)
+            self._begun = True
+            self._over &= ~mask
+            return self._shown(), self._infos()
 
     def step(self, actions: Any) -> tuple[Any, Any, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Plays 100 ms of every match.
@@ -183,28 +185,33 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         nothing has been played then; `ScriptError` where a script of the scenario fails: its episode has ended, the
         others have been played.
         """
-        self._check_open()
-        if not self._begun:
-            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
-        if self._over.any() and self.autoreset_mode == AutoresetMode.DISABLED:
-            at = int(np.flatnonzero(self._over)[0])
-            raise gymnasium.error.ResetNeeded(
-                f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
-            )
-        with one_thread():
+        with self._turn:
+            if not self._begun:
+                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+            if self._over.any() and self.autoreset_mode == AutoresetMode.DISABLED:
+                at = int(np.flatnonzero(self._over)[0])
+                raise gymnasium.error.ResetNeeded(
+                    f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
+                )
             if self._crowd is not None:
-                actions = self._crowd.actions(actions, self._arrays.observations, self._batch.look)
-            self._batch.step(self._arrays, actions)
-        over = self._arrays.terminated | self._arrays.truncated
-        infos = self._infos()
-        if over.any():
-            self._tell(infos, over)
-            if self.autoreset_mode == AutoresetMode.SAME_STEP:
-                infos = self._begin_again(infos, over)
-                self._over[:] = False
-                return self._shown(), *self._outcomes(), infos
-        self._over = over
-        return self._shown(), *self._outcomes(), infos
+                actions = self._crowd.actions(actions, self._arrays.observations, self._look)
+            with one_thread:
+                self._batch.step(self._arrays, actions)
+            over = self._arrays.terminated | self._arrays.truncated
+            infos = self._infos()
+            if over.any():
+                self._tell(infos, over)
+                if self.autoreset_mode == AutoresetMode.SAME_STEP:
+                    infos = self._begin_again(infos, over)
+                    self._over[:] = False
+                    return self._shown(), *self._outcomes(), infos
+            self._over = over
+            return self._shown(), *self._outcomes(), infos
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """Ends them: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
+        self._turn.closed = True
+        super().close_extras(**kwargs)
 
     @property
     def observation_layout(self) -> Layout:
@@ -222,6 +229,11 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             return None
         return tuple(self._batch.drawing(at) for at in range(self.num_envs))
 
+    def _look(self, observation: str) -> list[Any]:
+        """Observes each match in another observation."""
+        with one_thread:
+            return self._batch.look(observation)
+
     def _begin_again(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> dict[str, Any]:
         """Begins the next episode of those that have ended, and puts the end of the last into `final_obs`."""
         final = {key: value.copy() if isinstance(value, np.ndarray) else value for key, value in infos.items()}
@@ -229,7 +241,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         last = np.full(self.num_envs, None, dtype=object)
         for at in np.flatnonzero(over):
             last[at] = self._of_agents(self._arrays.observations)[at].copy()
-        with one_thread():
+        with one_thread:
             none = [None] * self.num_envs
             self._batch.reset(self._arrays, over.tolist(), none, none, True)
         fresh = self._infos()
@@ -293,10 +305,6 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
         """The part of the caller's agents, without their axis where there is one."""
         return array[:, self._pick]
-
-    def _check_open(self) -> None:
-        if self.closed:
-            raise gymnasium.error.ClosedEnvironmentError("the environments are closed: make others")
 
     def _read_options(
         self, options: dict[str, Any] | None

@@ -403,6 +403,16 @@ class AtReset(Meddler):
         return 0 if seen is not None else super().__call__(seen)
 
 
+@pytest.mark.parametrize("what", [AtReset, Meddler])
+def test_who_judges_a_step_can_close_the_environment(what: type[Meddler]) -> None:
+    meddler = what("close")
+    env = setpiece.make(TEN, rewards=meddler)
+    env.reset(seed=1)
+    meddler.env = env
+    with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+        play(env, 1, right)
+
+
 @pytest.mark.parametrize("call", ["reset", "step", "restore"])
 @pytest.mark.parametrize("what", ["reward", "reward's reset", "ending", "opponent"])
 def test_who_judges_a_step_can_not_play_it(what: str, call: str) -> None:

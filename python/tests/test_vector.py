@@ -1,5 +1,6 @@
 """Many matches at once: a vector plays what as many single environments would."""
 
+from collections.abc import Callable
 from typing import Any
 
 import gymnasium
@@ -74,6 +75,30 @@ def test_an_opponent_that_fails_leaves_a_vector_as_it_is() -> None:
     assert asked == [8, 8]
     with pytest.raises(setpiece.ParameterError, match="leave the caller no agent"):
         setpiece.make_vec(THREE, 2, opponents={"left": "bot"})
+
+
+def test_an_opponent_can_not_play_the_vector_that_asks_it() -> None:
+    def meddles(observations: Any) -> list[int]:
+        calls.pop()()
+        return [0] * len(observations)
+
+    envs = setpiece.make_vec(THREE, 2, right=1, opponents={"right": setpiece.Policy(meddles)})
+    calls: list[Callable[[], object]] = [int, lambda: envs.reset(seed=2), lambda: envs.step([0, 0])]
+    envs.reset(seed=1)
+    for _ in range(2):
+        with pytest.raises(setpiece.OpponentError, match="InUseError: this environment is in the middle of a step"):
+            envs.step([0, 0])
+    envs.step([0, 0])
+
+
+def test_an_opponents_own_words_are_not_taken_for_a_second_thread() -> None:
+    def fails(_observations: Any) -> Any:
+        raise ValueError("a borrowed model")
+
+    envs = setpiece.make_vec(THREE, 2, right=1, opponents={"right": setpiece.Policy(fails)})
+    envs.reset(seed=1)
+    with pytest.raises(setpiece.OpponentError, match="a borrowed model"):
+        envs.step([0, 0])
 
 
 def test_records_are_told_by_environment() -> None:

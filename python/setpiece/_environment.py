@@ -445,14 +445,13 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             )
         return match
 
-    def _cut(self, label: str) -> dict[str, Any]:
-        """Ends the episode by a limit of the caller's; returns what `info` tells of that."""
-        told = self._match.end(label, truncated=True)
+    def _cut(self, label: str, info: dict[str, Any]) -> None:
+        """Ends the episode by a limit of the caller's, and tells of that in the `info` of its last step."""
+        info.update(self._match.end(label, truncated=True))
         if self._callbacks is not None:
-            told["setpiece"]["return"].update(self._callbacks.tally)
+            info["setpiece"]["return"].update(self._callbacks.tally)
         self._playing = False
-        self._sum_up(told)
-        return told
+        self._sum_up(info)
 
     def _sum_up(self, info: dict[str, Any]) -> None:
         """Completes the summary of an episode that has ended."""

@@ -133,7 +133,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         self._cycles += 1
         if self.max_cycles is not None and self._cycles >= self.max_cycles and not (terminated or truncated):
             truncated = True
-            info.update(self.env._cut("max_cycles"))
+            self.env._cut("max_cycles", info)
         infos = self._infos(info, acting)
         gone = self._gone()
         terminations = {agent: terminated or agent in gone for agent in acting}

@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from setpiece import _native
 from setpiece._callbacks import Rewards, reward_names
 from setpiece._crowd import Crowd
+from setpiece._endings import endings
 from setpiece._errors import ParameterError, UnavailableError
 from setpiece._opponents import Opponent, Table, behaviors, native_action_set, revivable
 from setpiece._options import ParamValue, check_keys, check_number, check_params
+from setpiece._rows import Picker
 from setpiece._seats import Seats, scripted_scenario
 from setpiece._source import Source
 from setpiece._spaces import (
@@ -135,6 +137,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         # One agent of the caller's has no axis of its own; a run of them needs no copy.
         run = bool(mine) and mine == [*range(mine[0], mine[-1] + 1)]
         self._pick: Any = mine[0] if len(mine) == 1 else slice(mine[0], mine[-1] + 1) if run else mine
+        self._part = Picker(len(agents), mine[0] if len(mine) == 1 else mine)
         self.agents = tuple(agents[at].id for at in mine)
         self.single_observation_space = observation_space(self._batch, self._observation, [agents[at] for at in mine])
         self.single_action_space = action_space(len(mine), action_set)
@@ -250,37 +253,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _tell(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> None:
         """Adds how episodes have ended."""
-        outcomes = np.full(self.num_envs, None, dtype=object)
-        summaries: dict[str, Any] = {"return": {}}
-        records: dict[str, Any] = {}
-        for at in np.flatnonzero(over):
-            summary = self._batch.summary(int(at))
-            if summary is None:
-                continue
-            outcomes[at] = summary.pop("outcome")
-            for name, value in summary.pop("records").items():
-                number = value is None or isinstance(value, float)
-                column = np.full(self.num_envs, np.nan if number else None, float if number else object)
-                records.setdefault(name, column)[at] = np.nan if value is None else self._of_record(value)
-            paid = np.array(summary.pop("return"), np.float64).reshape(len(self._batch.agents), len(self._terms))
-            paid = paid[self._pick]
-            for term, name in enumerate(self._terms):
-                column = np.zeros((self.num_envs, *paid.shape[:-1]))
-                summaries["return"].setdefault(name, column)[at] = paid[..., term]
-            for key, value in summary.items():
-                dtype = object if isinstance(value, str) else np.uint64 if key in ("seed", "index") else None
-                column = np.full(self.num_envs, None if dtype is object else 0, dtype or np.array(value).dtype)
-                summaries.setdefault(key, column)[at] = value
-        summaries["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
-        for key, told in (("outcome", outcomes), ("records", records), ("setpiece", summaries)):
-            infos[key], infos[f"_{key}"] = told, over.copy()
-
-    def _of_record(self, value: Any) -> Any:
-        """The caller's part of what a record says: with several agents a list has a part for each."""
-        if not isinstance(value, list):
-            return value
-        part = np.fromiter(value, object, len(value))[self._pick]
-        return part if isinstance(self._pick, int) else [*part]
+        told = endings(self._batch, over, self._part, self._n_actions)
+        told["setpiece"]["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
+        for key, value in told.items():
+            infos[key], infos[f"_{key}"] = value, over.copy()
 
     def _infos(self) -> dict[str, Any]:
         marks = self._marks

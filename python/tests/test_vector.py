@@ -120,6 +120,8 @@ def test_records_are_told_by_environment() -> None:
         for _ in range(5):
             infos = envs.step(np.zeros(envs.action_space.shape, int))[-1]
         assert infos["_records"].all()
+        assert infos["records"]["way"].dtype == np.float64
+        assert infos["records"]["mine"].dtype == (object if opponents is None else np.float64)
         for at in range(2):
             env = setpiece.make(text, opponents=opponents)
             env.reset(seed=1 + at)
@@ -129,7 +131,7 @@ def test_records_are_told_by_environment() -> None:
             assert own["unknown"] is None
             assert np.isnan(infos["records"]["unknown"][at])
             assert infos["records"]["way"][at] == own["way"]
-            assert same(infos["records"]["mine"][at], own["mine"])
+            assert same(infos["records"]["mine"].tolist()[at], own["mine"])
             assert same(infos["records"]["places"][at], own["places"])
 
 

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeGuard
 
 import numpy as np
 
+from setpiece._actions import integers
 from setpiece._errors import ActionError, OpponentError, ParameterError
 from setpiece._native import ACTION_SETS, AgentInfo
 from setpiece._onnx import onnx_policy
@@ -155,28 +156,13 @@ class Table:
         return all_actions
 
     def _read_actions(self, action: Any) -> list[int]:
-        actions = integers(action, len(self.mine), self.n_actions, alone=len(self.mine) == 1)
+        n = len(self.mine)
+        actions = integers(action, () if n == 1 else (n,), self.n_actions)
         if actions is None:
-            n = len(self.mine)
             what = "an integer" if n == 1 else f"{n} actions, integers"
             raise ActionError(f"expected {what} in 0..{self.n_actions - 1}, found `{action!r}`")
-        return actions
-
-
-def integers(value: Any, n: int, n_actions: int, *, alone: bool = False) -> list[int] | None:
-    """Reads n actions, where `alone` a single one without an axis; None where they are something else."""
-    try:
-        array = np.asarray(value)
-    except (ValueError, TypeError):
-        return None
-    if alone and array.ndim == 0:
-        array = array[None]
-    elif alone:
-        return None
-    if array.shape != (n,) or (n and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() >= n_actions)):
-        return None
-    actions: list[int] = array.astype(np.int64).tolist()
-    return actions
+        read: list[int] = actions.ravel().tolist()
+        return read
 
 
 def ask(seat: Seat, seen: Any, n: int) -> list[int]:
@@ -186,7 +172,7 @@ def ask(seat: Seat, seen: Any, n: int) -> list[int]:
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
         raise OpponentError(f"the opponent {_whose(seat)} {why}", slots=seat.agents, side=seat.side) from error
-    actions = integers(given, n, ACTION_SETS["v2"])
+    actions = integers(given, (n,), ACTION_SETS["v2"])
     if actions is None:
         found = given if seat.policy.batched or len(given) != 1 else given[0]
         what = f"{n} actions, integers" if seat.policy.batched else "an integer"
@@ -196,7 +182,8 @@ def ask(seat: Seat, seen: Any, n: int) -> list[int]:
             slots=seat.agents,
             side=seat.side,
         )
-    return actions
+    read: list[int] = actions.tolist()
+    return read
 
 
 def _whose(seat: Seat) -> str:

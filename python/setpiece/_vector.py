@@ -15,12 +15,13 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from setpiece import _native
+from setpiece._actions import array_of
 from setpiece._callbacks import Rewards, reward_names
 from setpiece._crowd import Crowd
 from setpiece._endings import endings
-from setpiece._errors import ParameterError, UnavailableError
+from setpiece._errors import ActionError, ParameterError, UnavailableError
 from setpiece._opponents import Opponent, Table, behaviors, native_action_set, revivable
-from setpiece._options import ParamValue, check_keys, check_number, check_params
+from setpiece._options import ParamValue, check_flag, check_keys, check_number, check_params
 from setpiece._rows import Picker
 from setpiece._seats import Seats, scripted_scenario
 from setpiece._source import Source
@@ -145,7 +146,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._arrays = self._batch.arrays()
         self._view = self._of_agents(self._arrays.observations)
-        self._copy = copy
+        self._copy = check_flag("copy", copy)
         self._first_seed = None if seed is None else check_number("seed", seed)
         self._turn = Turn()
         self._begun = False
@@ -196,8 +197,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 raise gymnasium.error.ResetNeeded(
                     f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
                 )
-            if self._crowd is not None:
-                actions = self._crowd.actions(actions, self._arrays.observations, self._look)
+            actions = self._read(actions)
             with one_thread:
                 self._batch.step(self._arrays, actions)
             over = self._arrays.terminated | self._arrays.truncated
@@ -231,6 +231,15 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         if self.render_mode is None:
             return None
         return tuple(self._batch.drawing(at) for at in range(self.num_envs))
+
+    def _read(self, given: Any) -> NDArray[Any]:
+        """Everyone's actions: the caller's, and what opponents say; the batch reads the numbers."""
+        if self._crowd is not None:
+            return self._crowd.actions(given, self._arrays.observations, self._look)
+        actions = array_of(given)
+        if actions is None:
+            raise ActionError(f"expected actions of shape {self.action_space.shape}, found `{given!r}`")
+        return actions
 
     def _look(self, observation: str) -> list[Any]:
         """Observes each match in another observation."""

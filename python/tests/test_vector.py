@@ -67,7 +67,7 @@ def test_an_opponent_that_fails_leaves_a_vector_as_it_is() -> None:
     with pytest.raises(setpiece.OpponentError, match=r"expected 8 actions, integers in 0\.\.19") as caught:
         envs.step(np.zeros(4, int))
     assert caught.value.side == "right"
-    for wrong in (np.zeros(3, int), np.zeros(4), np.full(4, 19), [0, 0, 0, -1]):
+    for wrong in (np.zeros(3, int), np.zeros(4), np.full(4, 19), [0, 0, 0, -1], [[0], [0, 0], 0, 0]):
         with pytest.raises(setpiece.ActionError):
             envs.step(wrong)
     assert same(before, envs._shown())
@@ -288,7 +288,7 @@ def test_what_is_wrong_is_named_and_nothing_is_played() -> None:
     envs.reset(seed=1)
     other = setpiece.make_vec(THREE, 3)
     other.reset(seed=1)
-    for wrong in ([0, 0], [0, 0, 19], np.zeros(3), [0, -1, 0], "abc", None, [[0, 0, 0], [0, 0, 0]]):
+    for wrong in ([0, 0], [0, 0, 19], np.zeros(3), [0, -1, 0], "abc", None, [[0, 0, 0], [0, 0, 0]], [[0], [0, 0], 0]):
         with pytest.raises(setpiece.ActionError):
             envs.step(wrong)
     assert np.array_equal(envs.step([1, 2, 3])[0], other.step(np.array([1, 2, 3]))[0])
@@ -300,6 +300,7 @@ def test_what_is_wrong_is_named_and_nothing_is_played() -> None:
         ({"observation": "raw"}, "dicts"),
         ({"observation": "vector"}, "declares no observation"),
         ({"stack": 0}, "`stack` is 0"),
+        ({"copy": "no"}, "expected True or False as `copy`"),
         ({"size": (0, 3)}, "`size` is"),
         ({"left": 77}, "77 agents on the left side"),
     ]:

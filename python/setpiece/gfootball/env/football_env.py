@@ -118,8 +118,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Goes on in a state of `get_state` and returns what wrappers had put into it.
 
         Unpickling runs what the bytes say: set states that you trust. Raises `SnapshotError` for anything but a state
-        of the same level and numbers of players, and what compiling does where the level's source can't be read; nothing
-        has changed then.
+        of the same level and numbers of players, and what compiling does where its source can't be read; nothing has
+        changed then.
         """
         try:
             read = pickle.loads(state)

@@ -225,7 +225,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def save_replay(self, path: str | PathLike[str]) -> None:
         """Writes the episode as far as it has been played: `setpiece replay FILE` plays it again, bit for bit.
 
-        Raises `ReplayError` before the first episode and after `restore`, `FileError` where it can't be written.
+        Raises `ReplayError` before the first episode, after `restore` and with scripts that have changed in its middle,
+        `FileError` where it can't be written.
         """
         with one_thread:
             write(Path(path), self._native.replay())
@@ -271,7 +272,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     @property
     def slots(self) -> list[_native.AgentInfo]:
-        """All agents of the scenario in order, the opponents' too: `id` and `team` (0 left, 1 right)."""
+        """All agents of the scenario in order, the opponents' too.
+
+        `id`, `team` (0 left, 1 right) and `place`: the place in its team of the player it keeps, None where it changes
+        players.
+        """
         return self._native.agents
 
     @property

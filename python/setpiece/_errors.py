@@ -141,7 +141,7 @@ class ActionError(SetpieceError, ValueError):
 
 
 class ReplayError(SetpieceError, ValueError):
-    """An episode can't be recorded: none has begun, or it went on from a snapshot in its middle.
+    """An episode can't be recorded: none has begun, or it went on from a snapshot or with changed scripts.
 
     Or a recorded one can't be played again: its file is no replay, damaged, or of a version that plays otherwise.
     """

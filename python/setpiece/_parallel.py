@@ -119,8 +119,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         self._cycles = 0
         return self._begun(observation, info)
 
-    def step(self, actions: dict[str, int]) -> Step:
-        """Plays 100 ms; `actions` has one for each of `agents`.
+    def step(self, actions: dict[str, Any]) -> Step:
+        """Plays 100 ms; `actions` has one for each of `agents`: an integer, or with continuous actions four numbers.
 
         Raises `ActionError` for an action that is none, one too few or one too many; the episode is untouched then.
         """

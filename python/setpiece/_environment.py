@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._callbacks import Callbacks, Ends, Rewards, copied, read_ends, read_rewards, rewards_of
+from setpiece._casting import behaviors, revivable, scripted_scenario
 from setpiece._errors import CallbackError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
-from setpiece._opponents import Opponent, Table, behaviors, revivable
+from setpiece._opponents import Opponent, Table
 from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
@@ -30,7 +31,7 @@ from setpiece._options import (
 )
 from setpiece._record import When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
-from setpiece._seats import Seats, scripted_scenario
+from setpiece._seats import Seats
 from setpiece._source import Source
 from setpiece._spaces import (
     Layout,

@@ -17,13 +17,14 @@ from numpy.typing import NDArray
 from setpiece import _native
 from setpiece._actions import array_of
 from setpiece._callbacks import Rewards, reward_names
+from setpiece._casting import behaviors, revivable, scripted_scenario
 from setpiece._crowd import Crowd
 from setpiece._endings import endings
 from setpiece._errors import ActionError, ParameterError, UnavailableError
-from setpiece._opponents import Opponent, Table, behaviors, native_action_set, revivable
+from setpiece._opponents import Opponent, Table, native_action_set
 from setpiece._options import ParamValue, check_flag, check_keys, check_number, check_params
 from setpiece._rows import Picker
-from setpiece._seats import Seats, scripted_scenario
+from setpiece._seats import Seats
 from setpiece._source import Source
 from setpiece._spaces import (
     Layout,

@@ -20,11 +20,11 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 from numpy.typing import NDArray
 
 from setpiece._callbacks import copied, read_rewards
+from setpiece._casting import behaviors
 from setpiece._environment import FootballEnv
 from setpiece._errors import ParameterError
 from setpiece._make import make
 from setpiece._native import Scenario
-from setpiece._opponents import behaviors
 from setpiece._optional import need
 from setpiece._source import Source, load
 from setpiece._vector import make_vec as make_batch

@@ -50,14 +50,14 @@ def scripted_scenario(
     Raises `ParameterError` for a behaviour that the scenario hasn't got, for an agent that isn't there or changes
     players, and for a compiled scenario, which is as it is.
     """
-    base = load(scenario)
     if not ai:
-        return base
+        return load(scenario)
     sides = {who: word for who, word in ai.items() if who in SIDES}
     casting: list[tuple[int, int | None, str]] = [(SIDES.index(side), None, word) for side, word in sides.items()]
     named = {who: word for who, word in ai.items() if who not in SIDES}
     if named:
-        agents = _native.agents(base.with_params(**(params or {})), left=left, right=right, switching=switching)
+        bound = load(scenario).with_params(**(params or {}))
+        agents = _native.agents(bound, left=left, right=right, switching=switching)
         casting += [one for who, word in named.items() if (one := _of_agent(who, word, agents, ai)) is not None]
     words = ", ".join(f"`{word}`" for _, _, word in casting)
     if isinstance(scenario, Scenario):
@@ -72,6 +72,8 @@ def scripted_scenario(
             return _native.load_cast(path_of(scenario), casting)
         return _native.compile_cast(text, name_of(scenario), casting)
     except CompileError as error:
+        # A scenario that has errors of its own raises those here.
+        base = load(scenario)
         first = next(one for one in error.diagnostics if one.severity == "error")
         message = f"`{base.name}` can't be played with {words}: {first.message}"
         raise ParameterError(message, name="opponents", code=first.code, help=first.help) from None

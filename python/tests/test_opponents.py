@@ -194,6 +194,11 @@ def test_a_behaviour_that_is_not_there_is_named_before_what_the_text_is_warned_o
     assert caught.value.code not in [warning.code for warning in warnings]
 
 
+def test_a_text_with_errors_of_its_own_tells_of_these() -> None:
+    with pytest.raises(setpiece.CompileError, match="CFF"):
+        setpiece.make(MARKED.replace("dora: CB", "dora: CFF"), opponents={"right": "chaser"})
+
+
 def moved(env: Any, side: str = "right_team", steps: int = 20) -> list[bool]:
     """Who of a side runs while the caller idles."""
     first, _ = env.reset(seed=1)

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._callbacks import Callbacks, Ends, Rewards, copied, read_ends, read_rewards, rewards_of
+from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards
 from setpiece._casting import behaviors, revivable, scripted_scenario
+from setpiece._copy import copy_of, reduced
 from setpiece._errors import CallbackError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
@@ -333,40 +334,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Makes copies and pickles of the scenario and a snapshot."""
-        kwargs = {
-            **self._options,
-            "scenario": self.scenario,
-            "events": self._events,
-            "seed": self._first_seed,
-            "render_mode": self.render_mode,
-            "opponents": self._opponents,
-        }
-        tally = None
-        if self._callbacks is not None:
-            kwargs["rewards"] = rewards_of(kwargs["rewards"], self._callbacks.rewards.values())
-            kwargs["ends"] = self._callbacks.ends
-            tally = self._callbacks.tally
-        snapshot = None if self._native.episode is None else (self.snapshot(), self._native.frames())
-        # A stack of frames can't be told from the state.
-        seen = None if self._table is None else self._table.seen
-        attributes = {
-            "spec": self.spec,
-            "_np_random": self._np_random,
-            "_np_random_seed": self._np_random_seed,
-            "_playing": self._playing,
-            "_same_agents": self._same_agents,
-            "_scripted": self._scripted,
-        }
-        return _revived, (kwargs, snapshot, tally, seen, attributes, self._turn.closed)
+        return reduced(self)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
         """A copy shares its opponents: they may be large, or hold what can't be copied."""
-        kwargs, snapshot, tally, seen, attributes, closed = self.__reduce__()[1]
-        for name in ("rewards", "ends"):
-            if name in kwargs:
-                kwargs[name] = copied(kwargs[name], memo)
-        attributes["_np_random"] = deepcopy(attributes["_np_random"], memo)
-        return _revived(kwargs, snapshot, deepcopy(tally, memo), deepcopy(seen, memo), attributes, closed)
+        return copy_of(self, memo)
 
     @property
     def _native(self) -> _native.Environment:
@@ -496,26 +468,3 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def __str__(self) -> str:
         return repr(self)
-
-
-def _revived(
-    kwargs: dict[str, Any],
-    snapshot: tuple[bytes, bytes] | None,
-    tally: dict[str, Any] | None,
-    seen: Any,
-    attributes: dict[str, Any],
-    closed: bool,
-) -> FootballEnv:
-    """Returns the environment of a copy or pickle."""
-    env = FootballEnv(**kwargs)
-    if snapshot is not None:
-        env.restore(snapshot[0])
-        env._native.set_frames(snapshot[1])
-    if env._table is not None:
-        env._table.seen = seen
-    if env._callbacks is not None and tally is not None:
-        env._callbacks.tally = tally
-    for name, value in attributes.items():
-        setattr(env, name, value)
-    env._turn.closed = closed
-    return env

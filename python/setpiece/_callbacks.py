@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any, Literal
@@ -71,7 +72,27 @@ def read_rewards(rewards: Rewards) -> tuple[list[str] | None, list[RewardFunctio
 
 def rewards_of(names: list[str] | None, functions: Iterable[RewardFunction]) -> Rewards:
     """Returns what `read_rewards` has read as it was given."""
-    return [*([NONE] if names == [] else names or []), *functions]
+    given = [*functions]
+    return (given or None) if names is None else [*(names or [NONE]), *given]
+
+
+def copied(given: Rewards | Ends, memo: dict[int, Any]) -> Any:
+    """Returns rewards or endings with copies of the functions; what some share, those copied with the memo share too.
+
+    Raises `CallbackError` for a function that can't be copied.
+    """
+    if given is None or isinstance(given, str):
+        return given
+    if not callable(given):
+        return [copied(one, memo) for one in given]
+    try:
+        return deepcopy(given, memo)
+    except Exception as error:
+        raise CallbackError(
+            f"`{_name(given)}` can't be copied: {type(error).__name__}: {error}",
+            function=_name(given),
+            help="give it a `__deepcopy__`",
+        ) from error
 
 
 def reward_names(rewards: Rewards) -> list[str] | None:

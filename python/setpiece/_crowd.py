@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from setpiece._actions import integers
 from setpiece._errors import ActionError
 from setpiece._opponents import Table, ask
 from setpiece._vocabulary import Action
@@ -41,16 +42,12 @@ class Crowd:
         return actions
 
     def _read(self, given: Any) -> NDArray[np.int64]:
-        mine = len(self._table.mine)
+        mine, n_actions = len(self._table.mine), self._table.n_actions
         shape = (self._num_envs,) if mine == 1 else (self._num_envs, mine)
-        last = self._table.n_actions - 1
-        array = np.asarray(given)
-        if array.shape != shape or array.dtype.kind not in "iu":
-            raise ActionError(f"expected integers in 0..{last} of shape {shape}, found {array.dtype} {array.shape}")
-        if array.min() < 0 or array.max() > last:
-            wrong = next(one for one in array.flat if not 0 <= one <= last)
-            raise ActionError(f"expected actions 0..{last}, found {wrong}")
-        return array.astype(np.int64).reshape(self._num_envs, mine)
+        actions = integers(given, shape, n_actions)
+        if actions is None:
+            raise ActionError(f"expected integers in 0..{n_actions - 1} of shape {shape}, found `{given!r}`")
+        return actions.reshape(self._num_envs, mine)
 
 
 def _rows(seen: Any, at: list[int]) -> Any:

@@ -13,24 +13,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards, rewards_of
-from setpiece._errors import CallbackError, InUseError, OpponentError, ParameterError, ScriptError
+from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards
+from setpiece._casting import behaviors, revivable, scripted_scenario
+from setpiece._copy import copy_of, reduced
+from setpiece._errors import CallbackError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
-from setpiece._opponents import Opponent, Table, behaviors, revivable
+from setpiece._opponents import Opponent, Table
 from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
+    ResetOptions,
     check_flag,
     check_number,
     check_params,
     check_snapshot,
-    one_thread,
     read_reset_options,
 )
 from setpiece._record import When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
-from setpiece._seats import Seats, scripted_scenario
+from setpiece._seats import Seats
 from setpiece._source import Source
 from setpiece._spaces import (
     Layout,
@@ -40,6 +42,7 @@ from setpiece._spaces import (
     check_stack,
     observation_layout,
 )
+from setpiece._turn import Turn, one_thread
 
 
 class FootballEnv(gymnasium.Env[Any, Any]):
@@ -151,9 +154,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._index = 0
         self._params: dict[str, ParamValue] = {}
         self._playing = False
-        self._closed = False
-        # Somebody else's code is being asked in the middle of a step or reset.
-        self._asking = False
+        self._turn = Turn()
 
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Draws a new start and returns its observation and `info`.
@@ -174,46 +175,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         Raises `ParameterError` for options or parameters that are not there and for a scenario that would change the
         spaces, what `setpiece.make` does for one that can't be read, `SnapshotError` for a snapshot that does not fit,
         `DrawError` where no start meets the scenario's requirements, `CallbackError` where a reward or ending in Python
-        fails. The environment keeps its scenario then.
+        or `on_reload` fails. The environment keeps its scenario then; a change of a watched file has been taken over
+        all the same.
         """
-        self._check_open()
-        wanted = read_reset_options(options)
-        switched = None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
-        if seed is None and self._seed is None:
-            seed = self._first_seed
-        if seed is not None:
-            seed = check_number("seed", seed)
-        super().reset(seed=seed)
-        number, at = (self._seed, self._index) if seed is None else (seed, 0)
-        if number is None:
-            number = int(self.np_random.integers(2**63))
-        at = at if wanted.episode is None else wanted.episode
-        params = self._params if wanted.params is None else wanted.params
-        if switched is not None:
-            # Its parameters are bound already, as those of `make` are.
-            params = {}
-        self._playing = False
-        if self._watcher is not None:
-            self._take_over(*self._watcher.at_reset(self._match, self._ready))
-        match = self._match if switched is None else switched
-        with one_thread():
-            observation, info = match.native.reset(number, at, params, wanted.snapshot)
-            views = match.views() if self._callbacks is not None else []
-        observation, info = match.shown(observation, info)
-        if self._callbacks is not None:
-            self._asking = True
-            try:
-                self._callbacks.begin(views, info)
-            finally:
-                self._asking = False
-        # A reset that fails leaves no trace but that nothing is being played.
-        if switched is not None:
-            self._enter(switched)
-        self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
-        if self._watcher is not None:
-            info["scenario"] = self._match.digest
-        self._playing = True
-        return observation, info
+        with self._turn:
+            return self._begun(seed, read_reset_options(options))
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Plays 100 ms and returns observation, reward, terminated, truncated and `info`.
@@ -223,64 +189,48 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
         `terminated` is an ending of the scenario (a goal, the ball lost), `truncated` its time limit. Raises
         `ActionError` for another action, `ScriptError` where a script of the scenario fails, `OpponentError` where an
-        opponent does, `CallbackError` where a reward or ending in Python does; after these three a `reset` begins anew.
+        opponent does, `CallbackError` where a reward or ending in Python or `on_reload` does; after these three a
+        `reset` begins anew, with whatever change `on_reload` was to be told of.
         """
-        if not self._playing or self._asking:
-            self._check_open()
-            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
-        if self._watcher is not None and self._watcher.at_once:
-            self._take_over(*self._watcher.at_step(self._match, self._bound))
-        given, self._asking = action, True
-        try:
-            if self._table is not None:
-                action = self._table.actions(action, self.look)
-            observation, reward, terminated, truncated, info = self._native.step(action)
-            observation, info = self._match.shown(observation, info)
-            if self._table is not None:
-                reward = self._table.paid(reward)
-            if self._callbacks is not None:
-                reward, terminated, truncated, info = self._callbacks.judge(
-                    self._match.slots,
-                    given,
-                    self._match.views(),
-                    (reward, terminated, truncated, info),
-                    self._match.end,
-                )
-        except (ScriptError, OpponentError, CallbackError):
-            self._playing = False
-            raise
-        except RuntimeError as error:
-            # The binding's word for a second thread.
-            if "borrowed" not in str(error):
+        with self._turn:
+            if not self._playing:
+                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+            try:
+                if self._watcher is not None and self._watcher.at_once:
+                    self._take_over(self._watcher, *self._watcher.at_step(self._match, self._bound))
+                match, table, given = self._match, self._match.table, action
+                if table is not None:
+                    action = table.actions(action, self.look)
+                with one_thread:
+                    observation, reward, terminated, truncated, info = match.native.step(action)
+                observation, info = match.shown(observation, info)
+                if table is not None:
+                    reward = table.paid(reward)
+                if self._callbacks is not None:
+                    result = reward, terminated, truncated, info
+                    reward, terminated, truncated, info = self._callbacks.judge(
+                        match.slots, given, match.views(), result, match.end
+                    )
+            except (ScriptError, OpponentError, CallbackError):
+                self._playing = False
                 raise
-            raise InUseError("another thread is using this environment: make one for each thread") from None
-        finally:
-            self._asking = False
-        self._playing = not (terminated or truncated or self._closed)
-        if terminated or truncated:
-            self._sum_up(info)
-        return observation, reward, terminated, truncated, info
+            self._playing = not (terminated or truncated or self._turn.closed)
+            if terminated or truncated:
+                self._sum_up(info)
+            return observation, reward, terminated, truncated, info
 
     def close(self) -> None:
         """Ends it: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
-        self._playing, self._closed = False, True
+        self._playing, self._turn.closed = False, True
         super().close()
-
-    def _check_open(self) -> None:
-        if self._asking:
-            raise InUseError(
-                "this environment is in the middle of a step: make one for each thread, and let no reward, ending or "
-                "opponent play it"
-            )
-        if self._closed:
-            raise gymnasium.error.ClosedEnvironmentError("the environment is closed: make another one")
 
     def save_replay(self, path: str | PathLike[str]) -> None:
         """Writes the episode as far as it has been played: `setpiece replay FILE` plays it again, bit for bit.
 
-        Raises `ReplayError` before the first episode and after `restore`, `FileError` where it can't be written.
+        Raises `ReplayError` before the first episode, after `restore` and with scripts that have changed in its middle,
+        `FileError` where it can't be written.
         """
-        with one_thread():
+        with one_thread:
             write(Path(path), self._native.replay())
 
     def snapshot(self) -> bytes:
@@ -290,7 +240,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         random numbers; they are the same on every machine, and good for this version of the scenario. Raises
         `SnapshotError` where a script keeps a function in its memory.
         """
-        with one_thread():
+        with one_thread:
             return self._native.snapshot()
 
     def restore(self, snapshot: bytes) -> tuple[Any, dict[str, Any]]:
@@ -300,22 +250,22 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         straight run, but for what opponents, and rewards and endings in Python, remember. Raises `SnapshotError` for
         anything else, and nothing has changed then; `ClosedEnvironmentError` for a closed environment.
         """
-        self._check_open()
         snapshot = check_snapshot(snapshot)
-        with one_thread():
-            observation, info = self._native.restore(snapshot)
-            views = self._match.views() if self._callbacks is not None else []
-        episode = self._native.episode
-        if episode is not None:
-            self._seed, self._index = episode[0], (episode[1] + 1) & NUMBER_MAX
-            self._params = self._native.params
-        self._playing = self._native.running
-        if "setpiece" in info:
-            info["setpiece"]["scenario"] = self._match.digest
-        observation, info = self._match.shown(observation, info)
-        if self._callbacks is not None:
-            self._callbacks.go_on(views, info)
-        return observation, info
+        with self._turn:
+            with one_thread:
+                observation, info = self._native.restore(snapshot)
+                views = self._match.views() if self._callbacks is not None else []
+            episode = self._native.episode
+            if episode is not None:
+                self._seed, self._index = episode[0], (episode[1] + 1) & NUMBER_MAX
+                self._params = self._native.params
+            self._playing = self._native.running
+            if "setpiece" in info:
+                info["setpiece"]["scenario"] = self._match.digest
+            observation, info = self._match.shown(observation, info)
+            if self._callbacks is not None:
+                self._callbacks.go_on(views, info)
+            return observation, info
 
     @property
     def last_reload(self) -> Reload | None:
@@ -324,7 +274,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     @property
     def slots(self) -> list[_native.AgentInfo]:
-        """All agents of the scenario in order, the opponents' too: `id` and `team` (0 left, 1 right)."""
+        """All agents of the scenario in order, the opponents' too.
+
+        `id`, `team` (0 left, 1 right) and `place`: the place in its team of the player it keeps, None where it changes
+        players.
+        """
         return self._native.agents
 
     @property
@@ -361,11 +315,13 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """
         if self._native.episode is None:
             raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
-        with one_thread():
+        with one_thread:
             return self._native.look(check_observation(observation))
 
     def clone(self) -> FootballEnv:
         """Returns an independent environment in the same state, with the same opponents; it doesn't watch or record.
+
+        Raises `CallbackError` for a reward or ending in Python that can't be copied, else what `snapshot` does.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
@@ -378,40 +334,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Makes copies and pickles of the scenario and a snapshot."""
-        kwargs = {
-            **self._options,
-            "scenario": self.scenario,
-            "events": self._events,
-            "seed": self._first_seed,
-            "render_mode": self.render_mode,
-            "opponents": self._opponents,
-        }
-        tally = None
-        if self._callbacks is not None:
-            kwargs["rewards"] = rewards_of(kwargs["rewards"], self._callbacks.rewards.values())
-            kwargs["ends"] = self._callbacks.ends
-            tally = self._callbacks.tally
-        snapshot = None if self._native.episode is None else (self.snapshot(), self._native.frames())
-        # A stack of frames can't be told from the state.
-        seen = None if self._table is None else self._table.seen
-        attributes = {
-            "spec": self.spec,
-            "_np_random": self._np_random,
-            "_np_random_seed": self._np_random_seed,
-            "_playing": self._playing,
-            "_same_agents": self._same_agents,
-            "_scripted": self._scripted,
-        }
-        return _revived, (kwargs, snapshot, tally, seen, attributes)
+        return reduced(self)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
         """A copy shares its opponents: they may be large, or hold what can't be copied."""
-        kwargs, snapshot, tally, seen, attributes = self.__reduce__()[1]
-        for name in ("rewards", "ends"):
-            if name in kwargs:
-                kwargs[name] = deepcopy(kwargs[name], memo)
-        attributes["_np_random"] = deepcopy(attributes["_np_random"], memo)
-        return _revived(kwargs, snapshot, deepcopy(tally, memo), deepcopy(seen, memo), attributes)
+        return copy_of(self, memo)
 
     @property
     def _native(self) -> _native.Environment:
@@ -436,11 +363,47 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         seats = {name: self._options[name] for name in ("left", "right", "switching")}
         return scripted_scenario(source, self._scripted, params=params, **seats)
 
-    def _take_over(self, match: Match, reload: Reload | None) -> None:
+    def _begun(self, seed: int | None, wanted: ResetOptions) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode: see `reset`."""
+        switched = None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
+        if seed is None and self._seed is None:
+            seed = self._first_seed
+        if seed is not None:
+            seed = check_number("seed", seed)
+        super().reset(seed=seed)
+        number, at = (self._seed, self._index) if seed is None else (seed, 0)
+        if number is None:
+            number = int(self.np_random.integers(2**63))
+        at = at if wanted.episode is None else wanted.episode
+        params = self._params if wanted.params is None else wanted.params
+        if switched is not None:
+            # Its parameters are bound already, as those of `make` are.
+            params = {}
+        self._playing = False
+        if self._watcher is not None:
+            self._take_over(self._watcher, *self._watcher.at_reset(self._match, self._ready))
+        match = self._match if switched is None else switched
+        with one_thread:
+            observation, info = match.native.reset(number, at, params, wanted.snapshot)
+            views = match.views() if self._callbacks is not None else []
+        observation, info = match.shown(observation, info)
+        if self._callbacks is not None:
+            self._callbacks.begin(views, info)
+        # A reset that fails leaves no trace but that nothing is being played.
+        if switched is not None:
+            self._enter(switched)
+        self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
+        if self._watcher is not None:
+            info["scenario"] = self._match.digest
+        # A reward's `reset` may have closed it.
+        self._playing = not self._turn.closed
+        return observation, info
+
+    def _take_over(self, watcher: Watcher, match: Match, reload: Reload | None) -> None:
         """Plays another match from here on, and tells of the change that brought it."""
         self._enter(match)
-        if reload is not None and self._watcher is not None:
-            self._watcher.tell(reload)
+        if reload is not None:
+            watcher.tell(reload)
 
     def _switched(self, source: Source, params: Mapping[str, ParamValue] | None) -> Match:
         """Makes another scenario ready that can be played in this environment."""
@@ -460,14 +423,13 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             )
         return match
 
-    def _cut(self, label: str) -> dict[str, Any]:
-        """Ends the episode by a limit of the caller's; returns what `info` tells of that."""
-        told = self._match.end(label, truncated=True)
+    def _cut(self, label: str, info: dict[str, Any]) -> None:
+        """Ends the episode by a limit of the caller's, and tells of that in the `info` of its last step."""
+        info.update(self._match.end(label, truncated=True))
         if self._callbacks is not None:
-            told["setpiece"]["return"].update(self._callbacks.tally)
+            info["setpiece"]["return"].update(self._callbacks.tally)
         self._playing = False
-        self._sum_up(told)
-        return told
+        self._sum_up(info)
 
     def _sum_up(self, info: dict[str, Any]) -> None:
         """Completes the summary of an episode that has ended."""
@@ -506,24 +468,3 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def __str__(self) -> str:
         return repr(self)
-
-
-def _revived(
-    kwargs: dict[str, Any],
-    snapshot: tuple[bytes, bytes] | None,
-    tally: dict[str, Any] | None,
-    seen: Any,
-    attributes: dict[str, Any],
-) -> FootballEnv:
-    """Returns the environment of a copy or pickle."""
-    env = FootballEnv(**kwargs)
-    if snapshot is not None:
-        env.restore(snapshot[0])
-        env._native.set_frames(snapshot[1])
-    if env._table is not None:
-        env._table.seen = seen
-    if env._callbacks is not None and tally is not None:
-        env._callbacks.tally = tally
-    for name, value in attributes.items():
-        setattr(env, name, value)
-    return env

@@ -141,14 +141,14 @@ class ActionError(SetpieceError, ValueError):
 
 
 class ReplayError(SetpieceError, ValueError):
-    """An episode can't be recorded: none has begun, or it went on from a snapshot in its middle.
+    """An episode can't be recorded: none has begun, or it went on from a snapshot or with changed scripts.
 
     Or a recorded one can't be played again: its file is no replay, damaged, or of a version that plays otherwise.
     """
 
 
 class InUseError(SetpieceError, RuntimeError):
-    """Two threads use one environment at the same time; each needs its own."""
+    """Two threads use one environment at the same time, or somebody whom it asks plays it; each needs its own."""
 
 
 class OpponentError(SetpieceError, RuntimeError):
@@ -176,7 +176,8 @@ class OpponentError(SetpieceError, RuntimeError):
 class CallbackError(SetpieceError, RuntimeError):
     """A reward or ending in Python failed: it raised (`__cause__`) or gave something that is no payment or verdict.
 
-    `function` names it, `agent` whose step it judged; None where it failed in its own `reset`.
+    Or it can't be copied, as a copy of its environment needs; or an `on_reload` raised. `function` names it, `agent`
+    whose step it judged; None where it judged none.
     """
 
     function: str

@@ -86,7 +86,8 @@ def make(
     - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; with `"now"`
       every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one
       that would change the spaces is held back.
-    - `on_reload`: called with the `Reload` of every change; see also `env.unwrapped.last_reload`.
+    - `on_reload`: called with the `Reload` of every change, in the `reset` or `step` that has found it, which raises
+      `CallbackError` where it fails; see also `env.unwrapped.last_reload`.
     - `action_set`: `"default"` (19 actions), `"v2"` (20: `Action.BUILTIN_AI` hands the step over to the bot), `"full"`
       (33: orders to team mates too) or `"continuous"` (a `Box` of float32 `(4,)`: x and y of the way to run, whose
       length is the pace; what to do with the ball, six kinds in equal parts of -1..1: nothing, short, long, high pass,

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
-from pathlib import Path
 from typing import Any, Literal, TypeGuard
 
 import numpy as np
 
+from setpiece._actions import integers
 from setpiece._errors import ActionError, OpponentError, ParameterError
 from setpiece._native import ACTION_SETS, AgentInfo
 from setpiece._onnx import onnx_policy
@@ -42,23 +42,6 @@ class Policy:
 
 Opponent = Policy | Callable[[Any], Any] | str | PathLike[str] | Any
 """Who plays agents instead of the caller; the forms are told in `setpiece.make`."""
-
-
-def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
-    """Returns the sides and agents that behaviours play, with what stands behind `ai:`.
-
-    Beside them the agents that the bot was named for: it plays them in a side that a behaviour plays, too.
-    """
-    words = {who: _ai(one) for who, one in _read(opponents).items() if _is_word(one)}
-    if all(word == BOT for word in words.values()):
-        return {}
-    return {who: word for who, word in words.items() if word != BOT or who not in SIDES}
-
-
-def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] | None:
-    """Returns the opponents for a scenario that has its behaviours already."""
-    scripted = behaviors(opponents)
-    return {who: BOT if who in scripted else one for who, one in _read(opponents).items()} or None
 
 
 def native_action_set(action_set: str, opponents: Mapping[str, Opponent] | None) -> str:
@@ -98,13 +81,13 @@ class Table:
 
     def __init__(self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], n_actions: int) -> None:
         self.n_agents, self.n_actions = len(agents), n_actions
-        owner = _owners(agents, _read(opponents))
+        owner = _owners(agents, read_opponents(opponents))
         self.mine = [at for at in range(self.n_agents) if at not in owner]
         self._pick = Picker(self.n_agents, self.mine[0] if len(self.mine) == 1 else self.mine)
         self.seats = []
         for who, opponent in opponents.items():
             at = [slot for slot, key in owner.items() if key == who]
-            if not at or _is_word(opponent):
+            if not at or is_word(opponent):
                 continue
             policy = _policy(who, opponent)
             ids = tuple(agents[slot].id for slot in at)
@@ -155,28 +138,13 @@ class Table:
         return all_actions
 
     def _read_actions(self, action: Any) -> list[int]:
-        actions = integers(action, len(self.mine), self.n_actions, alone=len(self.mine) == 1)
+        n = len(self.mine)
+        actions = integers(action, () if n == 1 else (n,), self.n_actions)
         if actions is None:
-            n = len(self.mine)
             what = "an integer" if n == 1 else f"{n} actions, integers"
             raise ActionError(f"expected {what} in 0..{self.n_actions - 1}, found `{action!r}`")
-        return actions
-
-
-def integers(value: Any, n: int, n_actions: int, *, alone: bool = False) -> list[int] | None:
-    """Reads n actions, where `alone` a single one without an axis; None where they are something else."""
-    try:
-        array = np.asarray(value)
-    except (ValueError, TypeError):
-        return None
-    if alone and array.ndim == 0:
-        array = array[None]
-    elif alone:
-        return None
-    if array.shape != (n,) or (n and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() >= n_actions)):
-        return None
-    actions: list[int] = array.astype(np.int64).tolist()
-    return actions
+        read: list[int] = actions.ravel().tolist()
+        return read
 
 
 def ask(seat: Seat, seen: Any, n: int) -> list[int]:
@@ -186,7 +154,7 @@ def ask(seat: Seat, seen: Any, n: int) -> list[int]:
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
         raise OpponentError(f"the opponent {_whose(seat)} {why}", slots=seat.agents, side=seat.side) from error
-    actions = integers(given, n, ACTION_SETS["v2"])
+    actions = integers(given, (n,), ACTION_SETS["v2"])
     if actions is None:
         found = given if seat.policy.batched or len(given) != 1 else given[0]
         what = f"{n} actions, integers" if seat.policy.batched else "an integer"
@@ -196,14 +164,16 @@ def ask(seat: Seat, seen: Any, n: int) -> list[int]:
             slots=seat.agents,
             side=seat.side,
         )
-    return actions
+    read: list[int] = actions.tolist()
+    return read
 
 
 def _whose(seat: Seat) -> str:
     return f"of {', '.join(f'`{agent}`' for agent in seat.agents)}"
 
 
-def _read(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opponent]:
+def read_opponents(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opponent]:
+    """Returns opponents, an empty mapping where there are none, or raises `ParameterError`."""
     if opponents is None:
         return {}
     if not isinstance(opponents, Mapping):
@@ -218,7 +188,7 @@ def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> d
     for who, opponent in opponents.items():
         if who in SIDES:
             at = [slot for slot, agent in enumerate(agents) if SIDES[agent.team] == who and agent.id not in opponents]
-            if not any(SIDES[agent.team] == who for agent in agents) and not _is_word(opponent):
+            if not any(SIDES[agent.team] == who for agent in agents) and not is_word(opponent):
                 raise ParameterError(
                     f"the {who} side has no agent that an opponent could play",
                     name="opponents",
@@ -279,25 +249,16 @@ class _Predictor:
         return self.predict(observation, deterministic=True)[0]
 
 
-def _ai(opponent: str | PathLike[str]) -> str:
-    """What stands behind `ai:`: a behaviour as it is, a script's file as one."""
-    if not _ends_with(opponent, ".rhai"):
-        return fspath(opponent)
-    path = Path(opponent).resolve().as_posix()
-    if '"' in path or "\n" in path:
-        raise ParameterError(f"a scenario can't name the path of the script: {path!r}", name="opponents")
-    return f'script "{path}"'
-
-
-def _is_word(opponent: object) -> TypeGuard[str | PathLike[str]]:
+def is_word(opponent: object) -> TypeGuard[str | PathLike[str]]:
     """Whether it is the bot, a behaviour or a script: the engine plays it."""
-    return _ends_with(opponent, ".rhai") or (isinstance(opponent, str) and not is_onnx(opponent))
+    return ends_with(opponent, ".rhai") or (isinstance(opponent, str) and not is_onnx(opponent))
 
 
 def is_onnx(opponent: object) -> TypeGuard[str | PathLike[str]]:
     """Whether it is the path of an ONNX file."""
-    return _ends_with(opponent, ".onnx")
+    return ends_with(opponent, ".onnx")
 
 
-def _ends_with(opponent: object, ending: str) -> bool:
+def ends_with(opponent: object, ending: str) -> bool:
+    """Whether it is the path of a file of a kind."""
     return isinstance(opponent, str | PathLike) and str(fspath(opponent)).endswith(ending)

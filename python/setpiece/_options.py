@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from operator import index
 from typing import Any
 
 import numpy as np
 
-from setpiece._errors import InUseError, ParameterError
+from setpiece._errors import ParameterError
 from setpiece._source import Source
 from setpiece._words import similar
 
@@ -90,15 +89,3 @@ def check_snapshot(snapshot: object) -> bytes:
     if isinstance(snapshot, bytes | bytearray | memoryview):
         return bytes(snapshot)
     raise ParameterError(f"expected a snapshot as bytes, found `{type(snapshot).__name__}`", name="snapshot")
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Raises `InUseError` where another thread is using the environment."""
-    try:
-        yield
-    except RuntimeError as error:
-        # The binding's word for a second thread.
-        if "borrowed" not in str(error):
-            raise
-        raise InUseError("another thread is using this environment: make one for each thread") from None

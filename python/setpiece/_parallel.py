@@ -14,10 +14,10 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
+from setpiece._actions import array_of, integers
 from setpiece._environment import FootballEnv
 from setpiece._errors import ActionError, ParameterError
 from setpiece._native import ACTION_SETS, Scenario
-from setpiece._opponents import integers
 from setpiece._options import RESET_OPTIONS
 from setpiece._record import Record
 from setpiece._rows import Picker, split_info
@@ -60,10 +60,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
                     name="scenario",
                     help='make it with `switching="fixed"`',
                 )
-        if max_cycles is not None:
-            counts = integers(max_cycles, 1, 2**31, alone=True)
-            if counts is None or counts == [0]:
-                raise ParameterError(f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles")
+        if max_cycles is not None and not integers(max_cycles, (), 2**31):
+            raise ParameterError(f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles")
         self.env = env
         env._same_agents = True
         self.max_cycles = max_cycles
@@ -121,8 +119,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         self._cycles = 0
         return self._begun(observation, info)
 
-    def step(self, actions: dict[str, int]) -> Step:
-        """Plays 100 ms; `actions` has one for each of `agents`.
+    def step(self, actions: dict[str, Any]) -> Step:
+        """Plays 100 ms; `actions` has one for each of `agents`: an integer, or with continuous actions four numbers.
 
         Raises `ActionError` for an action that is none, one too few or one too many; the episode is untouched then.
         """
@@ -133,7 +131,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         self._cycles += 1
         if self.max_cycles is not None and self._cycles >= self.max_cycles and not (terminated or truncated):
             truncated = True
-            info.update(self.env._cut("max_cycles"))
+            self.env._cut("max_cycles", info)
         infos = self._infos(info, acting)
         gone = self._gone()
         terminations = {agent: terminated or agent in gone for agent in acting}
@@ -222,24 +220,24 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         if self.env.action_set == "continuous":
             return self._steered(actions)
         given = {agent: actions.get(agent, int(Action.IDLE)) for agent in self.possible_agents}
-        joined = integers(list(given.values()), len(given), self._n_actions)
+        joined = integers(list(given.values()), (len(given),), self._n_actions)
         if joined is None:
-            joined = [self._read(agent, action) for agent, action in given.items()]
+            joined = np.array([self._read(agent, action) for agent, action in given.items()])
         return joined[0] if len(joined) == 1 else joined
 
     def _steered(self, actions: Mapping[str, Any]) -> Any:
         """Everyone's continuous action; the engine reads the numbers."""
         rows = []
         for agent in self.possible_agents:
-            row = np.asarray(actions.get(agent, STANDS))
-            if row.shape != (4,) or row.dtype.kind not in "fiu":
+            row = array_of(actions.get(agent, STANDS))
+            if row is None or row.shape != (4,) or row.dtype.kind not in "fiu":
                 raise ActionError(f"expected four numbers for `{agent}`, found `{actions[agent]!r}`")
             rows.append(row.astype(np.float32))
         return rows[0] if len(rows) == 1 else np.stack(rows)
 
     def _read(self, agent: str, action: Any) -> int:
         """One agent's action; says whose is wrong."""
-        read = integers(action, 1, self._n_actions, alone=True)
+        read = integers(action, (), self._n_actions)
         if read is None:
             raise ActionError(f"expected an integer in 0..{self._n_actions - 1} for `{agent}`, found `{action!r}`")
-        return read[0]
+        return int(read)

@@ -13,7 +13,7 @@ from setpiece._errors import MissingPackageError
 from setpiece._opponents import Opponent
 from setpiece._optional import need
 from setpiece._options import ParamValue
-from setpiece._record import Record, When
+from setpiece._record import When, read_record
 from setpiece._seats import Seats
 from setpiece._source import Source
 
@@ -90,7 +90,7 @@ def parallel_env(
         action_set=action_set,
         bot_action=bot_action,
     )
-    return ParallelFootballEnv(env, max_cycles, None if record is None else Record(record, record_when))
+    return ParallelFootballEnv(env, max_cycles, read_record(record, record_when))
 
 
 def register_pettingzoo() -> None:

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece._callbacks import Rewards
+from setpiece._casting import behaviors, revivable, scripted_scenario
 from setpiece._environment import FootballEnv
 from setpiece._errors import OpponentError, ParameterError
 from setpiece._native import ACTION_SETS
-from setpiece._opponents import SIDES, Opponent, Policy, Table, behaviors, is_onnx, revivable
+from setpiece._opponents import SIDES, Opponent, Policy, Table, is_onnx
 from setpiece._options import ParamValue
-from setpiece._seats import Seats, scripted_scenario
+from setpiece._seats import Seats
 from setpiece._source import Source
 
 Agent = Callable[[Any], Any] | Opponent

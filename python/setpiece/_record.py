@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from itertools import count
 from os import PathLike
 from pathlib import Path
@@ -52,13 +53,11 @@ class Record:
         if not wanted or native.episode is None:
             return None
         seed, index = native.episode
-        path = _free(self._folder / f"{name}_{seed}_{index}.pitchr")
         try:
             replay = native.replay()
         except ReplayError:
             return None
-        write(path, replay)
-        return str(path)
+        return str(_write_beside(self._folder / f"{name}_{seed}_{index}.pitchr", replay))
 
     def _wants(self, score: Sequence[int]) -> bool:
         if self._when == "goal":
@@ -66,24 +65,36 @@ class Record:
         return self._when == "always" or self._ended % int(self._when) == 0
 
 
-def _free(path: Path) -> Path:
-    """The path, or with a number behind its name where an episode of the same draw lies there already."""
-    names = (path.with_stem(f"{path.stem}_{number}") for number in count(2))
-    return next((other for other in names if not other.exists()), path) if path.exists() else path
-
-
 def write(path: Path, replay: bytes) -> None:
-    """Writes a replay and the folders it lies in."""
+    """Writes a replay and the folders it lies in; `FileError` where it can't."""
     make_folder(path.parent)
-    try:
+    with _writing(path):
         path.write_bytes(replay)
-    except OSError as error:
-        raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from None
 
 
 def make_folder(folder: Path) -> None:
     """Makes a folder and those it lies in, where they aren't there; `FileError` where it can't."""
-    try:
+    with _writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
+
+
+def _write_beside(path: Path, replay: bytes) -> Path:
+    """Writes a replay, with a number behind its name where one of the same draw lies there already; returns where."""
+    make_folder(path.parent)
+    free = path
+    for number in count(2):
+        # Whoever makes the file has the name: other threads and processes may write there too.
+        with _writing(free), suppress(FileExistsError), free.open("xb") as file:
+            file.write(replay)
+            break
+        free = path.with_stem(f"{path.stem}_{number}")
+    return free
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """Raises `FileError` where something can't be written."""
+    try:
+        yield
     except OSError as error:
-        raise FileError(f"`{folder}` can't be written: {error.strerror}", path=str(folder)) from None
+        raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from None

@@ -1,78 +1,8 @@
-"""Who plays: agents asked for instead of the scenario's, and behaviours in their place."""
+"""How agents are asked for, instead of those that the scenario seats."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
-
-from setpiece import _native
-from setpiece._errors import CompileError, ParameterError
-from setpiece._native import AgentInfo, Scenario
-from setpiece._opponents import BOT, SIDES, no_agent
-from setpiece._source import Source, load, name_of, path_of, text_of
+from collections.abc import Sequence
 
 Seats = int | str | Sequence[str] | None
 """How many agents play on a side: a count, `"all"`, the names of players, or None for what the scenario says."""
-
-
-def scripted_scenario(
-    scenario: Source,
-    ai: Mapping[str, str],
-    *,
-    params: Mapping[str, Any] | None = None,
-    left: Seats = None,
-    right: Seats = None,
-    switching: str | None = None,
-) -> Scenario:
-    """Returns a scenario whose players are played by behaviours.
-
-    - `ai`: by side or agent, who plays, as `ai:` of the language says it: `"lazy"`, `"marker(3m)"`. A side's plays its
-      players who have no `ai` of their own, an agent's the player that the agent keeps.
-    - `params`, `left`, `right`, `switching`: those of `setpiece.make`, which agents depend on.
-
-    Raises `ParameterError` for a behaviour that the scenario hasn't got, for an agent that isn't there or changes
-    players, and for a compiled scenario, which is as it is.
-    """
-    base = load(scenario)
-    if not ai:
-        return base
-    sides = {who: word for who, word in ai.items() if who in SIDES}
-    casting: list[tuple[int, int | None, str]] = [(SIDES.index(side), None, word) for side, word in sides.items()]
-    named = {who: word for who, word in ai.items() if who not in SIDES}
-    if named:
-        agents = _native.agents(base.with_params(**(params or {})), left=left, right=right, switching=switching)
-        casting += [one for who, word in named.items() if (one := _of_agent(who, word, agents, ai)) is not None]
-    words = ", ".join(f"`{word}`" for _, _, word in casting)
-    if isinstance(scenario, Scenario):
-        raise ParameterError(
-            f"a compiled scenario keeps who plays its players: {words} can't change them",
-            name="opponents",
-            help="give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text",
-        )
-    text = text_of(scenario)
-    try:
-        if text is None:
-            return _native.load_cast(path_of(scenario), casting)
-        return _native.compile_cast(text, name_of(scenario), casting)
-    except CompileError as error:
-        first = error.diagnostics[0]
-        message = f"`{base.name}` can't be played with {words}: {first.message}"
-        raise ParameterError(message, name="opponents", code=first.code, help=first.help) from None
-
-
-def _of_agent(
-    who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str, str]
-) -> tuple[int, int | None, str] | None:
-    """Whose `ai` an agent's opponent is; None for a bot that is there anyway."""
-    agent = next((agent for agent in agents if agent.id == who), None)
-    if agent is None:
-        raise no_agent(who, [agent.id for agent in agents])
-    if word == BOT and SIDES[agent.team] not in ai:
-        return None
-    if agent.place is None:
-        raise ParameterError(
-            f"`{word}` can't play `{who}`, who changes players: a behaviour plays one of them",
-            name="opponents",
-            help=f"let him keep his player (`switching='fixed'`), or give it the whole side: {SIDES[agent.team]!r}",
-        )
-    return agent.team, agent.place, word

@@ -15,12 +15,16 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from setpiece import _native
+from setpiece._actions import array_of
 from setpiece._callbacks import Rewards, reward_names
+from setpiece._casting import behaviors, revivable, scripted_scenario
 from setpiece._crowd import Crowd
-from setpiece._errors import ParameterError, UnavailableError
-from setpiece._opponents import Opponent, Table, behaviors, native_action_set, revivable
-from setpiece._options import ParamValue, check_keys, check_number, check_params, one_thread
-from setpiece._seats import Seats, scripted_scenario
+from setpiece._endings import endings
+from setpiece._errors import ActionError, ParameterError, UnavailableError
+from setpiece._opponents import Opponent, Table, native_action_set
+from setpiece._options import ParamValue, check_flag, check_keys, check_number, check_params
+from setpiece._rows import Picker
+from setpiece._seats import Seats
 from setpiece._source import Source
 from setpiece._spaces import (
     Layout,
@@ -32,6 +36,7 @@ from setpiece._spaces import (
     observation_layout,
     observation_space,
 )
+from setpiece._turn import Turn, one_thread
 
 ENVS_MAX = 65_536
 """Most environments of a vector."""
@@ -134,6 +139,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         # One agent of the caller's has no axis of its own; a run of them needs no copy.
         run = bool(mine) and mine == [*range(mine[0], mine[-1] + 1)]
         self._pick: Any = mine[0] if len(mine) == 1 else slice(mine[0], mine[-1] + 1) if run else mine
+        self._part = Picker(len(agents), mine[0] if len(mine) == 1 else mine)
         self.agents = tuple(agents[at].id for at in mine)
         self.single_observation_space = observation_space(self._batch, self._observation, [agents[at] for at in mine])
         self.single_action_space = action_space(len(mine), action_set)
@@ -141,8 +147,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._arrays = self._batch.arrays()
         self._view = self._of_agents(self._arrays.observations)
-        self._copy = copy
+        self._copy = check_flag("copy", copy)
         self._first_seed = None if seed is None else check_number("seed", seed)
+        self._turn = Turn()
         self._begun = False
         self._over = np.ones(self.num_envs, bool)
         self._marks = np.ones(self.num_envs, bool)
@@ -160,21 +167,21 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
         Raises `ParameterError` for other options, `DrawError` where no start meets the scenario's requirements.
         """
-        self._check_open()
-        mask, params, episode = self._read_options(options)
-        if seed is None and not self._begun:
-            seed = self._first_seed
-            if seed is None:
-                seed = int(self.np_random.integers(2**62))
-        seeds = self._seeds(seed)
-        super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
-        with one_thread():
-            if params is not None:
-                self._batch.bind(params)
-            self._batch.reset(self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False)
-        self._begun = True
-        self._over &= ~mask
-        return self._shown(), self._infos()
+        with self._turn:
+            mask, params, episode = self._read_options(options)
+            if seed is None and not self._begun:
+                seed = self._first_seed
+                if seed is None:
+                    seed = int(self.np_random.integers(2**62))
+            seeds = self._seeds(seed)
+            super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
+            with one_thread:
+                if params is not None:
+                    self._batch.bind(params)
+                self._batch.reset(self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False)
+            self._begun = True
+            self._over &= ~mask
+            return self._shown(), self._infos()
 
     def step(self, actions: Any) -> tuple[Any, Any, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Plays 100 ms of every match.
@@ -183,28 +190,32 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         nothing has been played then; `ScriptError` where a script of the scenario fails: its episode has ended, the
         others have been played.
         """
-        self._check_open()
-        if not self._begun:
-            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
-        if self._over.any() and self.autoreset_mode == AutoresetMode.DISABLED:
-            at = int(np.flatnonzero(self._over)[0])
-            raise gymnasium.error.ResetNeeded(
-                f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
-            )
-        with one_thread():
-            if self._crowd is not None:
-                actions = self._crowd.actions(actions, self._arrays.observations, self._batch.look)
-            self._batch.step(self._arrays, actions)
-        over = self._arrays.terminated | self._arrays.truncated
-        infos = self._infos()
-        if over.any():
-            self._tell(infos, over)
-            if self.autoreset_mode == AutoresetMode.SAME_STEP:
-                infos = self._begin_again(infos, over)
-                self._over[:] = False
-                return self._shown(), *self._outcomes(), infos
-        self._over = over
-        return self._shown(), *self._outcomes(), infos
+        with self._turn:
+            if not self._begun:
+                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+            if self._over.any() and self.autoreset_mode == AutoresetMode.DISABLED:
+                at = int(np.flatnonzero(self._over)[0])
+                raise gymnasium.error.ResetNeeded(
+                    f"the episode of environment {at} has ended: call `reset(options={{'reset_mask': …}})`"
+                )
+            actions = self._read(actions)
+            with one_thread:
+                self._batch.step(self._arrays, actions)
+            over = self._arrays.terminated | self._arrays.truncated
+            infos = self._infos()
+            if over.any():
+                self._tell(infos, over)
+                if self.autoreset_mode == AutoresetMode.SAME_STEP:
+                    infos = self._begin_again(infos, over)
+                    self._over[:] = False
+                    return self._shown(), *self._outcomes(), infos
+            self._over = over
+            return self._shown(), *self._outcomes(), infos
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """Ends them: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
+        self._turn.closed = True
+        super().close_extras(**kwargs)
 
     @property
     def observation_layout(self) -> Layout:
@@ -222,6 +233,20 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             return None
         return tuple(self._batch.drawing(at) for at in range(self.num_envs))
 
+    def _read(self, given: Any) -> NDArray[Any]:
+        """Everyone's actions: the caller's, and what opponents say; the batch reads the numbers."""
+        if self._crowd is not None:
+            return self._crowd.actions(given, self._arrays.observations, self._look)
+        actions = array_of(given)
+        if actions is None:
+            raise ActionError(f"expected actions of shape {self.action_space.shape}, found `{given!r}`")
+        return actions
+
+    def _look(self, observation: str) -> list[Any]:
+        """Observes each match in another observation."""
+        with one_thread:
+            return self._batch.look(observation)
+
     def _begin_again(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> dict[str, Any]:
         """Begins the next episode of those that have ended, and puts the end of the last into `final_obs`."""
         final = {key: value.copy() if isinstance(value, np.ndarray) else value for key, value in infos.items()}
@@ -229,7 +254,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         last = np.full(self.num_envs, None, dtype=object)
         for at in np.flatnonzero(over):
             last[at] = self._of_agents(self._arrays.observations)[at].copy()
-        with one_thread():
+        with one_thread:
             none = [None] * self.num_envs
             self._batch.reset(self._arrays, over.tolist(), none, none, True)
         fresh = self._infos()
@@ -238,37 +263,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _tell(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> None:
         """Adds how episodes have ended."""
-        outcomes = np.full(self.num_envs, None, dtype=object)
-        summaries: dict[str, Any] = {"return": {}}
-        records: dict[str, Any] = {}
-        for at in np.flatnonzero(over):
-            summary = self._batch.summary(int(at))
-            if summary is None:
-                continue
-            outcomes[at] = summary.pop("outcome")
-            for name, value in summary.pop("records").items():
-                number = value is None or isinstance(value, float)
-                column = np.full(self.num_envs, np.nan if number else None, float if number else object)
-                records.setdefault(name, column)[at] = np.nan if value is None else self._of_record(value)
-            paid = np.array(summary.pop("return"), np.float64).reshape(len(self._batch.agents), len(self._terms))
-            paid = paid[self._pick]
-            for term, name in enumerate(self._terms):
-                column = np.zeros((self.num_envs, *paid.shape[:-1]))
-                summaries["return"].setdefault(name, column)[at] = paid[..., term]
-            for key, value in summary.items():
-                dtype = object if isinstance(value, str) else np.uint64 if key in ("seed", "index") else None
-                column = np.full(self.num_envs, None if dtype is object else 0, dtype or np.array(value).dtype)
-                summaries.setdefault(key, column)[at] = value
-        summaries["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
-        for key, told in (("outcome", outcomes), ("records", records), ("setpiece", summaries)):
-            infos[key], infos[f"_{key}"] = told, over.copy()
-
-    def _of_record(self, value: Any) -> Any:
-        """The caller's part of what a record says: with several agents a list has a part for each."""
-        if not isinstance(value, list):
-            return value
-        part = np.fromiter(value, object, len(value))[self._pick]
-        return part if isinstance(self._pick, int) else [*part]
+        told = endings(self._batch, over, self._part, self._n_actions)
+        told["setpiece"]["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
+        for key, value in told.items():
+            infos[key], infos[f"_{key}"] = value, over.copy()
 
     def _infos(self) -> dict[str, Any]:
         marks = self._marks
@@ -293,10 +291,6 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
         """The part of the caller's agents, without their axis where there is one."""
         return array[:, self._pick]
-
-    def _check_open(self) -> None:
-        if self.closed:
-            raise gymnasium.error.ClosedEnvironmentError("the environments are closed: make others")
 
     def _read_options(
         self, options: dict[str, Any] | None

@@ -12,7 +12,6 @@ PPO("MlpPolicy", envs).learn(100_000)
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from copy import deepcopy
 from typing import Any
 
 import gymnasium
@@ -20,12 +19,12 @@ import numpy as np
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 from numpy.typing import NDArray
 
-from setpiece._callbacks import read_rewards
+from setpiece._callbacks import copied, read_rewards
+from setpiece._casting import behaviors
 from setpiece._environment import FootballEnv
 from setpiece._errors import ParameterError
 from setpiece._make import make
 from setpiece._native import Scenario
-from setpiece._opponents import behaviors
 from setpiece._optional import need
 from setpiece._source import Source, load
 from setpiece._vector import make_vec as make_batch
@@ -168,7 +167,8 @@ def make_vec(
     each has rewards and endings of its own, copies of those given.
 
     Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
-    `ParameterError` for a scenario that leaves the caller none or several, and else what `setpiece.make` does.
+    `ParameterError` for a scenario that leaves the caller none or several, `CallbackError` for a reward or ending that
+    can't be copied, and else what `setpiece.make` does.
     """
     if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
         raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
@@ -191,7 +191,8 @@ def make_vec(
 
 def _alone(scenario: Source, kwargs: dict[str, Any]) -> FootballEnv:
     # What rewards and endings remember belongs to one environment.
-    own = {name: deepcopy(kwargs[name]) for name in ("rewards", "ends") if name in kwargs}
+    memo: dict[int, Any] = {}
+    own = {name: copied(kwargs[name], memo) for name in ("rewards", "ends") if name in kwargs}
     env = make(scenario, **(kwargs | own))
     _check_one(env.agents, env.scenario)
     return env

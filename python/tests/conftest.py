@@ -2,6 +2,7 @@ import random
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 import gymnasium
@@ -80,3 +81,27 @@ class Counter:
     def __call__(self, _step: Step) -> float:
         self.steps += 1
         return float(self.steps)
+
+
+class Tracker:
+    """A reward and an ending that remember the same: the episode ends when three steps have been paid for."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+
+    def paid(self, _step: Step) -> float:
+        self.steps += 1
+        return 0.0
+
+    def tired(self, _step: Step) -> bool:
+        return self.steps == 3
+
+
+class Locked:
+    """A reward that holds what can't be copied."""
+
+    def __init__(self) -> None:
+        self.lock = Lock()
+
+    def __call__(self, _step: Step) -> float:
+        return 0.0

@@ -8,7 +8,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from conftest import Counter, play, same
+from conftest import Counter, Locked, Tracker, play, same
 from gymnasium.utils.env_checker import check_env
 
 import setpiece
@@ -281,6 +281,44 @@ def test_clones_and_pickles_go_on_with_their_functions() -> None:
     assert ends[0][1]["setpiece"]["return"]["kept"] == 2.5
 
 
+@pytest.mark.parametrize("copied", [setpiece.FootballEnv.clone, lambda env: pickle.loads(pickle.dumps(env))])
+@pytest.mark.parametrize("began", [False, True])
+@pytest.mark.parametrize(
+    ("options", "terms"),
+    [
+        ({"ends": never}, ["time/step"]),
+        ({"ends": never, "rewards": "none"}, []),
+        ({"ends": never, "rewards": [kept]}, ["time/step", "kept"]),
+        ({"rewards": [kept]}, ["time/step", "kept"]),
+        ({"rewards": ["none", kept]}, ["kept"]),
+    ],
+)
+def test_a_copy_is_paid_by_the_same_rewards(
+    options: dict[str, Any], terms: list[str], began: bool, copied: Callable[[Any], Any]
+) -> None:
+    env = setpiece.make(TEN, **options)
+    if began:
+        env.reset(seed=1)
+    copy = copied(env)
+    if not began:
+        copy.reset(seed=1)
+    assert list(copy.step(Action.RIGHT)[4]["reward_terms"]) == terms
+
+
+def test_what_rewards_and_endings_share_their_copies_share() -> None:
+    tracker = Tracker()
+    env = setpiece.make(TEN, rewards=tracker.paid, ends=tracker.tired)
+    for each in (env.clone(), pickle.loads(pickle.dumps(env)), env):
+        assert [step[4].get("outcome") for step in play(each, 1, right)] == [None, None, None, None, "tired"]
+
+
+def test_a_function_that_can_not_be_copied_is_named() -> None:
+    env = setpiece.make(TEN, rewards=Locked())
+    with pytest.raises(setpiece.CallbackError, match="`Locked` can't be copied: TypeError: cannot pickle") as failed:
+        env.clone()
+    assert (failed.value.function, failed.value.agent) == ("Locked", None)
+
+
 def test_a_restored_episode_is_paid_from_there() -> None:
     env = setpiece.make(TEN, rewards=["none", forward])
     env.reset(seed=1)
@@ -363,6 +401,16 @@ class AtReset(Meddler):
 
     def __call__(self, seen: Any) -> int:
         return 0 if seen is not None else super().__call__(seen)
+
+
+@pytest.mark.parametrize("what", [AtReset, Meddler])
+def test_who_judges_a_step_can_close_the_environment(what: type[Meddler]) -> None:
+    meddler = what("close")
+    env = setpiece.make(TEN, rewards=meddler)
+    env.reset(seed=1)
+    meddler.env = env
+    with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+        play(env, 1, right)
 
 
 @pytest.mark.parametrize("call", ["reset", "step", "restore"])

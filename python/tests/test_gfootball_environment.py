@@ -10,7 +10,7 @@ import pytest
 from conftest import same
 
 import setpiece
-from setpiece import ActionError, ParameterError, SnapshotError, UnavailableError, UnknownScenarioError
+from setpiece import ActionError, CompileError, ParameterError, SnapshotError, UnavailableError, UnknownScenarioError
 from setpiece.gfootball.env import create_environment, create_remote_environment
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env.config import Config
@@ -364,18 +364,37 @@ def test_a_state_of_something_else_is_refused() -> None:
         with pytest.raises(SnapshotError):
             env.set_state(state)
         assert env.get_state() == before
-    for part in ("agents", "source", "snapshot", "played", "waiting"):
-        for damage in (None, "x", 7):
-            state = pickle.loads(before)
-            if damage is None:
-                del state["core"][part]
-            elif part not in ("waiting",):
-                state["core"][part] = damage
-            else:
-                continue
-            with pytest.raises(SnapshotError):
-                env.set_state(pickle.dumps(state))
-            assert env.get_state() == before
+
+
+PARTS = ("agents", "source", "played", "snapshot", "waiting", "step_count", "cumulative_reward", "done")
+
+
+@pytest.mark.parametrize("damage", ["gone", "x", [7]])
+@pytest.mark.parametrize("part", PARTS)
+def test_a_damaged_state_is_refused(part: str, damage: Any) -> None:
+    env = make()
+    env.reset()
+    before = env.get_state()
+    state = pickle.loads(before)
+    if damage == "gone":
+        del state["core"][part]
+    else:
+        state["core"][part] = damage
+    with pytest.raises(SnapshotError):
+        env.set_state(pickle.dumps(state))
+    assert env.get_state() == before
+
+
+def test_a_source_that_can_not_be_read_is_not_taken_for_damage() -> None:
+    env = make()
+    env.reset()
+    before = env.get_state()
+    state = pickle.loads(before)
+    name, _, folder = state["core"]["source"]
+    state["core"]["source"] = name, "scenario {", folder
+    with pytest.raises(CompileError):
+        env.set_state(pickle.dumps(state))
+    assert env.get_state() == before
 
 
 def test_observation_shows_without_playing() -> None:

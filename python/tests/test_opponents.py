@@ -185,6 +185,20 @@ def test_behaviours_play_a_side(pitch_file: PitchFile) -> None:
         setpiece.make(setpiece.load(path), opponents={"right": "chaser"})
 
 
+def test_a_behaviour_that_is_not_there_is_named_before_what_the_text_is_warned_of() -> None:
+    warned = MARKED.replace("extends academy {", "extends academy {\n    param unused = 3 in 1..5")
+    warnings = setpiece.load(warned).warnings
+    with pytest.raises(setpiece.ParameterError, match="can't be played with `chase`: no player's `ai` is") as caught:
+        setpiece.make(warned, opponents={"right": "chase"})
+    assert warnings
+    assert caught.value.code not in [warning.code for warning in warnings]
+
+
+def test_a_text_with_errors_of_its_own_tells_of_these() -> None:
+    with pytest.raises(setpiece.CompileError, match="CFF"):
+        setpiece.make(MARKED.replace("dora: CB", "dora: CFF"), opponents={"right": "chaser"})
+
+
 def moved(env: Any, side: str = "right_team", steps: int = 20) -> list[bool]:
     """Who of a side runs while the caller idles."""
     first, _ = env.reset(seed=1)

@@ -203,7 +203,7 @@ def test_continuous_actions_are_those_of_an_environment() -> None:
         expected = single.step(acts)[0]
         assert np.array_equal(np.stack([*seen.values()]), expected)
     first, second = env.agents
-    for wrong in (3, [0.0] * 3, "run", np.zeros(4, bool)):
+    for wrong in (3, [0.0] * 3, "run", np.zeros(4, bool), [[0.0], [0.0, 0.0]]):
         with pytest.raises(ActionError, match=f"four numbers for `{second}`"):
             env.step({first: acts[0], second: wrong})
     with pytest.raises(ActionError):

@@ -2,6 +2,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import gymnasium
 import pytest
 
 import setpiece
@@ -95,44 +96,47 @@ def test_only_files_can_be_watched() -> None:
         setpiece.make(setpiece.load("academy_corner"), watch=True)
 
 
+def scripted(pay: str, limit: int = 400) -> str:
+    return f"""
+        scenario followed extends academy {{
+            ball at (0.5, 0)
+            team left {{ GK  CM at (0.4, 0) }}
+            reward script rhai \"\"\"
+                fn reward(ctx, now, prev, events) {{ this.n = (this.n ?? 0) + 1; {pay} }}
+            \"\"\"
+            end limit {limit} steps
+        }}
+    """
+
+
+def step_until(env: setpiece.FootballEnv, noticed: Callable[[], bool]) -> float:
+    """Steps until a change has been noticed; returns the last reward."""
+    for _ in range(600):
+        reward = env.step(0)[1]
+        if noticed():
+            return float(reward)
+        time.sleep(0.01)
+    raise AssertionError("the change was never noticed")
+
+
 def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Path]) -> None:
-    def text(pay: str, limit: int = 400) -> str:
-        return f"""
-            scenario followed extends academy {{
-                ball at (0.5, 0)
-                team left {{ GK  CM at (0.4, 0) }}
-                reward script rhai \"\"\"
-                    fn reward(ctx, now, prev, events) {{ this.n = (this.n ?? 0) + 1; {pay} }}
-                \"\"\"
-                end limit {limit} steps
-            }}
-        """
-
-    def steps(done: Callable[[], bool]) -> float:
-        for _ in range(600):
-            reward = env.step(0)[1]
-            if done():
-                return float(reward)
-            time.sleep(0.01)
-        raise AssertionError("the change was never noticed")
-
-    path = pitch_file(text("1.0"))
+    path = pitch_file(scripted("1.0"))
     env = setpiece.make(path, watch="now")
     first = env.reset(seed=1)[1]["scenario"]
     assert env.step(0)[1] == 1.0
     # Only the script is another: it goes on with its memory, in this episode.
-    path.write_text(text("100.0 + this.n"))
-    assert steps(lambda: env.last_reload is not None) > 101.0
+    path.write_text(scripted("100.0 + this.n"))
+    assert step_until(env, lambda: env.last_reload is not None) > 101.0
     assert env.last_reload is not None
     assert env.last_reload.state == "applied"
     assert env.scenario.digest != first
     with pytest.raises(setpiece.ReplayError, match="changed scripts"):
         env.save_replay(path.with_suffix(".pitchr"))
     # A broken script is told at once, and the last good one goes on.
-    path.write_text(text("100.0 +"))
-    assert steps(lambda: env.last_reload is not None and env.last_reload.state == "broken") > 101.0
+    path.write_text(scripted("100.0 +"))
+    assert step_until(env, lambda: env.last_reload is not None and env.last_reload.state == "broken") > 101.0
     # Anything else waits for the next episode.
-    path.write_text(text("5.0", limit=7))
+    path.write_text(scripted("5.0", limit=7))
     for _ in range(30):
         assert env.step(0)[1] > 101.0
         time.sleep(0.01)
@@ -157,4 +161,30 @@ def test_an_on_reload_that_fails_is_told_and_loses_nothing(pitch_file: Callable[
     with pytest.raises(setpiece.CallbackError, match="`fails` failed: ValueError: a full disk"):
         wait_for_reload(env, None)
     assert [reload.state for reload in told] == ["applied"]
+    assert length(env) == 7
+
+
+def test_an_on_reload_that_fails_in_a_step_ends_the_episode(pitch_file: Callable[[str], Path]) -> None:
+    def fails(_reload: setpiece.Reload) -> None:
+        raise ValueError("a full disk")
+
+    path = pitch_file(scripted("1.0"))
+    env = setpiece.make(path, watch="now", on_reload=fails)
+    env.reset(seed=1)
+    path.write_text(scripted("2.0"))
+    with pytest.raises(setpiece.CallbackError, match="a full disk"):
+        step_until(env, lambda: False)
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(0)
+    env.reset()
+    assert env.step(0)[1] == 2.0, "the change has been taken over"
+
+
+def test_an_on_reload_can_not_play_the_environment_that_tells_it(pitch_file: Callable[[str], Path]) -> None:
+    path = pitch_file(SHOT.replace("LIMIT", "5"))
+    env = setpiece.make(path, watch=True, on_reload=lambda _: env.reset())
+    env.reset(seed=1)
+    save(path, SHOT.replace("LIMIT", "7"))
+    with pytest.raises(setpiece.CallbackError, match="InUseError"):
+        wait_for_reload(env, None)
     assert length(env) == 7

@@ -1,7 +1,9 @@
 """Episodes are recorded, and played again by the command."""
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 from typing import Any
 
 import numpy as np
@@ -51,6 +53,21 @@ def test_actions_of_numbers_and_opponents_are_recorded(tmp_path: Path, capfd: py
     rival = setpiece.make(THREE, right=1, opponents={"right": lambda _: int(rng.integers(20))}, record=tmp_path)
     end = play(rival, 6)[-1][4]["setpiece"]
     assert end["digest"] in replayed(end["replay"], capfd)
+
+
+def test_threads_that_record_the_same_draw_into_one_folder_lose_none(tmp_path: Path) -> None:
+    together = Barrier(4)
+
+    def episodes() -> list[str]:
+        env = setpiece.make(CLOSE, record=tmp_path, ends=lambda _: True)
+        together.wait()
+        return [play(env, 1)[-1][4]["setpiece"]["replay"] for _ in range(25)]
+
+    with ThreadPoolExecutor(4) as threads:
+        runs = [threads.submit(episodes) for _ in range(4)]
+    paths = [path for run in runs for path in run.result()]
+    assert len(set(paths)) == 100
+    assert all(setpiece.Replay(path).length == 1 for path in paths)
 
 
 def test_which_episodes_are_recorded(tmp_path: Path) -> None:
@@ -126,6 +143,8 @@ def test_a_parallel_environment_records_as_a_single_one(tmp_path: Path, capfd: p
     assert [path is not None for path in paths] == [True, False, False, True]
     with pytest.raises(setpiece.ParameterError, match="`record_when` is 'never'"):
         setpiece.parallel_env(CLOSE, record=tmp_path, record_when="never")  # type: ignore[arg-type]
+    with pytest.raises(setpiece.ParameterError, match="needs a folder"):
+        setpiece.parallel_env(CLOSE, record_when="goal")
 
 
 def test_an_episode_that_max_cycles_end_is_recorded(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -134,6 +153,18 @@ def test_an_episode_that_max_cycles_end_is_recorded(tmp_path: Path, capfd: pytes
     assert "max_cycles after 4 steps" in replayed(infos[env.possible_agents[0]]["setpiece"]["replay"], capfd)
     env.save_replay(tmp_path / "again.pitchr")
     assert (tmp_path / "again.pitchr").read_bytes() == (tmp_path / f"{FULL}_3_0.pitchr").read_bytes()
+
+
+def test_an_environment_that_records_does_so_where_max_cycles_end_it(tmp_path: Path) -> None:
+    pytest.importorskip("pettingzoo")
+    from setpiece._parallel import ParallelFootballEnv
+
+    env = ParallelFootballEnv(setpiece.make(FULL, left=2, switching="fixed", record=tmp_path), max_cycles=2)
+    env.reset(seed=1)
+    for _ in range(2):
+        infos = env.step(dict.fromkeys(env.agents, 0))[-1]
+    for info in infos.values():
+        assert setpiece.Replay(info["setpiece"]["replay"]).length == 2
 
 
 def test_a_vector_says_that_it_records_nothing(tmp_path: Path) -> None:

@@ -218,5 +218,8 @@ def test_what_is_closed_stays_closed() -> None:
     env.reset(seed=1)
     snapshot = env.snapshot()
     env.close()
-    with pytest.raises(gymnasium.error.ClosedEnvironmentError):
-        env.restore(snapshot)
+    for closed in (env, env.clone(), pickle.loads(pickle.dumps(env))):
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+            closed.restore(snapshot)
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+            closed.reset()

@@ -1,5 +1,6 @@
 """Many matches at once: a vector plays what as many single environments would."""
 
+from collections.abc import Callable
 from typing import Any
 
 import gymnasium
@@ -66,7 +67,7 @@ def test_an_opponent_that_fails_leaves_a_vector_as_it_is() -> None:
     with pytest.raises(setpiece.OpponentError, match=r"expected 8 actions, integers in 0\.\.19") as caught:
         envs.step(np.zeros(4, int))
     assert caught.value.side == "right"
-    for wrong in (np.zeros(3, int), np.zeros(4), np.full(4, 19), [0, 0, 0, -1]):
+    for wrong in (np.zeros(3, int), np.zeros(4), np.full(4, 19), [0, 0, 0, -1], [[0], [0, 0], 0, 0]):
         with pytest.raises(setpiece.ActionError):
             envs.step(wrong)
     assert same(before, envs._shown())
@@ -74,6 +75,30 @@ def test_an_opponent_that_fails_leaves_a_vector_as_it_is() -> None:
     assert asked == [8, 8]
     with pytest.raises(setpiece.ParameterError, match="leave the caller no agent"):
         setpiece.make_vec(THREE, 2, opponents={"left": "bot"})
+
+
+def test_an_opponent_can_not_play_the_vector_that_asks_it() -> None:
+    def meddles(observations: Any) -> list[int]:
+        calls.pop()()
+        return [0] * len(observations)
+
+    envs = setpiece.make_vec(THREE, 2, right=1, opponents={"right": setpiece.Policy(meddles)})
+    calls: list[Callable[[], object]] = [int, lambda: envs.reset(seed=2), lambda: envs.step([0, 0])]
+    envs.reset(seed=1)
+    for _ in range(2):
+        with pytest.raises(setpiece.OpponentError, match="InUseError: this environment is in the middle of a step"):
+            envs.step([0, 0])
+    envs.step([0, 0])
+
+
+def test_an_opponents_own_words_are_not_taken_for_a_second_thread() -> None:
+    def fails(_observations: Any) -> Any:
+        raise ValueError("a borrowed model")
+
+    envs = setpiece.make_vec(THREE, 2, right=1, opponents={"right": setpiece.Policy(fails)})
+    envs.reset(seed=1)
+    with pytest.raises(setpiece.OpponentError, match="a borrowed model"):
+        envs.step([0, 0])
 
 
 def test_records_are_told_by_environment() -> None:
@@ -95,6 +120,8 @@ def test_records_are_told_by_environment() -> None:
         for _ in range(5):
             infos = envs.step(np.zeros(envs.action_space.shape, int))[-1]
         assert infos["_records"].all()
+        assert infos["records"]["way"].dtype == np.float64
+        assert infos["records"]["mine"].dtype == (object if opponents is None else np.float64)
         for at in range(2):
             env = setpiece.make(text, opponents=opponents)
             env.reset(seed=1 + at)
@@ -104,7 +131,7 @@ def test_records_are_told_by_environment() -> None:
             assert own["unknown"] is None
             assert np.isnan(infos["records"]["unknown"][at])
             assert infos["records"]["way"][at] == own["way"]
-            assert same(infos["records"]["mine"][at], own["mine"])
+            assert same(infos["records"]["mine"].tolist()[at], own["mine"])
             assert same(infos["records"]["places"][at], own["places"])
 
 
@@ -261,7 +288,7 @@ def test_what_is_wrong_is_named_and_nothing_is_played() -> None:
     envs.reset(seed=1)
     other = setpiece.make_vec(THREE, 3)
     other.reset(seed=1)
-    for wrong in ([0, 0], [0, 0, 19], np.zeros(3), [0, -1, 0], "abc", None, [[0, 0, 0], [0, 0, 0]]):
+    for wrong in ([0, 0], [0, 0, 19], np.zeros(3), [0, -1, 0], "abc", None, [[0, 0, 0], [0, 0, 0]], [[0], [0, 0], 0]):
         with pytest.raises(setpiece.ActionError):
             envs.step(wrong)
     assert np.array_equal(envs.step([1, 2, 3])[0], other.step(np.array([1, 2, 3]))[0])
@@ -273,6 +300,7 @@ def test_what_is_wrong_is_named_and_nothing_is_played() -> None:
         ({"observation": "raw"}, "dicts"),
         ({"observation": "vector"}, "declares no observation"),
         ({"stack": 0}, "`stack` is 0"),
+        ({"copy": "no"}, "expected True or False as `copy`"),
         ({"size": (0, 3)}, "`size` is"),
         ({"left": 77}, "77 agents on the left side"),
     ]:

@@ -4,7 +4,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from conftest import Counter, same
+from conftest import Counter, Locked, Tracker, same
 
 import setpiece
 from setpiece import Action
@@ -231,6 +231,16 @@ def test_each_environment_has_rewards_of_its_own() -> None:
     vec.reset()
     for step in range(1, 4):
         assert vec.step(np.zeros(3, int))[1].tolist() == [step] * 3
+
+
+def test_rewards_and_endings_of_an_environment_share_what_they_shared() -> None:
+    tracker = Tracker()
+    vec = make_vec("5_vs_5", 2, rewards=tracker.paid, ends=tracker.tired, seed=0)
+    vec.reset()
+    dones = [vec.step(np.zeros(2, int))[2].tolist() for _ in range(4)]
+    assert dones == [[False, False]] * 3 + [[True, True]]
+    with pytest.raises(setpiece.CallbackError, match="`Locked` can't be copied"):
+        make_vec("5_vs_5", 2, rewards=Locked())
 
 
 def test_opponents_play_in_a_batch() -> None:

@@ -141,8 +141,6 @@ class Config:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Config) and self.get_dictionary() == other.get_dictionary()
 
-    __hash__ = None  # type: ignore[assignment]
-
     def serialize(self) -> dict[str, Any]:
         """Returns the settings without those of this episode."""
         return dict(self._values)

@@ -14,7 +14,7 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from setpiece._errors import ParameterError, SnapshotError
+from setpiece._errors import ParameterError, SetpieceError, SnapshotError
 from setpiece._words import similar
 from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env._old_gym import Stepped, refuse_seed
@@ -118,7 +118,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Goes on in a state of `get_state` and returns what wrappers had put into it.
 
         Unpickling runs what the bytes say: set states that you trust. Raises `SnapshotError` for anything but a state
-        of the same level and numbers of players, and nothing has changed then.
+        of the same level and numbers of players, and what compiling does where its source can't be read; nothing has
+        changed then.
         """
         try:
             read = pickle.loads(state)
@@ -129,9 +130,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             raise SnapshotError(f"the state is one of `{level}`, not of `{self._config['level']}`")
         try:
             self._core.set_state(core)
-        except SnapshotError:
+        except SetpieceError:
             raise
-        except Exception as error:
+        except (TypeError, ValueError, LookupError) as error:
             raise SnapshotError(f"the state is damaged: {error}") from error
         kept: dict[str, Any] = wrappers
         return kept

@@ -28,6 +28,9 @@ STALLED = 20
 TURNING = 30
 """Steps after which its taker is sent the other way."""
 
+_KINDS = {"snapshot": bytes, "waiting": int, "step_count": int, "cumulative_reward": float, "done": bool}
+"""What parts of a state are that are taken as they are."""
+
 # Where GRF thinks that the players of a team stand, by place in the team, when it deals out the slots of the first
 # observation: to whoever is nearest the centre spot.
 _TEMPLATE = (
@@ -111,10 +114,15 @@ class FootballEnvCore:
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Goes on from a state; `SnapshotError` for one of other slots or another scenario, and nothing has changed."""
+        """Goes on from a state; `SnapshotError` for one of other slots or another scenario, and nothing has changed.
+
+        Damage raises it too, or a `TypeError`, `ValueError` or `LookupError`.
+        """
         if tuple(state["agents"]) != self._asked:
             raise SnapshotError(f"the state has {state['agents']} played players, this environment {self._asked}")
-        counts = state["waiting"], state["step_count"], state["cumulative_reward"], state["done"]
+        for part, kind in _KINDS.items():
+            if not isinstance(state[part], kind):
+                raise SnapshotError(f"the state is damaged: its `{part}` is {state[part]!r}")
         source = Source(*state["source"])
         if self._source is None or source.name != self._source.name:
             raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
@@ -126,7 +134,8 @@ class FootballEnvCore:
         except Exception:
             self._env, self._source, self._limit, self._played = before
             raise
-        self.waiting, self.step_count, self.cumulative_reward, self.done = counts
+        self.waiting, self.step_count = state["waiting"], state["step_count"]
+        self.cumulative_reward, self.done = state["cumulative_reward"], state["done"]
         self._see(observed, info)
 
     def _enter(self, source: Source, limit: int | None, played: tuple[int, int]) -> None:

@@ -17,8 +17,7 @@ const SCENARIOS: [&str; 3] = ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
-    /// Scenarios of the library, .pitch or .pitchc files [default: 11_vs_11_stochastic, academy_3_vs_1_with_keeper,
-    /// academy_empty_goal_close]
+    /// Scenarios of the library, .pitch or .pitchc files [default: a match of eleven, one of four and one of one]
     #[arg(value_name = "SCENARIO")]
     scenarios: Vec<String>,
     /// Threads; several numbers with commas between them [default: 1 and one per core]

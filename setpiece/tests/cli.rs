@@ -506,3 +506,29 @@ fn a_snapshot_is_taken_and_begun_from() {
     );
     fails(&["snapshot", "5_vs_5", "-o", "over.pitch"], 1, &["ends in .pitchc, a snapshot in .pitchs"]);
 }
+
+#[test]
+fn a_bench_tells_its_figures_and_compares_them() {
+    let folder = folder();
+    let quick = ["academy_empty_goal_close", "--seconds", "0.05", "--matches", "4"];
+    let told = setpiece(&[&["bench"][..], &quick, &["--threads", "1,2", "--format", "jsonl"]].concat());
+    assert!(told.status.success(), "{}", text(&told.stderr));
+    let lines: Vec<serde_json::Value> =
+        text(&told.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let threads: Vec<u64> = lines.iter().map(|line| line["threads"].as_u64().unwrap()).collect();
+    assert_eq!(threads, [1, 2]);
+    for line in &lines {
+        assert!(line["steps_per_second"].as_f64().unwrap() > 0.0, "{line}");
+        assert!(line["resets_per_step"].as_f64().unwrap() > 0.0, "{line}");
+    }
+    let phases = lines[0]["microseconds"].as_object().unwrap();
+    assert!(phases["bots"].as_f64().unwrap() > 0.0 && phases["draw"].as_f64().unwrap() > 0.0, "{phases:?}");
+    let before = write(folder.path(), "before.jsonl", told.stdout.as_slice());
+    let table = setpiece(&[&["bench"][..], &quick, &["--threads", "1", "--against", &before]].concat());
+    let table = text(&table.stdout);
+    assert!(table.contains("ratio") && table.contains("µs a step"), "{table}");
+    let wrong = write(folder.path(), "wrong.jsonl", "{}");
+    fails(&["bench", "--against", &wrong], 1, &["SP0001", "no table of `setpiece bench --format jsonl`"]);
+    fails(&["bench", "nowhere"], 1, &["SP0005", "nowhere"]);
+    fails(&["bench", "--seconds", "never"], 2, &["0.01 to 3600"]);
+}

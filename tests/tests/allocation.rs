@@ -72,3 +72,23 @@ fn behaviors_allocate_nothing() {
     let (played, allocated) = steps_of(loaded.scenario, 3);
     assert!(played > 500 && allocated * 50 < played, "{allocated} of {played}");
 }
+
+/// What a batch needs for each further match of eleven a side: the environment itself and all that it owns alone.
+#[test]
+fn a_further_match_takes_at_most_32_kib() {
+    let scenario = setpiece::load("11_vs_11_stochastic").unwrap().scenario;
+    let mut first = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+    first.reset(Some(1), None).unwrap();
+    let mut scratch = Scratch::default();
+    let mut another = None;
+    let counted = allocation_counter::measure(|| {
+        let mut environment = first.clone();
+        environment.reset(Some(2), None).unwrap();
+        for _ in 0..200 {
+            environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+        }
+        another = Some(environment);
+    });
+    let bytes = counted.bytes_current as usize + std::mem::size_of::<Environment>();
+    assert!(another.is_some() && bytes <= 32 * 1024, "{bytes} bytes");
+}

@@ -23,7 +23,7 @@ const CHEST_M: f32 = 1.25;
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
 /// Whom an agent drives minds a line until he is as near to it, metres; chosen.
-const AT_LINE_M: f32 = 0.8;
+const AT_LINE_M: f32 = 0.65;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 

@@ -125,7 +125,9 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         Raises `ActionError` for an action that is none, one too few or one too many; the episode is untouched then.
         """
         if not self.agents:
-            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no agent is playing")
+            # Taking the turn says so where it is closed: a `reset` wouldn't help then.
+            with self.env._turn:
+                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no agent is playing")
         acting = self.agents
         observation, reward, terminated, truncated, info = self.env.step(self._joined(actions))
         self._cycles += 1
@@ -170,7 +172,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         return self.env.render()
 
     def close(self) -> None:
-        """Ends the episode."""
+        """Ends it: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
         self.agents = []
         self.env.close()
 

@@ -44,9 +44,9 @@ def parallel_env(
 ) -> ParallelFootballEnv:
     """Makes a PettingZoo `ParallelEnv` of a scenario: any number of agents on each side, each with a player of its own.
 
-    The arguments are those of `setpiece.make` but `switching` (nobody changes players), `copy`, `watch` and `on_reload`;
-    and `max_cycles`: every agent is truncated after so many steps, if the scenario has not ended before; None leaves it
-    to the scenario.
+    The arguments are those of `setpiece.make` but `switching` (nobody changes players), `copy`, `watch` and
+    `on_reload`; and `max_cycles`: every agent is truncated after so many steps, if the scenario has not ended before;
+    None leaves it to the scenario.
 
     - Agents are named as their players (`anna`, `left_CM_1`) and keep them. Everyone sees himself attack towards +x;
       observations, actions 0..18 and spaces are those of one agent of `FootballEnv`, rewards floats.

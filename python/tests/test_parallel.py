@@ -351,6 +351,15 @@ def test_actions_that_are_none_leave_the_episode_untouched() -> None:
     act(v2, Action.BUILTIN_AI)
 
 
+def test_what_is_closed_says_so_and_not_to_reset() -> None:
+    env = parallel_env(THREE, left=2)
+    env.reset(seed=1)
+    env.close()
+    for use in (env.reset, lambda: env.step({"left_CM_1": 0, "left_CM_2": 0}), lambda: env.step({})):
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+            use()
+
+
 def test_seats_that_are_not_there() -> None:
     for kwargs, message in [
         ({"left": 9}, "9 agents on the left side, which has 4 controllable players"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from copy import deepcopy
 from os import PathLike
-from pathlib import Path
 from typing import Any, Literal
 
 import gymnasium
@@ -27,6 +26,7 @@ from setpiece._options import (
     check_flag,
     check_number,
     check_params,
+    check_path,
     check_snapshot,
     read_reset_options,
 )
@@ -228,10 +228,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Writes the episode as far as it has been played: `setpiece replay FILE` plays it again, bit for bit.
 
         Raises `ReplayError` before the first episode, after `restore` and with scripts that have changed in its middle,
-        `FileError` where it can't be written.
+        `FileError` where it can't be written, `ParameterError` where `path` is no path.
         """
         with one_thread:
-            write(Path(path), self._native.replay())
+            write(check_path("path", path), self._native.replay())
 
     def snapshot(self) -> bytes:
         """Returns the whole episode as it stands, in some kilobytes: see `restore`.

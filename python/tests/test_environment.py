@@ -470,6 +470,16 @@ scenario measured extends academy {
 """
 
 
+@pytest.mark.parametrize("path", [5, None, b"run.pitchr", ["run.pitchr"]])
+def test_what_is_no_path_is_named(path: Any) -> None:
+    env = setpiece.make(CLOSE)
+    env.reset(seed=1)
+    for use in (setpiece.Replay, env.save_replay, setpiece.onnx_policy):
+        with pytest.raises(setpiece.ParameterError, match="expected a path as `path`") as caught:
+            use(path)
+        assert caught.value.name == "path"
+
+
 def test_records_reach_the_last_info() -> None:
     env = setpiece.make(setpiece.compile(MEASURED))
     trajectory = play(env, 1, lambda: [5, 5])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from copy import deepcopy
 from os import PathLike
 from typing import Any, Literal
@@ -15,7 +16,7 @@ from setpiece import _native
 from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards
 from setpiece._casting import behaviors, revivable, scripted_scenario
 from setpiece._copy import copy_of, reduced
-from setpiece._errors import CallbackError, OpponentError, ParameterError, ScriptError
+from setpiece._errors import CallbackError, DrawError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
 from setpiece._opponents import Opponent, Table
@@ -176,7 +177,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         spaces, what `setpiece.make` does for one that can't be read, `SnapshotError` for a snapshot that does not fit,
         `DrawError` where no start meets the scenario's requirements, `CallbackError` where a reward or ending in Python
         or `on_reload` fails. The environment keeps its scenario then; a change of a watched file has been taken over
-        all the same.
+        all the same. A `reset` that is refused for what it was given leaves a running episode as it is; one that fails
+        with `DrawError` or `CallbackError`, or that has taken over a change, ends it.
         """
         with self._turn:
             return self._begun(seed, read_reset_options(options))
@@ -370,7 +372,6 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             seed = self._first_seed
         if seed is not None:
             seed = check_number("seed", seed)
-        super().reset(seed=seed)
         number, at = (self._seed, self._index) if seed is None else (seed, 0)
         if number is None:
             number = int(self.np_random.integers(2**63))
@@ -379,17 +380,23 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if switched is not None:
             # Its parameters are bound already, as those of `make` are.
             params = {}
-        self._playing = False
         if self._watcher is not None:
-            self._take_over(self._watcher, *self._watcher.at_reset(self._match, self._ready))
+            before, running = self._match, self._playing
+            self._playing = False
+            self._take_over(self._watcher, *self._watcher.at_reset(before, self._ready))
+            self._playing = running and self._match is before
         match = self._match if switched is None else switched
+        if self._playing and (switched, wanted.params, wanted.snapshot) != (None, None, None):
+            self._rehearse(switched, number, at, params, wanted.snapshot)
+        self._playing = False
+        super().reset(seed=seed)
         with one_thread:
             observation, info = match.native.reset(number, at, params, wanted.snapshot)
             views = match.views() if self._callbacks is not None else []
         observation, info = match.shown(observation, info)
         if self._callbacks is not None:
             self._callbacks.begin(views, info)
-        # A reset that fails leaves no trace but that nothing is being played.
+        # A reset that fails leaves no trace, but that nothing may be played any more.
         if switched is not None:
             self._enter(switched)
         self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
@@ -398,6 +405,20 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         # A reward's `reset` may have closed it.
         self._playing = not self._turn.closed
         return observation, info
+
+    def _rehearse(
+        self, switched: Match | None, seed: int, episode: int, params: dict[str, ParamValue], snapshot: bytes | None
+    ) -> None:
+        """Raises what a `reset` is refused for, before it touches the running episode.
+
+        A native `reset` that refuses has forgotten what was played, and maybe bound the parameters.
+        """
+        native = _native.Environment(self.scenario, **self._options) if switched is None else switched.native
+        # No refusals: those come again, and end the episode.
+        with one_thread, suppress(DrawError, ScriptError):
+            _, info = native.reset(seed, episode, params, snapshot)
+            if self._callbacks is not None:
+                self._callbacks.check(info)
 
     def _take_over(self, watcher: Watcher, match: Match, reload: Reload | None) -> None:
         """Plays another match from here on, and tells of the change that brought it."""

@@ -165,7 +165,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         - `options`: `{"reset_mask": bool array}` begins episodes of those marked alone; `{"params": {…}}` binds
           parameters of all, from their next episodes on; `{"episode": n}` sets the index.
 
-        Raises `ParameterError` for other options, `DrawError` where no start meets the scenario's requirements.
+        Raises `ParameterError` for other options, and the episodes go on; `DrawError` where no start meets the
+        scenario's requirements.
         """
         with self._turn:
             mask, params, episode = self._read_options(options)

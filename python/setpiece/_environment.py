@@ -78,7 +78,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     With `watch=True` every `reset` looks whether the scenario's file, an import or a script has changed, and begins the
     episode under the new scenario; its `info` has `scenario`, the digest of what is played. With `watch="now"` every
-    `step` looks too, and where nothing but scripts has changed it goes on with them at once, and with their memory.
+    `step` looks too, and where nothing but scripts has changed it goes on with them at once, and with their memory. A
+    change of the last 50 ms or so may wait for the next look.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 10}
@@ -249,8 +250,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Goes on where a snapshot was taken, by whichever environment of this scenario, rewards and agents.
 
         Returns the observation and `info` of the step after which it was taken; every later step is that of the
-        straight run, but for what opponents, and rewards and endings in Python, remember. Raises `SnapshotError` for
-        anything else, and nothing has changed then; `ClosedEnvironmentError` for a closed environment.
+        straight run, but for what opponents, and rewards and endings in Python, remember. Behaviours and scripts among
+        the `opponents` make another scenario: its snapshots are for environments with the same ones. Raises
+        `SnapshotError` for anything else, and nothing has changed then; `ClosedEnvironmentError` for a closed
+        environment.
         """
         snapshot = check_snapshot(snapshot)
         with self._turn:

@@ -140,9 +140,7 @@ class Callbacks:
 
     def begin(self, views: list[dict[str, Any]], info: dict[str, Any]) -> None:
         """Begins an episode; adds the functions' terms to its first `info`."""
-        for name in self.rewards:
-            if name in info["reward_terms"]:
-                raise ParameterError(f"`{name}` is a reward of the scenario too", name="rewards")
+        self.check(info)
         for function in [*self.rewards.values(), *self.ends]:
             reset = getattr(function, "reset", None)
             if callable(reset):
@@ -151,6 +149,12 @@ class Callbacks:
                 except Exception as error:
                     raise failed(function, None, error) from error
         self.go_on(views, info)
+
+    def check(self, info: dict[str, Any]) -> None:
+        """Raises `ParameterError` where a function is called as a reward of the scenario, told by its first `info`."""
+        for name in self.rewards:
+            if name in info["reward_terms"]:
+                raise ParameterError(f"`{name}` is a reward of the scenario too", name="rewards")
 
     def go_on(self, views: list[dict[str, Any]], info: dict[str, Any]) -> None:
         """Goes on in the middle of an episode."""

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from setpiece._actions import integers
+from setpiece._actions import array_of, integers
 from setpiece._errors import ActionError
 from setpiece._opponents import Table, ask
 from setpiece._vocabulary import Action
@@ -44,7 +44,9 @@ class Crowd:
     def _read(self, given: Any) -> NDArray[np.int64]:
         mine, n_actions = len(self._table.mine), self._table.n_actions
         shape = (self._num_envs,) if mine == 1 else (self._num_envs, mine)
-        actions = integers(given, shape, n_actions)
+        array = array_of(given)
+        # Of any shape with as many numbers, as in a vector without opponents.
+        actions = None if array is None else integers(array.ravel(), (self._num_envs * mine,), n_actions)
         if actions is None:
             raise ActionError(f"expected integers in 0..{n_actions - 1} of shape {shape}, found `{given!r}`")
         return actions.reshape(self._num_envs, mine)

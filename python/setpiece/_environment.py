@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from copy import deepcopy
 from os import PathLike
-from pathlib import Path
 from typing import Any, Literal
 
 import gymnasium
@@ -16,7 +16,7 @@ from setpiece import _native
 from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards
 from setpiece._casting import behaviors, revivable, scripted_scenario
 from setpiece._copy import copy_of, reduced
-from setpiece._errors import CallbackError, OpponentError, ParameterError, ScriptError
+from setpiece._errors import CallbackError, DrawError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
 from setpiece._opponents import Opponent, Table
@@ -27,6 +27,7 @@ from setpiece._options import (
     check_flag,
     check_number,
     check_params,
+    check_path,
     check_snapshot,
     read_reset_options,
 )
@@ -77,7 +78,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     With `watch=True` every `reset` looks whether the scenario's file, an import or a script has changed, and begins the
     episode under the new scenario; its `info` has `scenario`, the digest of what is played. With `watch="now"` every
-    `step` looks too, and where nothing but scripts has changed it goes on with them at once, and with their memory.
+    `step` looks too, and where nothing but scripts has changed it goes on with them at once, and with their memory. A
+    change of the last 50 ms or so may wait for the next look.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 10}
@@ -176,7 +178,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         spaces, what `setpiece.make` does for one that can't be read, `SnapshotError` for a snapshot that does not fit,
         `DrawError` where no start meets the scenario's requirements, `CallbackError` where a reward or ending in Python
         or `on_reload` fails. The environment keeps its scenario then; a change of a watched file has been taken over
-        all the same.
+        all the same. A `reset` that is refused for what it was given leaves a running episode as it is; one that fails
+        with `DrawError` or `CallbackError`, or that has taken over a change, ends it.
         """
         with self._turn:
             return self._begun(seed, read_reset_options(options))
@@ -228,10 +231,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Writes the episode as far as it has been played: `setpiece replay FILE` plays it again, bit for bit.
 
         Raises `ReplayError` before the first episode, after `restore` and with scripts that have changed in its middle,
-        `FileError` where it can't be written.
+        `FileError` where it can't be written, `ParameterError` where `path` is no path.
         """
         with one_thread:
-            write(Path(path), self._native.replay())
+            write(check_path("path", path), self._native.replay())
 
     def snapshot(self) -> bytes:
         """Returns the whole episode as it stands, in some kilobytes: see `restore`.
@@ -247,8 +250,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Goes on where a snapshot was taken, by whichever environment of this scenario, rewards and agents.
 
         Returns the observation and `info` of the step after which it was taken; every later step is that of the
-        straight run, but for what opponents, and rewards and endings in Python, remember. Raises `SnapshotError` for
-        anything else, and nothing has changed then; `ClosedEnvironmentError` for a closed environment.
+        straight run, but for what opponents, and rewards and endings in Python, remember. Behaviours and scripts among
+        the `opponents` make another scenario: its snapshots are for environments with the same ones. Raises
+        `SnapshotError` for anything else, and nothing has changed then; `ClosedEnvironmentError` for a closed
+        environment.
         """
         snapshot = check_snapshot(snapshot)
         with self._turn:
@@ -370,7 +375,6 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             seed = self._first_seed
         if seed is not None:
             seed = check_number("seed", seed)
-        super().reset(seed=seed)
         number, at = (self._seed, self._index) if seed is None else (seed, 0)
         if number is None:
             number = int(self.np_random.integers(2**63))
@@ -379,17 +383,23 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         if switched is not None:
             # Its parameters are bound already, as those of `make` are.
             params = {}
-        self._playing = False
         if self._watcher is not None:
-            self._take_over(self._watcher, *self._watcher.at_reset(self._match, self._ready))
+            before, running = self._match, self._playing
+            self._playing = False
+            self._take_over(self._watcher, *self._watcher.at_reset(before, self._ready))
+            self._playing = running and self._match is before
         match = self._match if switched is None else switched
+        if self._playing and (switched, wanted.params, wanted.snapshot) != (None, None, None):
+            self._rehearse(switched, number, at, params, wanted.snapshot)
+        self._playing = False
+        super().reset(seed=seed)
         with one_thread:
             observation, info = match.native.reset(number, at, params, wanted.snapshot)
             views = match.views() if self._callbacks is not None else []
         observation, info = match.shown(observation, info)
         if self._callbacks is not None:
             self._callbacks.begin(views, info)
-        # A reset that fails leaves no trace but that nothing is being played.
+        # A reset that fails leaves no trace, but that nothing may be played any more.
         if switched is not None:
             self._enter(switched)
         self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
@@ -398,6 +408,20 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         # A reward's `reset` may have closed it.
         self._playing = not self._turn.closed
         return observation, info
+
+    def _rehearse(
+        self, switched: Match | None, seed: int, episode: int, params: dict[str, ParamValue], snapshot: bytes | None
+    ) -> None:
+        """Raises what a `reset` is refused for, before it touches the running episode.
+
+        A native `reset` that refuses has forgotten what was played, and maybe bound the parameters.
+        """
+        native = _native.Environment(self.scenario, **self._options) if switched is None else switched.native
+        # No refusals: those come again, and end the episode.
+        with one_thread, suppress(DrawError, ScriptError):
+            _, info = native.reset(seed, episode, params, snapshot)
+            if self._callbacks is not None:
+                self._callbacks.check(info)
 
     def _take_over(self, watcher: Watcher, match: Match, reload: Reload | None) -> None:
         """Plays another match from here on, and tells of the change that brought it."""

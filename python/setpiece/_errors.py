@@ -133,7 +133,7 @@ class ScriptError(SetpieceError):
 
 
 class SnapshotError(SetpieceError, ValueError):
-    """Bytes are no snapshot, damaged, of another scenario, or of other players; the environment is untouched."""
+    """Bytes are no snapshot, damaged, of another scenario, or of other players; a running episode goes on."""
 
 
 class ActionError(SetpieceError, ValueError):

@@ -84,8 +84,8 @@ def make(
       beside opponents get copies.
     - `render_mode`: None or `"ansi"`.
     - `watch`: whether every `reset` takes over changes of the scenario's file, its imports and scripts; with `"now"`
-      every `step` takes over those of scripts alone. A broken file leaves the last good scenario in place, and one
-      that would change the spaces is held back.
+      every `step` takes over those of scripts alone. A change of the last 50 ms or so may wait for the next `reset` or
+      `step`. A broken file leaves the last good scenario in place, and one that would change the spaces is held back.
     - `on_reload`: called with the `Reload` of every change, in the `reset` or `step` that has found it, which raises
       `CallbackError` where it fails; see also `env.unwrapped.last_reload`.
     - `action_set`: `"default"` (19 actions), `"v2"` (20: `Action.BUILTIN_AI` hands the step over to the bot), `"full"`

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from os import PathLike, fspath
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from setpiece._errors import FileError, FormatError
 from setpiece._optional import need
+from setpiece._options import check_path
 
 TYPES = {"tensor(float)": np.float32, "tensor(double)": np.float64, "tensor(uint8)": np.uint8}
 ACTION_COUNTS = (19, 20)
@@ -24,10 +24,11 @@ def onnx_policy(path: str | PathLike[str]) -> Callable[[NDArray[Any]], NDArray[n
     96, 4)` for `smm`; the batch free, or 1) as float, double or uint8, and as its first output the logits `(batch, 19)`
     or `(batch, 20)`. Of equal logits the first wins. It runs on the CPU in one thread, and so always alike.
 
-    Raises `FileError`, `FormatError`, `MissingPackageError`.
+    Raises `FileError`, `FormatError`, `MissingPackageError`, and `ParameterError` where `path` is no path.
     """
+    file = check_path("path", path)
     runtime = need("onnxruntime", "onnx", "a policy from an `.onnx` file")
-    if not Path(path).is_file():
+    if not file.is_file():
         raise FileError(f"there is no file `{fspath(path)}`", path=fspath(path))
     options = runtime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1

@@ -8,6 +8,7 @@ from os import PathLike, fspath
 from typing import Any, Literal, TypeGuard
 
 import numpy as np
+from numpy.typing import NDArray
 
 from setpiece._actions import integers
 from setpiece._errors import ActionError, OpponentError, ParameterError
@@ -139,37 +140,65 @@ class Table:
 
     def _read_actions(self, action: Any) -> list[int]:
         n = len(self.mine)
-        actions = integers(action, () if n == 1 else (n,), self.n_actions)
+        actions = integers(action, (n,), self.n_actions)
+        if actions is None and n == 1:
+            actions = integers(action, (), self.n_actions)
         if actions is None:
             what = "an integer" if n == 1 else f"{n} actions, integers"
             raise ActionError(f"expected {what} in 0..{self.n_actions - 1}, found `{action!r}`")
-        read: list[int] = actions.ravel().tolist()
-        return read
+        return _listed(actions.ravel())
 
 
 def ask(seat: Seat, seen: Any, n: int) -> list[int]:
     """Returns the n actions of an opponent for what its agents see, row by row; raises `OpponentError`."""
+    n_actions = ACTION_SETS["v2"]
+    if seat.policy.batched:
+        given = _asked(seat, seat.agents, seen)
+        actions = integers(given, (n,), n_actions)
+        if actions is None:
+            raise _no_action(seat, seat.agents, f"{n} actions, integers", given)
+        return _listed(actions)
+    # The agents of one match after those of another.
+    agents = [seat.agents[at % len(seat.agents)] for at in range(n)]
+    given = [_asked(seat, (agent,), one) for agent, one in zip(agents, seen, strict=True)]
+    # All at once is quicker than one by one.
+    actions = integers(given, (n,), n_actions)
+    if actions is not None:
+        return _listed(actions)
+    return [_one_action(seat, agent, one) for agent, one in zip(agents, given, strict=True)]
+
+
+def _one_action(seat: Seat, agent: str, given: Any) -> int:
+    """The action that an opponent gave for one agent."""
+    action = integers(given, (), ACTION_SETS["v2"])
+    if action is None:
+        raise _no_action(seat, (agent,), "an integer", given)
+    return int(action)
+
+
+def _asked(seat: Seat, agents: tuple[str, ...], seen: Any) -> Any:
+    """What an opponent answers for these of its agents."""
     try:
-        given = seat.play(seen) if seat.policy.batched else [seat.play(one) for one in seen]
+        return seat.play(seen)
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
-        raise OpponentError(f"the opponent {_whose(seat)} {why}", slots=seat.agents, side=seat.side) from error
-    actions = integers(given, (n,), ACTION_SETS["v2"])
-    if actions is None:
-        found = given if seat.policy.batched or len(given) != 1 else given[0]
-        what = f"{n} actions, integers" if seat.policy.batched else "an integer"
-        last = ACTION_SETS["v2"] - 1
-        raise OpponentError(
-            f"the opponent {_whose(seat)} gave no action: expected {what} in 0..{last}, found `{found!r}`",
-            slots=seat.agents,
-            side=seat.side,
-        )
-    read: list[int] = actions.tolist()
-    return read
+        raise OpponentError(f"the opponent {_of(agents)} {why}", slots=seat.agents, side=seat.side) from error
 
 
-def _whose(seat: Seat) -> str:
-    return f"of {', '.join(f'`{agent}`' for agent in seat.agents)}"
+def _listed(actions: NDArray[np.int64]) -> list[int]:
+    listed: list[int] = actions.tolist()
+    return listed
+
+
+def _no_action(seat: Seat, agents: tuple[str, ...], expected: str, given: Any) -> OpponentError:
+    """The error for what an opponent gave for these of its agents."""
+    last = ACTION_SETS["v2"] - 1
+    why = f"gave no action: expected {expected} in 0..{last}, found `{given!r}`"
+    return OpponentError(f"the opponent {_of(agents)} {why}", slots=seat.agents, side=seat.side)
+
+
+def _of(agents: tuple[str, ...]) -> str:
+    return f"of {', '.join(f'`{agent}`' for agent in agents)}"
 
 
 def read_opponents(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opponent]:

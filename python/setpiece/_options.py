@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from operator import index
+from os import PathLike, fspath
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -82,6 +84,15 @@ def check_flag(name: str, value: object) -> bool:
     if isinstance(value, bool | np.bool_):
         return bool(value)
     raise ParameterError(f"expected True or False as `{name}`, found `{value!r}`", name=name)
+
+
+def check_path(name: str, value: object) -> Path:
+    """Returns a path, or raises `ParameterError`."""
+    if isinstance(value, str | PathLike):
+        path = fspath(value)
+        if isinstance(path, str):
+            return Path(path)
+    raise ParameterError(f"expected a path as `{name}`, found `{value!r}`", name=name)
 
 
 def check_snapshot(snapshot: object) -> bytes:

@@ -16,7 +16,7 @@ from pettingzoo import ParallelEnv
 
 from setpiece._actions import array_of, integers
 from setpiece._environment import FootballEnv
-from setpiece._errors import ActionError, ParameterError
+from setpiece._errors import ActionError, ParameterError, SetpieceError
 from setpiece._native import ACTION_SETS, Scenario
 from setpiece._options import RESET_OPTIONS
 from setpiece._record import Record
@@ -114,8 +114,12 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             for unknown in [key for key in options if key not in RESET_OPTIONS]:
                 warnings.warn(f"no reset option `{unknown}`: it does nothing", stacklevel=2)
             options = {key: value for key, value in options.items() if key in RESET_OPTIONS}
-        self.agents = []
-        observation, info = self.env.reset(seed=seed, options=options)
+        try:
+            observation, info = self.env.reset(seed=seed, options=options)
+        except SetpieceError:
+            if not self.env._playing:
+                self.agents = []
+            raise
         self._cycles = 0
         return self._begun(observation, info)
 
@@ -125,7 +129,9 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         Raises `ActionError` for an action that is none, one too few or one too many; the episode is untouched then.
         """
         if not self.agents:
-            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no agent is playing")
+            # Taking the turn says so where it is closed: a `reset` wouldn't help then.
+            with self.env._turn:
+                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no agent is playing")
         acting = self.agents
         observation, reward, terminated, truncated, info = self.env.step(self._joined(actions))
         self._cycles += 1
@@ -170,7 +176,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         return self.env.render()
 
     def close(self) -> None:
-        """Ends the episode."""
+        """Ends it: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
         self.agents = []
         self.env.close()
 

@@ -36,14 +36,17 @@ def parallel_env(
     render_mode: str | None = None,
     action_set: str = "default",
     bot_action: bool = False,
+    stack: int = 1,
+    size: tuple[int, int] = (96, 72),
     max_cycles: int | None = None,
     record: str | PathLike[str] | None = None,
     record_when: When = "always",
 ) -> ParallelFootballEnv:
     """Makes a PettingZoo `ParallelEnv` of a scenario: any number of agents on each side, each with a player of its own.
 
-    The arguments are those of `setpiece.make`, and `max_cycles`: every agent is truncated after so many steps, if the
-    scenario has not ended before; None leaves it to the scenario.
+    The arguments are those of `setpiece.make` but `switching` (nobody changes players), `copy`, `watch` and
+    `on_reload`; and `max_cycles`: every agent is truncated after so many steps, if the scenario has not ended before;
+    None leaves it to the scenario.
 
     - Agents are named as their players (`anna`, `left_CM_1`) and keep them. Everyone sees himself attack towards +x;
       observations, actions 0..18 and spaces are those of one agent of `FootballEnv`, rewards floats.
@@ -89,6 +92,8 @@ def parallel_env(
         render_mode=render_mode,
         action_set=action_set,
         bot_action=bot_action,
+        stack=stack,
+        size=size,
     )
     return ParallelFootballEnv(env, max_cycles, read_record(record, record_when))
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from setpiece import _native
 from setpiece._errors import FileError, ParameterError, ReplayError
+from setpiece._options import check_path
 
 When = Literal["always", "goal"] | int
 """Which episodes are recorded: all, those with a goal, or each n-th."""
@@ -36,9 +37,7 @@ class Record:
             raise ParameterError(
                 f"`record_when` is {when!r}; it can be 'always', 'goal' or a count", name="record_when"
             )
-        if not isinstance(folder, str | PathLike):
-            raise ParameterError(f"expected a folder as `record`, found `{folder!r}`", name="record")
-        self._folder, self._when = Path(folder), when
+        self._folder, self._when = check_path("record", folder), when
         # Now, not when an episode has been played that can't be written.
         make_folder(self._folder)
         self._ended = 0

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from os import PathLike, fspath
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from setpiece import _native
 from setpiece._errors import ParameterError, ReplayError, SnapshotError
 from setpiece._native import Scenario
+from setpiece._options import check_path
 from setpiece._rows import Picker
 from setpiece._spaces import check_observation
 from setpiece._vocabulary import Action
@@ -51,7 +52,7 @@ class Replay:
     - `path`: a file that `record=` or `save_replay` wrote.
 
     Raises `FileError` where the file can't be read, `ReplayError` where it is no replay, or one that is cut off,
-    changed or of another version.
+    changed or of another version, `ParameterError` where `path` is no path.
 
     >>> import setpiece, tempfile
     >>> path = f"{tempfile.mkdtemp()}/three.pitchr"
@@ -84,7 +85,7 @@ class Replay:
     """The snapshot that it began in; None where it began as its scenario does."""
 
     def __init__(self, path: str | PathLike[str]) -> None:
-        self.path = Path(fspath(path))
+        self.path = check_path("path", path)
         with self._named():
             self._recorded = _native.Replay(self.path)
             self.scenario = self._recorded.scenario()

@@ -20,6 +20,7 @@ from setpiece._callbacks import Rewards, reward_names
 from setpiece._casting import behaviors, revivable, scripted_scenario
 from setpiece._crowd import Crowd
 from setpiece._endings import endings
+from setpiece._environment import FootballEnv
 from setpiece._errors import ActionError, ParameterError, UnavailableError
 from setpiece._opponents import Opponent, Table, native_action_set
 from setpiece._options import ParamValue, check_flag, check_keys, check_number, check_params
@@ -43,6 +44,9 @@ ENVS_MAX = 65_536
 
 THREADS_MAX = 1_024
 """Most threads of a vector."""
+
+TOGETHER = ("threads", "autoreset_mode")
+"""What a vector takes and a single environment does not."""
 
 RESET_OPTIONS = ("reset_mask", "params", "episode")
 
@@ -165,7 +169,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         - `options`: `{"reset_mask": bool array}` begins episodes of those marked alone; `{"params": {…}}` binds
           parameters of all, from their next episodes on; `{"episode": n}` sets the index.
 
-        Raises `ParameterError` for other options, `DrawError` where no start meets the scenario's requirements.
+        Raises `ParameterError` for other options, and the episodes go on; `DrawError` where no start meets the
+        scenario's requirements.
         """
         with self._turn:
             mask, params, episode = self._read_options(options)
@@ -354,6 +359,8 @@ def make_vec(
     - The rest is as in `setpiece.make`; raw observations, and rewards and endings in Python, are for single
       environments.
 
+    `gymnasium.make_vec(envs.spec, num_envs=n)` makes another such vector, `envs.spec.make()` a single environment.
+
     >>> import numpy, setpiece
     >>> envs = setpiece.make_vec("academy_3_vs_1_with_keeper", 4, seed=7)
     >>> observations, infos = envs.reset()
@@ -383,11 +390,16 @@ def make_vec(
     envs = FootballVectorEnv(num_envs=num_envs, **kwargs)
     envs.spec = EnvSpec(
         id=f"setpiece/{envs.scenario.name}-v0",
-        entry_point="setpiece._environment:FootballEnv",
+        entry_point="setpiece._vector:one_of",
         vector_entry_point="setpiece._vector:FootballVectorEnv",
         kwargs=kwargs,
     )
     return envs
+
+
+def one_of(**kwargs: Any) -> FootballEnv:
+    """Makes a single environment from the arguments of a vector, but those that only it has: see `envs.spec.make()`."""
+    return FootballEnv(**{name: value for name, value in kwargs.items() if name not in TOGETHER})
 
 
 def _count(name: str, value: object, most: int) -> int:

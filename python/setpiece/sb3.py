@@ -26,6 +26,7 @@ from setpiece._errors import ParameterError
 from setpiece._make import make
 from setpiece._native import Scenario
 from setpiece._optional import need
+from setpiece._options import check_number
 from setpiece._source import Source, load
 from setpiece._vector import make_vec as make_batch
 
@@ -76,6 +77,14 @@ class Sb3VecEnv(VecEnv):
         self._masks = infos.get("action_mask")
         self.reset_infos = _listed(infos, self.num_envs)
         return observation
+
+    def seed(self, seed: int | None = None) -> Sequence[int | None]:
+        """Sets the seeds of the next `reset`, one after the other from `seed`, and returns them.
+
+        Raises `ParameterError` for what is no seed; None takes one at random.
+        """
+        seeds: Sequence[int | None] = super().seed(None if seed is None else check_number("seed", seed))
+        return seeds
 
     def step_async(self, actions: Any) -> None:
         """Takes everyone's actions."""

@@ -436,8 +436,6 @@ def test_a_reset_that_fails_leaves_no_trace() -> None:
     for params in ({"difficulty": 2}, {"nobody": 1}):
         with pytest.raises(setpiece.ParameterError):
             env.reset(seed=9, options={"params": params})
-    with pytest.raises(gymnasium.error.ResetNeeded):
-        env.step(0)
     again = env.reset(seed=1)
     assert same(before, again)
     env.reset(seed=1, options={"episode": 2**64 - 1})
@@ -468,6 +466,16 @@ scenario measured extends academy {
     end limit 20 steps
 }
 """
+
+
+@pytest.mark.parametrize("path", [5, None, b"run.pitchr", ["run.pitchr"]])
+def test_what_is_no_path_is_named(path: Any) -> None:
+    env = setpiece.make(CLOSE)
+    env.reset(seed=1)
+    for use in (setpiece.Replay, env.save_replay, setpiece.onnx_policy):
+        with pytest.raises(setpiece.ParameterError, match="expected a path as `path`") as caught:
+            use(path)
+        assert caught.value.name == "path"
 
 
 def test_records_reach_the_last_info() -> None:

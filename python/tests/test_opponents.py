@@ -2,6 +2,7 @@ import pickle
 import sys
 import time
 from collections.abc import Callable
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +86,7 @@ def test_one_agent_left_is_a_single_agent() -> None:
     _, reward, _, _, info = env.step(Action.RIGHT)
     assert type(reward) is float
     assert type(info["reward_terms"]["scoring/goal"]) is float
-    for wrong in (19, [0], 1.5, None):
+    for wrong in (19, [0, 0], 1.5, None):
         with pytest.raises(setpiece.ActionError, match=r"expected an integer in 0\.\.18"):
             env.step(wrong)
     env.step(np.int64(3))
@@ -320,6 +321,55 @@ def test_an_opponent_must_give_an_action(given: Any) -> None:
     env.reset(seed=1)
     with pytest.raises(setpiece.OpponentError, match=r"gave no action: expected an integer in 0\.\.19"):
         env.step(0)
+
+
+def test_a_function_that_fails_for_one_agent_of_several_says_for_whom() -> None:
+    calls = 0
+
+    def third_time(_observation: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        return given if calls % 3 == 0 else 5
+
+    for make in (setpiece.make, lambda *args, **kwargs: setpiece.make_vec(*args, 2, **kwargs)):
+        env = make(THREE, left=1, right="all", opponents={"right": third_time})
+        for given in (99, "left", [3, 4]):
+            calls = 1
+            env.reset(seed=1)
+            with pytest.raises(setpiece.OpponentError) as caught:
+                env.step(np.zeros(env.action_space.shape, int))
+            assert f"of `right_CB_1` gave no action: expected an integer in 0..19, found `{given!r}`" in str(
+                caught.value
+            )
+            assert caught.value.slots == ("right_GK_1", "right_CB_1")
+
+
+def test_integers_of_different_types_are_actions() -> None:
+    answers = cycle([np.uint64(5), np.int64(5)])
+    env = setpiece.make(THREE, right="all", opponents={"right": lambda _: next(answers)})
+    env.reset(seed=1)
+    env.step(0)
+
+
+@pytest.mark.parametrize("right", [0, 1])
+def test_the_shapes_of_actions_are_the_same_beside_opponents(right: int) -> None:
+    opponents = {"right": "bot"} if right else None
+    env = setpiece.make(DUEL, right=right, opponents=opponents)
+    env.reset(seed=1)
+    for action in (3, [3], np.array(3), np.array([3]), Action.LEFT):
+        env.step(action)
+    for wrong in ([[3]], [3, 3], [], np.zeros((1, 1), int), [3.0]):
+        with pytest.raises(setpiece.ActionError):
+            env.step(wrong)
+    for left, shapes in ((1, [(2,), (2, 1), (1, 2)]), (2, [(2, 2), (4,), (2, 2, 1)])):
+        envs = setpiece.make_vec(THREE, 2, left=left, right=right, opponents=opponents)
+        envs.reset(seed=1)
+        for shape in shapes:
+            envs.step(np.full(shape, 3))
+            envs.step(np.full(shape, 3).tolist())
+        for wrong in (np.zeros(shapes[0]), np.zeros(3, int), 3):
+            with pytest.raises(setpiece.ActionError):
+                envs.step(wrong)
 
 
 @pytest.mark.parametrize("given", [[20], [1.5], [[1]], [1, 2], None, 3, {"right_GK_1": 3}])

@@ -89,6 +89,31 @@ def test_passes_the_tests_of_pettingzoo(kwargs: dict[str, Any], observation: str
     seed_test(lambda: parallel_to_aec(make(max_cycles=20)))
 
 
+SHOWN: list[tuple[dict[str, Any], tuple[int, ...]]] = [
+    ({"stack": 2}, (230,)),
+    ({"observation": "smm", "size": (40, 30)}, (30, 40, 4)),
+    ({"observation": "smm", "size": (40, 30), "stack": 4}, (30, 40, 16)),
+]
+
+
+@pytest.mark.filterwarnings("ignore:no reset option `options`")
+@pytest.mark.parametrize(("kwargs", "shape"), SHOWN)
+def test_everyone_sees_a_stack_and_a_map_of_another_size(kwargs: dict[str, Any], shape: tuple[int, ...]) -> None:
+    make = lambda: parallel_env(THREE, left=2, right="all", **kwargs)  # noqa: E731
+    parallel_api_test(make(), num_cycles=50)
+    env, joint = make(), setpiece.make(THREE, left=2, right="all", switching="fixed", **kwargs)
+    assert {space.shape for space in env.observation_spaces.values()} == {shape}
+    assert env.observation_layout == joint.observation_layout
+    observations, _ = env.reset(seed=1)
+    expected, _ = joint.reset(seed=1)
+    for _ in range(4):
+        assert np.array_equal(np.stack([*observations.values()]), expected)
+        observations, expected = act(env, Action.RIGHT)[0], joint.step([Action.RIGHT] * 4)[0]
+    for wrong in ({"stack": 0}, {"size": (0, 72)}, {"stack": 2, "observation": "raw"}):
+        with pytest.raises(setpiece.ParameterError, match=next(iter(wrong)) if "observation" not in wrong else "raw"):
+            parallel_env(THREE, **wrong)
+
+
 @pytest.mark.parametrize("kwargs", SIDES)
 def test_passes_the_other_tests_of_pettingzoo(kwargs: dict[str, Any]) -> None:
     make = lambda **more: parallel_env(**kwargs, **more)  # noqa: E731
@@ -326,6 +351,15 @@ def test_actions_that_are_none_leave_the_episode_untouched() -> None:
     act(v2, Action.BUILTIN_AI)
 
 
+def test_what_is_closed_says_so_and_not_to_reset() -> None:
+    env = parallel_env(THREE, left=2)
+    env.reset(seed=1)
+    env.close()
+    for use in (env.reset, lambda: env.step({"left_CM_1": 0, "left_CM_2": 0}), lambda: env.step({})):
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+            use()
+
+
 def test_seats_that_are_not_there() -> None:
     for kwargs, message in [
         ({"left": 9}, "9 agents on the left side, which has 4 controllable players"),
@@ -356,6 +390,8 @@ def test_registers_with_pettingzoo() -> None:
         env.reset(seed=1)
         act(env)
     assert pettingzoo.make("parallel", f"setpiece/{THREE}-v0", left=3, max_cycles=4).max_cycles == 4
+    small = pettingzoo.make("parallel", f"setpiece/{THREE}-v0", observation="smm", stack=2, size=(40, 30))
+    assert small.observation_space("left_CM_1").shape == (30, 40, 8)
 
 
 def test_without_pettingzoo_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

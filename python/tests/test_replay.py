@@ -177,5 +177,5 @@ def test_a_folder_that_can_not_be_made_is_told_at_once(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(setpiece.FileError, match="can't be written"):
         setpiece.make(CLOSE, record=tmp_path / "file")
-    with pytest.raises(setpiece.ParameterError, match="expected a folder"):
+    with pytest.raises(setpiece.ParameterError, match="expected a path as `record`"):
         setpiece.make(CLOSE, record=3)  # type: ignore[arg-type]

@@ -175,6 +175,18 @@ def test_bytes_that_are_no_snapshot() -> None:
     assert env.snapshot() == snapshot
 
 
+def test_behaviours_given_as_opponents_make_another_scenario() -> None:
+    plain, lazy = (setpiece.make(THREE, left=1, opponents=ai) for ai in (None, {"right": "lazy"}))
+    for env, other in ((plain, lazy), (lazy, plain)):
+        env.reset(seed=1)
+        other.reset(seed=1)
+        with pytest.raises(setpiece.SnapshotError):
+            other.restore(env.snapshot())
+    again = setpiece.make(THREE, left=1, opponents={"right": "lazy"})
+    again.restore(lazy.snapshot())
+    assert same(again.step(0), lazy.step(0))
+
+
 def test_copies_keep_the_actions_and_the_bots_choice() -> None:
     env = setpiece.make("academy_3_vs_1_with_keeper", action_set="v2", bot_action=True)
     env.reset(seed=1)

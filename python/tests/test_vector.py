@@ -249,6 +249,24 @@ def test_gymnasium_makes_it() -> None:
     recorded.close()
 
 
+def test_its_spec_makes_another_vector_and_a_single_environment() -> None:
+    kwargs: dict[str, Any] = {"left": 2, "stack": 2, "seed": 7, "opponents": {"left_1": "bot"}}
+    envs = setpiece.make_vec(THREE, 3, threads=2, autoreset_mode="SAME_STEP", **kwargs)
+    assert envs.spec is not None
+    more = gymnasium.make_vec(envs.spec, num_envs=2)
+    assert (more.num_envs, more.metadata["autoreset_mode"]) == (2, AutoresetMode.SAME_STEP)
+    assert same(more.reset()[0], envs.reset()[0][:2])
+    several = gymnasium.make_vec(envs.spec, num_envs=2, vectorization_mode="sync")
+    assert several.single_observation_space == envs.single_observation_space
+    env = envs.spec.make()
+    assert isinstance(env.unwrapped, setpiece.FootballEnv)
+    first, _ = env.reset()
+    assert same(first, setpiece.make(THREE, **kwargs).reset()[0])
+    assert env.spec is not None
+    assert same(env.spec.make().reset()[0], first)
+    assert gymnasium.make_vec(env.spec, num_envs=2).num_envs == 2
+
+
 def test_spaces_hold_what_is_shown() -> None:
     for observation in [*KINDS]:
         envs = setpiece.make_vec(THREE, 3, observation=observation, left="all", right="all", size=(48, 36))

@@ -29,11 +29,11 @@ def cluster() -> Any:
     ray.shutdown()
 
 
-@pytest.mark.parametrize("observation", ["simple115v2", "smm"])
-def test_passes_the_checks_of_rllib(observation: str) -> None:
-    check_multiagent_environments(
-        RllibFootballEnv({"scenario": THREE, "left": "all", "right": "all", "observation": observation})
-    )
+@pytest.mark.parametrize(
+    "shown", [{}, {"stack": 4}, {"observation": "smm"}, {"observation": "smm", "stack": 4, "size": (40, 30)}]
+)
+def test_passes_the_checks_of_rllib(shown: dict[str, Any]) -> None:
+    check_multiagent_environments(RllibFootballEnv({"scenario": THREE, "left": "all", "right": "all", **shown}))
 
 
 def test_is_the_parallel_environment() -> None:

@@ -76,6 +76,12 @@ def test_seeds_and_options_of_the_next_reset() -> None:
     first, again = make_vec(THREE, 2, seed=3), make_vec(THREE, 2)
     assert again.seed(3) == [3, 4]
     assert same(first.reset(), again.reset())
+    for wrong in (-1, 2**64, "one", 1.5, True):
+        with pytest.raises(setpiece.ParameterError, match="`seed`"):
+            again.seed(wrong)  # type: ignore[arg-type]
+        with pytest.raises(setpiece.ParameterError, match="`seed`"):
+            make_vec(THREE, 2, seed=wrong)  # type: ignore[arg-type]
+    assert len(again.seed()) == 2
     again.seed(3)
     again.set_options({"params": {"difficulty": 0.9}})
     again.reset()

@@ -32,6 +32,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "serde",
             "strsim",
             "thiserror",
+            "wide",
         ],
     ),
     ("setpiece-python", &["setpiece", "setpiece-engine", "setpiece-scenario", "numpy", "pyo3", "serde_json", "rayon"]),

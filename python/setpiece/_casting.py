@@ -64,6 +64,7 @@ def scripted_scenario(
         raise ParameterError(
             f"a compiled scenario keeps who plays its players: {words} can't change them",
             name="opponents",
+            code="SP0015",
             help="give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text",
         )
     text = text_of(scenario)

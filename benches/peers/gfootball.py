@@ -54,7 +54,6 @@ def envpool_steps(scenario: str, seconds: float) -> float:
 def vector_steps(scenario: str, seconds: float) -> float:
     """Steps per CPU-second of `setpiece.make_vec`, 64 environments, arrays that are written in place."""
     import numpy as np
-
     import setpiece
 
     n = 64

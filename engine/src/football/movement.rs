@@ -84,6 +84,7 @@ pub fn advance(game: &mut Match) {
 fn take(strides: &mut Strides, i: usize, player: &Player, has_ball: bool) {
     let body = &player.body;
     let (row, at) = (i / WIDTH, i % WIDTH);
+    strides.taken[row] = true;
     (strides.x[row][at], strides.y[row][at]) = (player.pos.x, player.pos.y);
     (strides.vx[row][at], strides.vy[row][at]) = (player.vel.x, player.vel.y);
     strides.top[row][at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };

@@ -37,6 +37,8 @@ pub(super) type Lane = [[f32; WIDTH]; ROWS];
 
 /// What a stride takes and changes, by player: a structure of arrays.
 pub(super) struct Strides {
+    /// Whether anybody is in a row: the others are left alone.
+    pub(super) taken: [bool; ROWS],
     /// World metres.
     pub(super) x: Lane,
     /// World metres.
@@ -74,6 +76,7 @@ impl Strides {
     pub(super) fn still() -> Strides {
         let zero = [[0.0; WIDTH]; ROWS];
         Strides {
+            taken: [false; ROWS],
             x: zero,
             y: zero,
             vx: zero,
@@ -92,12 +95,18 @@ impl Strides {
         }
     }
 
+    /// The rows that somebody is in.
+    fn rows(&self) -> impl Iterator<Item = usize> + use<> {
+        let taken = self.taken;
+        (0..ROWS).filter(move |row| taken[*row])
+    }
+
     /// Turns the ways to points into velocities that stop there, and wishes back that lead further out than the rim.
     pub(super) fn wish(&mut self) {
         let (none, there) = (f32x4::ZERO, f32x4::splat(THERE_M));
         let rim_x = f32x4::splat(RIM_X_M as f32 - RIM_CARE_M);
         let rim_y = f32x4::splat(RIM_Y_M as f32 - RIM_CARE_M);
-        for at in 0..ROWS {
+        for at in self.rows() {
             let (x, y, pace) = (load(&self.want_x, at), load(&self.want_y, at), load(&self.pace, at));
             let distance = (x * x + y * y).sqrt();
             let scale = (distance * f32x4::splat(ARRIVAL_PER_S)).fast_min(pace) / distance;
@@ -116,7 +125,7 @@ impl Strides {
     pub(super) fn steer(&mut self) {
         let is = f32x4::splat;
         let (none, one) = (f32x4::ZERO, f32x4::ONE);
-        for at in 0..ROWS {
+        for at in self.rows() {
             let (vx, vy) = (load(&self.vx, at), load(&self.vy, at));
             let (want_x, want_y) = (load(&self.want_x, at), load(&self.want_y, at));
             let (top, lag) = (load(&self.top, at), load(&self.lag, at));
@@ -170,7 +179,7 @@ impl Strides {
     pub(super) fn go(&mut self) {
         let (rim_x, rim_y) = (f32x4::splat(RIM_X_M as f32), f32x4::splat(RIM_Y_M as f32));
         let dt = f32x4::splat(DT);
-        for at in 0..ROWS {
+        for at in self.rows() {
             let x = load(&self.x, at) + load(&self.vx, at) * dt;
             let y = load(&self.y, at) + load(&self.vy, at) * dt;
             store(&mut self.x, at, x.fast_max(-rim_x).fast_min(rim_x));
@@ -181,7 +190,7 @@ impl Strides {
     /// Turns everyone to where he runs, or to the ball.
     pub(super) fn turn(&mut self, ball_x: f32, ball_y: f32) {
         let little = f32x4::splat(0.12);
-        for at in 0..ROWS {
+        for at in self.rows() {
             let (vx, vy) = (load(&self.vx, at), load(&self.vy, at));
             let (ball_x, ball_y) = (f32x4::splat(ball_x) - load(&self.x, at), f32x4::splat(ball_y) - load(&self.y, at));
             let runs = (vx * vx + vy * vy).simd_gt(f32x4::ONE);

@@ -11,10 +11,12 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::PLAYERS_MAX;
-use setpiece_scenario::vocabulary::GameMode;
+use setpiece_scenario::vocabulary::{GameMode, Rule};
 
 /// Steps that a bot waits before it plays a set piece.
 const WAIT_STEPS: u16 = 3;
+/// Steps that a team of the lazy waits; chosen, so that it is over before an agent would have had to kick.
+const LAZY_WAIT_STEPS: u16 = 14;
 
 /// Everyone stands; a bot that is to take it plans its kick.
 pub fn think(game: &mut Match) {
@@ -26,8 +28,9 @@ pub fn think(game: &mut Match) {
     }
     let taker = set_piece.taker;
     let driven = game.play.driven & (1 << taker.0) != 0;
-    // As GRF's: a team of the lazy plays no more.
-    let lazy = game.player(taker).ai == Ai::Lazy;
+    // Who is lazy takes it only where he would hold up the game.
+    let late = set_piece.waited_steps >= LAZY_WAIT_STEPS && game.rule(Rule::AntiStalling);
+    let lazy = game.player(taker).ai == Ai::Lazy && !late;
     if driven || lazy || set_piece.waited_steps < WAIT_STEPS || game.player(taker).body.kick.is_some() {
         return;
     }

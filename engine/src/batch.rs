@@ -190,18 +190,20 @@ pub fn run_episodes<P: Policy>(
 pub struct Batch<L> {
     lanes: Vec<L>,
     scratches: Vec<Scratch>,
-    pool: ThreadPool,
+    /// The threads beside the caller's own; none where that does all.
+    others: Option<ThreadPool>,
 }
 
 impl<L: Send> Batch<L> {
-    /// Lanes on so many threads.
+    /// Lanes on so many threads, the caller's among them.
     ///
     /// # Errors
     /// [`BatchError`] where the threads can't be started.
     pub fn new(lanes: Vec<L>, threads: usize) -> Result<Batch<L>, BatchError> {
         let threads = threads.clamp(1, lanes.len().max(1));
         let scratches = std::iter::repeat_with(Scratch::default).take(threads).collect();
-        Ok(Batch { lanes, scratches, pool: pool(threads)? })
+        let others = if threads > 1 { Some(pool(threads - 1)?) } else { None };
+        Ok(Batch { lanes, scratches, others })
     }
 
     /// The lanes.
@@ -217,17 +219,27 @@ impl<L: Send> Batch<L> {
     /// Does something with every lane and its row: `work` is given the lane's number, the lane, the row and a scratch
     /// world. Lanes without a row are left alone. Which thread has which lane changes nothing.
     pub fn each<R: Send>(&mut self, rows: Vec<R>, work: impl Fn(usize, &mut L, R, &mut Scratch) + Sync) {
-        let chunk = self.lanes.len().div_ceil(self.scratches.len()).max(1);
+        let share = self.lanes.len().div_ceil(self.scratches.len()).max(1);
         let mut rows = rows.into_iter();
-        let shares: Vec<Vec<R>> = self.scratches.iter().map(|_| rows.by_ref().take(chunk).collect()).collect();
-        let lanes = self.lanes.par_chunks_mut(chunk).zip(shares).zip(&mut self.scratches).enumerate();
-        self.pool.install(|| {
-            lanes.for_each(|(share, ((lanes, rows), scratch))| {
+        let shares = self.lanes.chunks_mut(share).zip(&mut self.scratches).enumerate();
+        let mut shares = shares.map(|(number, (lanes, scratch))| {
+            let (rows, work) = (rows.by_ref().take(lanes.len()).collect::<Vec<R>>(), &work);
+            move || {
                 for (i, (lane, row)) in lanes.iter_mut().zip(rows).enumerate() {
-                    work(share * chunk + i, lane, row, scratch);
+                    work(number * share + i, lane, row, scratch);
                 }
-            });
+            }
         });
+        let Some(own) = shares.next() else { return };
+        match &self.others {
+            None => own(),
+            Some(others) => others.in_place_scope(|scope| {
+                for other in shares {
+                    scope.spawn(move |_| other());
+                }
+                own();
+            }),
+        }
     }
 }
 

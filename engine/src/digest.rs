@@ -53,7 +53,7 @@ pub fn of_match(game: &Match) -> u64 {
         .floats(game.ball.pos.to_array())
         .floats(game.ball.vel.to_array())
         .floats(game.ball.spin.to_array());
-    for player in game.players.iter().filter(|player| player.present) {
+    for player in game.squad.ids().map(|id| game.player(id)) {
         digest = digest
             .whole(player.active.into())
             .floats(player.pos.to_array())

@@ -10,6 +10,7 @@ mod roster;
 pub(crate) use roster::player_name;
 pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
 
+use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers, truth};
 use crate::judge::view::{player_index, team_of_number};
 use crate::random::Stream;
@@ -70,12 +71,16 @@ impl DrawError {
 }
 
 /// Draws starts of one scenario; keeps its registers, so that a draw allocates little.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Drawer {
     regs: Registers,
     failures: Vec<u32>,
     /// Whether a register depends on a draw.
     random: Vec<bool>,
+}
+
+clone_in_place! {
+    Drawer { regs, failures, random }
 }
 
 impl Drawer {

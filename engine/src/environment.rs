@@ -7,6 +7,7 @@
 
 mod error;
 mod snapshot;
+mod stopped;
 
 pub use crate::draw::{AgentsChoice, SideChoice};
 pub use crate::physics::Scratch;
@@ -17,6 +18,7 @@ use crate::control::behavior::Actors;
 use crate::draw::{DrawError, Drawer, Roster, player_name};
 use crate::event::{Event, Events};
 use crate::football;
+use crate::in_place::clone_in_place;
 use crate::judge::script::Scripts;
 use crate::judge::{Judge, Outcome, Recorded};
 use crate::laps::Phase;
@@ -31,6 +33,7 @@ use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Action, Rule, Team};
 use setpiece_scenario::{Bindings, Reward, Scenario};
 use std::sync::Arc;
+use stopped::Stopped;
 
 /// What a user asks for beside the scenario.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,23 +69,21 @@ pub struct StepResult {
 }
 
 /// One environment.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Environment {
     scenario: Arc<Scenario>,
     scenario_digest: u64,
-    options: EnvironmentOptions,
+    options: Arc<EnvironmentOptions>,
     /// The state that every episode begins in, where the options have one.
     past: Option<Arc<Match>>,
-    bindings: Bindings,
+    bindings: Arc<Bindings>,
     roster: Roster,
     ids: Arc<[String]>,
     drawer: Drawer,
-    drawn: Drawn,
+    drawn: Arc<Drawn>,
     game: Match,
-    /// The match as the last stop of play left it, before the restart.
-    stopped: Box<Match>,
-    /// Play was stopped in the last step.
-    was_stopped: bool,
+    /// Where play was stopped in the last step.
+    stopped: Stopped,
     judge: Judge,
     actors: Actors,
     events: Events,
@@ -98,6 +99,13 @@ pub struct Environment {
     outcome: Option<Outcome>,
     seed: u64,
     index: u64,
+}
+
+clone_in_place! {
+    Environment {
+        scenario, scenario_digest, options, past, bindings, roster, ids, drawer, drawn, game, stopped, judge, actors,
+        events, judged, statistics, running, begun, started, outcome, seed, index,
+    }
 }
 
 impl Environment {
@@ -119,17 +127,16 @@ impl Environment {
         let game = football::begin(&drawn);
         let mut environment = Environment {
             ids: agent_ids(&scenario, &roster),
-            stopped: Box::new(game.clone()),
-            was_stopped: false,
+            stopped: Stopped::new(&game),
             game,
             scenario_digest: digest_of(&scenario),
             past: None,
             scenario,
-            options,
-            bindings,
+            options: Arc::new(options),
+            bindings: Arc::new(bindings),
             roster,
             drawer,
-            drawn,
+            drawn: Arc::new(drawn),
             judge,
             actors,
             events: Events::new(),
@@ -170,12 +177,14 @@ impl Environment {
         self.seed = seed.unwrap_or(self.seed);
         self.begun = true;
         self.running = false;
-        self.was_stopped = false;
+        self.stopped.forget();
         self.outcome = None;
         self.events.clear();
         self.judged = 0;
-        self.drawn = self.drawer.draw(&self.scenario, &self.bindings, &self.roster, self.seed, self.index)?;
-        apply_physics(&mut self.drawn, self.options.physics);
+        let (scenario, bindings, roster) = (&self.scenario, &self.bindings, &self.roster);
+        let mut drawn = self.drawer.draw(scenario, bindings, roster, self.seed, self.index)?;
+        apply_physics(&mut drawn, self.options.physics);
+        self.drawn = Arc::new(drawn);
         self.game = football::begin(&self.drawn);
         if let Some(past) = past {
             self.game = begin_from(past, &self.game);
@@ -218,10 +227,7 @@ impl Environment {
                 return Err(StepError::Script(Box::new(error)));
             }
         };
-        self.was_stopped = self.game.dead;
-        if self.game.dead {
-            *self.stopped = self.game.clone();
-        }
+        self.stopped.note(&self.game);
         scratch.laps().end(Phase::Judge);
         football::go_on(&mut self.game);
         scratch.laps().end(Phase::Reach);
@@ -283,7 +289,7 @@ impl Environment {
         if roster != self.roster {
             return Err(EnvironmentError::Roster);
         }
-        self.bindings = bindings;
+        self.bindings = Arc::new(bindings);
         Ok(())
     }
 
@@ -472,7 +478,7 @@ impl Environment {
 
     /// The match as the last step was judged: where play was stopped in it, as it lay before the restart.
     pub fn judged_state(&self) -> &Match {
-        if self.was_stopped { &self.stopped } else { &self.game }
+        self.stopped.get().unwrap_or(&self.game)
     }
 
     /// The start that was drawn.

@@ -1,5 +1,6 @@
 //! Events: what happened during a step, in order.
 
+use crate::in_place::clone_in_place;
 use crate::state::PlayerId;
 use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
@@ -31,10 +32,14 @@ pub struct Event {
 }
 
 /// The events of a step: a buffer that is reused.
-#[derive(Clone, Debug, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
 pub struct Events {
     list: Vec<Event>,
     dropped: u32,
+}
+
+clone_in_place! {
+    Events { list, dropped }
 }
 
 impl Events {

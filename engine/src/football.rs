@@ -2,9 +2,9 @@
 //!
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
-//! [`movement`] (with `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the ball first; [`touch`], [`duel`],
-//! [`slide`], [`kick`] and [`keeper`] play it; [`flight`] says what that means; [`referee`], [`offside`], [`foul`] stop
-//! play, [`advantage`] lets it run, and [`mod@restart`] goes on.
+//! [`movement`] (with `rows` and `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
+//! ball first; [`touch`], [`duel`], [`slide`], [`kick`] and [`keeper`] play it; [`flight`] says what that means;
+//! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on.
 
 pub mod advantage;
 pub mod begin;
@@ -28,6 +28,7 @@ pub mod reach;
 pub mod referee;
 pub mod report;
 pub mod restart;
+mod rows;
 pub mod separation;
 pub mod set_piece;
 pub mod shot;
@@ -64,9 +65,7 @@ pub fn play_step(game: &mut Match, actions: &[Action], events: &mut Events, scra
                 break;
             }
         }
-        for player in game.players.iter_mut().filter(|p| p.active) {
-            player.heading_rad = crate::math::heading(player.body.facing);
-        }
+        game.each(game.squad, |player| player.heading_rad = crate::math::heading(player.body.facing));
         possession::remember(game);
         fatigue::tire(game, game.tick - from);
         scratch.laps().end(Phase::Movement);

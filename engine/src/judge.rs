@@ -29,6 +29,7 @@ pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
 pub use view::{Memory, Sight, View};
 
 use crate::event::Events;
+use crate::in_place::clone_in_place;
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
 use crate::start::Drawn;
@@ -41,7 +42,7 @@ use setpiece_scenario::{Endings, Reward, Scenario};
 use std::sync::Arc;
 
 /// The judge of one environment.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Judge {
     endings: EndingJudge,
     rewards: RewardJudge,
@@ -53,6 +54,10 @@ pub struct Judge {
     memory: Memory,
     /// What `prev` was in the step just judged: what an observation compares with.
     before: View,
+}
+
+clone_in_place! {
+    Judge { endings, rewards, records, observation, known, prev, memory, before }
 }
 
 impl Judge {

@@ -15,6 +15,7 @@ pub mod draw;
 pub mod environment;
 pub mod event;
 pub mod football;
+mod in_place;
 pub mod judge;
 pub mod laps;
 pub mod math;

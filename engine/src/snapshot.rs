@@ -20,6 +20,7 @@ mod hindsight;
 mod walk;
 
 pub use error::{SNAPSHOT_VERSION, SnapshotError};
+pub use file::checksum;
 
 pub(crate) use archive::Archive;
 pub(crate) use check::fits;

@@ -1,7 +1,12 @@
 //! The match: one simulation, plain data. A copy of it is a snapshot.
 
+mod squad;
+
+pub use squad::{Ids, Squad};
+
 use crate::football::body::Body;
 use crate::football::play::Play;
+use crate::in_place::clone_in_place;
 use crate::random::Stream;
 use crate::start::Drawn;
 use arrayvec::ArrayVec;
@@ -57,7 +62,7 @@ pub struct Ball {
 }
 
 /// One simulation: no heap but the agent list's inline storage, no engine handle; `clone` is a copy.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Match {
     /// Ticks of 10 ms since the start, dead time not counted.
     pub tick: u32,
@@ -71,7 +76,9 @@ pub struct Match {
     pub score: [u16; 2],
     /// The ball.
     pub ball: Ball,
-    /// Both teams, by [`PlayerId::index`]; slots beyond a team's size are not `present`.
+    /// The roster of this episode: who takes part, sent off or not.
+    pub squad: Squad,
+    /// Both teams, by [`PlayerId::index`]; nobody is in a slot that the squad lacks.
     pub players: [Player; PLAYERS_MAX],
     /// Who has the ball now.
     pub owner: Option<PlayerId>,
@@ -97,6 +104,13 @@ pub struct Match {
     pub play: Play,
 }
 
+clone_in_place! {
+    Match {
+        tick, step, elapsed_at_start, limit_steps, score, ball, squad, players, owner, possession, last_touch,
+        mode, dead, rules, difficulty, agents, play_random, bot_random, play,
+    }
+}
+
 impl Match {
     /// Whether a rule is on.
     pub fn rule(&self, rule: Rule) -> bool {
@@ -105,20 +119,25 @@ impl Match {
 
     /// The players on the pitch of a team, by id.
     pub fn team(&self, team: Team) -> impl Iterator<Item = (PlayerId, &Player)> {
-        let base = team.index() * TEAM_MAX;
-        self.players[base..base + TEAM_MAX]
-            .iter()
-            .enumerate()
-            .filter(|(_, player)| player.active)
-            .map(move |(i, player)| (PlayerId((base + i) as u8), player))
+        let squad = self.squad.of(team).ids();
+        squad.map(|id| (id, self.player(id))).filter(|(_, player)| player.active)
     }
 
-    /// Everyone's id in the order of play: the team that leads, then the other.
+    /// The squad in the order of play: the team that leads, then the other.
     ///
     /// Whatever goes through both teams goes by it, so that a match turned by 180° is the turned match to the bit.
-    pub fn order(&self) -> impl Iterator<Item = PlayerId> + use<> {
-        let first = self.play.lead.index() * TEAM_MAX;
-        (0..PLAYERS_MAX).map(move |i| PlayerId(((first + i) % PLAYERS_MAX) as u8))
+    pub fn order(&self) -> Ids {
+        self.squad.ids_from(self.play.lead)
+    }
+
+    /// Does something with everyone on the pitch of some players, by id.
+    pub fn each(&mut self, of: Squad, mut act: impl FnMut(&mut Player)) {
+        for id in of.ids() {
+            let player = &mut self.players[id.index()];
+            if player.active {
+                act(player);
+            }
+        }
     }
 
     /// Both teams in the order of play.
@@ -135,9 +154,7 @@ impl Match {
 /// A player: what everyone may see of him. What `football` needs beside it stands in his `body`.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Player {
-    /// Belongs to the roster of this episode.
-    pub present: bool,
-    /// Is on the pitch: present and not sent off.
+    /// Is on the pitch: of the squad and not sent off.
     pub active: bool,
     /// His role.
     pub role: Role,
@@ -193,7 +210,6 @@ impl Match {
         let player = |slot: &Option<crate::start::DrawnPlayer>| {
             let drawn_player = slot.as_ref();
             Player {
-                present: drawn_player.is_some(),
                 active: drawn_player.is_some(),
                 role: drawn_player.map_or(Role::GK, |p| p.role),
                 ai: drawn_player.map_or(Ai::Lazy, |p| p.ai),
@@ -214,6 +230,7 @@ impl Match {
             limit_steps: drawn.limit_steps,
             score: drawn.score,
             ball: Ball { pos: drawn.ball_pos, vel: drawn.ball_vel, spin: drawn.ball_spin },
+            squad: (0..).zip(&drawn.players).filter(|(_, slot)| slot.is_some()).map(|(id, _)| PlayerId(id)).collect(),
             players: std::array::from_fn(|i| player(&drawn.players[i])),
             owner: drawn.owner,
             possession: drawn.owner.map(PlayerId::team),

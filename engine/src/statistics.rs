@@ -141,16 +141,16 @@ impl Statistics {
         let third = (HALF_LENGTH_M / 3.0) as f32;
         self.thirds[usize::from(ball.x > -third) + usize::from(ball.x > third)] += 1;
         let (mut outfield, mut near) = (0u32, 0u32);
-        for (id, player) in game.players.iter().enumerate().filter(|(_, player)| player.active) {
+        for (id, player) in game.squad.ids().map(|id| (id, game.player(id))).filter(|(_, player)| player.active) {
             if player.role != Role::GK {
                 outfield += 1;
                 near += u32::from(player.pos.distance(ball) < CROWD_M);
             }
-            let ran = player.pos.distance(self.positions[id].into());
+            let ran = player.pos.distance(self.positions[id.index()].into());
             if ran <= RUN_MAX_M {
-                self.teams[PlayerId(id as u8).team().index()].distance_m += f64::from(ran);
+                self.teams[id.team().index()].distance_m += f64::from(ran);
             }
-            self.positions[id] = player.pos.into();
+            self.positions[id.index()] = player.pos.into();
         }
         if outfield > 0 {
             self.crowd_sum += f64::from(near) / f64::from(outfield);

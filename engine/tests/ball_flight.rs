@@ -175,11 +175,8 @@ fn a_rolling_ball_comes_to_exact_rest_and_stays() {
 #[test]
 fn a_forecast_is_what_then_happens() {
     let ball = kicked(22.0, 6.0, 10.0);
-    let mut places = [Vec3::ZERO; 12];
-    forecast(&ball, &mut places, 7);
-    let mut flown = ball;
-    let mut scratch = Scratch::default();
-    for place in places {
+    let (mut flown, mut scratch) = (ball, Scratch::default());
+    for place in forecast(&ball, 7).take(12) {
         advance(&mut flown, 7, &mut scratch);
         assert_eq!(place, flown.pos);
     }

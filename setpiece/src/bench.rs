@@ -1,5 +1,11 @@
 //! How fast a scenario is played here: many matches at once, step after step, episodes following each other.
 
+mod once;
+mod scaling;
+
+pub use once::{ONCE_NAMES, once};
+pub use scaling::scaling;
+
 use crate::Error;
 use cpu_time::ProcessTime;
 use setpiece_engine::batch::{Batch, EpisodeError, Policy, ReadyMade};

@@ -522,7 +522,10 @@ fn a_bench_tells_its_figures_and_compares_them() {
         assert!(line["resets_per_step"].as_f64().unwrap() > 0.0, "{line}");
     }
     let phases = lines[0]["microseconds"].as_object().unwrap();
-    assert!(phases["bots"].as_f64().unwrap() > 0.0 && phases["draw"].as_f64().unwrap() > 0.0, "{phases:?}");
+    assert!(phases.len() == 9 && phases["movement"].as_f64().unwrap() > 0.0, "{phases:?}");
+    let once = lines[0]["once_microseconds"].as_object().unwrap();
+    assert!(once.len() == 7 && once.values().all(|took| took.as_f64().unwrap() > 0.0), "{once:?}");
+    assert!(lines[1]["scaling"].as_f64().unwrap() > 0.0, "{}", lines[1]);
     let before = write(folder.path(), "before.jsonl", told.stdout.as_slice());
     let table = setpiece(&[&["bench"][..], &quick, &["--threads", "1", "--against", &before]].concat());
     let table = text(&table.stdout);

@@ -99,7 +99,8 @@ fn places(text: &str, index: u64) -> Vec<[f32; 2]> {
     let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{text}: {error}"));
     let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
     environment.reset(Some(1), Some(index)).unwrap();
-    let players = environment.state().players.iter().filter(|player| player.present);
+    let game = environment.state();
+    let players = game.squad.ids().map(|id| game.player(id));
     players.map(|player| [player.pos.x / 54.4, player.pos.y / 83.6]).collect()
 }
 
@@ -154,7 +155,8 @@ fn nobody_begins_beyond_the_rim_and_no_ball_below_the_grass() {
     let layouts = "formation a { GK CM at (-13m, 0m) } formation b { GK CM at (-17m, 0m) }
         scenario s { agents { left: 1 } kickoff left { kicking: a, receiving: b } end limit 9 steps }";
     let environment = changed(layouts, -17.0, -170.0).unwrap();
-    let kickoffs = environment.state().players.iter().filter(|player| player.present).flat_map(|p| p.body.kickoff);
+    let game = environment.state();
+    let kickoffs = game.squad.ids().flat_map(|id| game.player(id).body.kickoff);
     let furthest = kickoffs.map(|at| at.x.abs()).fold(0.0, f32::max);
     assert!((59.0..=60.0).contains(&furthest), "{furthest}");
 }

@@ -51,7 +51,7 @@ fn same(there: &Match, back: &Match) -> Result<(), String> {
     let (a, b) = (&there.ball, &back.ball);
     check("ball", a.pos == turn(b.pos) && a.vel == turn(b.vel) && a.spin == turn(b.spin))
         .map_err(|why| format!("{why}: {a:?} / {b:?}"))?;
-    for i in (0..22).filter(|&i| there.players[i as usize].present) {
+    for i in there.squad.ids().map(|id| id.0) {
         let id = PlayerId(i);
         let (a, b) = (there.player(id), back.player(other(id)));
         let (c, d) = (&a.body, &b.body);

@@ -11,6 +11,7 @@ pub mod steer;
 
 use crate::draw::Roster;
 use crate::event::Event;
+use crate::in_place::clone_in_place;
 use crate::judge::known::Known;
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::script::{ScriptError, Scripts};
@@ -25,7 +26,7 @@ use setpiece_scenario::{Act, Ai, Behavior, Do, Node, Scenario};
 use std::sync::Arc;
 
 /// The scripted players of an environment.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Actors {
     plans: Arc<[Behavior]>,
     list: Vec<Actor>,
@@ -34,6 +35,10 @@ pub struct Actors {
     regs: Vec<Registers>,
     prev: View,
     faults: u32,
+}
+
+clone_in_place! {
+    Actors { plans, list, known, regs, prev, faults }
 }
 
 impl Actors {

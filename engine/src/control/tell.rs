@@ -41,9 +41,10 @@ impl Before {
     /// What is under way now.
     pub fn of(game: &Match) -> Before {
         let mut before = Before { armed: 0, sliding: 0 };
-        for (i, player) in game.players.iter().enumerate() {
-            before.armed |= u32::from(player.body.kick.is_some()) << i;
-            before.sliding |= u32::from(player.body.pose == Pose::Sliding) << i;
+        for id in game.squad.ids() {
+            let body = &game.player(id).body;
+            before.armed |= u32::from(body.kick.is_some()) << id.0;
+            before.sliding |= u32::from(body.pose == Pose::Sliding) << id.0;
         }
         before
     }
@@ -51,14 +52,14 @@ impl Before {
 
 /// Records what everyone played by the bot has decided as a press, and what he would hold after it.
 pub fn record(game: &mut Match, before: &Before) {
-    for i in 0..game.players.len() {
-        let player = &game.players[i];
-        let acting = game.play.acting[i];
+    for id in game.squad.ids() {
+        let player = game.player(id);
+        let acting = game.play.acting[id.index()];
         if !player.active || player.ai == Ai::Lazy || acting.played.is_some() {
             continue;
         }
-        let told = tell(game, before, PlayerId(i as u8), acting.sticky);
-        let acting = &mut game.play.acting[i];
+        let told = tell(game, before, id, acting.sticky);
+        let acting = &mut game.play.acting[id.index()];
         acting.played = Some(told.press);
         acting.chosen = told.owed;
         acting.sticky = sticky::next(acting.sticky, told.press);

@@ -1,6 +1,7 @@
 //! Who takes part: what of a start depends on parameters alone, so that it is known before the first episode.
 
 use super::{DrawKey, Drawer};
+use crate::in_place::clone_in_place;
 use crate::judge::machine::truth;
 use crate::state::PlayerId;
 use setpiece_scenario::pitch::PLAYERS_MAX;
@@ -8,12 +9,16 @@ use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Bindings, Scenario, SideAgents, Switching};
 
 /// The players and agents of an environment, the same in every episode.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub struct Roster {
     /// Which players take part, by id.
     pub present: [bool; PLAYERS_MAX],
     /// The agents, left before right: the team, and the player where he is fixed.
     pub agents: Vec<(Team, Option<PlayerId>)>,
+}
+
+clone_in_place! {
+    Roster { present, agents }
 }
 
 /// Agents asked for instead of the scenario's.

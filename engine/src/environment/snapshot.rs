@@ -7,6 +7,7 @@ use crate::snapshot::{About, Archive, Opened, SnapshotError, fits, write};
 use crate::state::Match;
 use setpiece_scenario::Bindings;
 use setpiece_scenario::vocabulary::Verdict;
+use std::sync::Arc;
 
 impl Environment {
     /// The episode as bytes, as it stands between two steps: everything that a later step or its infos depend on, the
@@ -81,11 +82,11 @@ impl Environment {
 
     /// What a snapshot says without an episode around its match.
     fn idle(&mut self, opened: &Opened<'_>) {
-        self.game = opened.game.clone();
+        self.game.clone_from(&opened.game);
         let about = &opened.about;
         (self.started, self.begun, self.seed, self.index) = (about.started, about.begun, about.seed, about.index);
         self.running = false;
-        self.was_stopped = false;
+        self.stopped.forget();
         self.outcome = None;
         self.events.clear();
         self.judged = 0;
@@ -93,14 +94,14 @@ impl Environment {
 
     /// Writes or reads the episode around the match.
     fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        let (mut params, mut bindings) = (self.judge.params().to_vec(), self.bindings.clone());
+        let (mut params, mut bindings) = (self.judge.params().to_vec(), Bindings::clone(&self.bindings));
         archive.value("params", &mut params)?;
         archive.value("bindings", &mut bindings.0)?;
-        archive.value("start", &mut self.drawn)?;
+        archive.value("start", Arc::make_mut(&mut self.drawn))?;
         if archive.is_reading() {
             self.admit("params", &params)?;
             self.admit("bindings", &bindings.0)?;
-            self.bindings = bindings;
+            self.bindings = Arc::new(bindings);
             self.judge.reset(&self.game, &self.drawn, &params);
             self.actors.reset(&self.game, &self.drawn, &params);
         }
@@ -112,10 +113,9 @@ impl Environment {
         self.judged = judged as usize;
         archive.value("statistics", &mut self.statistics)?;
         archive.value("running", &mut self.running)?;
-        archive.value("was_stopped", &mut self.was_stopped)?;
-        if self.was_stopped {
-            archive.value("stopped", &mut *self.stopped)?;
-            fits(&self.stopped, &self.roster)?;
+        self.stopped.pass(archive)?;
+        if let Some(stopped) = self.stopped.get() {
+            fits(stopped, &self.roster)?;
         }
         let said = |outcome: &Outcome| (outcome.label.to_string(), outcome.verdict, outcome.truncated);
         let mut outcome: Option<(String, Option<Verdict>, bool)> = self.outcome.as_ref().map(said);

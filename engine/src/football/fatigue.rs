@@ -13,11 +13,11 @@ pub fn tire(game: &mut Match, ticks: u32) {
         return;
     }
     let seconds = ticks as f32 * DT;
-    for player in game.players.iter_mut().filter(|p| p.active) {
+    game.each(game.squad, |player| {
         let metres = player.vel.length() * seconds;
         let stamina = player.body.stats[Stat::Stamina.index()];
         // Nobody runs himself to a stand; who begins exhausted stays it.
         let most = player.fatigue.max(0.99);
         player.fatigue = (player.fatigue + metres * PER_METRE * (2.0 - stamina)).min(most);
-    }
+    });
 }

@@ -166,12 +166,12 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
 /// Where a team's keepers have all been sent off, the first mate left goes in goal.
 pub fn succeed(game: &mut Match, team: Team) {
     let mut sent_off = None;
-    for i in (0..game.players.len()).filter(|i| PlayerId(*i as u8).team() == team) {
-        let player = &game.players[i];
+    for id in game.squad.of(team).ids() {
+        let player = game.player(id);
         if player.role == Role::GK && player.active {
             return;
         }
-        if player.role == Role::GK && player.present {
+        if player.role == Role::GK {
             sent_off = sent_off.or(Some(player.body));
         }
     }

@@ -60,7 +60,7 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
     if save.at_tick == u32::MAX || game.tick < save.from_tick {
         return;
     }
-    let player = game.players[id.index()];
+    let player = game.player(id);
     if game.tick < save.at_tick {
         let left = (save.at_tick - game.tick) as f32 * 0.01;
         let way = save.point - player.pos;
@@ -72,8 +72,8 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
         game.players[id.index()].vel = (way / left.max(0.05)).clamp_length_max(most);
         return;
     }
-    game.play.save[index] = Some(Save { at_tick: u32::MAX, ..save });
     let near = player.pos.distance_squared(game.ball.pos.truncate()) < 2.9 * 2.9;
+    game.play.save[index] = Some(Save { at_tick: u32::MAX, ..save });
     if save.reaches && near && game.ball.pos.z < HANDS_M + 0.3 {
         meet_shot(game, events, id, save.holds);
     }
@@ -103,23 +103,24 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));
     let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let react_s = (reaction - since as f32 * 0.01).max(0.02);
+    let path = || game.play.forecast.from(game.tick);
+    let past = |point: Vec3| (point.x - goal_x) * side < 0.0;
+    // Where the forecast ends before the goal line it is too far away to say.
+    let goal = path().position(|(_, point)| past(point))?;
+    let enters = path().nth(goal).is_some_and(|(_, point)| point.y.abs() < panic && point.z < 2.9);
+    if !enters {
+        return Some(IDLE);
+    }
     let mut best: Option<(f32, f32, Vec3)> = None;
-    let mut enters = None;
     let mut before: Option<Vec3> = None;
-    for (time_s, point) in game.play.forecast.from(game.tick) {
+    for (time_s, point) in path().take(goal + 1) {
         if let Some(last) = before {
             consider(&player, react_s, time_s - 0.025, (last + point) * 0.5, team, &mut best);
         }
         consider(&player, react_s, time_s, point, team, &mut best);
-        if (point.x - goal_x) * side < 0.0 {
-            enters = Some(point.y.abs() < panic && point.z < 2.9);
-            break;
-        }
         before = Some(point);
     }
-    let Some((ratio, time_s, point)) = best.filter(|_| enters == Some(true)) else {
-        return enters.map(|_| IDLE);
-    };
+    let Some((ratio, time_s, point)) = best else { return Some(IDLE) };
     let skill = 0.81 + 0.19 * (0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning));
     let spare = (time_s - react_s).max(0.0);
     let timely = (0.66 + 1.4 * spare).min(0.99);
@@ -197,7 +198,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
 
 /// Picks up a ball that is near and slow enough.
 fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
-    let player = *game.player(id);
+    let player = game.player(id);
     let ball = game.ball.pos;
     let flat = ball.truncate();
     let near = player.pos.distance_squared(flat);

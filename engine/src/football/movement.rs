@@ -4,8 +4,10 @@
 //! all of them. Leaves to `control` where he wants to go.
 
 use crate::football::body::{Intent, Pose};
-use crate::football::stride::{NO_POINT, Strides, WIDTH};
-use crate::state::{Match, Player};
+use crate::football::rows::{ROWS, WIDTH};
+use crate::football::stride::{self, Four, NO_POINT};
+use crate::state::{Match, Player, PlayerId};
+use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
@@ -27,15 +29,17 @@ pub const WITH_BALL: f32 = 0.955;
 pub const DT: f32 = 0.01;
 /// Metres of distance to m/s of speed wanted.
 pub const ARRIVAL_PER_S: f32 = 2.6;
+
 /// Moves every player on by a tick.
 pub fn advance(game: &mut Match) {
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
     let owner = game.owner;
     let frozen = game.play.set_piece.map(|set_piece| set_piece.taker);
-    let mut strides = Strides::still();
-    let mut on_feet = [false; PLAYERS_MAX];
-    for (i, player) in game.players.iter_mut().enumerate() {
+    let mut runners: ArrayVec<PlayerId, PLAYERS_MAX> = ArrayVec::new();
+    let mut fours: ArrayVec<Four, ROWS> = ArrayVec::new();
+    for id in game.squad.ids() {
+        let player = &mut game.players[id.index()];
         if !player.active {
             continue;
         }
@@ -54,46 +58,49 @@ pub fn advance(game: &mut Match) {
                 continue;
             }
         }
-        let has_ball = owner.is_some_and(|id| id.index() == i);
+        let has_ball = owner == Some(id);
         let (want, pace) = match player.body.intent {
-            _ if frozen.is_some_and(|taker| taker.index() != i) => (Vec2::ZERO, NO_POINT),
+            _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),
             Intent::Ball(speed) => (go_for_ball(player, ball, ball_vel, has_ball, speed), NO_POINT),
         };
-        let (row, at) = (i / WIDTH, i % WIDTH);
-        (strides.want_x[row][at], strides.want_y[row][at], strides.pace[row][at]) = (want.x, want.y, pace);
-        take(&mut strides, i, player, has_ball);
-        on_feet[i] = true;
+        let (row, at) = (runners.len() / WIDTH, runners.len() % WIDTH);
+        if at == 0 {
+            fours.push(Four::still());
+        }
+        let four = &mut fours[row];
+        (four.want_x[at], four.want_y[at], four.pace[at]) = (want.x, want.y, pace);
+        take(four, at, player, has_ball);
+        runners.push(id);
     }
-    strides.wish();
-    strides.steer();
-    strides.go();
-    strides.turn(ball.x, ball.y);
-    for (i, player) in game.players.iter_mut().enumerate().filter(|(i, _)| on_feet[*i]) {
-        let (row, at) = (i / WIDTH, i % WIDTH);
-        player.pos = Vec2::new(strides.x[row][at], strides.y[row][at]);
-        player.vel = Vec2::new(strides.vx[row][at], strides.vy[row][at]);
-        player.body.lag_ticks = strides.lag[row][at] as u8;
-        player.body.facing = Vec2::new(strides.facing_x[row][at], strides.facing_y[row][at]);
+    stride::run(&mut fours, ball.x, ball.y);
+    for (i, id) in runners.into_iter().enumerate() {
+        give(&fours[i / WIDTH], i % WIDTH, &mut game.players[id.index()]);
     }
 }
 
 /// Puts a player into his lane.
-fn take(strides: &mut Strides, i: usize, player: &Player, has_ball: bool) {
+fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool) {
     let body = &player.body;
-    let (row, at) = (i / WIDTH, i % WIDTH);
-    strides.taken[row] = true;
-    (strides.x[row][at], strides.y[row][at]) = (player.pos.x, player.pos.y);
-    (strides.vx[row][at], strides.vy[row][at]) = (player.vel.x, player.vel.y);
-    strides.top[row][at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
-    strides.lag[row][at] = f32::from(body.lag_ticks);
-    strides.turn[row][at] = 0.85 + 0.2 * player.skill(Stat::Agility);
-    strides.burst[row][at] = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
-    strides.shoved[row][at] = body.push_m;
-    strides.balance[row][at] = player.skill(Stat::Balance);
-    (strides.facing_x[row][at], strides.facing_y[row][at]) = (body.facing.x, body.facing.y);
+    (four.x[at], four.y[at]) = (player.pos.x, player.pos.y);
+    (four.vx[at], four.vy[at]) = (player.vel.x, player.vel.y);
+    four.top[at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
+    four.lag[at] = f32::from(body.lag_ticks);
+    four.turn[at] = 0.85 + 0.2 * player.skill(Stat::Agility);
+    four.burst[at] = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
+    four.shoved[at] = body.push_m;
+    four.balance[at] = player.skill(Stat::Balance);
+    (four.facing_x[at], four.facing_y[at]) = (body.facing.x, body.facing.y);
+}
+
+/// Gives a player back what his lane has become.
+fn give(four: &Four, at: usize, player: &mut Player) {
+    player.pos = Vec2::new(four.x[at], four.y[at]);
+    player.vel = Vec2::new(four.vx[at], four.vy[at]);
+    player.body.lag_ticks = four.lag[at] as u8;
+    player.body.facing = Vec2::new(four.facing_x[at], four.facing_y[at]);
 }
 
 /// Carries a player along his velocity, no further than the rim.

@@ -1,73 +1,81 @@
 //! Who can be at the ball first: time to the ball for everyone, and the player of each team who goes for it.
 
 use crate::football::body::Intent;
-use crate::football::forecast::{Forecast, POINTS};
+use crate::football::forecast::{Forecast, POINTS, SPACING_TICKS, time_s};
 use crate::football::play::ticks_since;
-use crate::physics::lines::{OUT_X, OUT_Y};
+use crate::football::rows::WIDTH;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat, Team};
+use std::ops::Range;
 use wide::f32x4;
 
 /// Highest ball that a player can play without his hands, metres.
 pub const PLAYABLE_M: f32 = 1.25;
+/// What sums of a way are off by at most, generously, metres.
+const ROUNDING_M: f32 = 0.01;
+/// Seconds between two points of a forecast.
+const SPACING_S: f32 = SPACING_TICKS as f32 * 0.01;
 /// How near the ball must come to be played, metres.
-const REACH_M: f32 = 0.45;
+pub const REACH_M: f32 = 0.45;
 
-/// Points that are looked at with one instruction.
-const WIDTH: usize = 4;
-
-/// The ball's way on the pitch from a moment on: a structure of arrays.
-pub struct Way {
-    /// World metres; far away where the ball is too high to be played, and behind the last point.
-    x: [f32; POINTS],
-    y: [f32; POINTS],
-    /// Seconds from that moment.
-    time_s: [f32; POINTS],
-    /// How many points there are.
-    count: usize,
-    /// The last, and when.
-    last: Option<(Vec2, f32)>,
+/// The ball's way on the pitch from a moment on: off the pitch nobody follows the ball.
+pub struct Way<'a> {
+    forecast: &'a Forecast,
+    /// The points of the forecast that belong to it.
+    points: Range<usize>,
+    /// The moment, in seconds after the forecast's first point.
+    offset_s: f32,
 }
 
-impl Way {
-    /// The way of a forecast from a tick on: off the pitch nobody follows the ball.
-    pub fn of(forecast: &Forecast, tick: u32) -> Way {
-        let mut way = Way { x: [1.0e6; POINTS], y: [1.0e6; POINTS], time_s: [0.0; POINTS], count: 0, last: None };
-        for (i, (time_s, point)) in forecast.from(tick).enumerate() {
-            let flat = point.truncate();
-            if flat.x.abs() > OUT_X || flat.y.abs() > OUT_Y {
-                break;
-            }
-            way.last = Some((flat, time_s));
-            way.count = i + 1;
-            way.time_s[i] = time_s;
-            if point.z <= PLAYABLE_M {
-                (way.x[i], way.y[i]) = (flat.x, flat.y);
-            }
-        }
-        way
+impl Way<'_> {
+    /// The way of a forecast from a tick on.
+    pub fn of(forecast: &Forecast, tick: u32) -> Way<'_> {
+        let (first, offset_s) = forecast.first(tick);
+        Way { forecast, points: forecast.on_pitch(first), offset_s }
     }
+}
+
+/// The places of a row that lie at a point or behind it, a bit each.
+fn from(point: usize, row: usize) -> u32 {
+    u32::MAX << point.saturating_sub(row * WIDTH).min(WIDTH)
 }
 
 /// Where and when a player can first meet the ball.
-pub fn meeting(player: &Player, way: &Way) -> (Vec2, f32) {
+pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
+    const PLACES: [f32; WIDTH] = [0.0, 1.0, 2.0, 3.0];
     let speed = 0.94 * player.body.speed_top_mps;
-    let from = player.pos + player.vel * 0.12;
-    let (from_x, from_y, speeds) = (f32x4::splat(from.x), f32x4::splat(from.y), f32x4::splat(speed));
-    let rows = [&way.x, &way.y, &way.time_s].map(|lane| lane.as_chunks::<WIDTH>().0);
-    for row in 0..way.count.div_ceil(WIDTH) {
-        let [x, y, time_s] = rows.map(|lane| f32x4::new(lane[row]));
-        let radius = f32x4::splat(REACH_M) + speeds * (time_s - f32x4::splat(0.12)).fast_max(f32x4::ZERO);
-        let (dx, dy) = (x - from_x, y - from_y);
-        let reached = (dx * dx + dy * dy).simd_le(radius * radius).to_bitmask();
+    let at = player.pos + player.vel * 0.12;
+    let is = f32x4::splat;
+    let (at_x, at_y, speeds) = (is(at.x), is(at.y), is(speed));
+    let Range { start, end } = way.points;
+    // So much nearer to each other the ball and he come from a point to the next, at most.
+    let closing_m = way.forecast.stride_m() + speed * SPACING_S;
+    let mut row = start / WIDTH;
+    while row * WIDTH < end {
+        let [x, y, z] = way.forecast.row(row);
+        let ticks = (is((row * WIDTH) as f32) + f32x4::new(PLACES)) * is(SPACING_TICKS as f32);
+        let time_s = (ticks * is(0.01) - is(way.offset_s)).fast_max(f32x4::ZERO);
+        let radius = is(REACH_M) + speeds * (time_s - is(0.12)).fast_max(f32x4::ZERO);
+        let (dx, dy) = (x - at_x, y - at_y);
+        let reached = (dx * dx + dy * dy).simd_le(radius * radius) & z.simd_le(is(PLAYABLE_M));
+        let reached = reached.to_bitmask() & from(start, row) & !from(end, row);
         if reached != 0 {
             let first = row * WIDTH + reached.trailing_zeros() as usize;
-            return (Vec2::new(way.x[first], way.y[first]), way.time_s[first]);
+            return (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
         }
+        // The rows that he can't have come near enough in are passed over.
+        let [.., dx] = dx.to_array();
+        let [.., dy] = dy.to_array();
+        let [.., radius] = radius.to_array();
+        let missing_m = (dx * dx + dy * dy).sqrt() - radius - ROUNDING_M;
+        row += 1 + (missing_m / closing_m).clamp(0.0, POINTS as f32) as usize / WIDTH;
     }
-    let (flat, time_s) = way.last.unwrap_or((player.pos, 0.0));
-    (flat, time_s + ((flat.distance(from) - speed * time_s) / speed).max(0.0))
+    if way.points.is_empty() {
+        return (player.pos, (player.pos.distance(at) / speed).max(0.0));
+    }
+    let (last, time_s) = (way.forecast.point(end - 1).truncate(), time_s(end - 1, way.offset_s));
+    (last, time_s + ((last.distance(at) - speed * time_s) / speed).max(0.0))
 }
 
 /// Ticks until a player sees what somebody else's touch has made of the ball: 80 - 40 · reaction ms, and a bot 100 ms
@@ -99,11 +107,15 @@ pub fn refresh(game: &mut Match) {
 /// Renews the meetings of some players; who has not seen the last touch yet keeps his.
 fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
     let driven = game.play.driven;
-    let way = Way::of(&game.play.forecast, game.tick);
     let (since, toucher) = last_touch(game);
-    for (i, player) in game.players.iter_mut().enumerate().filter(|(_, player)| player.active && whose(player)) {
-        let unseen = since < delay_ticks(player, driven & (1 << i) != 0);
-        if unseen && toucher.is_none_or(|id| id.index() != i) {
+    let way = Way::of(&game.play.forecast, game.tick);
+    for id in game.squad.ids() {
+        let player = &mut game.players[id.index()];
+        if !player.active || !whose(player) {
+            continue;
+        }
+        let unseen = since < delay_ticks(player, driven & (1 << id.0) != 0);
+        if unseen && toucher != Some(id) {
             continue;
         }
         let (meet, meet_s) = meeting(player, &way);

@@ -3,8 +3,10 @@
 
 use crate::event::Events;
 use crate::football::body::Pose;
+use crate::football::rows::{ROWS, WIDTH};
 use crate::football::{foul, frame};
 use crate::state::{Match, PlayerId};
+use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
@@ -25,31 +27,28 @@ const SHOVE_MAX_M: f32 = 0.1;
 /// Share of a push that is left after two ticks: 0.95 a tick.
 const SHOVE_LEFT: f32 = 0.9025;
 
-/// Bodies that are compared with one instruction, and how many times that holds everybody.
-const WIDTH: usize = 4;
-const ROWS: usize = PLAYERS_MAX.div_ceil(WIDTH);
+/// Where nobody is, metres.
+const FAR_M: f32 = 1.0e6;
 
 /// Pushes overlapping bodies apart and keeps everyone within the rim and out of the goals' frames.
 pub fn separate(game: &mut Match, events: &mut Events) {
-    for player in &mut game.players {
-        player.body.push_m *= SHOVE_LEFT;
-    }
-    let far = |i: usize| 1.0e6 + 10.0 * i as f32;
-    // Whoever is not there stands far away, each at a place of his own.
-    let mut xs: [[f32; WIDTH]; ROWS] = std::array::from_fn(|row| std::array::from_fn(|at| far(row * WIDTH + at)));
+    // Places beyond the last lie too far off to meet anybody.
+    let mut xs = [[FAR_M; WIDTH]; ROWS];
     let mut ys = [[0.0; WIDTH]; ROWS];
-    let mut ids = [PlayerId(0); PLAYERS_MAX];
-    for (i, id) in game.order().enumerate() {
-        let player = game.player(id);
-        ids[i] = id;
+    let mut ids: ArrayVec<PlayerId, PLAYERS_MAX> = ArrayVec::new();
+    for id in game.order() {
+        let player = &mut game.players[id.index()];
+        player.body.push_m *= SHOVE_LEFT;
         if player.active {
-            (xs[i / WIDTH][i % WIDTH], ys[i / WIDTH][i % WIDTH]) = (player.pos.x, player.pos.y);
+            let (row, at) = (ids.len() / WIDTH, ids.len() % WIDTH);
+            (xs[row][at], ys[row][at]) = (player.pos.x, player.pos.y);
+            ids.push(id);
         }
     }
     let near = f32x4::splat(CONTACT_M * CONTACT_M);
-    for i in 0..PLAYERS_MAX {
+    for i in 0..ids.len() {
         let (x, y) = (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
-        for row in i / WIDTH..ROWS {
+        for row in i / WIDTH..ids.len().div_ceil(WIDTH) {
             let (dx, dy) = (f32x4::new(xs[row]) - x, f32x4::new(ys[row]) - y);
             let mut meets = (dx * dx + dy * dy).simd_lt(near).to_bitmask();
             while meets != 0 {
@@ -62,7 +61,11 @@ pub fn separate(game: &mut Match, events: &mut Events) {
         }
     }
     let (x, y) = (RIM_X_M as f32, RIM_Y_M as f32);
-    for player in game.players.iter_mut().filter(|p| p.active) {
+    for id in ids {
+        let player = &mut game.players[id.index()];
+        if !player.active {
+            continue;
+        }
         player.pos = player.pos.clamp(Vec2::new(-x, -y), Vec2::new(x, y));
         frame::keep_out(&mut player.pos, &mut player.vel);
     }

@@ -1,6 +1,5 @@
 //! Set pieces: who takes one and where everybody stands.
 
-use crate::control::switching;
 use crate::football::offside;
 use crate::football::play::Restart;
 use crate::state::{Match, PlayerId};
@@ -35,7 +34,7 @@ pub fn taker(game: &Match, restart: Restart) -> Option<PlayerId> {
     for (id, player) in game.team(restart.team) {
         let keeper = player.role == Role::GK;
         let misplaced = if keeper == (restart.mode == GameMode::GoalKick) { 0.0 } else { 1.0e4 };
-        let unwilling = if player.ai == Ai::Lazy && !switching::controlled(game, id) { 1.0e5 } else { 0.0 };
+        let unwilling = if player.ai == Ai::Lazy { 1.0e5 } else { 0.0 };
         let distance = player.pos.distance(restart.spot) + misplaced + unwilling;
         if best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, id));
@@ -82,11 +81,11 @@ pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
 fn keep_onside(game: &mut Match, team: Team) {
     let side = team.side() as f32;
     let line = offside::line(game, team) - ONSIDE_M;
-    for (i, player) in game.players.iter_mut().enumerate() {
-        if player.active && PlayerId(i as u8).team() == team && player.pos.x * side > line {
+    game.each(game.squad.of(team), |player| {
+        if player.pos.x * side > line {
             player.pos.x = line * side;
         }
-    }
+    });
 }
 
 /// Moves those apart who would stand inside each other; the taker and keepers stay. Returns whether anybody was moved.

@@ -51,8 +51,7 @@ pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Ve
 /// Lets every sliding player meet the ball or a rival.
 pub fn resolve(game: &mut Match, events: &mut Events) {
     for id in game.order() {
-        let i = id.index();
-        let player = game.players[i];
+        let player = game.player(id);
         if !player.active || player.body.pose != Pose::Sliding || player.body.pose_ticks < SLIDE_TICKS - FORCE_TICKS {
             continue;
         }

@@ -118,13 +118,9 @@ fn keep_circle(game: &mut Match) {
         return;
     }
     let radius = CIRCLE_RADIUS_M as f32;
-    for (i, player) in game.players.iter_mut().enumerate() {
-        if !player.active || PlayerId(i as u8).team() == team {
-            continue;
-        }
-        let distance = player.pos.length();
-        if distance < radius {
+    game.each(game.squad.of(team.other()), |player| {
+        if player.pos.length() < radius {
             player.pos = player.pos.normalize_or(Vec2::new(-(team.other().side() as f32), 0.0)) * radius;
         }
-    }
+    });
 }

@@ -281,11 +281,11 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
     // Whoever jumped with him has lost this ball.
     let landing = game.tick as i32 + 40;
-    for other in &mut game.players {
-        if other.active && other.pos.distance_squared(player.pos) < 1.5 * 1.5 {
+    game.each(game.squad, |other| {
+        if other.pos.distance_squared(player.pos) < 1.5 * 1.5 {
             other.body.ready_at = landing;
         }
-    }
+    });
     game.players[id.index()].body.kick = None;
     game.ball.vel = Vec3::new(flat.x, flat.y, if shot { -0.5 } else { rise });
     game.ball.spin = Vec3::ZERO;

@@ -1,6 +1,7 @@
 //! When an episode ends, and what that says of it.
 
 use crate::event::{Event, Events};
+use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
 use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::snapshot::{Archive, SnapshotError};
@@ -24,27 +25,33 @@ pub struct Outcome {
 }
 
 /// The endings of an environment.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct EndingJudge {
     endings: Arc<Endings>,
     labels: Arc<[Arc<str>]>,
     limit: Arc<str>,
     regs: Registers,
     cells: Vec<[f64; 1]>,
+    /// Ending by ending, where any has a script.
     memories: Vec<Memory>,
     faults: u32,
     at_start: Option<usize>,
 }
 
+clone_in_place! {
+    EndingJudge { endings, labels, limit, regs, cells, memories, faults, at_start }
+}
+
 impl EndingJudge {
     /// Prepares a scenario's endings.
     pub fn new(endings: Arc<Endings>) -> EndingJudge {
+        let scripted = endings.list.iter().any(|ending| ending.script.is_some());
         EndingJudge {
             labels: endings.list.iter().map(|ending| Arc::from(ending.label.as_str())).collect(),
             limit: Arc::from(LIMIT),
             regs: Registers::of(&endings.program),
             cells: vec![[0.0]; endings.program.cells as usize],
-            memories: vec![Memory::default(); endings.list.len()],
+            memories: vec![Memory::default(); if scripted { endings.list.len() } else { 0 }],
             faults: 0,
             at_start: None,
             endings,

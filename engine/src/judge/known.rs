@@ -1,6 +1,7 @@
 //! What programs and scripts know of an episode beside the match itself.
 
 use crate::event::Event;
+use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
 use crate::judge::script::{Scene, Scripts, Shelf};
 use crate::judge::view::{Sight, View};
@@ -11,7 +12,7 @@ use setpiece_scenario::vocabulary::Team;
 use std::sync::Arc;
 
 /// Parameters, `let`s, and what scripts are shown.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Known {
     scripts: Scripts,
     /// Whether a script is asked at all.
@@ -23,6 +24,10 @@ pub struct Known {
     lets: Vec<f64>,
     seed: u64,
     index: u64,
+}
+
+clone_in_place! {
+    Known { scripts, scripted, purpose, params, scene, lets, seed, index }
 }
 
 impl Known {

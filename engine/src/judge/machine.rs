@@ -10,6 +10,7 @@ mod operators;
 mod plan;
 
 use crate::event::Event;
+use crate::in_place::clone_in_place;
 use crate::judge::view::{Sight, ids, player_number, team_number, team_of_number};
 use crate::random::Stream;
 use crate::state::PlayerId;
@@ -94,10 +95,14 @@ pub struct DrawKey {
 }
 
 /// A program and its registers.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Registers<const W: usize = 1> {
     plan: Arc<Plan>,
     values: Vec<[f64; W]>,
+}
+
+clone_in_place! {
+    Registers<const W: usize> { plan, values }
 }
 
 impl<const W: usize> Registers<W> {

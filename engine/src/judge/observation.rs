@@ -1,5 +1,6 @@
 //! The observation that a scenario declares: a program, run for each agent on the state as it stands.
 
+use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::state::Match;
 use setpiece_scenario::Observation;
@@ -9,10 +10,14 @@ use std::sync::Arc;
 pub const OBSERVED_MAX: f32 = 1.0e6;
 
 /// Writes a declared observation.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct ObservationJudge {
     observation: Arc<Observation>,
     regs: Registers,
+}
+
+clone_in_place! {
+    ObservationJudge { observation, regs }
 }
 
 impl ObservationJudge {

@@ -3,6 +3,7 @@
 //! Every record is a program of its own, run after the rewards of each step: once, or once per agent where it reads
 //! `me`. Its registers hold the metric so far; a series keeps them all.
 
+use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
@@ -25,7 +26,7 @@ pub enum Recorded {
 }
 
 /// The records of an environment.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct RecordJudge {
     records: Arc<[Record]>,
     states: Vec<RecordState>,
@@ -33,8 +34,12 @@ pub struct RecordJudge {
     faults: u32,
 }
 
+clone_in_place! {
+    RecordJudge { records, states, n_agents, faults }
+}
+
 /// The memory of one record, instance by instance.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct RecordState {
     per_agent: bool,
     n_cells: usize,
@@ -44,6 +49,10 @@ struct RecordState {
     last: Vec<f64>,
     /// Of a series every step's values.
     kept: Vec<Vec<f64>>,
+}
+
+clone_in_place! {
+    RecordState { per_agent, n_cells, regs, cells, last, kept }
 }
 
 impl RecordJudge {

@@ -6,6 +6,7 @@
 
 mod lanes;
 
+use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
 use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::snapshot::{Archive, SnapshotError};
@@ -18,7 +19,7 @@ use setpiece_scenario::{Reward, RewardBody, RewardHook};
 use std::sync::Arc;
 
 /// The rewards of an environment, and what they have paid.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct RewardJudge {
     rewards: Arc<[Reward]>,
     names: Arc<[String]>,
@@ -32,8 +33,12 @@ pub struct RewardJudge {
     faults: u32,
 }
 
+clone_in_place! {
+    RewardJudge { rewards, names, states, n_agents, terms, sums, paid, faults }
+}
+
 /// The memory of one reward.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct RewardState {
     /// Its first term's place among all.
     first_term: usize,
@@ -43,13 +48,21 @@ struct RewardState {
     hooks: Vec<HookState>,
 }
 
+clone_in_place! {
+    RewardState { first_term, n_terms, lanes, hooks }
+}
+
 /// The memory of one script of a reward.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct HookState {
     /// Whether it lives per team rather than per agent.
     shared: bool,
     /// Instance by instance.
     memories: Vec<Memory>,
+}
+
+clone_in_place! {
+    HookState { shared, memories }
 }
 
 /// An agent as the judge sees it.
@@ -61,7 +74,7 @@ struct Judged {
 }
 
 /// The agents of a team, in their order.
-type Squad = ArrayVec<Judged, TEAM_MAX>;
+type Side = ArrayVec<Judged, TEAM_MAX>;
 
 impl RewardJudge {
     /// Prepares rewards for so many agents.
@@ -142,23 +155,23 @@ impl RewardJudge {
         self.sums.fill(0.0);
         self.clear_step();
         let rewards = self.rewards.clone();
-        let squads = self.squads(game);
+        let sides = self.sides(game);
         for (state, reward) in self.states.iter_mut().zip(rewards.iter()) {
             state.hooks.iter_mut().for_each(|hook| hook.memories.fill(Memory::default()));
             let RewardBody { init, step, .. } = &reward.body;
-            for ((lanes, squad), team) in state.lanes.iter_mut().zip(&squads).zip(Team::ALL) {
-                if squad.is_empty() {
+            for ((lanes, side), team) in state.lanes.iter_mut().zip(&sides).zip(Team::ALL) {
+                if side.is_empty() {
                     *lanes = None;
                     continue;
                 }
-                if lanes.as_ref().is_none_or(|lanes| !lanes.seats(squad.len())) {
-                    *lanes = Some(Lanes::new(init, step, state.n_terms, squad.len()));
+                if lanes.as_ref().is_none_or(|lanes| !lanes.seats(side.len())) {
+                    *lanes = Some(Lanes::new(init, step, state.n_terms, side.len()));
                 }
                 let Some(lanes) = lanes else { continue };
                 let input = Input { us: *team, ..*input };
                 lanes.clear();
-                lanes.run(&players(squad), &input, Pass::Init, &mut self.faults);
-                lanes.run(&players(squad), &input, Pass::Silent, &mut self.faults);
+                lanes.run(&players(side), &input, Pass::Init, &mut self.faults);
+                lanes.run(&players(side), &input, Pass::Silent, &mut self.faults);
             }
         }
         self.clear_step();
@@ -192,10 +205,10 @@ impl RewardJudge {
     ) -> Result<(), ScriptError> {
         self.clear_step();
         let rewards = self.rewards.clone();
-        let squads = self.squads(game);
+        let sides = self.sides(game);
         for (which, reward) in rewards.iter().enumerate() {
-            for (team, squad) in Team::ALL.iter().zip(&squads) {
-                self.run(which, &reward.body.hooks, squad, &Input { us: *team, ..*input }, scene)?;
+            for (team, side) in Team::ALL.iter().zip(&sides) {
+                self.run(which, &reward.body.hooks, side, &Input { us: *team, ..*input }, scene)?;
             }
         }
         self.pay();
@@ -208,14 +221,14 @@ impl RewardJudge {
     }
 
     /// The agents of each team.
-    fn squads(&self, game: &Match) -> [Squad; 2] {
-        let mut squads = [Squad::new(), Squad::new()];
+    fn sides(&self, game: &Match) -> [Side; 2] {
+        let mut sides = [Side::new(), Side::new()];
         for (agent, slot) in game.agents.iter().take(self.n_agents).enumerate() {
             let me = slot.player.filter(|player| game.players[player.index()].active);
             // A team has no more agents than players.
-            let _ = squads[slot.team.index()].try_push(Judged { agent, team: slot.team, me });
+            let _ = sides[slot.team.index()].try_push(Judged { agent, team: slot.team, me });
         }
-        squads
+        sides
     }
 
     /// Runs a reward for a team's agents, its scripts first.
@@ -223,7 +236,7 @@ impl RewardJudge {
         &mut self,
         which: usize,
         hooks: &[RewardHook],
-        squad: &Squad,
+        side: &Side,
         input: &Input<'_>,
         scene: Option<(&Scripts, &Arc<Scene>)>,
     ) -> Result<(), ScriptError> {
@@ -232,11 +245,11 @@ impl RewardJudge {
         let Some(lanes) = &mut state.lanes[input.us.index()] else { return Ok(()) };
         if let Some((scripts, scene)) = scene {
             for (hook, state) in hooks.iter().zip(&mut state.hooks) {
-                state.call(hook, squad, lanes, scripts, scene)?;
+                state.call(hook, side, lanes, scripts, scene)?;
             }
         }
-        lanes.run(&players(squad), input, Pass::Step, &mut self.faults);
-        for (lane, judged) in squad.iter().enumerate() {
+        lanes.run(&players(side), input, Pass::Step, &mut self.faults);
+        for (lane, judged) in side.iter().enumerate() {
             let at = judged.agent * n_all + state.first_term;
             lanes.paid(lane, &mut self.terms[at..at + state.n_terms]);
         }
@@ -265,7 +278,7 @@ impl HookState {
     fn call(
         &mut self,
         hook: &RewardHook,
-        squad: &Squad,
+        side: &Side,
         lanes: &mut Lanes,
         scripts: &Scripts,
         scene: &Arc<Scene>,
@@ -279,7 +292,7 @@ impl HookState {
             })
             .collect();
         let mut value = 0.0;
-        for (lane, judged) in squad.iter().enumerate() {
+        for (lane, judged) in side.iter().enumerate() {
             if lane == 0 || !self.shared {
                 let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
                 let instance = if self.shared { judged.team.index() } else { judged.agent };
@@ -293,8 +306,8 @@ impl HookState {
 }
 
 /// The agents' players.
-fn players(squad: &Squad) -> ArrayVec<Option<PlayerId>, TEAM_MAX> {
-    squad.iter().map(|judged| judged.me).collect()
+fn players(side: &Side) -> ArrayVec<Option<PlayerId>, TEAM_MAX> {
+    side.iter().map(|judged| judged.me).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What programs and scripts may read of a match: the match itself, or a small copy that outlives the step.
 
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, PlayerId};
 use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Field, GameMode, Role, Team};
 use setpiece_scenario::{Instr, Program, When};
@@ -86,7 +86,7 @@ impl View {
             ball_vel: game.ball.vel.into(),
             owner: game.owner,
             possession: game.possession,
-            players: game.players.each_ref().map(PlayerView::of),
+            players: std::array::from_fn(|i| PlayerView::of(game, PlayerId(i as u8))),
             score: game.score,
             mode: game.mode,
             dead: game.dead,
@@ -168,7 +168,7 @@ impl Sight<'_> {
     fn player(self, id: f64) -> Option<PlayerView> {
         let index = player_index(id)?;
         let player = match self {
-            Sight::Live(game) => PlayerView::of(&game.players[index]),
+            Sight::Live(game) => PlayerView::of(game, PlayerId(index as u8)),
             Sight::Kept(view) => view.players[index],
         };
         player.present.then_some(player)
@@ -293,7 +293,8 @@ pub fn remaining_s(step: u32, limit_steps: Option<u32>) -> f64 {
 impl PlayerView {
     /// The view of a player; who controls him is not known here.
     #[inline]
-    fn of(player: &Player) -> PlayerView {
+    fn of(game: &Match, id: PlayerId) -> PlayerView {
+        let player = game.player(id);
         PlayerView {
             pos: player.pos.into(),
             vel: player.vel.into(),
@@ -301,7 +302,7 @@ impl PlayerView {
             fatigue: player.fatigue,
             yellow_cards: player.yellow_cards,
             role: player.role,
-            present: player.present,
+            present: game.squad.has(id),
             active: player.active,
             controlled: false,
         }

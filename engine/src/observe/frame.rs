@@ -20,9 +20,7 @@ impl<'a> Frame<'a> {
 
     /// The players of a team's roster, in source order.
     pub(super) fn roster(self, team: Team) -> impl Iterator<Item = (PlayerId, &'a Player)> {
-        let base = PlayerId::new(team, 0).index();
-        let players = self.game.players.iter().enumerate().skip(base).take(setpiece_scenario::pitch::TEAM_MAX);
-        players.filter(|(_, player)| player.present).map(|(id, player)| (PlayerId(id as u8), player))
+        self.game.squad.of(team).ids().map(move |id| (id, self.game.player(id)))
     }
 
     /// A player's place among his team's roster.

@@ -159,8 +159,8 @@ fn simple115_has_no_gaps() {
     let (mut old, mut new) = ([9.0; layout::SIMPLE115], [9.0; layout::SIMPLE115]);
     simple115(&game, 0, &mut old).unwrap();
     simple115v2(&game, 0, &mut new).unwrap();
-    let n = game.players[..11].iter().filter(|player| player.present).count();
-    let m = game.players[11..].iter().filter(|player| player.present).count();
+    let n = game.squad.of(Team::Left).len();
+    let m = game.squad.of(Team::Right).len();
     assert_eq!(old[..2 * n], new[..2 * n]);
     assert_eq!(old[2 * n..4 * n], new[22..22 + 2 * n]);
     assert_eq!(old[4 * n..4 * n + 2 * m], new[44..44 + 2 * m]);

@@ -15,7 +15,7 @@ use crate::state::Ball;
 use glam::{Vec2, Vec3};
 
 /// Angular over linear speed gained at the rim of a shell: 1 / (2/3 · R).
-const SPIN_PER_SPEED: f32 = 1.5 / BALL_RADIUS;
+pub(super) const SPIN_PER_SPEED: f32 = 1.5 / BALL_RADIUS;
 
 /// Whether the ball lies still on the ground. Such a ball stays where it is until something touches it.
 pub fn lies_still(ball: &Ball) -> bool {
@@ -50,7 +50,7 @@ pub(super) fn push(ball: &mut Ball) {
 }
 
 /// The sideways pull on a spinning ball, m/s².
-fn magnus(spin: Vec3, vel: Vec3, speed: f32) -> Vec3 {
+pub(super) fn magnus(spin: Vec3, vel: Vec3, speed: f32) -> Vec3 {
     let spin_squared = spin.length_squared();
     let share =
         if spin_squared > MAGNUS_SPIN_MAX * MAGNUS_SPIN_MAX { MAGNUS_SPIN_MAX / spin_squared.sqrt() } else { 1.0 };

@@ -19,9 +19,15 @@ pub struct Scratch {
     live: World,
     workspace: Workspace,
     laps: Laps,
+    rigid: u64,
 }
 
 impl Scratch {
+    /// How many times rapier has been asked; it allocates each time.
+    pub fn rigid(&self) -> u64 {
+        self.rigid
+    }
+
     /// What its steps have taken, where that is measured.
     pub fn laps(&mut self) -> &mut Laps {
         &mut self.laps
@@ -32,7 +38,7 @@ impl Default for Scratch {
     fn default() -> Scratch {
         let mut workspace = Workspace::default();
         let templates: [World; BODIES_MAX + 1] = std::array::from_fn(|bodies| World::template(bodies, &mut workspace));
-        Scratch { live: templates[0].clone(), templates, workspace, laps: Laps::default() }
+        Scratch { live: templates[0].clone(), templates, workspace, laps: Laps::default(), rigid: 0 }
     }
 }
 
@@ -76,6 +82,7 @@ impl Scratch {
         // On the halfway line its way decides.
         let left_half = ball.pos.x < 0.0 || ball.pos.x == 0.0 && ball.vel.x < 0.0;
         let frame = |v: Vec3| if left_half { turned(v) } else { v };
+        self.rigid += 1;
         self.live.restore(&self.templates[bodies.len()]);
         let given_spin = frame(ball.spin).clamp_length_max(RIGID_SPIN_MAX);
         self.place(frame(ball.pos), frame(ball.vel), given_spin);

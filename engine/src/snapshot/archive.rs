@@ -6,8 +6,12 @@
 use super::error::SnapshotError;
 use super::walk::walk;
 use crate::judge::script::Shelf;
+use postcard::ser_flavors::Flavor;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+
+/// Room for a match of eleven a side: bytes that outgrow their place are copied.
+const USUAL_BYTES: usize = 12 * 1024;
 
 /// Values on their way to bytes or from them.
 pub(crate) struct Archive<'a> {
@@ -24,7 +28,7 @@ enum Way<'a> {
 impl<'a> Archive<'a> {
     /// To be written.
     pub(crate) fn writing() -> Archive<'a> {
-        Archive { way: Way::Out(Vec::new()), shelf: Shelf::default() }
+        Archive { way: Way::Out(Vec::with_capacity(USUAL_BYTES)), shelf: Shelf::default() }
     }
 
     /// To be read.
@@ -107,7 +111,28 @@ impl<'a> Archive<'a> {
 }
 
 fn write<T: Serialize + ?Sized>(name: &str, value: &T, bytes: Vec<u8>) -> Result<Vec<u8>, SnapshotError> {
-    postcard::to_extend(value, bytes).map_err(|why| fault(name, why))
+    postcard::serialize_with_flavor(value, Growing(bytes)).map_err(|why| fault(name, why))
+}
+
+/// Bytes that are written behind others: postcard's own way to do so goes byte by byte.
+struct Growing(Vec<u8>);
+
+impl Flavor for Growing {
+    type Output = Vec<u8>;
+
+    fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
+        self.0.extend_from_slice(data);
+        Ok(())
+    }
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.0.push(byte);
+        Ok(())
+    }
+
+    fn finalize(self) -> postcard::Result<Vec<u8>> {
+        Ok(self.0)
+    }
 }
 
 fn fault(name: &str, why: postcard::Error) -> SnapshotError {

@@ -3,7 +3,7 @@
 use super::error::SnapshotError;
 use crate::draw::Roster;
 use crate::state::{Match, PlayerId};
-use setpiece_scenario::pitch::TEAM_MAX;
+use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::Team;
 
 /// Says who is not there, or has no place here.
@@ -11,7 +11,7 @@ use setpiece_scenario::vocabulary::Team;
 /// # Errors
 /// [`SnapshotError::Roster`].
 pub(crate) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
-    let there = game.players.each_ref().map(|player| player.present);
+    let there = std::array::from_fn::<bool, PLAYERS_MAX, _>(|i| game.squad.has(PlayerId(i as u8)));
     for team in Team::ALL {
         let (found, expected) = (players(&there, *team), players(&roster.present, *team));
         if found != expected {
@@ -25,7 +25,7 @@ pub(crate) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
             return Err(SnapshotError::damaged(format!("match.agents[{at}].player"), "is nobody of its team"));
         }
     }
-    if let Some(at) = game.players.iter().position(|player| player.active && !player.present) {
+    if let Some(at) = game.players.iter().zip(there).position(|(player, there)| player.active && !there) {
         return Err(SnapshotError::damaged(format!("match.players[{at}].active"), "is true of nobody"));
     }
     if game.owner.is_some_and(ghost) {

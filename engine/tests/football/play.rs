@@ -93,7 +93,7 @@ fn bots_play_football() {
                 last = game.possession;
                 spells += 1;
             }
-            assert_eq!(game.players.iter().filter(|p| p.present).count(), 22);
+            assert_eq!(game.squad.len(), 22);
             for player in game.players.iter().filter(|p| p.active) {
                 assert!(player.pos.is_finite() && player.pos.x.abs() <= 60.5 && player.pos.y.abs() <= 40.5);
                 assert!(player.vel.length() < 12.0, "{} m/s", player.vel.length());

@@ -67,7 +67,7 @@ impl Witness {
         let of = |kinds: &[EventKind]| {
             step.events.iter().filter(|event| kinds.contains(&event.kind) && event.qualifier.is_none()).count() as u64
         };
-        self.before = step.after.clone();
+        self.before.clone_from(step.after);
         Ok(Seen {
             goals: of(&[Goal]),
             set_pieces: of(&[Corner, FreeKick, GoalKick, Kickoff, Penalty, ThrowIn]),

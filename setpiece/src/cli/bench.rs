@@ -3,7 +3,7 @@
 use super::playing::AgentName;
 use super::{FINE, out::Out};
 use crate::Error;
-use crate::bench::{BenchOptions, Measured, Observation, measure, phases};
+use crate::bench::{BenchOptions, Measured, ONCE_NAMES, Observation, measure, once, phases, scaling};
 use crate::engine::environment::EnvironmentOptions;
 use crate::files::{SOURCE_MAX_BYTES, into_text, read_file};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
@@ -23,10 +23,10 @@ pub(crate) struct BenchArgs {
     /// Threads; several numbers with commas between them [default: 1 and one per core]
     #[arg(short, long, value_name = "N", value_delimiter = ',', value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
     threads: Vec<u16>,
-    /// How many matches are stepped together
-    #[arg(short, long, value_name = "N", default_value_t = 64, value_parser = RangedU64ValueParser::<u32>::new().range(1..=100_000))]
-    matches: u32,
-    /// How long each line of the table is measured
+    /// How many matches are stepped together; several numbers with commas between them
+    #[arg(short, long, value_name = "N", default_value = "64", value_delimiter = ',', value_parser = RangedU64ValueParser::<u32>::new().range(1..=100_000))]
+    matches: Vec<u32>,
+    /// How long each line of the table is measured; phases and scaling take as long again, or several times
     #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds)]
     seconds: f64,
     /// Who plays for the agents
@@ -72,14 +72,21 @@ struct Row {
     steps_per_second: f64,
     steps_per_cpu_second: f64,
     resets_per_step: f64,
+    /// The gain over one thread as a share of what bare arithmetic gains; on several threads alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    scaling: Option<f64>,
     /// By phase; on one thread alone.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     microseconds: BTreeMap<String, f64>,
+    /// What is done once, [`once`]; on one thread alone.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    once_microseconds: BTreeMap<String, f64>,
 }
 
 impl Row {
     fn compares_with(&self, other: &Row) -> bool {
-        let key = |row: &Row| (row.scenario.clone(), row.threads, row.observation.clone(), row.agent.clone());
+        let key =
+            |row: &Row| (row.scenario.clone(), row.threads, row.matches, row.observation.clone(), row.agent.clone());
         key(self) == key(other)
     }
 }
@@ -108,9 +115,9 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
     let mut rows = Vec::new();
     for loaded in &loaded {
         out.warnings(loaded);
-        for &threads in &threads {
+        for (&threads, &matches) in threads.iter().flat_map(|threads| args.matches.iter().map(move |m| (threads, m))) {
             let options = BenchOptions {
-                matches: args.matches as usize,
+                matches: matches as usize,
                 threads,
                 duration: Duration::from_secs_f64(args.seconds),
                 agent: args.agent.agent(),
@@ -123,12 +130,16 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
                 environment: EnvironmentOptions::default(),
             };
             let measured = measure(&loaded.scenario, &options)?;
-            let mut row = row(&loaded.scenario.name, threads, &measured, (&observation, &agent), args);
+            let mut row = row(&loaded.scenario.name, &options, &measured, (&observation, &agent));
             if threads == 1 {
                 let phases = phases(&loaded.scenario, &options)?;
                 let named = crate::engine::laps::Phase::NAMED.iter().zip(phases);
                 row.microseconds =
                     named.map(|((_, name), (_, microseconds))| ((*name).to_owned(), microseconds)).collect();
+                let once = ONCE_NAMES.iter().zip(once(&loaded.scenario, &options)?);
+                row.once_microseconds = once.map(|(name, took)| ((*name).to_owned(), took)).collect();
+            } else {
+                row.scaling = Some(scaling(&loaded.scenario, &options)?);
             }
             if args.format == Format::Jsonl {
                 out.line(&serde_json::to_string(&row).unwrap_or_default());
@@ -137,56 +148,68 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
         }
     }
     if args.format == Format::Text {
-        print(&rows, &before, (&observation, &agent), args, out);
+        print(&rows, &before, (&observation, &agent), out);
     }
     Ok(FINE)
 }
 
-fn row(scenario: &str, threads: usize, measured: &Measured, words: (&str, &str), args: &BenchArgs) -> Row {
+fn row(scenario: &str, options: &BenchOptions, measured: &Measured, words: (&str, &str)) -> Row {
     Row {
         scenario: scenario.to_owned(),
-        threads,
-        matches: args.matches as usize,
+        threads: options.threads,
+        matches: options.matches,
         observation: words.0.to_owned(),
         agent: words.1.to_owned(),
         steps_per_second: measured.per_second(),
         steps_per_cpu_second: measured.per_cpu_second(),
         resets_per_step: measured.resets as f64 / measured.steps.max(1) as f64,
+        scaling: None,
         microseconds: BTreeMap::new(),
+        once_microseconds: BTreeMap::new(),
     }
 }
 
-fn print(rows: &[Row], before: &[Row], words: (&str, &str), args: &BenchArgs, out: &Out) {
+fn print(rows: &[Row], before: &[Row], words: (&str, &str), out: &Out) {
     let (observation, agent) = words;
-    out.line(&format!(
-        "{} matches at once · agent {agent} · observation {observation} · resets included",
-        args.matches
-    ));
+    out.line(&format!("agent {agent} · observation {observation} · resets included"));
     out.line("");
-    let width = rows.iter().map(|row| row.scenario.len()).max().unwrap_or(0).max(8);
+    let width = rows.iter().map(|row| row.scenario.len()).max().unwrap_or(0).max(12);
+    let scales = rows.iter().any(|row| row.scaling.is_some());
+    let scaling = if scales { "       scaling" } else { "" };
     let against = if before.is_empty() { "" } else { "   ratio" };
-    out.line(&out.dim(&format!("{:width$}  threads  steps/s  steps/CPU-s{against}", "scenario")));
+    let head = format!("{:width$}  threads  matches  steps/s  steps/CPU-s{scaling}{against}", "scenario");
+    out.line(&out.dim(&head));
     for row in rows {
         let ratio = before.iter().find(|earlier| row.compares_with(earlier)).map_or(String::new(), |earlier| {
             format!("{:>8.2}", row.steps_per_cpu_second / earlier.steps_per_cpu_second)
         });
+        let scaling = match row.scaling {
+            Some(share) => format!("{share:>14.2}"),
+            None if scales => " ".repeat(14),
+            None => String::new(),
+        };
         out.line(&format!(
-            "{:width$}  {:>7}  {:>7.0}  {:>11.0}{ratio}",
-            row.scenario, row.threads, row.steps_per_second, row.steps_per_cpu_second
+            "{:width$}  {:>7}  {:>7}  {:>7.0}  {:>11.0}{scaling}{ratio}",
+            row.scenario, row.threads, row.matches, row.steps_per_second, row.steps_per_cpu_second
         ));
     }
-    let measured: Vec<&Row> = rows.iter().filter(|row| !row.microseconds.is_empty()).collect();
-    if measured.is_empty() {
+    let alone: Vec<&Row> = rows.iter().filter(|row| row.threads == 1).collect();
+    times(&alone, "µs a step", &crate::engine::laps::Phase::NAMED.map(|(_, name)| name), |row| &row.microseconds, out);
+    times(&alone, "µs each time", &ONCE_NAMES, |row| &row.once_microseconds, out);
+}
+
+/// A table of microseconds by name.
+fn times(rows: &[&Row], title: &str, names: &[&str], of: impl Fn(&Row) -> &BTreeMap<String, f64>, out: &Out) {
+    if rows.is_empty() {
         return;
     }
-    let names = crate::engine::laps::Phase::NAMED.map(|(_, name)| name);
+    let width = rows.iter().map(|row| row.scenario.len()).max().unwrap_or(0).max(12);
     out.line("");
-    let head: String = names.iter().map(|name| format!("{name:>10}")).collect();
-    out.line(&out.dim(&format!("{:width$}{head}", "µs a step")));
-    for row in measured {
-        let times: String =
-            names.iter().map(|name| format!("{:>10.2}", row.microseconds.get(*name).copied().unwrap_or(0.0))).collect();
-        out.line(&format!("{:width$}{times}", row.scenario));
+    let head: String = names.iter().map(|name| format!("{name:>12}")).collect();
+    out.line(&out.dim(&format!("{title:width$}{head}")));
+    for row in rows {
+        let time = |name: &&str| format!("{:>12.2}", of(row).get(*name).copied().unwrap_or(0.0));
+        out.line(&format!("{:width$}{}", row.scenario, names.iter().map(time).collect::<String>()));
     }
 }
 

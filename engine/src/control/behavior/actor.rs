@@ -1,6 +1,7 @@
 //! One player's way through his behaviour's nodes.
 
 use super::perform::{Step, Wish, perform};
+use crate::in_place::clone_in_place;
 use crate::judge::machine::{DrawKey, Machine, truth};
 use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::judge::view::player_index;
@@ -16,7 +17,7 @@ use std::sync::Arc;
 const NODES_PER_STEP: u32 = 100_000;
 
 /// A scripted player and what he remembers.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Actor {
     /// Who.
     pub player: PlayerId,
@@ -28,8 +29,12 @@ pub struct Actor {
     pub thread: Thread,
 }
 
+clone_in_place! {
+    Actor { player, plan, cells, thread }
+}
+
 /// Where a player is in his behaviour.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Thread {
     player: PlayerId,
     at: Frame,
@@ -41,6 +46,10 @@ pub struct Thread {
     turned: Vec<u32>,
     /// Of each script, by its node.
     memories: Vec<(u32, Memory)>,
+}
+
+clone_in_place! {
+    Thread { player, at, interrupted, steps, turned, memories }
 }
 
 /// A node and how far it is.

@@ -99,9 +99,16 @@ fn impossible_numbers_are_told_with_their_place() {
         (tampered(|e| e.game.tick = u32::MAX), "`match.tick` is 4294967295"),
         (tampered(|e| e.game.owner = Some(PlayerId(25))), "`match` has a value of none of its kinds"),
         (tampered(|e| e.game.owner = Some(PlayerId(5))), "`match.owner` is nobody"),
+        (
+            tampered(|e| e.game.squad = e.game.squad.ids().chain([PlayerId(25)]).collect()),
+            "`match` has a value of none of its kinds",
+        ),
         (tampered(|e| e.game.agents[0].player = Some(PlayerId(11))), "`match.agents[0].player` is nobody of its team"),
-        (tampered(|e| e.drawn.ball_pos.x = f32::INFINITY), "`start.ball_pos[0]` is inf"),
-        (tampered(|e| e.bindings.0.push(1.0)), "`bindings` can't be bound: expected 0 parameter values, found 1"),
+        (tampered(|e| Arc::make_mut(&mut e.drawn).ball_pos.x = f32::INFINITY), "`start.ball_pos[0]` is inf"),
+        (
+            tampered(|e| Arc::make_mut(&mut e.bindings).0.push(1.0)),
+            "`bindings` can't be bound: expected 0 parameter values, found 1",
+        ),
     ] {
         assert_eq!(refused(&bytes), format!("the snapshot is damaged: {words}"));
     }
@@ -116,7 +123,7 @@ fn what_is_no_snapshot_of_this_version_is_told() {
     changed[40] ^= 1;
     for (bytes, words) in [
         (b"{}".as_slice(), "not a snapshot: it doesn't begin as one"),
-        (&newer, "the snapshot has version 99; this build reads version 2: take it again"),
+        (&newer, "the snapshot has version 99; this build reads version 3: take it again"),
         (&changed, "the snapshot was changed after it was taken: its checksum differs"),
         (&snapshot[..100], "the snapshot is cut off: its end is missing"),
     ] {

@@ -1,5 +1,6 @@
 //! One reward of one team: its agents are judged at once, each in a lane.
 
+use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::view::player_number;
 use crate::snapshot::{Archive, SnapshotError};
@@ -19,7 +20,7 @@ pub(super) enum Pass {
 }
 
 /// A reward's memory for a team: as wide as its agents need.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) enum Lanes {
     /// For one agent.
     One(Box<Memory<1>>),
@@ -29,13 +30,36 @@ pub(super) enum Lanes {
     Twelve(Box<Memory<12>>),
 }
 
+impl Clone for Lanes {
+    fn clone(&self) -> Lanes {
+        match self {
+            Lanes::One(memory) => Lanes::One(memory.clone()),
+            Lanes::Four(memory) => Lanes::Four(memory.clone()),
+            Lanes::Twelve(memory) => Lanes::Twelve(memory.clone()),
+        }
+    }
+
+    fn clone_from(&mut self, from: &Lanes) {
+        match (self, from) {
+            (Lanes::One(memory), Lanes::One(from)) => memory.clone_from(from),
+            (Lanes::Four(memory), Lanes::Four(from)) => memory.clone_from(from),
+            (Lanes::Twelve(memory), Lanes::Twelve(from)) => memory.clone_from(from),
+            (memory, from) => *memory = from.clone(),
+        }
+    }
+}
+
 /// Registers, cells and terms, lane by lane.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Memory<const W: usize> {
     init: Registers<W>,
     step: Registers<W>,
     cells: Vec<[f64; W]>,
     terms: Vec<[f64; W]>,
+}
+
+clone_in_place! {
+    Memory<const W: usize> { init, step, cells, terms }
 }
 
 impl Lanes {

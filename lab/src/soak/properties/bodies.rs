@@ -16,10 +16,11 @@ const PLAYER_MPS: f32 = 12.0;
 pub(super) fn sound(game: &Match) -> Result<(), Failure> {
     ball(game)?;
     for i in (0..PLAYERS_MAX).filter(|&i| game.players[i].active) {
+        must(game.squad.has(PlayerId(i as u8)), || format!("player {i} is nobody"))?;
         player(game, i)?;
     }
     for id in [game.owner, game.last_touch].into_iter().flatten() {
-        must(game.player(id).present, || format!("{id:?} is nobody"))?;
+        must(game.squad.has(id), || format!("{id:?} is nobody"))?;
     }
     must(game.owner.is_none_or(|id| game.player(id).active), || "a man sent off has the ball".to_owned())?;
     if let Some((keeper, _)) = game.play.hands {
@@ -43,7 +44,6 @@ fn player(game: &Match, i: usize) -> Result<(), Failure> {
     let (x, y) = (RIM_X_M as f32 + 0.001, RIM_Y_M as f32 + 0.001);
     let finite = player.pos.is_finite() && player.vel.is_finite() && player.heading_rad.is_finite();
     must(finite, || format!("player {i}: {:?} {:?}", player.pos, player.vel))?;
-    must(player.present, || format!("player {i} is nobody"))?;
     must(player.pos.x.abs() <= x && player.pos.y.abs() <= y, || format!("player {i} is lost: {:?}", player.pos))?;
     must(player.vel.length() < PLAYER_MPS, || format!("player {i} is too fast: {:?}", player.vel))?;
     must((0.0..=1.0).contains(&player.fatigue), || format!("player {i} is tired by {}", player.fatigue))?;
@@ -68,8 +68,9 @@ fn agents(game: &Match) -> Result<(), Failure> {
 pub(super) fn hold(before: &Match, judged: &Match) -> Result<(), Failure> {
     for i in 0..PLAYERS_MAX {
         let (was, is) = (&before.players[i], &judged.players[i]);
-        must(was.present == is.present && (was.active || !is.active), || format!("player {i} has appeared"))?;
+        must(was.active || !is.active, || format!("player {i} has appeared"))?;
     }
+    must(before.squad == judged.squad, || "the squad has changed".to_owned())?;
     must(before.agents.len() == judged.agents.len(), || "an agent is lost".to_owned())?;
     for (slot, (was, is)) in before.agents.iter().zip(&judged.agents).enumerate() {
         let same = was.team == is.team && was.fixed == is.fixed && (!is.fixed || was.player == is.player);

@@ -88,6 +88,7 @@ fn score(before: &Match, step: &Step) -> Result<(), Failure> {
 /// he is the last.
 fn cards(before: &Match, step: &Step) -> Result<(), Failure> {
     let Step { judged, after, events, .. } = step;
+    must(judged.squad == after.squad, || "a restart changed who takes part".to_owned())?;
     for i in 0..PLAYERS_MAX {
         let (was, is) = (&before.players[i], &judged.players[i]);
         let of = |kind| count(events, |event| event.kind == kind && event.by == Some(PlayerId(i as u8)));
@@ -100,7 +101,7 @@ fn cards(before: &Match, step: &Step) -> Result<(), Failure> {
         let goes = was.active && !is.active;
         must(goes == (red > 0 && !last), || format!("player {i}: {red} red cards, gone: {goes}"))?;
         let then = &after.players[i];
-        let same = (is.present, is.active, is.yellow_cards) == (then.present, then.active, then.yellow_cards);
+        let same = (is.active, is.yellow_cards) == (then.active, then.yellow_cards);
         must(same, || format!("a restart changed who player {i} is"))?;
     }
     Ok(())

@@ -1,0 +1,73 @@
+//! Where a player can first meet the ball: the search leaps, and finds what a look at every point finds.
+
+use glam::{Vec2, Vec3};
+use proptest::prelude::*;
+use setpiece_engine::football::body::Body;
+use setpiece_engine::football::forecast::Forecast;
+use setpiece_engine::football::reach::{PLAYABLE_M, REACH_M, Way, meeting};
+use setpiece_engine::physics::left_pitch;
+use setpiece_engine::state::{Ball, Player};
+use setpiece_scenario::Ai;
+use setpiece_scenario::vocabulary::Role;
+
+fn player(pos: [f32; 2], vel: [f32; 2], speed_top_mps: f32) -> Player {
+    Player {
+        active: true,
+        role: Role::CM,
+        ai: Ai::Bot,
+        controllable: true,
+        pos: pos.into(),
+        vel: vel.into(),
+        heading_rad: 0.0,
+        fatigue: 0.0,
+        yellow_cards: 0,
+        difficulty: 1.0,
+        body: Body { speed_top_mps, ..Body::blank() },
+    }
+}
+
+/// The meeting as a look at point after point finds it; `None` where he can't be there in time.
+fn met(player: &Player, forecast: &Forecast, tick: u32) -> Option<(Vec2, f32)> {
+    let speed = 0.94 * player.body.speed_top_mps;
+    let at = player.pos + player.vel * 0.12;
+    let near = |(time_s, point): &(f32, Vec3)| {
+        let radius = REACH_M + speed * (time_s - 0.12).max(0.0);
+        point.z <= PLAYABLE_M && point.truncate().distance_squared(at) <= radius * radius
+    };
+    let mut on_pitch = forecast.from(tick).take_while(|(_, point)| left_pitch(*point).is_none());
+    on_pitch.find(near).map(|(time_s, point)| (point.truncate(), time_s))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    #[test]
+    fn a_leaping_search_finds_what_a_look_at_every_point_finds(
+        ball in (-54.0f32..54.0, -35.0f32..35.0, 0.11f32..3.0),
+        vel in prop::array::uniform3(-25.0f32..25.0),
+        spin in prop::array::uniform3(-30.0f32..30.0),
+        rolls: bool,
+        from in (-60.0f32..60.0, -40.0f32..40.0),
+        running in prop::array::uniform2(-8.0f32..8.0),
+        speed in prop_oneof![9 => 4.0f32..9.0, 1 => Just(0.0)],
+        still in prop::bool::weighted(0.1),
+        later in 0u32..120,
+    ) {
+        let (height, rise) = if rolls { (0.11, 0.0) } else { (ball.2, vel[2]) };
+        let pos = Vec3::new(ball.0, ball.1, height);
+        let vel = if still { Vec3::ZERO } else { Vec3::new(vel[0], vel[1], rise) };
+        let pos = if still { pos.with_z(0.11) } else { pos };
+        let forecast = Forecast::of(&Ball { pos, vel, spin: spin.into() }, 700);
+        let player = player([from.0, from.1], running, speed);
+        let tick = 700 + later;
+        let found = meeting(&player, &Way::of(&forecast, tick));
+        if let Some(expected) = met(&player, &forecast, tick) {
+            prop_assert_eq!(found, expected);
+        } else {
+            // Nowhere in time: he runs to where the way ends, and is late.
+            let way: Vec<_> = forecast.from(tick).take_while(|(_, point)| left_pitch(*point).is_none()).collect();
+            let end = way.last().map_or((player.pos, 0.0), |(time_s, point)| (point.truncate(), *time_s));
+            prop_assert!(found.0 == end.0 && (found.1 >= end.1 || found.1.is_nan()), "{found:?} {end:?}");
+        }
+    }
+}

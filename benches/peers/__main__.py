@@ -1,0 +1,161 @@
+"""How fast Setpiece is beside its peers, in one run: writes a page of figures.
+
+Install `benches/peers/requirements.txt` and this project's wheel into one environment, then
+`python benches/peers -o docs/performance.md`.
+
+All play on one thread, by turns, each in a process of its own, so that whatever else the machine does falls on all
+alike. What contests count is done per second of CPU time; the median of the rounds is told, and a ratio is the
+median of the rounds' ratios. Microseconds and scaling are `setpiece bench`'s own, wall time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+from importlib.metadata import version
+from pathlib import Path
+
+from contests import Contest, bench
+from gfootball import GFOOTBALL
+from scenic_sampler import SCENIC_SAMPLER
+from vmas_football import VMAS, pitch
+
+CONTESTS = {"gfootball": GFOOTBALL, "vmas": VMAS, "scenic": SCENIC_SAMPLER}
+SCENARIOS = GFOOTBALL.cases
+MATCHES = (1, 4, 16, 64, 256, 1024)
+SIDES = (1, 2, 3, 5, 7, 9, 11)
+
+
+def measured(contest: str, player: str, case: str, seconds: float) -> float:
+    """What one of them does, in a process of its own."""
+    command = [sys.executable, str(Path(__file__).parent), "--one", contest, player, case, "--seconds", str(seconds)]
+    told = subprocess.run(command, check=True, capture_output=True, text=True)
+    return float(told.stdout.splitlines()[-1])
+
+
+def contest_section(name: str, contest: Contest, rounds: int, seconds: float) -> list[str]:
+    """Plays a contest by turns; its section of the page."""
+    figures: dict[str, dict[str, list[float]]] = {
+        case: {player: [] for player in contest.players} for case in contest.cases
+    }
+    for _ in range(rounds):
+        for case, by_player in figures.items():
+            for player, told in by_player.items():
+                told.append(measured(name, player, case, seconds))
+                print(f"{case}, {player}: {told[-1]:,.0f}", file=sys.stderr)
+    peer = next(iter(contest.players))
+    versions = ", ".join(f"{package} {version(package)}" for package in contest.packages)
+    lines = [f"## {contest.title}", "", contest.text, f"{versions}; {rounds} rounds of {seconds:g} s.", ""]
+    lines += [f"| | player | {contest.unit} | against {peer} |", "| --- | --- | ---: | ---: |"]
+    for case, by_player in figures.items():
+        for player, told in by_player.items():
+            ratios = [mine / theirs for mine, theirs in zip(told, by_player[peer], strict=True)]
+            case_word = f"`{case}`" if "_" in case else case
+            ratio = statistics.median(ratios)
+            ratio_word = f"{ratio:,.0f}" if ratio >= 10 else f"{ratio:.2g}"
+            lines.append(f"| {case_word} | {player} | {statistics.median(told):,.0f} | {ratio_word} |")
+    return [*lines, ""]
+
+
+def alone_section(seconds: float) -> list[str]:
+    """What `setpiece bench` tells: where the time goes, what is done once, what more threads bring."""
+    rows = {scenario: bench(scenario, seconds, "--threads", "1")[0] for scenario in SCENARIOS}
+    phases = ("draw", "bots", "reach", "movement", "play", "physics", "referee", "judge", "observe")
+    lines = ["## Where the time goes", "", "Microseconds a step, `simple115v2` written after every step.", ""]
+    lines += ["| | " + " | ".join(phases) + " |", "| --- |" + " ---: |" * len(phases)]
+    for scenario, row in rows.items():
+        lines.append(f"| `{scenario}` | " + " | ".join(f"{row['microseconds'][name]:.2f}" for name in phases) + " |")
+    names = {
+        "create": "create, first reset",
+        "reset": "later reset",
+        "memory": "copy in memory and back",
+        "to_bytes": "snapshot to bytes",
+        "from_bytes": "restore from bytes",
+        "simple115v2": "`simple115v2`",
+        "smm": "SMM 72 x 96 x 4",
+    }
+    lines += ["", "Microseconds each time.", "", "| | " + " | ".join(names.values()) + " |"]
+    lines.append("| --- |" + " ---: |" * len(names))
+    for scenario, row in rows.items():
+        times = " | ".join(f"{row['once_microseconds'][name]:.2f}" for name in names)
+        lines.append(f"| `{scenario}` | {times} |")
+    return [*lines, ""]
+
+
+def curve_sections(seconds: float) -> list[str]:
+    """Cost over threads, matches and players."""
+    cores = os.cpu_count() or 1
+    lines = ["## Threads, matches, players", ""]
+    if cores > 1:
+        lines += [f"{cores} threads against one, 256 matches, as a share of what a loop of bare arithmetic gains:"]
+        shares = []
+        for scenario in SCENARIOS:
+            (row,) = bench(scenario, 4 * seconds, "--threads", str(cores), "--matches", "256")
+            shares.append(f"{row['scaling']:.2f} for `{scenario}`")
+        lines += [", ".join(shares) + ".", ""]
+    rows = bench(SCENARIOS[0], seconds, "--threads", "1", "--matches", ",".join(map(str, MATCHES)))
+    lines += ["| matches at once | µs a step of one | µs a step of all |", "| ---: | ---: | ---: |"]
+    for row in rows:
+        each = 1e6 / row["steps_per_cpu_second"]
+        lines.append(f"| {row['matches']:,} | {each:.1f} | {each * row['matches']:,.0f} |")
+    lines += ["", "| players a side | µs a step | of which for each player |", "| ---: | ---: | ---: |"]
+    with tempfile.TemporaryDirectory() as folder:
+        for n in SIDES:
+            path = Path(folder) / f"{n}.pitch"
+            path.write_text(pitch(n).replace("left: all", "left: 1"), encoding="utf-8")
+            (row,) = bench(str(path), seconds, "--threads", "1")
+            each = 1e6 / row["steps_per_cpu_second"]
+            lines.append(f"| {n} | {each:.1f} | {each / (2 * n):.2f} |")
+    return [*lines, ""]
+
+
+def processor() -> str:
+    """What the processor calls itself."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text(encoding="utf-8").splitlines() if info.exists() else []
+    return next(
+        (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), platform.processor()
+    )
+
+
+def page(rounds: int, seconds: float) -> str:
+    """The page."""
+    machine = f"{processor()}, {os.cpu_count()} cores; {platform.system()}, Python {platform.python_version()}"
+    lines = [
+        "# Performance",
+        "",
+        "Written by `python benches/peers`, which says how it measures: one thread unless said.",
+        f"{machine}; setpiece {version('setpiece')}.",
+        "",
+    ]
+    for name, contest in CONTESTS.items():
+        lines += contest_section(name, contest, rounds, seconds)
+    return "\n".join(lines + alone_section(seconds) + curve_sections(seconds))
+
+
+def main() -> None:
+    """Measures in turn and writes the page."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=Path, help="where the page goes; standard output without it")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--seconds", type=float, default=5.0, help="how long each is measured in a round")
+    parser.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
+    args = parser.parse_args()
+    if args.one:
+        contest, player, case = args.one
+        print(CONTESTS[contest].players[player](case, args.seconds))
+        return
+    text = page(args.rounds, args.seconds)
+    if args.output:
+        args.output.write_text(text, encoding="utf-8")
+    else:
+        print(text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,44 @@
+"""What the peers are measured by."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Contest:
+    """Some players who do the same: the first is the peer whom the others are set beside.
+
+    `players` maps a name to what measures it: of a case and a number of seconds, in units per second of CPU time.
+    """
+
+    title: str
+    unit: str
+    text: str
+    packages: tuple[str, ...]
+    cases: tuple[str, ...]
+    players: dict[str, Callable[[str, float], float]] = field(default_factory=dict)
+
+
+def per_cpu_second(act: Callable[[], object], units: int, seconds: float) -> float:
+    """Calls `act`, which does so many units, for a while; returns units per second of the process's CPU time."""
+    for _ in range(3):
+        act()
+    done, cpu, end = 0, time.process_time(), time.monotonic() + seconds
+    while time.monotonic() < end:
+        act()
+        done += units
+    return done / (time.process_time() - cpu)
+
+
+def bench(scenario: str, seconds: float, *options: str) -> list[dict[str, Any]]:
+    """The lines of `setpiece bench SCENARIO` with some options."""
+    command = [sys.executable, "-m", "setpiece", "bench", scenario, "--seconds", str(seconds), *options]
+    told = subprocess.run([*command, "--format", "jsonl"], check=True, capture_output=True, text=True)
+    return [json.loads(line) for line in told.stdout.splitlines()]

@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 /// Rounds in which the four measurements take turns.
 const ROUNDS: usize = 5;
 
-/// The gain of `options.threads` threads over one (of as many as there are matches), as a share of what bare arithmetic gains: the median of some rounds.
+/// The gain of `options.threads` threads over one (of as many as there are matches), as a share of what bare arithmetic
+/// gains: the median of some rounds.
 ///
 /// # Errors
 /// As [`measure`].

@@ -20,7 +20,7 @@ use crate::event::{Event, Events};
 use crate::football;
 use crate::in_place::clone_in_place;
 use crate::judge::script::Scripts;
-use crate::judge::{Judge, Outcome, Recorded};
+use crate::judge::{Given, Judge, Outcome, Recorded};
 use crate::laps::Phase;
 use crate::observe::layout::{self, Layout};
 use crate::observe::{self, Floats, ObserveError};
@@ -80,7 +80,6 @@ pub struct Environment {
     roster: Roster,
     ids: Arc<[String]>,
     drawer: Drawer,
-    drawn: Arc<Drawn>,
     game: Match,
     /// Where play was stopped in the last step.
     stopped: Stopped,
@@ -103,7 +102,7 @@ pub struct Environment {
 
 clone_in_place! {
     Environment {
-        scenario, scenario_digest, options, past, bindings, roster, ids, drawer, drawn, game, stopped, judge, actors,
+        scenario, scenario_digest, options, past, bindings, roster, ids, drawer, game, stopped, judge, actors,
         events, judged, statistics, running, begun, started, outcome, seed, index,
     }
 }
@@ -136,7 +135,6 @@ impl Environment {
             bindings: Arc::new(bindings),
             roster,
             drawer,
-            drawn: Arc::new(drawn),
             judge,
             actors,
             events: Events::new(),
@@ -181,17 +179,15 @@ impl Environment {
         self.outcome = None;
         self.events.clear();
         self.judged = 0;
-        let (scenario, bindings, roster) = (&self.scenario, &self.bindings, &self.roster);
-        let mut drawn = self.drawer.draw(scenario, bindings, roster, self.seed, self.index)?;
-        apply_physics(&mut drawn, self.options.physics);
-        self.drawn = Arc::new(drawn);
-        self.game = football::begin(&self.drawn);
+        let drawn = self.start()?;
+        self.game = football::begin(&drawn);
         if let Some(past) = past {
             self.game = begin_from(past, &self.game);
         }
         self.started = true;
-        self.judge.reset(&self.game, &self.drawn, &self.bindings.0);
-        self.actors.reset(&self.game, &self.drawn, &self.bindings.0);
+        let given = Given { seed: self.seed, index: self.index, params: &self.bindings.0, lets: &drawn.lets };
+        self.judge.reset(&self.game, &given);
+        self.actors.reset(&self.game, &given);
         self.statistics = Statistics::begin(&self.game);
         self.running = true;
         Ok(())
@@ -481,9 +477,16 @@ impl Environment {
         self.stopped.get().unwrap_or(&self.game)
     }
 
-    /// The start that was drawn.
-    pub fn start(&self) -> &Drawn {
-        &self.drawn
+    /// The start of the episode, drawn again: what the scenario gives for its seed, its index and the parameters as they
+    /// are now.
+    ///
+    /// # Errors
+    /// [`DrawError`] where no start meets the scenario's requirements.
+    pub fn start(&mut self) -> Result<Drawn, DrawError> {
+        let (scenario, bindings, roster) = (&self.scenario, &self.bindings, &self.roster);
+        let mut drawn = self.drawer.draw(scenario, bindings, roster, self.seed, self.index)?;
+        apply_physics(&mut drawn, self.options.physics);
+        Ok(drawn)
     }
 
     /// Goals, left and right.

@@ -32,8 +32,8 @@ use crate::event::Events;
 use crate::in_place::clone_in_place;
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
-use crate::start::Drawn;
 use crate::state::Match;
+pub use known::Given;
 use known::Known;
 use machine::Input;
 use observation::ObservationJudge;
@@ -116,8 +116,8 @@ impl Judge {
     }
 
     /// Begins an episode: the match stands at its start.
-    pub fn reset(&mut self, game: &Match, drawn: &Drawn, params: &[f64]) {
-        self.known.begin(drawn, params);
+    pub fn reset(&mut self, game: &Match, given: &Given<'_>) {
+        self.known.begin(given);
         self.prev = View::of(game);
         self.before = self.prev;
         let input = self.known.input(Sight::Live(game), &self.prev, endings::judged_side(game));
@@ -128,8 +128,10 @@ impl Judge {
 
     /// Writes or reads an episode's memory; on the way in [`Self::reset`] has come before.
     pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        archive.value("prev", &mut self.prev)?;
-        archive.value("before", &mut self.before)?;
+        self.prev.pass("prev", self.memory, archive)?;
+        if self.observation.is_some() {
+            self.before.pass("before", self.memory, archive)?;
+        }
         self.known.pass(archive)?;
         archive.part("endings", |archive| self.endings.pass(archive))?;
         archive.part("rewards", |archive| self.rewards.pass(archive))?;
@@ -139,6 +141,11 @@ impl Judge {
     /// The parameters of the episode; none before the first.
     pub(crate) fn params(&self) -> &[f64] {
         self.known.params()
+    }
+
+    /// The drawn `let`s of the episode; none before the first.
+    pub(crate) fn lets(&self) -> &[f64] {
+        self.known.lets()
     }
 
     /// Judges a step: `game` stands before any restart. Where the episode ends, the event `end` is added.

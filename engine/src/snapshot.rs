@@ -5,17 +5,18 @@
 //! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
 //! last the episode around it, which only the same scenario can go on with.
 //!
-//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible.
+//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible; [`floats`]: many at
+//!   once.
 //! - [`file`]: the head. [`check`]: whether a match fits an environment.
 //! - [`hindsight`]: a new episode in an old state.
 //!
 //! What a snapshot may be asked for stands with [`Environment`](crate::environment::Environment).
 
 mod archive;
-pub(crate) mod array;
 mod check;
 mod error;
 mod file;
+pub(crate) mod floats;
 mod hindsight;
 mod walk;
 
@@ -48,23 +49,24 @@ pub(crate) struct About {
 
 /// Writes a snapshot; `pass` hands over the episode around the match.
 pub(crate) fn write(
-    about: &mut About,
-    game: &mut Match,
+    about: &About,
+    game: &Match,
     pass: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
 ) -> Result<Vec<u8>, SnapshotError> {
-    let mut episode = Archive::writing();
+    let mut archive = Archive::writing(file::begun());
+    archive.put("about", about)?;
+    archive.put("match", game)?;
+    let scenes_at = archive.written();
     if about.started {
-        pass(&mut episode)?;
+        pass(&mut archive)?;
     }
     // What scripts have kept leads to scenes: these come before.
-    let mut shelf = std::mem::take(&mut episode.shelf);
-    let mut body = Archive::writing();
-    body.value("about", about)?;
-    body.value("match", game)?;
-    shelf.pass_scenes(&mut body)?;
-    let mut body = body.into_bytes();
-    body.extend(episode.into_bytes());
-    Ok(file::wrap(&body))
+    let mut shelf = std::mem::take(&mut archive.shelf);
+    let mut scenes = Archive::writing(Vec::new());
+    shelf.pass_scenes(&mut scenes)?;
+    let mut file = archive.into_bytes();
+    file.splice(scenes_at..scenes_at, scenes.into_bytes());
+    Ok(file::sealed(file))
 }
 
 /// A snapshot that is being read: up to its match it has been.
@@ -107,8 +109,8 @@ impl<'a> Opened<'a> {
 /// # Errors
 /// None for a match that is played.
 pub fn match_bytes(game: &Match) -> Result<Vec<u8>, SnapshotError> {
-    let mut archive = Archive::writing();
-    archive.value("match", &mut game.clone())?;
+    let mut archive = Archive::writing(Vec::new());
+    archive.put("match", game)?;
     Ok(archive.into_bytes())
 }
 

@@ -1,6 +1,5 @@
 //! A concrete start: what a draw of a scenario gives, and what a match begins from.
 
-use crate::in_place::clone_in_place;
 use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::PLAYERS_MAX;
@@ -8,7 +7,7 @@ use setpiece_scenario::vocabulary::{Role, Rule, StartKind, Stat, Team};
 use setpiece_scenario::{Ai, Others};
 
 /// One concrete start.
-#[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
     /// The seed the match's own streams are keyed by.
     pub seed: u64,
@@ -48,15 +47,8 @@ pub struct Drawn {
     pub lets: Vec<f64>,
 }
 
-clone_in_place! {
-    Drawn {
-        seed, index, players, ball_pos, ball_vel, ball_spin, owner, kind, taker, first_kickoff, score,
-        elapsed_steps, difficulty, rules, limit_steps, others, agents, lets,
-    }
-}
-
 /// A player of a concrete start.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPlayer {
     /// His role.
     pub role: Role,
@@ -83,7 +75,7 @@ pub struct DrawnPlayer {
 }
 
 /// An agent of a concrete start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawnAgent {
     /// Its team.
     pub team: Team,

@@ -18,8 +18,8 @@ use setpiece::Loaded;
 use setpiece::engine::draw::{Drawer, Roster};
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::event::{Event, Events};
-use setpiece::engine::judge::Judge;
 use setpiece::engine::judge::script::Scripts;
+use setpiece::engine::judge::{Given, Judge};
 use setpiece::scenario::{Action, Bindings, EventKind, Qualifier, Team};
 use std::hint::black_box;
 use std::time::Duration;
@@ -105,7 +105,7 @@ fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) 
     let n_agents = environment.n_agents();
     let mut judge = Judge::new(&scenario, scenario.rewards.clone().into(), scripts, n_agents);
     let game = environment.state();
-    judge.reset(game, environment.start(), &environment.bindings().0);
+    judge.reset(game, &Given { seed: 1, index: 0, params: &environment.bindings().0, lets: &[] });
     let event = |kind, qualifier| Event {
         tick: game.tick,
         kind,

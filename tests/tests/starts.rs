@@ -66,9 +66,9 @@ fn a_kick_off_is_the_teams_that_is_named() {
 
 #[test]
 fn score_and_clock_begin_where_the_start_says() {
-    let environment = environment("start corner for left { score: [2, 1], elapsed: 300 steps }");
+    let mut environment = environment("start corner for left { score: [2, 1], elapsed: 300 steps }");
     assert_eq!(environment.score(), [2, 1]);
-    assert_eq!(environment.start().elapsed_steps, 300);
+    assert_eq!(environment.start().unwrap().elapsed_steps, 300);
 }
 
 #[test]

@@ -116,7 +116,7 @@ fn starts(text: &str, count: u64) -> Vec<Drawn> {
     (0..count)
         .map(|seed| {
             environment.reset(Some(seed), None).unwrap();
-            environment.start().clone()
+            environment.start().unwrap()
         })
         .collect()
 }

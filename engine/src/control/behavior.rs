@@ -12,13 +12,12 @@ pub mod steer;
 use crate::draw::Roster;
 use crate::event::Event;
 use crate::in_place::clone_in_place;
-use crate::judge::known::Known;
+use crate::judge::known::{Given, Known};
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::script::{ScriptError, Scripts};
 use crate::judge::view::{Sight, View};
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
-use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
 use actor::{Actor, Mind};
 use setpiece_scenario::vocabulary::{Action, Team};
@@ -83,11 +82,11 @@ impl Actors {
     }
 
     /// Begins an episode: the match stands at its start.
-    pub fn reset(&mut self, game: &Match, drawn: &Drawn, params: &[f64]) {
+    pub fn reset(&mut self, game: &Match, given: &Given<'_>) {
         if self.list.is_empty() {
             return;
         }
-        self.known.begin(drawn, params);
+        self.known.begin(given);
         self.prev = View::of(game);
         self.faults = 0;
         for actor in &mut self.list {

@@ -2,7 +2,7 @@
 
 use super::{Environment, ResetError, bound};
 use crate::draw::Roster;
-use crate::judge::Outcome;
+use crate::judge::{Given, Outcome};
 use crate::snapshot::{About, Archive, Opened, SnapshotError, fits, write};
 use crate::state::Match;
 use setpiece_scenario::Bindings;
@@ -21,9 +21,7 @@ impl Environment {
     pub fn snapshot(&self) -> Result<Vec<u8>, SnapshotError> {
         // What is written is handed over as what is read would be.
         let mut copy = self.clone();
-        let mut about = self.about();
-        let mut game = copy.game.clone();
-        write(&mut about, &mut game, |archive| copy.pass(archive))
+        write(&self.about(), &self.game, |archive| copy.pass(archive))
     }
 
     /// Goes on where a snapshot was taken, whoever took it: an environment of the same scenario, rewards and agents.
@@ -33,19 +31,24 @@ impl Environment {
     /// [`SnapshotError`] for bytes that are no snapshot, or one of something else; nothing has changed then.
     pub fn restore(&mut self, snapshot: &[u8]) -> Result<(), SnapshotError> {
         let opened = Opened::of(snapshot)?;
-        let (mine, its) = (self.about(), &opened.about);
-        if its.digest != mine.digest {
-            return Err(SnapshotError::Scenario { found: its.scenario.clone(), expected: mine.scenario });
+        let its = &opened.about;
+        if its.digest != self.scenario_digest {
+            let expected = self.scenario.name.clone();
+            return Err(SnapshotError::Scenario { found: its.scenario.clone(), expected });
         }
-        if its.rewards != mine.rewards {
-            return Err(SnapshotError::Rewards { found: its.rewards.clone(), expected: mine.rewards });
+        if !self.reward_names().eq(&its.rewards) {
+            let expected = self.reward_names().cloned().collect();
+            return Err(SnapshotError::Rewards { found: its.rewards.clone(), expected });
         }
         fits(&opened.game, &self.roster)?;
-        let mut restored = self.clone();
-        restored.idle(&opened);
-        opened.pass(|archive| restored.pass(archive))?;
-        *self = restored;
-        Ok(())
+        let before = self.clone();
+        self.idle(&opened);
+        let restored = opened.pass(|archive| self.pass(archive));
+        if restored.is_err() {
+            // What came before the damage has been read.
+            *self = before;
+        }
+        restored
     }
 
     /// Begins a new episode in the state of a snapshot: places, ball, whatever goes on, score, cards, fatigue and the
@@ -72,12 +75,17 @@ impl Environment {
         About {
             digest: self.scenario_digest,
             scenario: self.scenario.name.clone(),
-            rewards: self.judge.rewards().list().iter().map(|reward| reward.name.clone()).collect(),
+            rewards: self.reward_names().cloned().collect(),
             started: self.started,
             begun: self.begun,
             seed: self.seed,
             index: self.index,
         }
+    }
+
+    /// The rewards that are paid.
+    fn reward_names(&self) -> impl Iterator<Item = &String> {
+        self.judge.rewards().list().iter().map(|reward| &reward.name)
     }
 
     /// What a snapshot says without an episode around its match.
@@ -97,13 +105,16 @@ impl Environment {
         let (mut params, mut bindings) = (self.judge.params().to_vec(), Bindings::clone(&self.bindings));
         archive.value("params", &mut params)?;
         archive.value("bindings", &mut bindings.0)?;
-        archive.value("start", Arc::make_mut(&mut self.drawn))?;
+        let mut lets = self.judge.lets().to_vec();
+        lets.resize(self.scenario.start.lets.len(), 0.0);
+        archive.slots("lets", &mut lets)?;
         if archive.is_reading() {
             self.admit("params", &params)?;
             self.admit("bindings", &bindings.0)?;
             self.bindings = Arc::new(bindings);
-            self.judge.reset(&self.game, &self.drawn, &params);
-            self.actors.reset(&self.game, &self.drawn, &params);
+            let given = Given { seed: self.seed, index: self.index, params: &params, lets: &lets };
+            self.judge.reset(&self.game, &given);
+            self.actors.reset(&self.game, &given);
         }
         self.judge.pass(archive)?;
         archive.part("actors", |archive| self.actors.pass(archive))?;

@@ -11,6 +11,7 @@ pub const NEVER: i32 = -100_000;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
     /// Raw statistics by [`Stat::index`], 0..1.
+    #[serde(with = "crate::snapshot::floats")]
     pub stats: [f32; Stat::ALL.len()],
     /// 0.3 + 0.7 · difficulty: the share of his statistics that he shows.
     pub level: f32,

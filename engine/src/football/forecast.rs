@@ -18,13 +18,13 @@ pub const SPACING_TICKS: u32 = 5;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Forecast {
     /// World metres, a point every [`SPACING_TICKS`].
-    #[serde(with = "crate::snapshot::array")]
+    #[serde(with = "crate::snapshot::floats")]
     x: [f32; POINTS],
     /// World metres.
-    #[serde(with = "crate::snapshot::array")]
+    #[serde(with = "crate::snapshot::floats")]
     y: [f32; POINTS],
     /// World metres.
-    #[serde(with = "crate::snapshot::array")]
+    #[serde(with = "crate::snapshot::floats")]
     z: [f32; POINTS],
     /// The points off the pitch, a bit each.
     off: u64,

@@ -7,9 +7,21 @@ use crate::judge::script::{Scene, Scripts, Shelf};
 use crate::judge::view::{Sight, View};
 use crate::random::{Purpose, Stream};
 use crate::snapshot::{Archive, SnapshotError};
-use crate::start::Drawn;
 use setpiece_scenario::vocabulary::Team;
 use std::sync::Arc;
+
+/// What an episode is given beside its match.
+#[derive(Clone, Copy, Debug)]
+pub struct Given<'a> {
+    /// The seed that its streams are keyed by.
+    pub seed: u64,
+    /// Its index, likewise.
+    pub index: u64,
+    /// The parameters' values.
+    pub params: &'a [f64],
+    /// The drawn `let`s.
+    pub lets: &'a [f64],
+}
 
 /// Parameters, `let`s, and what scripts are shown.
 #[derive(Debug)]
@@ -37,14 +49,15 @@ impl Known {
     }
 
     /// Begins an episode.
-    pub fn begin(&mut self, drawn: &Drawn, params: &[f64]) {
+    pub fn begin(&mut self, given: &Given<'_>) {
+        let Given { seed, index, params, lets } = *given;
         self.params.clear();
         self.params.extend_from_slice(params);
         self.lets.clear();
-        self.lets.extend_from_slice(&drawn.lets);
-        (self.seed, self.index) = (drawn.seed, drawn.index);
+        self.lets.extend_from_slice(lets);
+        (self.seed, self.index) = (seed, index);
         self.scene = self.scripted.then(|| {
-            let random = Stream::new(drawn.seed, drawn.index, self.purpose);
+            let random = Stream::new(seed, index, self.purpose);
             Arc::new(Scene::new(View::EMPTY, View::EMPTY, &[], self.scripts.params(params), random, self.key()))
         });
     }
@@ -61,6 +74,11 @@ impl Known {
     /// The parameters of the episode; none before the first.
     pub(crate) fn params(&self) -> &[f64] {
         &self.params
+    }
+
+    /// The drawn `let`s of the episode; none before the first.
+    pub(crate) fn lets(&self) -> &[f64] {
+        &self.lets
     }
 
     /// Goes on with other scripts.

@@ -19,7 +19,7 @@ fn bench(rewards: Vec<Reward>, prepare: impl FnOnce(&mut Scenario)) -> (Judge, M
     let game = Match::blank(&drawn);
     let scripts = Scripts::compile(&scenario).unwrap();
     let mut judge = Judge::new(&scenario, rewards.into(), scripts, roster.agents.len());
-    judge.reset(&game, &drawn, &bindings.0);
+    judge.reset(&game, &Given { seed: 1, index: 0, params: &bindings.0, lets: &drawn.lets });
     (judge, game, Events::new())
 }
 

@@ -1,5 +1,6 @@
 //! What programs and scripts may read of a match: the match itself, or a small copy that outlives the step.
 
+use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Field, GameMode, Role, Team};
@@ -97,6 +98,18 @@ impl View {
             view.players[player.index()].controlled = true;
         }
         view
+    }
+
+    /// Writes or reads what [`Memory`] says: the rest is never looked back at.
+    pub(crate) fn pass(&mut self, name: &str, memory: Memory, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        match memory {
+            Memory::Nothing => Ok(()),
+            Memory::Ball => archive.part(name, |archive| {
+                archive.value("ball", &mut self.ball)?;
+                archive.value("ball_vel", &mut self.ball_vel)
+            }),
+            Memory::All => archive.value(name, self),
+        }
     }
 
     /// Takes over of a match what [`Memory`] says, and leaves the rest.

@@ -4,14 +4,12 @@
 //! by itself: its form, its length where the scenario gives one, its numbers. Parts check what hangs together.
 
 use super::error::SnapshotError;
-use super::walk::walk;
+use super::walk::{Found, walk};
 use crate::judge::script::Shelf;
 use postcard::ser_flavors::Flavor;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-
-/// Room for a match of eleven a side: bytes that outgrow their place are copied.
-const USUAL_BYTES: usize = 12 * 1024;
+use std::fmt;
 
 /// Values on their way to bytes or from them.
 pub(crate) struct Archive<'a> {
@@ -26,13 +24,13 @@ enum Way<'a> {
 }
 
 impl<'a> Archive<'a> {
-    /// To be written.
-    pub(crate) fn writing() -> Archive<'a> {
-        Archive { way: Way::Out(Vec::with_capacity(USUAL_BYTES)), shelf: Shelf::default() }
+    /// To be written behind some bytes.
+    pub(super) fn writing(bytes: Vec<u8>) -> Archive<'a> {
+        Archive { way: Way::Out(bytes), shelf: Shelf::default() }
     }
 
     /// To be read.
-    pub(crate) fn reading(bytes: &'a [u8]) -> Archive<'a> {
+    pub(super) fn reading(bytes: &'a [u8]) -> Archive<'a> {
         Archive { way: Way::In(bytes), shelf: Shelf::default() }
     }
 
@@ -41,7 +39,15 @@ impl<'a> Archive<'a> {
         matches!(self.way, Way::In(_))
     }
 
-    /// What was written.
+    /// How many bytes there are so far.
+    pub(super) fn written(&self) -> usize {
+        match &self.way {
+            Way::Out(bytes) => bytes.len(),
+            Way::In(_) => 0,
+        }
+    }
+
+    /// The bytes, with those that were there.
     pub(super) fn into_bytes(self) -> Vec<u8> {
         match self.way {
             Way::Out(bytes) => bytes,
@@ -57,23 +63,39 @@ impl<'a> Archive<'a> {
         }
     }
 
+    /// Writes a value; does nothing on the way in.
+    pub(super) fn put<T: Serialize + ?Sized>(&mut self, name: &str, value: &T) -> Result<(), SnapshotError> {
+        if let Way::Out(bytes) = &mut self.way {
+            let behind = Growing(std::mem::take(bytes));
+            *bytes =
+                postcard::serialize_with_flavor(value, behind).map_err(|why| fault(format_args!("{name}"), why))?;
+        }
+        Ok(())
+    }
+
     /// Writes a value, or puts the one that was read in its place.
     pub(crate) fn value<T: Serialize + DeserializeOwned>(
         &mut self,
         name: &str,
         value: &mut T,
     ) -> Result<(), SnapshotError> {
-        match &mut self.way {
-            Way::Out(bytes) => *bytes = write(name, value, std::mem::take(bytes))?,
-            Way::In(_) => *value = self.read(name)?,
+        if self.is_reading() {
+            *value = self.read(name)?;
         }
-        Ok(())
+        self.put(name, value)
     }
 
     /// Reads a value; there is none on the way out.
     pub(crate) fn read<T: Serialize + DeserializeOwned>(&mut self, name: &str) -> Result<T, SnapshotError> {
+        self.read_at(format_args!("{name}"))
+    }
+
+    fn read_at<T: Serialize + DeserializeOwned>(&mut self, name: fmt::Arguments<'_>) -> Result<T, SnapshotError> {
         let (value, rest) = postcard::take_from_bytes::<T>(self.rest()).map_err(|why| fault(name, why))?;
-        walk(&value).map_err(|fault| SnapshotError::damaged(format!("{name}{}", fault.place), fault.why))?;
+        walk(&value).map_err(|fault| {
+            let Found { place, why } = fault.found();
+            SnapshotError::damaged(format!("{name}{place}"), why)
+        })?;
         self.way = Way::In(rest);
         Ok(value)
     }
@@ -84,16 +106,18 @@ impl<'a> Archive<'a> {
         name: &str,
         slots: &mut [T],
     ) -> Result<(), SnapshotError> {
-        if let Way::Out(bytes) = &mut self.way {
-            *bytes = write(name, slots, std::mem::take(bytes))?;
-            return Ok(());
+        if !self.is_reading() {
+            return self.put(name, slots);
         }
-        let read: Vec<T> = self.read(name)?;
-        if read.len() != slots.len() {
-            let why = format!("has {} parts where the scenario has {}", read.len(), slots.len());
+        // A list is its length, then its parts.
+        let length = self.read::<u64>(name)?;
+        if length != slots.len() as u64 {
+            let why = format!("has {length} parts where the scenario has {}", slots.len());
             return Err(SnapshotError::damaged(name, why));
         }
-        slots.iter_mut().zip(read).for_each(|(slot, read)| *slot = read);
+        for (at, slot) in slots.iter_mut().enumerate() {
+            *slot = self.read_at(format_args!("{name}[{at}]"))?;
+        }
         Ok(())
     }
 
@@ -108,10 +132,6 @@ impl<'a> Archive<'a> {
             other => other,
         })
     }
-}
-
-fn write<T: Serialize + ?Sized>(name: &str, value: &T, bytes: Vec<u8>) -> Result<Vec<u8>, SnapshotError> {
-    postcard::serialize_with_flavor(value, Growing(bytes)).map_err(|why| fault(name, why))
 }
 
 /// Bytes that are written behind others: postcard's own way to do so goes byte by byte.
@@ -135,7 +155,8 @@ impl Flavor for Growing {
     }
 }
 
-fn fault(name: &str, why: postcard::Error) -> SnapshotError {
+#[cold]
+fn fault(name: fmt::Arguments<'_>, why: postcard::Error) -> SnapshotError {
     let words = match why {
         postcard::Error::DeserializeUnexpectedEnd => "ends early".to_owned(),
         postcard::Error::SerdeDeCustom | postcard::Error::DeserializeBadEnum => {
@@ -143,5 +164,5 @@ fn fault(name: &str, why: postcard::Error) -> SnapshotError {
         }
         other => format!("can't be read: {other}"),
     };
-    SnapshotError::damaged(name, words)
+    SnapshotError::damaged(name.to_string(), words)
 }

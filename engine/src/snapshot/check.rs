@@ -5,6 +5,7 @@ use crate::draw::Roster;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::Team;
+use std::ops::Range;
 
 /// Says who is not there, or has no place here.
 ///
@@ -12,11 +13,9 @@ use setpiece_scenario::vocabulary::Team;
 /// [`SnapshotError::Roster`].
 pub(crate) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
     let there = std::array::from_fn::<bool, PLAYERS_MAX, _>(|i| game.squad.has(PlayerId(i as u8)));
-    for team in Team::ALL {
+    if let Some(team) = Team::ALL.iter().find(|team| there[places(**team)] != roster.present[places(**team)]) {
         let (found, expected) = (players(&there, *team), players(&roster.present, *team));
-        if found != expected {
-            return Err(SnapshotError::Roster { what: format!("{team} players"), found, expected });
-        }
+        return Err(SnapshotError::Roster { what: format!("{team} players"), found, expected });
     }
     // An agent has a player of its own team, and nobody who does not take part has the ball or is on the pitch.
     let ghost = |id: PlayerId| !there[id.index()];
@@ -31,19 +30,23 @@ pub(crate) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
     if game.owner.is_some_and(ghost) {
         return Err(SnapshotError::damaged("match.owner", "is nobody"));
     }
-    let found: Vec<(Team, Option<PlayerId>)> =
-        game.agents.iter().map(|slot| (slot.team, slot.player.filter(|_| slot.fixed))).collect();
-    if found != roster.agents {
-        let (found, expected) = (agents(&found), agents(&roster.agents));
+    let found = game.agents.iter().map(|slot| (slot.team, slot.player.filter(|_| slot.fixed)));
+    if !found.clone().eq(roster.agents.iter().copied()) {
+        let (found, expected) = (agents(found), agents(roster.agents.iter().copied()));
         return Err(SnapshotError::Roster { what: "agents".to_owned(), found, expected });
     }
     Ok(())
 }
 
+/// A team's places among all.
+fn places(team: Team) -> Range<usize> {
+    let first = PlayerId::new(team, 0).index();
+    first..first + TEAM_MAX
+}
+
 /// The places of a team that are taken: `1, 2, 4`.
 fn players(present: &[bool], team: Team) -> String {
-    let first = PlayerId::new(team, 0).index();
-    let taken = (0..TEAM_MAX).filter(|place| present[first + place]).map(|place| (place + 1).to_string());
+    let taken = (1..).zip(&present[places(team)]).filter(|(_, there)| **there).map(|(number, _)| number.to_string());
     let taken: Vec<String> = taken.collect();
     match taken.as_slice() {
         [] => "none".to_owned(),
@@ -53,8 +56,8 @@ fn players(present: &[bool], team: Team) -> String {
 }
 
 /// Agents in words: `left` for one that changes players, else `left player 3`.
-fn agents(agents: &[(Team, Option<PlayerId>)]) -> String {
-    let words = agents.iter().map(|(team, fixed)| match fixed {
+fn agents(agents: impl Iterator<Item = (Team, Option<PlayerId>)>) -> String {
+    let words = agents.map(|(team, fixed)| match fixed {
         None => team.to_string(),
         Some(player) => format!("{team} player {}", player.in_team() + 1),
     });

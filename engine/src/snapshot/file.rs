@@ -7,14 +7,23 @@ const MAGIC: &[u8; 8] = b"\x8bpitchs\n";
 /// Mark, version, checksum, length.
 const HEAD: usize = 8 + 4 + 8 + 8;
 
-/// Puts a head before the content.
-pub(super) fn wrap(body: &[u8]) -> Vec<u8> {
-    let mut file = Vec::with_capacity(HEAD + body.len());
-    file.extend_from_slice(MAGIC);
-    file.extend_from_slice(&SNAPSHOT_VERSION.to_le_bytes());
-    file.extend_from_slice(&checksum(body).to_le_bytes());
-    file.extend_from_slice(&(body.len() as u64).to_le_bytes());
-    file.extend_from_slice(body);
+/// Room for a match of eleven a side: bytes that outgrow their place are copied.
+const USUAL_BYTES: usize = 12 * 1024;
+
+/// An empty place for a head; the content goes behind it.
+pub(super) fn begun() -> Vec<u8> {
+    let mut file = Vec::with_capacity(USUAL_BYTES);
+    file.resize(HEAD, 0);
+    file
+}
+
+/// Fills in the head of what was [begun](begun).
+pub(super) fn sealed(mut file: Vec<u8>) -> Vec<u8> {
+    let (head, body) = file.split_at_mut(HEAD);
+    let (version, sum, length) =
+        (SNAPSHOT_VERSION.to_le_bytes(), checksum(body).to_le_bytes(), (body.len() as u64).to_le_bytes());
+    let parts = MAGIC.iter().chain(&version).chain(&sum).chain(&length);
+    head.iter_mut().zip(parts).for_each(|(byte, part)| *byte = *part);
     file
 }
 
@@ -39,11 +48,17 @@ pub(super) fn unwrap(file: &[u8]) -> Result<&[u8], SnapshotError> {
     Ok(body)
 }
 
-/// The sum in a snapshot's head over what follows: over words of eight bytes, in the manner of FNV-1a. One changed word
-/// always shows.
+/// The sum in a snapshot's head over what follows: over words of eight bytes, in the manner of FNV-1a, in four lanes that
+/// a processor reckons at once. One changed word always shows.
 pub fn checksum(body: &[u8]) -> u64 {
     let step = |hash: u64, word: u64| (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29);
-    let (words, rest) = body.as_chunks::<8>();
-    let hash = words.iter().fold(0xcbf2_9ce4_8422_2325, |hash, word| step(hash, u64::from_le_bytes(*word)));
+    let mut lanes = [0xcbf2_9ce4_8422_2325, 1, 2, 3];
+    let (rows, rest) = body.as_chunks::<32>();
+    for row in rows {
+        for (lane, word) in lanes.iter_mut().zip(row.as_chunks().0) {
+            *lane = step(*lane, u64::from_le_bytes(*word));
+        }
+    }
+    let hash = lanes.into_iter().reduce(step).unwrap_or_default();
     rest.iter().fold(hash, |hash, byte| step(hash, u64::from(*byte)))
 }

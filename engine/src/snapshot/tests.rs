@@ -24,7 +24,7 @@ fn busy() -> Match {
     )
     .unwrap();
     environment.reset(Some(1), None).unwrap();
-    let mut game = begin::begin(environment.start());
+    let mut game = begin::begin(&environment.start().unwrap());
     let (id, spot, mode, team) = (PlayerId(0), Vec2::ZERO, GameMode::FreeKick, Team::Left);
     let restart = Restart { mode, team, spot };
     let flight = Some(Flight { by: id, to: Some(id), from: spot, tick: 0 });

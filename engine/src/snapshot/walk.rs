@@ -17,12 +17,16 @@ const NEVER: &[&str] = &["limit_steps", "at_tick", "from_tick", "node"];
 
 /// Says where a value holds an impossible number, and why.
 pub(super) fn walk(value: &impl Serialize) -> Result<(), Fault> {
-    value.serialize(Walk { never: false })
+    value.serialize(Walk { key: "" })
 }
 
-/// An impossible number.
+/// An impossible number; in a box, since nearly every value is sound and hands on a result.
 #[derive(Debug)]
-pub(super) struct Fault {
+pub(super) struct Fault(Box<Found>);
+
+/// What [`Fault`] says.
+#[derive(Debug)]
+pub(super) struct Found {
     /// Its place within the value: `.players[3].pos[0]`.
     pub(super) place: String,
     /// What is wrong with it.
@@ -30,29 +34,37 @@ pub(super) struct Fault {
 }
 
 impl Fault {
+    #[cold]
     fn at(mut self, step: impl Display) -> Fault {
-        self.place.insert_str(0, &step.to_string());
+        self.0.place.insert_str(0, &step.to_string());
         self
+    }
+
+    /// What and where.
+    pub(super) fn found(self) -> Found {
+        *self.0
     }
 }
 
 impl Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.place, self.why)
+        write!(f, "{} {}", self.0.place, self.0.why)
     }
 }
 
 impl std::error::Error for Fault {}
 
 impl ser::Error for Fault {
+    #[cold]
     fn custom<T: Display>(message: T) -> Fault {
-        Fault { place: String::new(), why: message.to_string() }
+        Fault(Box::new(Found { place: String::new(), why: message.to_string() }))
     }
 }
 
 #[derive(Clone, Copy)]
 struct Walk {
-    never: bool,
+    /// The name of the field that it is at; none within a list.
+    key: &'static str,
 }
 
 /// The parts of a value in their order.
@@ -62,12 +74,12 @@ impl Parts {
     fn next<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
         let at = self.0;
         self.0 += 1;
-        value.serialize(Walk { never: false }).map_err(|fault| fault.at(format_args!("[{at}]")))
+        value.serialize(Walk { key: "" }).map_err(|fault| fault.at(format_args!("[{at}]")))
     }
 }
 
 fn named<T: Serialize + ?Sized>(key: &'static str, value: &T) -> Result<(), Fault> {
-    value.serialize(Walk { never: NEVER.contains(&key) }).map_err(|fault| fault.at(format_args!(".{key}")))
+    value.serialize(Walk { key }).map_err(|fault| fault.at(format_args!(".{key}")))
 }
 
 macro_rules! free {
@@ -90,7 +102,7 @@ impl Serializer for Walk {
     free! {
         serialize_bool: bool, serialize_i8: i8, serialize_i16: i16, serialize_i64: i64, serialize_u8: u8,
         serialize_u16: u16, serialize_u64: u64, serialize_f64: f64, serialize_char: char, serialize_str: &str,
-        serialize_bytes: &[u8], serialize_unit_struct: &'static str,
+        serialize_unit_struct: &'static str,
     }
 
     fn serialize_i32(self, value: i32) -> Result<(), Fault> {
@@ -98,7 +110,7 @@ impl Serializer for Walk {
     }
 
     fn serialize_u32(self, value: u32) -> Result<(), Fault> {
-        if value <= COUNT_MAX || (self.never && value == u32::MAX) {
+        if value <= COUNT_MAX || (value == u32::MAX && NEVER.contains(&self.key)) {
             Ok(())
         } else {
             Err(Fault::custom(format_args!("is {value}")))
@@ -108,6 +120,17 @@ impl Serializer for Walk {
     fn serialize_f32(self, value: f32) -> Result<(), Fault> {
         // What is no number is not within either.
         if value.abs() <= FLOAT_MAX { Ok(()) } else { Err(Fault::custom(format_args!("is {value}"))) }
+    }
+
+    /// Bytes are floats: see [`super::floats`].
+    fn serialize_bytes(self, bytes: &[u8]) -> Result<(), Fault> {
+        let floats = bytes.as_chunks().0.iter().map(|float| f32::from_le_bytes(*float));
+        // All at once first: they are sound but for damage.
+        if floats.clone().fold(true, |sound, value| sound & (value.abs() <= FLOAT_MAX)) {
+            return Ok(());
+        }
+        let mut parts = Parts(0);
+        floats.into_iter().try_for_each(|value| parts.next(&value))
     }
 
     fn serialize_none(self) -> Result<(), Fault> {
@@ -233,12 +256,15 @@ mod tests {
     #[derive(Serialize)]
     struct Sample {
         pos: [f32; 2],
+        #[serde(with = "crate::snapshot::floats")]
+        lane: [f32; 3],
         tick: u32,
         limit_steps: Option<u32>,
         sum: f64,
     }
 
-    const SOUND: Sample = Sample { pos: [1.0, -50.0], tick: 7, limit_steps: Some(u32::MAX), sum: f64::INFINITY };
+    const SOUND: Sample =
+        Sample { pos: [1.0, -50.0], lane: [0.5; 3], tick: 7, limit_steps: Some(u32::MAX), sum: f64::INFINITY };
 
     fn fault(sample: &Sample) -> String {
         walk(&[sample]).unwrap_err().to_string()
@@ -249,6 +275,7 @@ mod tests {
         assert!(walk(&SOUND).is_ok());
         assert_eq!(fault(&Sample { pos: [0.0, f32::NAN], ..SOUND }), "[0].pos[1] is NaN");
         assert_eq!(fault(&Sample { pos: [2.0e4, 0.0], ..SOUND }), "[0].pos[0] is 20000");
+        assert_eq!(fault(&Sample { lane: [0.0, 1.0e4, f32::INFINITY], ..SOUND }), "[0].lane[2] is inf");
         assert_eq!(fault(&Sample { tick: u32::MAX, ..SOUND }), "[0].tick is 4294967295");
     }
 }

@@ -40,9 +40,8 @@ pub(crate) fn doc(args: &DocArgs, out: &Out) -> Result<u8, Error> {
     }
     let options = EnvironmentOptions::default();
     let mut environment = Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
-    let drawn = environment.reset(Some(args.seed), Some(0));
-    drawn.map_err(|why| Error::Episode(Box::new(EpisodeError::Draw(why))))?;
-    let start = environment.start();
+    let drawn = environment.reset(Some(args.seed), Some(0)).and_then(|()| environment.start());
+    let start = &drawn.map_err(|why| Error::Episode(Box::new(EpisodeError::Draw(why))))?;
     if let Some(path) = &args.picture {
         write(path, picture::svg(&loaded.scenario, start))?;
     }

@@ -3,8 +3,10 @@ use crate::event::Event;
 use crate::state::PlayerId;
 use crate::testing::{Code, checkpoints, event, scenario, scoring};
 use glam::Vec3;
-use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Role, Team, Verdict};
-use setpiece_scenario::{BinaryOp, Each, Ending, EventFilter, Fold, FoldKind, Instr, Over, RewardBody, When, Who};
+use setpiece_scenario::vocabulary::{EventKind, Field, GameMode, Qualifier, Role, Team, Verdict};
+use setpiece_scenario::{
+    BinaryOp, Each, Ending, EventFilter, Fold, FoldKind, Instr, Over, Program, RewardBody, When, Who,
+};
 
 const GOAL_LINE_M: f32 = 55.0;
 
@@ -149,4 +151,24 @@ fn judging_and_observing_allocate_nothing() {
     });
     assert_eq!(counted.count_total, 0);
     assert!(judge.rewards().sums(0)[0] > 0.0);
+}
+
+/// A program that looks back at a field, and what is kept of the last step for it.
+#[test]
+fn what_a_program_looks_back_at_is_kept() {
+    let (_, mut game, _) = bench(Vec::new(), |_| ());
+    game.ball.pos = Vec3::new(7.0, -3.0, 1.5);
+    game.ball.vel = Vec3::new(4.0, 2.0, -1.0);
+    (game.owner, game.possession) = (Some(PlayerId(11)), Some(Team::Right));
+    (game.score, game.mode, game.dead, game.step) = ([2, 1], GameMode::Corner, true, 13);
+    game.players[11].fatigue = 0.5;
+    for &field in Field::ALL {
+        let program = Program { code: vec![Instr::Load { field, of: None, when: When::Prev }], ..Program::default() };
+        let mut view = View { limit_steps: game.limit_steps, ..View::EMPTY };
+        view.keep(&game, Memory::of(&program));
+        for of in [0.0, 1.0, 11.0] {
+            let (kept, live) = (Sight::Kept(&view).load(field, of), Sight::Live(&game).load(field, of));
+            assert!(kept == live || kept.is_nan() && live.is_nan(), "{field:?} of {of}: {kept} {live}");
+        }
+    }
 }

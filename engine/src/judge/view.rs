@@ -82,18 +82,9 @@ impl View {
 
     /// The view of a match as it stands.
     pub fn of(game: &Match) -> View {
-        let mut view = View {
-            ball: game.ball.pos.into(),
-            ball_vel: game.ball.vel.into(),
-            owner: game.owner,
-            possession: game.possession,
-            players: std::array::from_fn(|i| PlayerView::of(game, PlayerId(i as u8))),
-            score: game.score,
-            mode: game.mode,
-            dead: game.dead,
-            step: game.step,
-            limit_steps: game.limit_steps,
-        };
+        let players = std::array::from_fn(|i| PlayerView::of(game, PlayerId(i as u8)));
+        let mut view = View { players, ..View::EMPTY };
+        view.keep_but_players(game);
         for player in game.agents.iter().filter_map(|agent| agent.player) {
             view.players[player.index()].controlled = true;
         }
@@ -104,10 +95,15 @@ impl View {
     pub(crate) fn pass(&mut self, name: &str, memory: Memory, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         match memory {
             Memory::Nothing => Ok(()),
-            Memory::Ball => archive.part(name, |archive| {
-                archive.value("ball", &mut self.ball)?;
-                archive.value("ball_vel", &mut self.ball_vel)
-            }),
+            Memory::ButPlayers => {
+                // The limit is the match's, which a reset has shown.
+                let View { ball, ball_vel, owner, possession, score, mode, dead, step, .. } = *self;
+                let mut kept = (ball, ball_vel, owner, possession, score, mode, dead, step);
+                archive.value(name, &mut kept)?;
+                let (ball, ball_vel, owner, possession, score, mode, dead, step) = kept;
+                *self = View { ball, ball_vel, owner, possession, score, mode, dead, step, ..*self };
+                Ok(())
+            }
             Memory::All => archive.value(name, self),
         }
     }
@@ -116,9 +112,21 @@ impl View {
     pub fn keep(&mut self, game: &Match, memory: Memory) {
         match memory {
             Memory::Nothing => {}
-            Memory::Ball => (self.ball, self.ball_vel) = (game.ball.pos.into(), game.ball.vel.into()),
+            Memory::ButPlayers => self.keep_but_players(game),
             Memory::All => *self = View::of(game),
         }
+    }
+
+    fn keep_but_players(&mut self, game: &Match) {
+        self.ball = game.ball.pos.into();
+        self.ball_vel = game.ball.vel.into();
+        self.owner = game.owner;
+        self.possession = game.possession;
+        self.score = game.score;
+        self.mode = game.mode;
+        self.dead = game.dead;
+        self.step = game.step;
+        self.limit_steps = game.limit_steps;
     }
 
     /// The players on the pitch of a team, or of both, by id.
@@ -135,8 +143,8 @@ pub enum Memory {
     /// Nothing looks back.
     #[default]
     Nothing,
-    /// Only the ball's place and velocity.
-    Ball,
+    /// Everything but the players.
+    ButPlayers,
     /// Everything.
     All,
 }
@@ -146,10 +154,31 @@ impl Memory {
     pub fn of(program: &Program) -> Memory {
         let of = |instr: &Instr| match instr {
             Instr::Load { field, when: When::Prev, .. } => match field {
-                Field::BallX | Field::BallY | Field::BallHeight | Field::BallVx | Field::BallVy | Field::BallVz => {
-                    Memory::Ball
-                }
-                _ => Memory::All,
+                Field::PlayerX
+                | Field::PlayerY
+                | Field::PlayerVx
+                | Field::PlayerVy
+                | Field::PlayerHeading
+                | Field::PlayerFatigue
+                | Field::PlayerYellowCards
+                | Field::PlayerRole
+                | Field::PlayerActive
+                | Field::PlayerControlled
+                | Field::OffsideLine => Memory::All,
+                Field::BallX
+                | Field::BallY
+                | Field::BallHeight
+                | Field::BallVx
+                | Field::BallVy
+                | Field::BallVz
+                | Field::BallOwner
+                | Field::Possession
+                | Field::Score
+                | Field::TeamHasBall
+                | Field::Elapsed
+                | Field::Remaining
+                | Field::GameMode
+                | Field::BallDead => Memory::ButPlayers,
             },
             _ => Memory::Nothing,
         };

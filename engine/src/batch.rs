@@ -12,6 +12,7 @@ use crate::statistics::MatchStatistics;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use setpiece_scenario::vocabulary::{Action, Verdict};
+use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
@@ -220,16 +221,16 @@ impl<L: Send> Batch<L> {
     /// Does something with every lane and its row: `work` is given the lane's number, the lane, the row and a scratch
     /// world. Lanes without a row are left alone. Which thread has which lane changes nothing.
     ///
-    /// A thread goes through a share of its own, whose lanes its cache may still hold, then helps the others from the end
-    /// of theirs: nobody waits for whoever had the longer steps.
+    /// A thread goes through a share of its own (the caller's is always the first, whose lanes its cache may still hold),
+    /// then helps the others from the end of theirs: nobody waits for longer than one lane's work.
     pub fn each<R: Send>(&mut self, rows: Vec<R>, work: impl Fn(usize, &mut L, R, &mut Scratch) + Sync) {
         let length = self.lanes.len().div_ceil(self.scratches.len()).max(1);
         let mut lanes = self.lanes.iter_mut().zip(rows).enumerate();
-        let mut shares: Vec<Vec<_>> = self.scratches.iter().map(|_| lanes.by_ref().take(length).collect()).collect();
-        let shares: Vec<_> = shares.iter_mut().map(|share| Mutex::new(share.drain(..))).collect();
+        let share = |_: &Scratch| Mutex::new(lanes.by_ref().take(length).collect::<VecDeque<_>>());
+        let shares: Vec<_> = self.scratches.iter().map(share).collect();
         let next = |whose: usize, own: usize| {
             let mut share = shares[whose].lock().unwrap_or_else(PoisonError::into_inner);
-            if whose == own { share.next() } else { share.next_back() }
+            if whose == own { share.pop_front() } else { share.pop_back() }
         };
         let turn = |own: usize, scratch: &mut Scratch| {
             for whose in (own..shares.len()).chain(0..own) {
@@ -276,6 +277,40 @@ mod tests {
         assert_eq!(one, three);
         let summaries: Vec<_> = one.into_iter().map(Result::unwrap).collect();
         assert!(summaries.iter().enumerate().all(|(k, summary)| summary.index == k as u64 && summary.length <= 50));
+    }
+
+    #[test]
+    fn who_is_done_helps_the_others() {
+        use std::sync::mpsc::channel;
+        use std::time::Duration;
+        let (tell, told) = channel();
+        let told = Mutex::new(told);
+        let mut batch = Batch::new(vec![(); 4], 2).unwrap();
+        // Lanes 0 and 1 are one thread's share; 0 isn't done before 1 is.
+        batch.each(vec![(); 4], |number, (), (), _| match number {
+            0 => told.lock().unwrap().recv_timeout(Duration::from_secs(60)).unwrap(),
+            1 => tell.send(()).unwrap(),
+            _ => (),
+        });
+    }
+
+    #[test]
+    fn the_size_of_a_batch_and_its_threads_change_nothing() {
+        let digests = |lanes: usize, threads: usize| -> Vec<u64> {
+            let mut batch = Batch::new(vec![prototype(); lanes], threads).unwrap();
+            batch.each((0..).take(lanes).collect(), |_, lane, seed, _| lane.reset(Some(seed), None).unwrap());
+            for _ in 0..30 {
+                batch.each(vec![Action::Right; lanes], |_, lane, action, scratch| {
+                    lane.step(&[action], scratch).unwrap();
+                });
+            }
+            batch.lanes().iter().map(Environment::digest).collect()
+        };
+        let all = digests(40, 1);
+        assert_ne!(all[0], all[1]);
+        for (lanes, threads) in [(1, 1), (5, 2), (40, 2), (40, 9)] {
+            assert_eq!(digests(lanes, threads), all[..lanes], "{lanes} lanes on {threads} threads");
+        }
     }
 
     #[test]

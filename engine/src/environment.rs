@@ -477,8 +477,8 @@ impl Environment {
         self.stopped.get().unwrap_or(&self.game)
     }
 
-    /// The start of the episode, drawn again: what the scenario gives for its seed, its index and the parameters as they
-    /// are now.
+    /// The start that the scenario draws for the seed and the index as they are (0 and 0 before the first episode), with
+    /// the parameters as they are. An episode that began in the state of a snapshot began elsewhere.
     ///
     /// # Errors
     /// [`DrawError`] where no start meets the scenario's requirements.

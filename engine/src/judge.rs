@@ -138,14 +138,9 @@ impl Judge {
         archive.part("records", |archive| self.records.pass(archive))
     }
 
-    /// The parameters of the episode; none before the first.
-    pub(crate) fn params(&self) -> &[f64] {
-        self.known.params()
-    }
-
-    /// The drawn `let`s of the episode; none before the first.
-    pub(crate) fn lets(&self) -> &[f64] {
-        self.known.lets()
+    /// What the episode was given; no numbers before the first.
+    pub(crate) fn given(&self) -> Given<'_> {
+        self.known.given()
     }
 
     /// Judges a step: `game` stands before any restart. Where the episode ends, the event `end` is added.

@@ -5,8 +5,8 @@
 //! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
 //! last the episode around it, which only the same scenario can go on with.
 //!
-//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible; [`floats`]: many at
-//!   once.
+//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible; [`floats`]: many
+//!   numbers at once.
 //! - [`file`]: the head. [`check`]: whether a match fits an environment.
 //! - [`hindsight`]: a new episode in an old state.
 //!
@@ -31,7 +31,7 @@ use crate::state::Match;
 use serde::{Deserialize, Serialize};
 
 /// What a snapshot is of.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct About {
     /// The digest of its scenario.
     pub(crate) digest: u64,
@@ -45,6 +45,8 @@ pub(crate) struct About {
     pub(crate) begun: bool,
     pub(crate) seed: u64,
     pub(crate) index: u64,
+    /// The parameters of the next episodes.
+    pub(crate) bindings: Vec<f64>,
 }
 
 /// Writes a snapshot; `pass` hands over the episode around the match.

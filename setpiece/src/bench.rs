@@ -81,15 +81,22 @@ impl Measured {
 pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measured, Error> {
     let threads = |why: setpiece_engine::batch::BatchError| Error::Threads(why.to_string());
     let mut batch = Batch::new(lanes(scenario, options)?, options.threads).map_err(threads)?;
-    let mut play = |until: Duration| -> Result<Measured, Error> {
+    let mut play = |until: Duration, staggered: bool| -> Result<Measured, Error> {
         let counted = |batch: &Batch<Lane>| {
             let lanes = batch.lanes().iter();
             lanes.fold((0, 0), |(steps, resets), lane| (steps + lane.steps, resets + lane.resets))
         };
         let before = counted(&batch);
         let (wall, cpu) = (Instant::now(), ProcessTime::now());
+        let mut round = 0;
         while wall.elapsed() < until {
-            batch.each(vec![(); options.matches], |_, lane, (), scratch| lane.advance(scratch));
+            let least = if staggered { round % options.matches } else { 0 };
+            batch.each(vec![(); options.matches], |number, lane, (), scratch| {
+                if number >= least {
+                    lane.advance(scratch);
+                }
+            });
+            round += 1;
         }
         let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
         let after = counted(&batch);
@@ -98,9 +105,10 @@ pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measu
             None => Ok(Measured { steps: after.0 - before.0, resets: after.1 - before.1, wall, cpu }),
         }
     };
-    // Everything begun, every buffer at its size, every page touched.
-    play(options.duration / 5)?;
-    play(options.duration)
+    // Everything begun, every buffer at its size, every page touched; and the later a match's number the further it has
+    // come, so that what is measured is not the same minute of all.
+    play(options.duration, true)?;
+    play(options.duration, false)
 }
 
 /// The microseconds that a step takes, phase by phase, on one thread.
@@ -112,16 +120,19 @@ pub fn phases(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<(P
     let mut scratch = Scratch::default();
     let reading = reading_ns();
     let mut steps = 0;
-    for (until, measured) in [(options.duration / 5, false), (options.duration, true)] {
+    for (until, measured) in [(options.duration, false), (options.duration, true)] {
         if measured {
             steps = lanes.iter().map(|lane| lane.steps).sum();
             *scratch.laps() = Laps::with(now_ns);
         }
-        let begun = Instant::now();
+        let (begun, mut round) = (Instant::now(), 0);
         while begun.elapsed() < until {
-            for lane in &mut lanes {
+            // Staggered as in [`measure`] before the clock starts.
+            let least = if measured { 0 } else { round % options.matches };
+            for lane in lanes.iter_mut().skip(least) {
                 lane.advance(&mut scratch);
             }
+            round += 1;
         }
     }
     if let Some(error) = lanes.iter_mut().find_map(|lane| lane.failed.take()) {

@@ -8,7 +8,7 @@ use setpiece::engine::football::body::{Intent, Pose};
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::snapshot::{SnapshotError, checksum, match_bytes};
 use setpiece::scenario::vocabulary::EventKind;
-use setpiece::scenario::{Action, Scenario};
+use setpiece::scenario::{Action, Bindings, Scenario};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -131,8 +131,22 @@ fn environment(scenario: &Arc<Scenario>) -> Environment {
 }
 
 /// The scenarios of the walk.
+/// Without scripts: what looks back at the ball, and at players too.
+fn looking_back() -> [Arc<Scenario>; 2] {
+    ["delta(ball.x)", "delta(me.x)"].map(|seen| {
+        compiled(&format!(
+            "reward back {{ give 0.01 * {seen} as \"back\" }}
+            scenario looking_back extends academy_3_vs_1_with_keeper {{
+                reward back
+                observe vector {{ {seen} as \"back\" }}
+            }}"
+        ))
+    })
+}
+
 fn scenarios() -> Vec<Arc<Scenario>> {
     let mut scenarios = vec![compiled(MEMORY), compiled(HALVES), library("11_vs_11_stochastic")];
+    scenarios.extend(looking_back());
     let rest = ["academy_3_vs_1_with_keeper", "academy_corner", "academy_run_to_score_with_keeper", "5_vs_5"];
     scenarios.extend(rest.map(library));
     scenarios
@@ -437,4 +451,52 @@ fn whatever_a_sealed_snapshot_says_does_no_harm() {
         let (environment, snapshot) = &worlds[which];
         harmless(&mut environment.clone(), snapshot, &sealed(changed(snapshot, &changes)));
     });
+}
+
+/// A reset that finds no start leaves the last episode to be looked at, under its own key.
+#[test]
+fn what_is_left_by_a_reset_without_a_start_is_restored() {
+    let scenario = compiled(
+        r#"
+        behavior whim {
+            do script rhai """fn act(ctx, me, now) { if ctx.random() < 0.5 { "left" } else { "right" } }"""
+        }
+        scenario picky {
+            param least: length = 0m in 0m..90m
+            let side = uniform(-0.2, 0.2)
+            agents { left: 1 }
+            ball at (0, side)
+            team left { CM at (-0.1, 0) }
+            team right {
+                GK at (1, 0)
+                LB at (0.5, 0.2) { ai: whim }
+                CB at (0.5, 0.1) { ai: whim }
+                RB at (0.5, -0.1) { ai: whim }
+            }
+            require min_gap(right) > least
+            end limit 50 steps
+        }"#,
+    );
+    let mut scratch = Scratch::default();
+    for seed in 0..20 {
+        let mut environment = environment(&scenario);
+        environment.reset(Some(seed), None).unwrap();
+        environment.step(&[Action::Right], &mut scratch).unwrap();
+        environment.set_bindings(&Bindings(vec![80.0])).unwrap();
+        environment.reset(Some(seed + 1000), Some(7)).unwrap_err();
+        let mut other = self::environment(&scenario);
+        other.restore(&environment.snapshot().unwrap()).unwrap();
+        assert_eq!(seen(&mut other), seen(&mut environment));
+        assert_eq!(other.bot_actions(), environment.bot_actions(), "seed {seed}");
+        other.reset(None, None).unwrap_err();
+    }
+}
+
+#[test]
+fn parameters_are_kept_before_the_first_episode_too() {
+    let scenario = compiled(MEMORY);
+    let (mut taken, mut given) = (environment(&scenario), environment(&scenario));
+    taken.set_bindings(&Bindings(vec![3.0])).unwrap();
+    given.restore(&taken.snapshot().unwrap()).unwrap();
+    assert_eq!(given.bindings(), taken.bindings());
 }

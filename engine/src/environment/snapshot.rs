@@ -41,14 +41,12 @@ impl Environment {
             return Err(SnapshotError::Rewards { found: its.rewards.clone(), expected });
         }
         fits(&opened.game, &self.roster)?;
-        let before = self.clone();
-        self.idle(&opened);
-        let restored = opened.pass(|archive| self.pass(archive));
-        if restored.is_err() {
-            // What came before the damage has been read.
-            *self = before;
-        }
-        restored
+        self.admit("bindings", &its.bindings)?;
+        let mut restored = self.clone();
+        restored.idle(&opened);
+        opened.pass(|archive| restored.pass(archive))?;
+        *self = restored;
+        Ok(())
     }
 
     /// Begins a new episode in the state of a snapshot: places, ball, whatever goes on, score, cards, fatigue and the
@@ -80,6 +78,7 @@ impl Environment {
             begun: self.begun,
             seed: self.seed,
             index: self.index,
+            bindings: self.bindings.0.clone(),
         }
     }
 
@@ -93,6 +92,9 @@ impl Environment {
         self.game.clone_from(&opened.game);
         let about = &opened.about;
         (self.started, self.begun, self.seed, self.index) = (about.started, about.begun, about.seed, about.index);
+        if self.bindings.0 != about.bindings {
+            self.bindings = Arc::new(Bindings(about.bindings.clone()));
+        }
         self.running = false;
         self.stopped.forget();
         self.outcome = None;
@@ -102,17 +104,18 @@ impl Environment {
 
     /// Writes or reads the episode around the match.
     fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        let (mut params, mut bindings) = (self.judge.params().to_vec(), Bindings::clone(&self.bindings));
+        // The key is not the environment's where a later reset found no start.
+        let Given { mut seed, mut index, params, lets } = self.judge.given();
+        let (mut params, mut lets) = (params.to_vec(), lets.to_vec());
+        archive.value("seed", &mut seed)?;
+        archive.value("index", &mut index)?;
         archive.value("params", &mut params)?;
-        archive.value("bindings", &mut bindings.0)?;
-        let mut lets = self.judge.lets().to_vec();
+        // Where no episode has begun yet there are none: the scenario says how many are read.
         lets.resize(self.scenario.start.lets.len(), 0.0);
         archive.slots("lets", &mut lets)?;
         if archive.is_reading() {
             self.admit("params", &params)?;
-            self.admit("bindings", &bindings.0)?;
-            self.bindings = Arc::new(bindings);
-            let given = Given { seed: self.seed, index: self.index, params: &params, lets: &lets };
+            let given = Given { seed, index, params: &params, lets: &lets };
             self.judge.reset(&self.game, &given);
             self.actors.reset(&self.game, &given);
         }

@@ -71,14 +71,9 @@ impl Known {
         Err(SnapshotError::damaged("scene", "is not what the scenario's scripts need"))
     }
 
-    /// The parameters of the episode; none before the first.
-    pub(crate) fn params(&self) -> &[f64] {
-        &self.params
-    }
-
-    /// The drawn `let`s of the episode; none before the first.
-    pub(crate) fn lets(&self) -> &[f64] {
-        &self.lets
+    /// What the episode was given; no numbers before the first.
+    pub(crate) fn given(&self) -> Given<'_> {
+        Given { seed: self.seed, index: self.index, params: &self.params, lets: &self.lets }
     }
 
     /// Goes on with other scripts.

@@ -161,10 +161,11 @@ fn what_a_program_looks_back_at_is_kept() {
     game.ball.vel = Vec3::new(4.0, 2.0, -1.0);
     (game.owner, game.possession) = (Some(PlayerId(11)), Some(Team::Right));
     (game.score, game.mode, game.dead, game.step) = ([2, 1], GameMode::Corner, true, 13);
+    game.limit_steps = Some(400);
     game.players[11].fatigue = 0.5;
     for &field in Field::ALL {
         let program = Program { code: vec![Instr::Load { field, of: None, when: When::Prev }], ..Program::default() };
-        let mut view = View { limit_steps: game.limit_steps, ..View::EMPTY };
+        let mut view = View::EMPTY;
         view.keep(&game, Memory::of(&program));
         for of in [0.0, 1.0, 11.0] {
             let (kept, live) = (Sight::Kept(&view).load(field, of), Sight::Live(&game).load(field, of));

@@ -1,7 +1,7 @@
 //! What can be wrong with a snapshot.
 
 /// The version of snapshots that this build takes and restores.
-pub const SNAPSHOT_VERSION: u32 = 3;
+pub const SNAPSHOT_VERSION: u32 = 4;
 
 /// Why a snapshot can't be taken, restored or begun from.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -21,7 +21,7 @@ pub enum SnapshotError {
     /// It is well-formed but holds something impossible.
     #[error("the snapshot is damaged: `{place}` {why}")]
     Damaged {
-        /// Where: `match.players[3].pos.x`.
+        /// Where: `match.players[3].pos[0]`.
         place: String,
         /// What is wrong there.
         why: String,

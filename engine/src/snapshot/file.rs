@@ -17,7 +17,7 @@ pub(super) fn begun() -> Vec<u8> {
     file
 }
 
-/// Fills in the head of what was [begun](begun).
+/// Fills in the head of what was [`begun`].
 pub(super) fn sealed(mut file: Vec<u8>) -> Vec<u8> {
     let (head, body) = file.split_at_mut(HEAD);
     let (version, sum, length) =
@@ -48,8 +48,8 @@ pub(super) fn unwrap(file: &[u8]) -> Result<&[u8], SnapshotError> {
     Ok(body)
 }
 
-/// The sum in a snapshot's head over what follows: over words of eight bytes, in the manner of FNV-1a, in four lanes that
-/// a processor reckons at once. One changed word always shows.
+/// The sum in a snapshot's head over what follows, in the manner of FNV-1a: over words of eight bytes, in four lanes
+/// that a processor reckons at once, then over what is left, byte by byte. One changed word always shows.
 pub fn checksum(body: &[u8]) -> u64 {
     let step = |hash: u64, word: u64| (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29);
     let mut lanes = [0xcbf2_9ce4_8422_2325, 1, 2, 3];

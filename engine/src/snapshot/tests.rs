@@ -2,7 +2,7 @@ use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::play::{Flight, Restart, Save, SetPiece};
 use crate::football::{advantage::Advantage, begin};
 use crate::judge::View;
-use crate::snapshot::SNAPSHOT_VERSION;
+use crate::snapshot::{SNAPSHOT_VERSION, checksum, match_bytes};
 use crate::state::{Match, PlayerId};
 use crate::statistics::Statistics;
 use crate::testing::event;
@@ -72,5 +72,8 @@ fn the_layout_is_that_of_the_version() {
         names(&value, name, &mut found);
     }
     let found: Vec<String> = found.into_iter().collect();
-    insta::assert_snapshot!("layout", format!("version {SNAPSHOT_VERSION}\n{}", found.join("\n")));
+    // How they are encoded, and how they are summed.
+    let (length, sum) = (match_bytes(&game).unwrap().len(), checksum(&[7; 100]));
+    let head = format!("version {SNAPSHOT_VERSION}\nmatch {length} bytes, sum {sum:016x}");
+    insta::assert_snapshot!("layout", format!("{head}\n{}", found.join("\n")));
 }

@@ -122,6 +122,11 @@ impl Serializer for Walk {
         if value.abs() <= FLOAT_MAX { Ok(()) } else { Err(Fault::custom(format_args!("is {value}"))) }
     }
 
+    /// As what writes snapshots is: the walk is over what is written.
+    fn is_human_readable(&self) -> bool {
+        false
+    }
+
     /// Bytes are floats: see [`super::floats`].
     fn serialize_bytes(self, bytes: &[u8]) -> Result<(), Fault> {
         let floats = bytes.as_chunks().0.iter().map(|float| f32::from_le_bytes(*float));
@@ -265,6 +270,13 @@ mod tests {
 
     const SOUND: Sample =
         Sample { pos: [1.0, -50.0], lane: [0.5; 3], tick: 7, limit_steps: Some(u32::MAX), sum: f64::INFINITY };
+
+    #[test]
+    fn lists_of_floats_are_walked_as_they_are_written() {
+        assert!(!Walk { key: "" }.is_human_readable());
+        assert!(Walk { key: "" }.serialize_bytes(&1.0e4_f32.to_le_bytes()).is_ok());
+        assert!(Walk { key: "" }.serialize_bytes(&1.1e4_f32.to_le_bytes()).is_err());
+    }
 
     fn fault(sample: &Sample) -> String {
         walk(&[sample]).unwrap_err().to_string()

@@ -17,7 +17,7 @@ const SCENARIOS: [&str; 3] = ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
-    /// Scenarios of the library, .pitch or .pitchc files [default: a match of eleven, one of four and one of one]
+    /// Scenarios of the library, .pitch or .pitchc files [default: 11_vs_11_stochastic, academy_3_vs_1_with_keeper and academy_empty_goal_close]
     #[arg(value_name = "SCENARIO")]
     scenarios: Vec<String>,
     /// Threads; several numbers with commas between them [default: 1 and one per core]
@@ -26,7 +26,7 @@ pub(crate) struct BenchArgs {
     /// How many matches are stepped together; several numbers with commas between them
     #[arg(short, long, value_name = "N", default_value = "64", value_delimiter = ',', value_parser = RangedU64ValueParser::<u32>::new().range(1..=100_000))]
     matches: Vec<u32>,
-    /// How long each line of the table is measured; phases and scaling take as long again, or several times
+    /// How long each line of the table is measured; with its warm-up, phases and scaling a line takes five to ten times as long
     #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds)]
     seconds: f64,
     /// Who plays for the agents
@@ -38,7 +38,7 @@ pub(crate) struct BenchArgs {
     /// How to print what came out
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Compare with what `--format jsonl` printed before: the ratio of steps per CPU-second
+    /// Compare with what `--format jsonl` printed before on this machine: the ratio of steps per CPU-second
     #[arg(long, value_name = "FILE")]
     against: Option<PathBuf>,
 }
@@ -72,6 +72,9 @@ struct Row {
     steps_per_second: f64,
     steps_per_cpu_second: f64,
     resets_per_step: f64,
+    /// Steps per CPU-second against those of `--against`, where it has such a row.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    ratio: Option<f64>,
     /// The gain over one thread as a share of what bare arithmetic gains; on several threads alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     scaling: Option<f64>,
@@ -141,6 +144,8 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
             } else {
                 row.scaling = Some(scaling(&loaded.scenario, &options)?);
             }
+            let earlier = before.iter().find(|earlier| row.compares_with(earlier));
+            row.ratio = earlier.map(|earlier| row.steps_per_cpu_second / earlier.steps_per_cpu_second);
             if args.format == Format::Jsonl {
                 out.line(&serde_json::to_string(&row).unwrap_or_default());
             }
@@ -148,7 +153,15 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
         }
     }
     if args.format == Format::Text {
-        print(&rows, &before, (&observation, &agent), out);
+        print(&rows, args.against.is_some(), (&observation, &agent), out);
+    }
+    if let Some(path) = &args.against
+        && rows.iter().all(|row| row.ratio.is_none())
+    {
+        let path = path.display();
+        out.note(&format!(
+            "no row of {path} has the scenario, threads, matches, observation and agent of one measured here"
+        ));
     }
     Ok(FINE)
 }
@@ -163,26 +176,29 @@ fn row(scenario: &str, options: &BenchOptions, measured: &Measured, words: (&str
         steps_per_second: measured.per_second(),
         steps_per_cpu_second: measured.per_cpu_second(),
         resets_per_step: measured.resets as f64 / measured.steps.max(1) as f64,
+        ratio: None,
         scaling: None,
         microseconds: BTreeMap::new(),
         once_microseconds: BTreeMap::new(),
     }
 }
 
-fn print(rows: &[Row], before: &[Row], words: (&str, &str), out: &Out) {
+fn print(rows: &[Row], compared: bool, words: (&str, &str), out: &Out) {
     let (observation, agent) = words;
     out.line(&format!("agent {agent} · observation {observation} · resets included"));
     out.line("");
     let width = rows.iter().map(|row| row.scenario.len()).max().unwrap_or(0).max(12);
     let scales = rows.iter().any(|row| row.scaling.is_some());
     let scaling = if scales { "       scaling" } else { "" };
-    let against = if before.is_empty() { "" } else { "   ratio" };
+    let against = if compared { "   ratio" } else { "" };
     let head = format!("{:width$}  threads  matches  steps/s  steps/CPU-s{scaling}{against}", "scenario");
     out.line(&out.dim(&head));
     for row in rows {
-        let ratio = before.iter().find(|earlier| row.compares_with(earlier)).map_or(String::new(), |earlier| {
-            format!("{:>8.2}", row.steps_per_cpu_second / earlier.steps_per_cpu_second)
-        });
+        let ratio = match row.ratio {
+            Some(ratio) => format!("{ratio:>8.2}"),
+            None if compared => format!("{:>8}", "–"),
+            None => String::new(),
+        };
         let scaling = match row.scaling {
             Some(share) => format!("{share:>14.2}"),
             None if scales => " ".repeat(14),

@@ -1,7 +1,7 @@
 """How fast Setpiece is beside its peers, in one run: writes a page of figures.
 
-Install `benches/peers/requirements.txt` and this project's wheel into one environment, then
-`python benches/peers -o docs/performance.md`.
+Install `benches/peers/requirements.txt` and this project's wheel into one environment of its own, then
+`python benches/peers -o docs/performance.md`: see `benches/README.md`.
 
 All play on one thread, by turns, each in a process of its own, so that whatever else the machine does falls on all
 alike. What contests count is done per second of CPU time; the median of the rounds is told, and a ratio is the
@@ -25,6 +25,8 @@ from gfootball import GFOOTBALL
 from scenic_sampler import SCENIC_SAMPLER
 from vmas_football import VMAS, pitch
 
+Figures = dict[str, float]
+
 CONTESTS = {"gfootball": GFOOTBALL, "vmas": VMAS, "scenic": SCENIC_SAMPLER}
 SCENARIOS = GFOOTBALL.cases
 MATCHES = (1, 4, 16, 64, 256, 1024)
@@ -38,8 +40,8 @@ def measured(contest: str, player: str, case: str, seconds: float) -> float:
     return float(told.stdout.splitlines()[-1])
 
 
-def contest_section(name: str, contest: Contest, rounds: int, seconds: float) -> list[str]:
-    """Plays a contest by turns; its section of the page."""
+def contest_section(name: str, contest: Contest, rounds: int, seconds: float, figures_of: Figures) -> list[str]:
+    """Plays a contest by turns; its section of the page. Notes the medians."""
     figures: dict[str, dict[str, list[float]]] = {
         case: {player: [] for player in contest.players} for case in contest.cases
     }
@@ -59,11 +61,13 @@ def contest_section(name: str, contest: Contest, rounds: int, seconds: float) ->
             ratio = statistics.median(ratios)
             ratio_word = f"{ratio:,.0f}" if ratio >= 10 else f"{ratio:.2g}"
             lines.append(f"| {case_word} | {player} | {statistics.median(told):,.0f} | {ratio_word} |")
+            figures_of[f"{case}, {player}"] = statistics.median(told)
+            figures_of[f"{case}, {player}, ratio"] = ratio
     return [*lines, ""]
 
 
-def alone_section(seconds: float) -> list[str]:
-    """What `setpiece bench` tells: where the time goes, what is done once, what more threads bring."""
+def alone_section(seconds: float, figures_of: Figures) -> list[str]:
+    """What `setpiece bench` tells: where the time goes, and what is done once."""
     rows = {scenario: bench(scenario, seconds, "--threads", "1")[0] for scenario in SCENARIOS}
     phases = ("draw", "bots", "reach", "movement", "play", "physics", "referee", "judge", "observe")
     lines = ["## Where the time goes", "", "Microseconds a step, `simple115v2` written after every step.", ""]
@@ -84,10 +88,12 @@ def alone_section(seconds: float) -> list[str]:
     for scenario, row in rows.items():
         times = " | ".join(f"{row['once_microseconds'][name]:.2f}" for name in names)
         lines.append(f"| `{scenario}` | {times} |")
+        for once, took in row["once_microseconds"].items():
+            figures_of[once] = max(took, figures_of.get(once, 0.0))
     return [*lines, ""]
 
 
-def curve_sections(seconds: float) -> list[str]:
+def curve_sections(seconds: float, figures_of: Figures) -> list[str]:
     """Cost over threads, matches and players."""
     cores = os.cpu_count() or 1
     lines = ["## Threads, matches, players", ""]
@@ -97,13 +103,16 @@ def curve_sections(seconds: float) -> list[str]:
         for scenario in SCENARIOS:
             (row,) = bench(scenario, 4 * seconds, "--threads", str(cores), "--matches", "256")
             shares.append(f"{row['scaling']:.2f} for `{scenario}`")
+            figures_of["scaling"] = min(row["scaling"], figures_of.get("scaling", 9.9))
         lines += [", ".join(shares) + ".", ""]
     rows = bench(SCENARIOS[0], seconds, "--threads", "1", "--matches", ",".join(map(str, MATCHES)))
+    lines += [f"`{SCENARIOS[0]}`, one thread, floats, by CPU time. A match more costs what the others do:", ""]
     lines += ["| matches at once | µs a step of one | µs a step of all |", "| ---: | ---: | ---: |"]
     for row in rows:
         each = 1e6 / row["steps_per_cpu_second"]
         lines.append(f"| {row['matches']:,} | {each:.1f} | {each * row['matches']:,.0f} |")
-    lines += ["", "| players a side | µs a step | of which for each player |", "| ---: | ---: | ---: |"]
+    lines += ["", "So many a side in VMAS football's scenario, one agent. A player more costs less than the one before:", ""]
+    lines += ["| players a side | µs a step | of which for each player |", "| ---: | ---: | ---: |"]
     with tempfile.TemporaryDirectory() as folder:
         for n in SIDES:
             path = Path(folder) / f"{n}.pitch"
@@ -112,6 +121,54 @@ def curve_sections(seconds: float) -> list[str]:
             each = 1e6 / row["steps_per_cpu_second"]
             lines.append(f"| {n} | {each:.1f} | {each / (2 * n):.2f} |")
     return [*lines, ""]
+
+
+BARS: tuple[tuple[str, str, str, float], ...] = (
+    ("11_vs_11_stochastic, setpiece, floats, ratio", "`11_vs_11_stochastic`, floats, times EnvPool's GRF", ">=", 200),
+    ("11_vs_11_stochastic, setpiece, ratio", "the same, super mini map", ">=", 180),
+    ("11_vs_11_stochastic, setpiece.make_vec, ratio", "the same by `setpiece.make_vec`", ">=", 180),
+    ("academy_3_vs_1_with_keeper, setpiece, floats, ratio", "`academy_3_vs_1_with_keeper`, times EnvPool's", ">=", 200),
+    ("academy_3_vs_1_with_keeper, setpiece, floats", "the same, steps per CPU-second", ">=", 80_000),
+    ("academy_empty_goal_close, setpiece, floats", "`academy_empty_goal_close`, steps per CPU-second", ">=", 150_000),
+    ("scaling", "all cores against one, share of bare arithmetic's gain, the least", ">=", 0.93),
+    ("create", "create and first reset, µs", "<=", 300),
+    ("reset", "later reset, µs", "<=", 20),
+    ("memory", "copy in memory and back, µs", "<=", 1),
+    ("to_bytes", "snapshot to bytes, µs", "<=", 10),
+    ("from_bytes", "restore from bytes, µs", "<=", 10),
+    ("simple115v2", "`simple115v2`, µs", "<=", 0.3),
+    ("smm", "super mini map, µs", "<=", 2),
+)
+
+
+def bars_section(figures_of: Figures) -> list[str]:
+    """What is aimed at, and whether this run reached it."""
+    lines = ["## Bars", "", "What the game is held to, and what this run found; the worst of the scenarios where they differ.", ""]
+    lines += ["| | bar | here | |", "| --- | ---: | ---: | --- |"]
+    for key, words, sign, bar in BARS:
+        if key in figures_of:
+            here = figures_of[key]
+            met = here >= bar if sign == ">=" else here <= bar
+            here_word = f"{here:,.0f}" if here >= 100 else f"{here:.2f}"
+            lines.append(f"| {words} | {'≥' if sign == '>=' else '≤'} {bar:,} | {here_word} | {'met' if met else 'missed'} |")
+    lines += [
+        "",
+        "Absolute figures hang on the machine and its hour; ratios are of one run. Tests hold two more: a further match in",
+        "a batch takes at most 32 KiB, and after warm-up a match's step allocates nothing but in rapier, where the ball meets",
+        "something hard (`tests/tests/allocation.rs`).",
+        "",
+    ]
+    return lines
+
+
+def revision() -> str:
+    """The commit that the page is made from, where that is known."""
+    command = ["git", "-C", str(Path(__file__).parent), "rev-parse", "--short", "HEAD"]
+    try:
+        told = subprocess.run(command, check=True, capture_output=True, text=True)
+    except (OSError, subprocess.CalledProcessError):
+        return "of no known commit"
+    return f"at {told.stdout.strip()}"
 
 
 def processor() -> str:
@@ -125,17 +182,21 @@ def processor() -> str:
 
 def page(rounds: int, seconds: float) -> str:
     """The page."""
-    machine = f"{processor()}, {os.cpu_count()} cores; {platform.system()}, Python {platform.python_version()}"
+    system = f"{platform.system()} {platform.release()}, Python {platform.python_version()}, NumPy {version('numpy')}"
+    machine = f"{processor()}, {os.cpu_count()} cores; {system}"
     lines = [
         "# Performance",
         "",
         "Written by `python benches/peers`, which says how it measures: one thread unless said.",
-        f"{machine}; setpiece {version('setpiece')}.",
+        f"{machine}; setpiece {version('setpiece')} {revision()}.",
         "",
     ]
+    figures_of: Figures = {}
+    sections: list[str] = []
     for name, contest in CONTESTS.items():
-        lines += contest_section(name, contest, rounds, seconds)
-    return "\n".join(lines + alone_section(seconds) + curve_sections(seconds))
+        sections += contest_section(name, contest, rounds, seconds, figures_of)
+    sections += alone_section(seconds, figures_of) + curve_sections(seconds, figures_of)
+    return "\n".join(lines + bars_section(figures_of) + sections)
 
 
 def main() -> None:

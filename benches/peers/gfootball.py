@@ -39,7 +39,9 @@ GFOOTBALL = Contest(
     title="Google Research Football",
     unit="steps per CPU-second",
     text="One agent at random, bots for everyone else, resets included, the super mini map (72 x 96 x 4 bytes, the\n"
-    "only observation that EnvPool's build has) after every step but where it says floats.",
+    "only observation that EnvPool's build has) after every step but where it says floats. `setpiece bench` (64\n"
+    "matches) begins at different moments of its matches; the others (4 environments of EnvPool's, 64 of make_vec)\n"
+    "begin all together, and of a long match play what comes first.",
     packages=("envpool",),
     cases=("11_vs_11_stochastic", "academy_3_vs_1_with_keeper", "academy_empty_goal_close"),
     players={

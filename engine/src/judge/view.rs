@@ -97,11 +97,11 @@ impl View {
             Memory::Nothing => Ok(()),
             Memory::ButPlayers => {
                 // The limit is the match's, which a reset has shown.
-                let View { ball, ball_vel, owner, possession, score, mode, dead, step, players, limit_steps } = *self;
+                let View { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps } = *self;
                 let mut kept = (ball, ball_vel, owner, possession, score, mode, dead, step);
                 archive.value(name, &mut kept)?;
                 let (ball, ball_vel, owner, possession, score, mode, dead, step) = kept;
-                *self = View { ball, ball_vel, owner, possession, score, mode, dead, step, players, limit_steps };
+                *self = View { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps };
                 Ok(())
             }
             Memory::All => archive.value(name, self),

@@ -17,7 +17,7 @@ const SCENARIOS: [&str; 3] = ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
-    /// Scenarios of the library, .pitch or .pitchc files [default: 11_vs_11_stochastic, academy_3_vs_1_with_keeper and academy_empty_goal_close]
+    /// Scenarios of the library, .pitch or .pitchc files [default: three of the library, of 22, 6 and 3 players]
     #[arg(value_name = "SCENARIO")]
     scenarios: Vec<String>,
     /// Threads; several numbers with commas between them [default: 1 and one per core]
@@ -26,7 +26,7 @@ pub(crate) struct BenchArgs {
     /// How many matches are stepped together; several numbers with commas between them
     #[arg(short, long, value_name = "N", default_value = "64", value_delimiter = ',', value_parser = RangedU64ValueParser::<u32>::new().range(1..=100_000))]
     matches: Vec<u32>,
-    /// How long each line of the table is measured; with its warm-up, phases and scaling a line takes five to ten times as long
+    /// How long each line is measured; with warm-up, phases and scaling it takes five to thirteen times as long
     #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds)]
     seconds: f64,
     /// Who plays for the agents

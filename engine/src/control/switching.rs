@@ -9,9 +9,9 @@ use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
-/// How long a run lasts that is called for, steps. (The fact sheet's.)
+/// How long a run lasts that is called for, steps. (GRF's.)
 const RUN_STEPS: u32 = 40;
-/// Whoever is nearest to a point so far ahead of the caller runs, metres. (The fact sheet's.)
+/// Whoever is nearest to a point so far ahead of the caller runs, metres. (GRF's.)
 const AHEAD_M: f32 = 26.0;
 
 /// Whether some slot controls the player.

@@ -4,7 +4,7 @@ use crate::football::movement::DT;
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{Rule, Stat};
 
-/// Freshness lost per metre at stamina 1 (0.00003 · 18.05 of the fact sheet).
+/// Freshness lost per metre at stamina 1 (0.00003 · 18.05 of GRF).
 const PER_METRE: f32 = 0.000_03 * 18.05;
 
 /// Adds the tiredness of a step of so many ticks.

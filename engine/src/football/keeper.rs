@@ -97,7 +97,7 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     }
     let goal_x = -(HALF_LENGTH_M as f32) * side;
     let player = *game.player(id);
-    // How far beside the goal a ball still worries him: less, the better he reads it (the fact sheet's).
+    // How far beside the goal a ball still worries him: less, the better he reads it (GRF's).
     let reading = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
     let panic = GOAL_HALF_WIDTH_M as f32 * (1.02 + 0.5 * (1.0 - reading));
     let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));

@@ -79,7 +79,7 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
 }
 
 /// Ticks until a player sees what somebody else's touch has made of the ball: 80 - 40 · reaction ms, and a bot 100 ms
-/// more for all the difficulty it lacks (the fact sheet's delay).
+/// more for all the difficulty it lacks (GRF's delay).
 fn delay_ticks(player: &Player, driven: bool) -> i32 {
     let slow = if driven { 0.0 } else { 10.0 * (1.0 - player.difficulty) };
     (8.0 - 4.0 * player.body.stats[Stat::Reaction.index()] + slow) as i32

@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
 
-/// No nearer to a corner than this, from the middle, is a throw-in taken, metres. (The fact sheet's.)
+/// No nearer to a corner than this, from the middle, is a throw-in taken, metres. (GRF's.)
 const THROW_IN_X_M: f32 = 54.4;
 
 /// Judges the tick in which the ball came from `before`.

@@ -16,13 +16,13 @@ use wide::f32x4;
 pub const CONTACT_M: f32 = 0.72;
 /// How near one comes to a man who lies, metres; chosen.
 const LYING_M: f32 = 0.5;
-/// Most that one meeting moves a body in two ticks, metres. (The fact sheet's: 0.08 a tick.)
+/// Most that one meeting moves a body in two ticks, metres. (GRF's: 0.08 a tick.)
 const PUSH_MAX_M: f32 = 0.16;
 /// However hard others press, a meeting leaves two bodies no nearer than this, metres; chosen so that they never change
 /// sides before they meet again.
 const PRESSED_M: f32 = 0.2;
 
-/// The most that pushes add up to, metres. (The fact sheet's.)
+/// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;
 /// Share of a push that is left after two ticks: 0.95 a tick.
 const SHOVE_LEFT: f32 = 0.9025;

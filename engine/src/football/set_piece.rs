@@ -12,9 +12,9 @@ use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// How far a wall stands from the ball, metres. Laws.
 const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
-/// How far everybody keeps from a penalty, metres. (The fact sheet's, and a little for who is pushed aside.)
+/// How far everybody keeps from a penalty, metres. (GRF's, and a little for who is pushed aside.)
 const PENALTY_M: f32 = 9.65 + 0.4;
-/// A wall is built for free kicks nearer to goal than this, metres (the fact sheet's).
+/// A wall is built for free kicks nearer to goal than this, metres (GRF's).
 pub const WALL_WITHIN_M: f32 = 40.0;
 /// How near two men stand at a set piece at the nearest, metres: about a body's breadth.
 const APART_M: f32 = 0.74;

@@ -56,7 +56,7 @@ pub fn aim_of(from: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
     beside_middle(from, side, angle)
 }
 
-/// The point of the goal mouth that a direction means which is so far off its middle, radians. (The fact sheet's.)
+/// The point of the goal mouth that a direction means which is so far off its middle, radians. (GRF's.)
 fn beside_middle(from: Vec2, side: f32, angle: f32) -> Vec2 {
     let goal = goal_of(side);
     // The sign of the angle tells the side of the goal in the shooter's own view.

@@ -13,9 +13,9 @@ use std::ops::Range;
 const SLIDE_TICKS: u8 = 60;
 /// Ticks after which a slide has lost its force.
 const FORCE_TICKS: u8 = 42;
-/// Ticks until the leg is out: before, it brings nobody down. (The fact sheet's.)
+/// Ticks until the leg is out: before, it brings nobody down. (GRF's.)
 const OUT_TICKS: u8 = 11;
-/// The ticks of a slide in which the foot can meet the ball. (The fact sheet's.)
+/// The ticks of a slide in which the foot can meet the ball. (GRF's.)
 const CONTACT_TICKS: Range<u8> = 18..33;
 /// m/s at its start.
 const SLIDE_MPS: f32 = 6.5;

@@ -1,6 +1,6 @@
 //! The players' statistics: one table by index in the team, the same for both teams.
 //!
-//! Source: the fact sheet's table of Google Research Football's records.
+//! Source: Google Research Football's records of players.
 
 use crate::start::DrawnPlayer;
 use setpiece_scenario::pitch::TEAM_MAX;

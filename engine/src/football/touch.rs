@@ -247,7 +247,7 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     push(game, events, id, velocity, hop);
 }
 
-/// How much a ball just struck takes a player by surprise, 0..1: the fact sheet's recency of the other's touch, over
+/// How much a ball just struck takes a player by surprise, 0..1: GRF's recency of the other's touch, over
 /// 1000 - 500 · reaction ms.
 fn surprise(game: &Match, reaction: f32) -> f32 {
     let since = game.last_touch.map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));

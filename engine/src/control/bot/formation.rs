@@ -1,6 +1,6 @@
 //! The team's block: where everyone's place is, given the ball and who has it.
 //!
-//! Slots come from roles, spread among players of one role; the block's formulas are the fact sheet's, simplified.
+//! Slots come from roles, spread among players of one role; the block's formulas are GRF's, simplified.
 
 use crate::control::bot::View;
 use crate::state::{Match, PlayerId};

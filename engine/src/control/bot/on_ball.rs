@@ -182,7 +182,7 @@ fn value(own: Vec2) -> f32 {
 
 /// What dribbling the ball to a place is worth.
 ///
-/// The nearer to goal, the less: the fact sheet's dribblers are pushed back from the goal line, more than they are drawn
+/// The nearer to goal, the less: GRF's dribblers are pushed back from the goal line, more than they are drawn
 /// to goal from about 30 m on, so that they look for a mate or a shot there.
 fn dribbled(own: Vec2) -> f32 {
     ground(own) - 0.1 * nearness(own)

@@ -106,21 +106,28 @@ def curve_sections(seconds: float, figures_of: Figures) -> list[str]:
             figures_of["scaling"] = min(row["scaling"], figures_of.get("scaling", 9.9))
         lines += [", ".join(shares) + ".", ""]
     rows = bench(SCENARIOS[0], seconds, "--threads", "1", "--matches", ",".join(map(str, MATCHES)))
-    lines += [f"`{SCENARIOS[0]}`, one thread, floats, by CPU time. A match more costs what the others do:", ""]
+    costs = [1e6 / row["steps_per_cpu_second"] for row in rows]
+    apart = max(costs) / min(costs) - 1
+    lines += [
+        f"`{SCENARIOS[0]}`, one thread, floats, CPU time: a step costs the same among any number, within {apart:.0%}.",
+        "",
+    ]
     lines += ["| matches at once | µs a step of one | µs a step of all |", "| ---: | ---: | ---: |"]
-    for row in rows:
-        each = 1e6 / row["steps_per_cpu_second"]
+    for row, each in zip(rows, costs, strict=True):
         lines.append(f"| {row['matches']:,} | {each:.1f} | {each * row['matches']:,.0f} |")
-    lines += ["", "So many a side in VMAS football's scenario, one agent. A player more costs less than the one before:", ""]
-    lines += ["| players a side | µs a step | of which for each player |", "| ---: | ---: | ---: |"]
+    table = ["| players a side | µs a step | of which for each player |", "| ---: | ---: | ---: |"]
+    costs = []
     with tempfile.TemporaryDirectory() as folder:
         for n in SIDES:
             path = Path(folder) / f"{n}.pitch"
             path.write_text(pitch(n).replace("left: all", "left: 1"), encoding="utf-8")
             (row,) = bench(str(path), seconds, "--threads", "1")
             each = 1e6 / row["steps_per_cpu_second"]
-            lines.append(f"| {n} | {each:.1f} | {each / (2 * n):.2f} |")
-    return [*lines, ""]
+            table.append(f"| {n} | {each:.1f} | {each / (2 * n):.2f} |")
+            costs.append(each)
+    more = (costs[-1] - costs[0]) / (2 * (SIDES[-1] - SIDES[0]))
+    text = f"So many a side in VMAS football's scenario, one agent: each player more costs about {more:.1f} µs a step."
+    return [*lines, "", text, "", *table, ""]
 
 
 BARS: tuple[tuple[str, str, str, float], ...] = (
@@ -143,19 +150,26 @@ BARS: tuple[tuple[str, str, str, float], ...] = (
 
 def bars_section(figures_of: Figures) -> list[str]:
     """What is aimed at, and whether this run reached it."""
-    lines = ["## Bars", "", "What the game is held to, and what this run found; the worst of the scenarios where they differ.", ""]
+    lines = [
+        "## Bars",
+        "",
+        "What the game is held to, and what this run found; the worst of the scenarios where they differ.",
+        "",
+    ]
     lines += ["| | bar | here | |", "| --- | ---: | ---: | --- |"]
     for key, words, sign, bar in BARS:
         if key in figures_of:
             here = figures_of[key]
             met = here >= bar if sign == ">=" else here <= bar
             here_word = f"{here:,.0f}" if here >= 100 else f"{here:.2f}"
-            lines.append(f"| {words} | {'≥' if sign == '>=' else '≤'} {bar:,} | {here_word} | {'met' if met else 'missed'} |")
+            lines.append(
+                f"| {words} | {'≥' if sign == '>=' else '≤'} {bar:,} | {here_word} | {'met' if met else 'missed'} |"
+            )
     lines += [
         "",
-        "Absolute figures hang on the machine and its hour; ratios are of one run. Tests hold two more: a further match in",
-        "a batch takes at most 32 KiB, and after warm-up a match's step allocates nothing but in rapier, where the ball meets",
-        "something hard (`tests/tests/allocation.rs`).",
+        "Absolute figures hang on the machine and its hour; ratios are of one run. Tests hold two more: a further",
+        "match in a batch takes at most 32 KiB, and after warm-up a match's step allocates nothing but in rapier,",
+        "where the ball meets something hard (`tests/tests/allocation.rs`).",
         "",
     ]
     return lines
@@ -182,7 +196,7 @@ def processor() -> str:
 
 def page(rounds: int, seconds: float) -> str:
     """The page."""
-    system = f"{platform.system()} {platform.release()}, Python {platform.python_version()}, NumPy {version('numpy')}"
+    system = f"{platform.system()}, Python {platform.python_version()}, NumPy {version('numpy')}"
     machine = f"{processor()}, {os.cpu_count()} cores; {system}"
     lines = [
         "# Performance",

@@ -37,6 +37,12 @@ def per_cpu_second(act: Callable[[], object], units: int, seconds: float) -> flo
     return done / (time.process_time() - cpu)
 
 
+def native_steps(scenario: str, seconds: float, observation: str) -> float:
+    """Steps per CPU-second of `setpiece bench`."""
+    (line,) = bench(scenario, seconds, "--threads", "1", "--observation", observation)
+    return float(line["steps_per_cpu_second"])
+
+
 def bench(scenario: str, seconds: float, *options: str) -> list[dict[str, Any]]:
     """The lines of `setpiece bench SCENARIO` with some options."""
     command = [sys.executable, "-m", "setpiece", "bench", scenario, "--seconds", str(seconds), *options]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contests import Contest, bench, per_cpu_second
+from contests import Contest, native_steps, per_cpu_second
 
 
 def envpool_steps(scenario: str, seconds: float) -> float:
@@ -29,12 +29,6 @@ def vector_steps(scenario: str, seconds: float) -> float:
     return per_cpu_second(lambda: envs.step(random.integers(0, 19, n)), n, seconds)
 
 
-def native_steps(scenario: str, seconds: float, observation: str = "smm") -> float:
-    """Steps per CPU-second of `setpiece bench`."""
-    (line,) = bench(scenario, seconds, "--threads", "1", "--observation", observation)
-    return float(line["steps_per_cpu_second"])
-
-
 GFOOTBALL = Contest(
     title="Google Research Football",
     unit="steps per CPU-second",
@@ -46,7 +40,7 @@ GFOOTBALL = Contest(
     cases=("11_vs_11_stochastic", "academy_3_vs_1_with_keeper", "academy_empty_goal_close"),
     players={
         "EnvPool's GRF": envpool_steps,
-        "setpiece": native_steps,
+        "setpiece": lambda scenario, seconds: native_steps(scenario, seconds, "smm"),
         "setpiece, floats": lambda scenario, seconds: native_steps(scenario, seconds, "simple115v2"),
         "setpiece.make_vec": vector_steps,
     },

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from contests import Contest, bench, per_cpu_second
+from contests import Contest, native_steps, per_cpu_second
 
 # VMAS is made for many environments at once: with more of them than this it is no faster on a processor.
 ENVIRONMENTS = 256
@@ -48,13 +48,12 @@ def pitch(n: int) -> str:
 """
 
 
-def native_steps(case: str, seconds: float) -> float:
-    """Steps per CPU-second of `setpiece bench`."""
+def our_steps(case: str, seconds: float) -> float:
+    """Steps of a match per CPU-second of the same by `setpiece bench`."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "match.pitch"
         path.write_text(pitch(int(case.split()[0])), encoding="utf-8")
-        (line,) = bench(str(path), seconds, "--threads", "1")
-    return float(line["steps_per_cpu_second"])
+        return native_steps(str(path), seconds, "simple115v2")
 
 
 VMAS = Contest(
@@ -65,5 +64,5 @@ VMAS = Contest(
     f"VMAS moves discs in the plane, {ENVIRONMENTS} matches at once; ours plays football's rules.",
     packages=("vmas", "torch"),
     cases=("3 a side", "11 a side"),
-    players={"VMAS": vmas_steps, "setpiece": native_steps},
+    players={"VMAS": vmas_steps, "setpiece": our_steps},
 )

@@ -65,6 +65,9 @@ pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
     load_cast(name_or_path, &[])
 }
 
+/// Bytes of a scenario's name from which on its beginning alone tells what is meant.
+const BEGUN_LEAST: usize = 4;
+
 /// Loads a scenario as [`load`] does, its players played by a cast.
 ///
 /// # Errors
@@ -81,7 +84,10 @@ pub fn load_cast(name_or_path: &str, cast: &[Cast]) -> Result<Loaded, Error> {
     }
     // What can be played: bases that others extend are no answer.
     let known = list();
-    let similar = nearest(name_or_path, known.iter().map(|entry| entry.name.as_str())).map(str::to_owned);
+    let names = || known.iter().map(|entry| entry.name.as_str());
+    // A name cut short is like nothing, and yet says enough.
+    let begun = || names().find(|name| name_or_path.len() >= BEGUN_LEAST && name.starts_with(name_or_path));
+    let similar = nearest(name_or_path, names()).or_else(begun).map(str::to_owned);
     Err(Error::Unknown { name: name_or_path.to_owned(), similar })
 }
 

@@ -3,7 +3,7 @@
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
-use setpiece_scenario::vocabulary::{Field, GameMode, Role, Team};
+use setpiece_scenario::vocabulary::{Field, GameMode, Owner, Role, Team};
 use setpiece_scenario::{Instr, Program, When};
 use std::ops::Range;
 
@@ -153,32 +153,10 @@ impl Memory {
     /// What a program looks back at.
     pub fn of(program: &Program) -> Memory {
         let of = |instr: &Instr| match instr {
-            Instr::Load { field, when: When::Prev, .. } => match field {
-                Field::PlayerX
-                | Field::PlayerY
-                | Field::PlayerVx
-                | Field::PlayerVy
-                | Field::PlayerHeading
-                | Field::PlayerFatigue
-                | Field::PlayerYellowCards
-                | Field::PlayerRole
-                | Field::PlayerActive
-                | Field::PlayerControlled
-                | Field::OffsideLine => Memory::All,
-                Field::BallX
-                | Field::BallY
-                | Field::BallHeight
-                | Field::BallVx
-                | Field::BallVy
-                | Field::BallVz
-                | Field::BallOwner
-                | Field::Possession
-                | Field::Score
-                | Field::TeamHasBall
-                | Field::Elapsed
-                | Field::Remaining
-                | Field::GameMode
-                | Field::BallDead => Memory::ButPlayers,
+            Instr::Load { field, when: When::Prev, .. } => match (field, field.subject()) {
+                // The line is drawn by players.
+                (_, Owner::Player) | (Field::OffsideLine, _) => Memory::All,
+                _ => Memory::ButPlayers,
             },
             _ => Memory::Nothing,
         };

@@ -65,7 +65,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     game.play.team_pressure = [false; 2];
     game.play.driven = 0;
     for acting in &mut game.play.acting {
-        acting.played = None;
+        acting.before = acting.played.take();
     }
     let slots = game.agents.len();
     for slot in 0..slots {
@@ -95,10 +95,13 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
         if let Some(id) = agent.player.filter(|id| action != Action::BuiltinAi && game.player(*id).active) {
             let acting = &mut game.play.acting[id.index()];
-            *acting = Acting { played: Some(action), sticky: agent.sticky, chosen: None };
-            let action = hurry(game, id, action);
-            driver::drive(game, events, id, driver::Held { sticky: agent.sticky, steer: agent.steer }, action);
+            *acting = Acting { played: Some(action), before: acting.before, sticky: agent.sticky, chosen: None };
+            let hurried = hurry(game, id, action);
+            let fresh = agent.before != Some(action) || hurried != action;
+            let held = driver::Held { sticky: agent.sticky, steer: agent.steer };
+            driver::drive(game, events, id, held, hurried, fresh);
         }
+        game.agents[slot].before = Some(action);
     }
     drive_scripted(game, events);
     let before = Before::of(game);
@@ -125,8 +128,10 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
         if action != Action::BuiltinAi {
             let held = acting.sticky;
             game.play.driven |= bit;
-            let action = hurry(game, id, action);
-            driver::drive(game, events, id, driver::Held { sticky: held, steer: None }, action);
+            let fresh = game.play.acting[i].before != Some(action);
+            let hurried = hurry(game, id, action);
+            let held = driver::Held { sticky: held, steer: None };
+            driver::drive(game, events, id, held, hurried, fresh || hurried != action);
         }
     }
 }

@@ -2,12 +2,12 @@
 
 use crate::figure::Section;
 use crate::pitch::Failure;
-use crate::{agents, ball, matches, movement};
+use crate::{agents, ball, hands, matches, movement};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// Figures that lie outside and why that is right.
-const EXPLAINED: &[(u16, &str)] = &[
+const EXPLAINED: &[(u32, &str)] = &[
     (234, "their runner breaks stride at his second touch of the ball; ours runs on"),
     (257, "he follows the ball round the turn, and the ball comes round at its own next touch"),
     (421, "our teams build up a little longer; the thirds beside it are inside"),
@@ -27,7 +27,7 @@ pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
     let options = options(args)?;
     let wanted = |number: u16| options.only.is_none_or(|only| only == number);
     let mut sections = Vec::new();
-    for number in [2, 3, 4, 5, 7] {
+    for number in [2, 3, 4, 5, 6, 7] {
         if !wanted(number) {
             continue;
         }
@@ -36,6 +36,7 @@ pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
             3 => ball::measure(),
             4 => matches::measure(options.count),
             5 => agents::measure(options.count),
+            6 => hands::measure(options.count),
             _ => matches::ladder(options.count),
         }?;
         print!("{}", section.markdown(explanation));
@@ -65,7 +66,7 @@ fn options(args: &[String]) -> Result<Options, Failure> {
 }
 
 /// Why a figure may lie outside.
-fn explanation(id: u16) -> Option<&'static str> {
+fn explanation(id: u32) -> Option<&'static str> {
     EXPLAINED.iter().find(|(known, _)| *known == id).map(|(_, why)| *why)
 }
 
@@ -101,8 +102,7 @@ fn verdict(sections: &[Section], check: bool) -> Result<(), Failure> {
             bad.push(format!("section {} has more than a fifth outside", section.number));
         }
         for (id, figure) in section.outside().filter(|(id, _)| explanation(*id).is_none()) {
-            let ours = crate::figure::short(figure.ours);
-            bad.push(format!("C-{id} {}: {ours}, wanted {}", figure.what, figure.wanted()));
+            bad.push(format!("C-{id} {}: {}, wanted {}", figure.what, figure.ours(), figure.wanted()));
         }
     }
     for line in &bad {

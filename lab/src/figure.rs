@@ -2,11 +2,18 @@
 
 use std::fmt::Write as _;
 
-/// A figure of ours beside theirs.
+/// A row of the report: one figure of ours beside theirs, or several of one scene. It is inside where all of them are.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
     /// What is measured.
     pub(crate) what: String,
+    /// The figures of the row.
+    pub(crate) parts: Vec<Part>,
+}
+
+/// One figure of a row.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
     /// Theirs, as measured.
     pub(crate) theirs: String,
     /// Lowest and highest that ours may be.
@@ -15,10 +22,17 @@ pub(crate) struct Figure {
     pub(crate) ours: f64,
 }
 
+impl Part {
+    /// A figure that must be theirs, give or take so much.
+    pub(crate) fn around(theirs: f64, give: f64, ours: f64) -> Part {
+        Part { theirs: short(theirs), range: [theirs - give, theirs + give], ours }
+    }
+}
+
 /// The figures of a section of what was measured.
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
-    /// Its number there; figures count from a hundred times that.
+    /// Its number there; figures count from a hundred times that, from the hundredth on from a thousand times.
     pub(crate) number: u16,
     /// Its name.
     pub(crate) title: &'static str,
@@ -38,7 +52,12 @@ impl Section {
 
     /// Adds a figure that must lie within a range.
     pub(crate) fn within(&mut self, what: impl Into<String>, theirs: impl Into<String>, range: [f64; 2], ours: f64) {
-        self.figures.push(Figure { what: what.into(), theirs: theirs.into(), range, ours });
+        self.row(what, vec![Part { theirs: theirs.into(), range, ours }]);
+    }
+
+    /// Adds a row of several figures.
+    pub(crate) fn row(&mut self, what: impl Into<String>, parts: Vec<Part>) {
+        self.figures.push(Figure { what: what.into(), parts });
     }
 
     /// Adds a figure that must be theirs, give or take a share of it.
@@ -48,17 +67,18 @@ impl Section {
     }
 
     /// The number of its figure `index`.
-    pub(crate) fn id(&self, index: usize) -> u16 {
-        self.number * 100 + 1 + index as u16
+    pub(crate) fn id(&self, index: usize) -> u32 {
+        let number = u32::from(self.number);
+        if index < 99 { number * 100 + 1 + index as u32 } else { number * 1000 + 1 + index as u32 }
     }
 
     /// Figures that lie outside, with their numbers.
-    pub(crate) fn outside(&self) -> impl Iterator<Item = (u16, &Figure)> {
+    pub(crate) fn outside(&self) -> impl Iterator<Item = (u32, &Figure)> {
         self.figures.iter().enumerate().filter(|(_, figure)| !figure.is_inside()).map(|(i, f)| (self.id(i), f))
     }
 
     /// The section as Markdown; `explained`: why a figure may lie outside.
-    pub(crate) fn markdown(&self, explained: impl Fn(u16) -> Option<&'static str>) -> String {
+    pub(crate) fn markdown(&self, explained: impl Fn(u32) -> Option<&'static str>) -> String {
         let mut text = format!("## {}. {}\n\n{}\n\n", self.number, self.title, self.how);
         text.push_str("| | figure | theirs | wanted | ours | |\n|---|---|---|---|---|---|\n");
         for (i, figure) in self.figures.iter().enumerate() {
@@ -72,9 +92,9 @@ impl Section {
                 text,
                 "| C-{id} | {} | {} | {} | {} | {verdict} |",
                 figure.what,
-                figure.theirs,
+                figure.joined(|part| part.theirs.clone()),
                 figure.wanted(),
-                short(figure.ours)
+                figure.ours()
             );
         }
         for line in &self.told {
@@ -85,15 +105,37 @@ impl Section {
 }
 
 impl Figure {
-    /// Whether ours is what it may be; what is no number never is.
+    /// Whether everything is what it may be.
     pub(crate) fn is_inside(&self) -> bool {
+        self.parts.iter().all(Part::is_inside)
+    }
+
+    /// What ours may be, in words.
+    pub(crate) fn wanted(&self) -> String {
+        self.joined(Part::wanted)
+    }
+
+    /// Ours, in words.
+    pub(crate) fn ours(&self) -> String {
+        self.joined(|part| short(part.ours))
+    }
+
+    /// Something of every part, in order.
+    fn joined(&self, what: impl Fn(&Part) -> String) -> String {
+        self.parts.iter().map(what).collect::<Vec<_>>().join(" · ")
+    }
+}
+
+impl Part {
+    /// Whether ours is what it may be; what is no number never is.
+    fn is_inside(&self) -> bool {
         // Rounding of a decimal limit is forgiven.
         let slack = 1e-6;
         self.ours >= self.range[0] - slack && self.ours <= self.range[1] + slack
     }
 
     /// What ours may be, in words.
-    pub(crate) fn wanted(&self) -> String {
+    fn wanted(&self) -> String {
         match self.range {
             [low, high] if low == f64::NEG_INFINITY => format!("≤ {}", short(high)),
             [low, high] if high == f64::INFINITY => format!("≥ {}", short(low)),

@@ -10,6 +10,7 @@ mod agents;
 mod ball;
 mod calibrate;
 mod figure;
+mod hands;
 mod matches;
 mod movement;
 mod pitch;

@@ -5,12 +5,15 @@ use crate::event::Events;
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
 use crate::football::{kick, slide, touch};
-use crate::state::{Match, PlayerId, Steer};
+use crate::state::{Match, Player, PlayerId, Steer};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, GameMode};
 
 /// A slower pace than this is standing, share of a sprint; chosen.
 const STILL: f32 = 0.1;
+
+/// How much of their pace a player on the ball keeps from step to step while a kick is asked for; chosen.
+const BRAKED: f32 = 0.75;
 
 /// What an agent holds.
 #[derive(Clone, Copy, Debug)]
@@ -40,19 +43,26 @@ impl Held {
     }
 }
 
-/// Sets the intent and the planned kick of an agent's player.
-pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action) {
+/// Sets the intent and the planned kick of an agent's player. `fresh`: the action was not pressed in the step before.
+pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action, fresh: bool) {
     let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
+    let power = held.steer.map_or(0.0, |steer| steer.power);
+    match (kick_of(action), action) {
+        (Some(kind), _) => press(game, id, kind, direction, power, fresh),
+        (None, Action::Sliding) if may_slide(game, id) => slide::begin(game, events, id, direction),
+        _ => {}
+    }
+    let player = *game.player(id);
     let chases = sticky::presses(held.sticky) && !may_play(game, id);
-    let wish = direction.unwrap_or(Vec2::ZERO) * gait;
-    let fetch = has_ball || game.player(id).body.kick.is_some() || assist::ball_is_his(game, id);
-    let near = game.player(id).pos.distance_squared(game.ball.pos.truncate()) < kick::KICK_M * kick::KICK_M;
+    let fetch = has_ball || player.body.kick.is_some() || assist::ball_is_his(game, id);
     let body = &mut game.players[id.index()].body;
-    if let Some(plan) = body.kick.as_mut().filter(|_| !near) {
-        // Until his foot swings the direction is open.
+    if let Some(plan) = &mut body.kick {
+        plan.held = kick_of(action) == Some(plan.kind);
         plan.dir = direction;
     }
+    let waits = body.kick.is_some() && game.play.set_piece.is_none();
+    let wish = if waits && has_ball { braked(&player, direction) } else { direction.unwrap_or(Vec2::ZERO) * gait };
     body.dribble = wish;
     body.intent = if fetch {
         Intent::Ball(if has_ball { gait.max(if direction.is_some() { 0.0 } else { RUN_MPS }) } else { SPRINT_MPS })
@@ -61,31 +71,48 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     } else {
         Intent::Run(wish)
     };
-    let power = held.steer.map_or(0.0, |steer| steer.power);
+}
+
+/// The kick that an action asks for.
+fn kick_of(action: Action) -> Option<KickKind> {
     match action {
-        Action::ShortPass => arm(game, id, KickKind::Short, direction, power),
-        Action::LongPass => arm(game, id, KickKind::Long, direction, power),
-        Action::HighPass => arm(game, id, KickKind::High, direction, power),
-        Action::Shot => arm(game, id, KickKind::Shot, direction, power),
-        Action::Sliding if may_slide(game, id) => slide::begin(game, events, id, direction),
-        _ => {}
+        Action::ShortPass => Some(KickKind::Short),
+        Action::LongPass => Some(KickKind::Long),
+        Action::HighPass => Some(KickKind::High),
+        Action::Shot => Some(KickKind::Shot),
+        _ => None,
     }
 }
 
-/// Arms a kick, where the ball is his side's to play.
+/// What a player on the ball runs while a kick is asked for: they keep their line and brake, most where another direction
+/// is held. (GRF's.)
+fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
+    let speed = player.vel.length();
+    let ahead = if speed > 1.0 { player.vel / speed } else { player.body.facing };
+    let along = direction.map_or(1.0, |direction| 0.5 + 0.5 * ahead.dot(direction).clamp(-1.0, 1.0));
+    ahead * (speed * BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5)))
+}
+
+/// The key of a kick is down: it is asked for, or its gauge goes on filling.
 ///
-/// A steered pass of some power goes to a point, so far along its direction; any other finds a mate.
-fn arm(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, power: f32) {
-    if !may_arm(game, id, kind) {
+/// A short pass ends a shot or lofted pass that is asked for; any other key changes nothing of it. (GRF's.) A steered pass
+/// of some power goes to a point, so far along its direction; any other finds a mate.
+fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, power: f32, fresh: bool) {
+    let cancels = |plan: KickPlan| {
+        kind == KickKind::Short && matches!(plan.kind, KickKind::Shot | KickKind::High) && plan.swing.is_none()
+    };
+    if let Some(plan) = game.player(id).body.kick {
+        if cancels(plan) && game.play.set_piece.is_none() {
+            game.players[id.index()].body.kick = None;
+        }
         return;
     }
-    let now = game.tick as i32;
+    if !fresh || !may_arm(game, id, kind) {
+        return;
+    }
     let from = game.player(id).pos;
     let point = dir.filter(|_| power > 0.0 && kind != KickKind::Shot).map(|dir| from + dir * (power * reach_m(kind)));
-    let body = &mut game.players[id.index()].body;
-    // A second press changes the kick, not its swing.
-    let ready_at = body.kick.map_or(now + kick::swing(kind), |plan| plan.ready_at);
-    body.kick = Some(KickPlan { kind, dir, mate: None, point, power, ready_at, until: now + kick::PATIENCE_TICKS });
+    game.players[id.index()].body.kick = Some(KickPlan { dir, point, power, ..kick::pressed(kind, game.tick) });
 }
 
 /// How far a steered pass of full power goes, metres; chosen.

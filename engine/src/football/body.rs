@@ -90,23 +90,40 @@ pub enum KickKind {
     Clear,
 }
 
-/// A kick that waits for the ball and for the swing.
+/// A kick that has been asked for: it waits for the key to be let go, for the ball, then for the swing.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct KickPlan {
     /// What kind.
     pub kind: KickKind,
-    /// The direction held when it was called for, world, unit.
+    /// The direction held now, world, unit; none: the way the player faces.
     pub dir: Option<Vec2>,
-    /// The mate it is meant for, where the bot has chosen one.
+    /// The mate it is meant for, if the bot has chosen one.
     pub mate: Option<PlayerId>,
-    /// The point it is meant for, where the bot has chosen one.
+    /// The point it is meant for, if the bot has chosen one.
     pub point: Option<Vec2>,
-    /// 0..1 of the power that a bot gives a shot; agents' is fixed.
+    /// 0..1 of the power of a bot's shot or of a steered kick; 0 leaves it to the gauge.
     pub power: f32,
-    /// First tick at which the foot can meet the ball.
-    pub ready_at: i32,
+    /// Ticks for which the key has been held: the gauge.
+    pub gauge_ticks: u8,
+    /// Whether the key is held in this step.
+    pub held: bool,
+    /// In how many seconds the player meets the ball, as last seen: a ball that gets away ends the plan.
+    pub meet_s: f32,
+    /// The swing, once it has begun.
+    pub swing: Option<Swing>,
     /// Tick after which it is forgotten.
     pub until: i32,
+}
+
+/// The swing of a leg: what the kick was to be as it began.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Swing {
+    /// First tick at which the foot can meet the ball.
+    pub ready_at: i32,
+    /// The way from the ball to what the kick is meant for, world metres; none where the bot has chosen it.
+    pub way: Option<Vec2>,
+    /// The mate meant as it began.
+    pub mate: Option<PlayerId>,
 }
 
 /// What the bot has in mind for a player.

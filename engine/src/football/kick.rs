@@ -3,23 +3,37 @@
 //! Decides the ball's velocity and spin; leaves whom a pass is for to `pass_target`, where a shot goes to `shot`.
 
 use crate::event::Events;
-use crate::football::body::{KickKind, KickPlan, NEVER};
+use crate::football::body::{KickKind, KickPlan, NEVER, Swing};
+use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::{flight, forecast, noise, offside, pass_target, report, shot, touch};
-use crate::physics::constants::GRAVITY;
+use crate::math;
+use crate::physics::constants::{GRAVITY, MAGNUS};
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
-/// Ticks from the press to the contact: a pass on the ground, a lofted one, a shot.
-pub const SWING_TICKS: [i32; 3] = [33, 28, 25];
-/// Ticks of that which pass while an agent holds the key: a bot's kick needs none.
-const PRESS_TICKS: i32 = 10;
-/// Ticks that a kick waits for the ball.
+/// Ticks from the beginning of a bot's swing to the contact: a pass on the ground, a lofted one, a shot.
+const SWING_TICKS: [i32; 3] = [23, 18, 15];
+/// Ticks that a kick waits for the ball once its key is let go. (GRF's.)
 pub const PATIENCE_TICKS: i32 = 200;
+/// A key held for longer than this no longer keeps the swing from beginning, ticks. (GRF's.)
+const CHARGE_TICKS: u8 = 50;
+/// The gauge is full after so many ticks. (GRF's.)
+const GAUGE_TICKS: u8 = 100;
+/// A plan ends where the ball has got so much further away in a step, seconds. (GRF's.)
+const LOST_S: f32 = 0.7;
+/// A swing that has not met the ball after so many ticks begins again; chosen.
+const MISSED_TICKS: i32 = 30;
 /// How near the ball must be to be kicked, metres.
 pub const KICK_M: f32 = 0.85;
-/// Backspin of a shot, rad/s: in flight it falls with 7.4 m/s², as measured.
-const SHOT_BACKSPIN: f32 = 19.0;
+/// How far from his path a ball may be at the contact for a player to begin his swing, metres; chosen.
+const BEGIN_M: f32 = 1.3;
+/// The hardest pass along the ground at a resting ball, m/s. Measured.
+const GROUND_MPS: f32 = 25.2;
+/// What share of a lofted pass is lost for every m/s at which the ball rolls. Measured.
+const ROLL_LOSS: f32 = 0.022;
+/// The angle by which a pass may still be turned at the contact, radians. (GRF's.)
+const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
 /// How far a throw-in goes at most, metres; chosen.
 const THROW_M: f32 = 25.0;
 /// The height at which a throw-in comes to a mate, metres; chosen.
@@ -27,38 +41,135 @@ const CHEST_M: f32 = 1.0;
 /// Highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
-/// The swing's length for a kind of kick, ticks.
-pub fn swing(kind: KickKind) -> i32 {
-    match kind {
+/// A kick that a bot decides on now: its swing begins at once.
+pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
+    let now = tick as i32;
+    let ticks = match kind {
         KickKind::Short | KickKind::Long => SWING_TICKS[0],
         KickKind::High => SWING_TICKS[1],
         KickKind::Shot | KickKind::Clear => SWING_TICKS[2],
+    };
+    let swing = Swing { ready_at: now + ticks, way: None, mate: None };
+    KickPlan { swing: Some(swing), until: now + PATIENCE_TICKS, ..asked(kind) }
+}
+
+/// A kick whose key goes down now.
+pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
+    KickPlan { held: true, until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
+}
+
+fn asked(kind: KickKind) -> KickPlan {
+    KickPlan {
+        kind,
+        dir: None,
+        mate: None,
+        point: None,
+        power: 0.0,
+        gauge_ticks: 0,
+        held: false,
+        meet_s: f32::MAX,
+        swing: None,
+        until: 0,
     }
 }
 
-/// A kick that a bot decides on now: it swings like an agent's, but for the key.
-pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
-    let now = tick as i32;
-    let ready_at = now + swing(kind) - PRESS_TICKS;
-    KickPlan { kind, dir: None, mate: None, point: None, power: 0.0, ready_at, until: now + PATIENCE_TICKS }
+impl KickPlan {
+    /// How full the gauge is, 0..1: a key can't be pressed for less than 60 ms. (GRF's.)
+    pub fn gauge(&self) -> f32 {
+        ((f32::from(self.gauge_ticks) - 6.0) / 94.0).clamp(0.0, 1.0)
+    }
 }
 
-/// Kicks the ball for whoever has a kick ready and the ball in reach; at most one kick a tick.
+/// Goes on with every kick that is asked for: gauges fill, swings begin, and whoever has the ball in reach at the end of
+/// their swing kicks it; at most one kick a tick.
 pub fn kick_ball(game: &mut Match, events: &mut Events) {
     let now = game.tick as i32;
+    let mut kicked = false;
     for id in game.order() {
         let i = id.index();
-        let Some(plan) = game.players[i].body.kick else { continue };
-        if now > plan.until || !game.players[i].active {
+        let Some(mut plan) = game.players[i].body.kick else { continue };
+        if plan.held {
+            plan.gauge_ticks = (plan.gauge_ticks + 1).min(GAUGE_TICKS);
+            plan.until = now + PATIENCE_TICKS;
+        }
+        let meet_s = game.players[i].body.meet_s;
+        let lost = plan.swing.is_none() && meet_s > plan.meet_s + LOST_S && game.play.set_piece.is_none();
+        plan.meet_s = meet_s;
+        if now > plan.until || lost || !game.players[i].active {
             game.players[i].body.kick = None;
             continue;
         }
-        if now >= plan.ready_at && can_kick(game, id) {
-            game.players[i].body.kick = None;
-            launch(game, events, id, plan);
-            return;
+        match plan.swing {
+            Some(swing) if now >= swing.ready_at && !kicked && can_kick(game, id) => {
+                game.players[i].body.kick = None;
+                launch(game, events, id, plan);
+                kicked = true;
+                continue;
+            }
+            Some(swing) if now > swing.ready_at + MISSED_TICKS && swing.way.is_some() => plan.swing = None,
+            Some(_) => {}
+            None => plan.swing = begin(game, id, &plan),
+        }
+        game.players[i].body.kick = Some(plan);
+    }
+}
+
+/// Begins the swing of an agent's kick, once the key is let go (or held long enough) and the ball will be in reach at its
+/// end.
+fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
+    if plan.held && plan.gauge_ticks <= CHARGE_TICKS {
+        return None;
+    }
+    let (way, mate) = meant(game, id, plan);
+    let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
+    let player = game.player(id);
+    let ticks = if at_hand { at_hand_ticks(plan.kind) } else { swing_ticks(player, plan.kind, way) };
+    let there = game.play.forecast.at(game.tick + ticks as u32);
+    let time_s = ticks as f32 * 0.01;
+    let place = player.pos + player.vel * (time_s * 0.7);
+    let reaches = there.z <= VOLLEY_M && place.distance_squared(there.truncate()) <= BEGIN_M * BEGIN_M;
+    (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
+}
+
+/// What a kick is meant for now: the way to it from the ball, world metres, and the mate.
+fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>) {
+    let from = game.ball.pos.truncate();
+    match plan.kind {
+        KickKind::Shot => (shot::meant(game, id, plan) - from, None),
+        KickKind::Clear => (plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0)) * 30.0, None),
+        _ => {
+            let target = pass_target::choose(game, id, plan);
+            (target.point - from, target.mate)
         }
     }
+}
+
+/// Ticks of a swing at a ball that waits.
+fn at_hand_ticks(kind: KickKind) -> i32 {
+    if matches!(kind, KickKind::Short | KickKind::Long) { 34 } else { 24 }
+}
+
+/// Ticks of a swing at a rolling ball. Fitted to the measured steps after which kicks leave: a runner at full speed must
+/// catch the ball first, and who kicks across or behind their body turns first.
+fn swing_ticks(player: &Player, kind: KickKind, way: Vec2) -> i32 {
+    let speed = player.vel.length();
+    let walks = (speed / RUN_MPS).min(1.0);
+    let sprints = ((speed - RUN_MPS) / (SPRINT_MPS - RUN_MPS)).clamp(0.0, 1.0);
+    let [stand, walk, sprint] = match kind {
+        KickKind::Short | KickKind::Long => [34.0, 24.0, 38.0],
+        KickKind::High => [24.0, 22.0, 26.0],
+        KickKind::Shot | KickKind::Clear => [25.0, 29.0, 48.0],
+    };
+    let straight = stand + (walk - stand) * walks + (sprint - walk) * sprints;
+    let turn = match kind {
+        KickKind::Shot | KickKind::Clear => 0.0,
+        _ => {
+            let ahead = player.vel.normalize_or(player.body.facing);
+            let degrees = math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees();
+            15.0 * walks * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0) + 10.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
+        }
+    };
+    (straight + turn) as i32
 }
 
 /// Whether the ball is at his foot, and his to kick.
@@ -103,13 +214,12 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     let mut receiver = None;
     match plan.kind {
         KickKind::Shot => {
-            let velocity = if mode == Some(GameMode::FreeKick) {
+            let shot = if mode == Some(GameMode::FreeKick) {
                 shot::over_wall(game, id, &plan)
             } else {
-                shot::velocity(game, id, &plan, rough)
+                shot::struck(game, id, &plan, rough)
             };
-            let flat = velocity.truncate().normalize_or_zero();
-            send(game, velocity, Vec3::new(flat.y, -flat.x, 0.0) * SHOT_BACKSPIN);
+            send(game, shot.velocity, shot.spin);
         }
         KickKind::Clear => {
             let way = plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0));
@@ -117,14 +227,16 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             send(game, (way * 21.0).extend(10.0), Vec3::ZERO);
         }
         kind => {
-            let target = pass_target::choose(game, id, &plan);
-            receiver = target.mate;
-            let velocity = match mode {
-                Some(GameMode::ThrowIn) => throw_velocity(game, id, target.point),
-                _ => pass_velocity(game, id, kind, target.point, rough, from_hands),
-            };
-            let spin = if kind == KickKind::High { backspin(velocity) } else { Vec3::ZERO };
-            send(game, velocity, spin);
+            let (way, mate) = refined(game, id, &plan);
+            receiver = mate;
+            if mode == Some(GameMode::ThrowIn) {
+                let velocity = throw_velocity(game, id, way);
+                send(game, velocity, Vec3::ZERO);
+            } else {
+                let (velocity, curl) = pass_velocity(game, id, kind, way, rough, from_hands);
+                let spin = if kind == KickKind::High { backspin(velocity) } else { Vec3::ZERO };
+                send(game, velocity, spin + Vec3::new(0.0, 0.0, curl));
+            }
         }
     }
     flight::note(game, id, if exempt { flight::Touch::Exempt } else { flight::Touch::Played });
@@ -144,6 +256,26 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
         crate::control::switching::hand_to(game, receiver);
     }
     game.players[id.index()].body.touched_at = if exempt { NEVER } else { game.tick as i32 };
+}
+
+/// The way of a pass as the foot meets the ball, world metres, and the mate it is for.
+///
+/// What the keys mean now counts as far as the leg can still be turned to it; what lies further off comes too late. (GRF's.)
+fn refined(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>) {
+    let (now, mate) = meant(game, id, plan);
+    let Some(swing) = plan.swing else { return (now, mate) };
+    let Some(was) = swing.way else { return (now, mate) };
+    let angle = math::atan2(was.perp_dot(now), was.dot(now));
+    if angle.abs() <= TURN_RAD {
+        return (now, mate);
+    }
+    if angle.abs() >= 2.0 * TURN_RAD {
+        return (was, swing.mate);
+    }
+    let turned = math::unit(TURN_RAD * math::sign_or(angle, 1.0)).rotate(was);
+    let share = TURN_RAD / angle.abs();
+    let length = was.length() * (1.0 - share) + now.length() * share;
+    (turned.normalize_or_zero() * length, mate)
 }
 
 /// Gives the ball a velocity and spin.
@@ -176,37 +308,50 @@ fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
     (moving * volley + far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
 }
 
-/// The velocity of a pass to a point.
+/// The velocity of a pass along a way of so many metres, and the side spin that bends it back to it, rad/s.
 ///
-/// Speeds and rises are fitted to the measured kicks: 15 m/s over 11 m, 24 m/s from 22 m on; lofted 13 to 33 m/s.
-fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, point: Vec2, rough: f32, by_hand: bool) -> Vec3 {
+/// How hard a pass of a length is struck, how hard a foot can strike at most, and that what is missing goes into height
+/// are GRF's.
+fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, way: Vec2, rough: f32, by_hand: bool) -> (Vec3, f32) {
     let player = *game.player(id);
     let stat = if kind == KickKind::High { Stat::HighPass } else { Stat::ShortPass };
     let skill = player.skill(stat);
-    let way = point - game.ball.pos.truncate();
     let distance = way.length().clamp(1.0, 60.0);
     let far = libm::powf(distance / 60.0, 1.4);
-    let (level, rise) = if kind == KickKind::High {
+    let rolling = game.ball.vel.truncate().length();
+    let (level, up) = if kind == KickKind::High {
         let rise = 0.39 - 0.07 * distance / 60.0;
         let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(36.0);
-        (speed / libm::sqrtf(1.0 + rise * rise), rise)
+        // The ball's own roll is in the way of a lofted pass.
+        let level = speed / libm::sqrtf(1.0 + rise * rise) * (1.0 - (ROLL_LOSS * rolling).min(0.25));
+        (level, level * rise)
     } else {
-        let speed = (0.97 * 36.0 * (1.8 * far + 0.3)).min(25.4);
-        let speed = if by_hand { speed.min(15.0) } else { speed };
-        (speed, 0.11 + 0.0055 * (distance - 12.0).clamp(0.0, 30.0))
+        let wanted = 0.97 * 36.0 * (1.8 * far + 0.3);
+        let most = GROUND_MPS + 0.5 * rolling;
+        let most = if by_hand { 15.0 } else { most };
+        let level = wanted.min(most);
+        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0))
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
     let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
     let aside = noise::bell(game) * wild;
     let power = 1.0 + noise::bell(game) * wild * 0.8;
     let ahead = way.normalize_or(player.body.facing);
+    let lag = curl(player.body.facing, ahead, level) * if kind == KickKind::High { 0.2 } else { 1.0 };
+    let ahead = math::unit(lag).rotate(ahead);
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
-    flat.extend(level * rise * (1.0 + noise::bell(game) * wild))
+    (flat.extend(up * power * (1.0 + noise::bell(game) * wild)), -2.0 * lag / (distance * MAGNUS))
 }
 
-/// The velocity of a throw-in: it comes down to a mate's chest at a point.
-fn throw_velocity(game: &mut Match, id: PlayerId, point: Vec2) -> Vec3 {
-    let way = point - game.ball.pos.truncate();
+/// By what angle a ball leaves nearer to the way a body faces than the kick is meant, radians. (GRF's.)
+pub fn curl(facing: Vec2, way: Vec2, speed_mps: f32) -> f32 {
+    let turn = math::atan2(facing.perp_dot(way), facing.dot(way)) / std::f32::consts::PI;
+    let turn = if turn.abs() > 0.5 { (1.0 - turn.abs()) * math::sign_or(turn, 1.0) } else { turn };
+    -0.5 * turn * (0.4 + 0.6 * (speed_mps / 70.0).clamp(0.0, 1.0))
+}
+
+/// The velocity of a throw-in: it comes down to a mate's chest at the end of a way.
+fn throw_velocity(game: &mut Match, id: PlayerId, way: Vec2) -> Vec3 {
     let distance = way.length().clamp(2.0, THROW_M);
     let speed = 7.0 + 0.35 * distance;
     let time = distance / (0.95 * speed);

@@ -23,6 +23,11 @@ pub fn roll(game: &mut Match) -> f32 {
     game.play_random.unit()
 }
 
+/// Uniform in -1..1.
+pub fn spread(game: &mut Match) -> f32 {
+    2.0 * game.play_random.unit() - 1.0
+}
+
 /// About normal, mean 0, standard deviation 1, never beyond 3.
 pub fn bell(game: &mut Match) -> f32 {
     let random = &mut game.play_random;

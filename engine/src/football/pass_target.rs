@@ -4,7 +4,6 @@ use crate::football::body::{KickKind, KickPlan};
 use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::HALF_LENGTH_M;
 
 /// Where a pass goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,13 +14,14 @@ pub struct PassTarget {
     pub point: Vec2,
 }
 
-/// How far ahead the input looks for a mate, metres: short, long, high.
-fn look_ahead_m(kind: KickKind) -> f32 {
-    match kind {
-        KickKind::Long => 7.7,
-        KickKind::High => 10.6,
-        _ => 6.6,
-    }
+/// How far ahead a held direction looks for a mate, metres: the further, the longer the key was held. (GRF's.)
+fn look_ahead_m(plan: &KickPlan) -> f32 {
+    let steep = match plan.kind {
+        KickKind::Long => 0.65,
+        KickKind::High => 0.55,
+        _ => 0.7,
+    };
+    60.0 * libm::powf(plan.gauge(), steep).clamp(1.0 / 60.0, 1.0)
 }
 
 /// Where a player will be when a pass over a distance reaches him.
@@ -44,8 +44,7 @@ pub fn choose(game: &Match, id: PlayerId, plan: &KickPlan) -> PassTarget {
             let distance = game.player(mate).pos.distance(player.pos);
             let target = lead(game.player(mate), distance);
             if plan.kind == KickKind::Long {
-                let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
-                target + (goal - target).normalize_or_zero() * (0.2 * distance).min(10.0)
+                target + Vec2::new(0.2 * distance * side, 0.0)
             } else {
                 target
             }
@@ -58,8 +57,9 @@ pub fn choose(game: &Match, id: PlayerId, plan: &KickPlan) -> PassTarget {
 /// The mate whom the input means.
 fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
     let player = game.player(id);
-    let input = plan.dir.unwrap_or(Vec2::ZERO);
-    let look = player.pos + player.body.facing * 0.2 + input * look_ahead_m(plan.kind);
+    let input = plan.dir.unwrap_or(player.body.facing);
+    let from = player.pos + player.vel.normalize_or_zero() * 0.2;
+    let look = from + input * look_ahead_m(plan);
     let mut best: Option<(f32, PlayerId)> = None;
     for (mate, other) in game.team(id.team()) {
         if mate == id {
@@ -67,8 +67,8 @@ fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
         }
         let target = lead(other, other.pos.distance(player.pos));
         let far = libm::powf((target.distance(look) / 70.0).clamp(0.0, 1.0), 0.8);
-        let way = (target - player.pos).normalize_or_zero();
-        let angle = if input == Vec2::ZERO { 0.0 } else { math::acos(way.dot(input).clamp(-1.0, 1.0)) };
+        let way = (target - from).normalize_or_zero();
+        let angle = math::acos(way.dot(input).clamp(-1.0, 1.0));
         let rating = 0.8 * far + angle / std::f32::consts::PI;
         if best.is_none_or(|(least, _)| rating < least) {
             best = Some((rating, mate));

@@ -75,6 +75,8 @@ pub struct Acting {
     pub chosen: Option<Action>,
     /// What he played in the last step: his agent's action, else his behaviour's, else what is told of the bot.
     pub played: Option<Action>,
+    /// What he played in the step before that.
+    pub before: Option<Action>,
     /// What he holds by that, as [`AgentSlot::sticky`](crate::state::AgentSlot::sticky).
     pub sticky: u16,
 }
@@ -161,7 +163,7 @@ impl Play {
             rush: [false; 2],
             team_pressure: [false; 2],
             driven: 0,
-            acting: [Acting { chosen: None, played: None, sticky: 0 }; PLAYERS_MAX],
+            acting: [Acting { chosen: None, played: None, before: None, sticky: 0 }; PLAYERS_MAX],
             next_slot: [0; 2],
             save: [None; 2],
         }

@@ -1,37 +1,48 @@
 //! Where a shot goes and how hard.
 
 use crate::football::body::KickPlan;
-use crate::football::noise;
+use crate::football::{kick, noise};
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
-use setpiece_scenario::vocabulary::{GameMode, Role, Stat};
+use setpiece_scenario::vocabulary::Stat;
 
-/// A held direction further off the goal than this, about half of what is between two directions, is not meant for it;
-/// radians. Measured: such a shot goes along it.
-const MEANT_FOR_GOAL_RAD: f32 = 0.4;
-/// A held direction nearer to the middle of the goal than this names no side; radians.
-const STRAIGHT_RAD: f32 = 0.2;
+/// Backspin of a shot, rad/s: in flight it falls with 7.4 m/s², as measured.
+const SHOT_BACKSPIN: f32 = 19.0;
+/// Side spin of a shot across the body that bends it back, rad/s a radian; chosen.
+const CURL: f32 = 300.0;
+/// Side spin that a shot gets by chance at most, rad/s; chosen.
+const STRAY_SPIN: f32 = 8.0;
 /// With how much a shot falls, its backspin reckoned in, m/s². Measured.
 const FALL_MPS2: f32 = 7.4;
-/// How far off the middle a shot is placed beside the keeper: at least, and how much further at most, metres.
-const PLACED_M: [f32; 2] = [0.4, 2.0];
+/// How far ahead of himself a player reckons as he aims, seconds. (GRF's.)
+const AHEAD_S: f32 = 0.12;
+/// The angle to the run at which a shot is easiest, radians: across the body. (GRF's.)
+const IDEAL_RAD: f32 = 0.2 * std::f32::consts::PI;
+/// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.
+const GIVEN: f32 = 0.97;
 
-/// The point that a shot aims at: the bot's, or what the held direction means.
-fn aim(game: &mut Match, id: PlayerId, from: Vec2, plan: &KickPlan) -> Vec2 {
-    let side = id.team().side() as f32;
-    match (plan.point, plan.dir) {
-        (Some(point), _) => point,
-        (None, Some(dir)) if penalty(game) => beside_middle(from, side, off_goal(from, side, dir)),
-        (None, Some(dir)) if off_goal(from, side, dir).abs() > STRAIGHT_RAD => aim_of(from, side, plan.dir),
-        (None, _) => beside_keeper(game, id, from, goal_of(side)),
-    }
+/// A ball as it leaves the foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Struck {
+    /// m/s.
+    pub velocity: Vec3,
+    /// rad/s.
+    pub spin: Vec3,
 }
 
-/// Whether the shot is a penalty: then a held direction names the side of the goal, however far it points beside it.
-fn penalty(game: &Match) -> bool {
-    game.mode == GameMode::Penalty
+/// The point that a shot is meant for now: the bot's, or what the held direction means.
+pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
+    let player = game.player(id);
+    let dir = plan.dir.unwrap_or(player.body.facing);
+    plan.point.unwrap_or_else(|| aim_of(player.pos + player.vel * AHEAD_S, id.team().side() as f32, Some(dir)))
+}
+
+/// The point that a shot aims at: settled as the swing began, or chosen by the bot.
+fn aim(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
+    let settled = plan.swing.and_then(|swing| swing.way).map(|way| game.ball.pos.truncate() + way);
+    settled.unwrap_or_else(|| meant(game, id, plan))
 }
 
 /// The middle of the goal that a side attacks.
@@ -45,71 +56,77 @@ fn off_goal(from: Vec2, side: f32, dir: Vec2) -> f32 {
     math::atan2(way.perp_dot(dir), way.dot(dir))
 }
 
-/// The point that a shot with a held world direction aims at, whatever the keeper does.
+/// The point of the goal mouth that a held world direction means, whatever the keeper does: the further it points off the
+/// middle, the nearer to the post, whichever way it points. (GRF's.)
 pub fn aim_of(from: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
     let goal = goal_of(side);
     let Some(dir) = dir else { return goal };
-    let angle = off_goal(from, side, dir);
-    if angle.abs() > MEANT_FOR_GOAL_RAD {
-        return from + dir * 30.0;
-    }
-    beside_middle(from, side, angle)
-}
-
-/// The point of the goal mouth that a direction means which is so far off its middle, radians. (GRF's.)
-fn beside_middle(from: Vec2, side: f32, angle: f32) -> Vec2 {
-    let goal = goal_of(side);
     // The sign of the angle tells the side of the goal in the shooter's own view.
-    let angle = angle.clamp(-std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_PI_2);
-    let turn = 2.0 * angle / std::f32::consts::PI;
+    let angle = off_goal(from, side, dir);
+    let turn = (2.0 * angle / std::f32::consts::PI).clamp(-1.0, 1.0);
     let shift = libm::powf(turn.abs(), 0.7) * math::sign_or(turn, 1.0);
     Vec2::new(goal.x, shift * math::sign_or(goal.x - from.x, side) * GOAL_HALF_WIDTH_M as f32 * 0.9)
 }
 
-/// A point of the goal mouth on the side that the keeper leaves open.
-fn beside_keeper(game: &mut Match, id: PlayerId, from: Vec2, goal: Vec2) -> Vec2 {
-    let side = id.team().side() as f32;
-    let keeper = game.team(id.team().other()).find(|(_, rival)| rival.role == Role::GK).map(|(_, rival)| rival.pos);
-    let (chosen, far) = (noise::roll(game), noise::roll(game));
-    // Where he stands off the line to the middle, own frame, metres.
-    let off = keeper.map_or(0.0, |keeper| (goal - from).normalize_or_zero().perp_dot(keeper - from));
-    let open = if off.abs() > 0.1 { -math::sign_or(off, 1.0) } else { math::sign_or(chosen - 0.5, 1.0) };
-    Vec2::new(goal.x, open * side * (PLACED_M[0] + PLACED_M[1] * far))
+/// A smooth step from 0 to 1, mixed with the straight one.
+fn eased(share: f32, smooth: f32) -> f32 {
+    let curve = 0.5 - 0.5 * math::cos(share * std::f32::consts::PI);
+    curve * smooth + share * (1.0 - smooth)
 }
 
-/// The velocity of a shot; `rough` 0..1 is how awkward it is.
-pub fn velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> Vec3 {
+/// A shot from the ground or in the air; `rough` 0..1 is how much rivals hamper it.
+///
+/// What makes a shot hard (the angle to the run, the pace, a ball that moves, its own power), how that pulls it towards
+/// the run, lifts and weakens it, and how chance mixes the best shot with the worst are GRF's.
+pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> Struck {
     let player = *game.player(id);
-    let side = id.team().side() as f32;
     let from = game.ball.pos.truncate();
-    let target = aim(game, id, from, plan);
-    let way = (target - from).normalize_or(Vec2::new(side, 0.0));
-    let run_up = (player.vel.dot(way) / 5.0).clamp(0.0, 1.0);
-    let power = 0.55 + 0.45 * plan.power;
-    let skill = player.skill(Stat::Shot);
-    let strength = 0.8 + 0.2 * player.skill(Stat::ShotPower);
-    let speed = (28.3 + 4.4 * run_up + 8.0 * plan.power.max(0.0)) * strength * (1.0 - 0.3 * rough);
-    // Squarely to the run is worst: a shot across the body.
-    let across =
-        if player.vel.length_squared() > 4.0 { 1.0 - player.vel.normalize_or_zero().dot(way).max(0.0) } else { 0.0 };
-    let awkward = (rough + 0.5 * across).clamp(0.0, 1.0);
-    let wild = (0.028 + 0.20 * awkward) * (1.45 - skill) * (0.6 + 0.4 * power);
-    let aside = noise::bell(game) * wild;
-    // Without a run-up the foot gets under the ball.
-    let under = 1.0 - run_up;
-    let rise = 0.062
-        + noise::bell(game) * (0.018 + 0.03 * under + wild * 0.45)
-        + (0.08 * awkward + 0.075 * under) * noise::roll(game);
-    let flat = (way + Vec2::new(-way.y, way.x) * aside) * speed;
-    flat.extend(speed * rise.clamp(0.0, 0.7))
+    let way = (aim(game, id, plan) - from).normalize_or(Vec2::new(id.team().side() as f32, 0.0));
+    let pace = player.vel.length();
+    let run = if pace > 1.0 { player.vel / pace } else { player.body.facing };
+    let off = math::atan2(run.perp_dot(way), run.dot(way)).abs();
+    let across = eased(1.0 - (off - IDEAL_RAD).abs() / std::f32::consts::PI, 0.8).max(0.0);
+    let across = libm::powf(across, 0.8);
+    let pushed = (player.body.push_m / 0.1).clamp(0.0, 1.0);
+    let meeting = ((player.vel.extend(0.0) - game.ball.vel).length() / 10.0).clamp(0.0, 1.0);
+    let wanted = if plan.power > 0.0 { plan.power } else { libm::powf(plan.gauge(), 0.6).max(0.01) };
+
+    let foot = (0.7 + 0.3 * across)
+        * (0.7 + 0.3 * libm::powf((pace / 8.0).clamp(0.0, 1.0), 0.3))
+        * (1.0 - 0.6 * pushed)
+        * (45.0 * (0.7 + 0.3 * wanted.sqrt()));
+    let power = foot.min(32.0 + 13.0 * player.skill(Stat::ShotPower)) * (1.0 + 0.2 * meeting);
+
+    let ease = (0.4 + 0.6 * across)
+        * (1.0 - 0.3 * ((pace - 3.5).abs() / 4.0).clamp(0.0, 1.0))
+        * (1.0 - 0.7 * pushed)
+        * (1.0 - 0.4 * meeting * (0.5 - 0.3 * player.skill(Stat::Volley)))
+        * (0.6 + 0.4 * eased(1.0 - ((power - 30.0) / 70.0).clamp(0.0, 1.0), 1.0))
+        * (1.0 - 0.5 * rough);
+    let hard = (1.0 - ease).clamp(0.0, 1.0);
+    let harder = libm::powf(hard, 0.7);
+
+    let best = way.extend(0.05).normalize() * power;
+    let pulled = (way + (run - way) * (0.8 * hard)).normalize_or(way);
+    let shaken = Vec3::new(noise::spread(game), noise::spread(game), noise::spread(game)) * (0.5 * hard);
+    let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
+    let worst = (worst + Vec3::Z * (0.7 * eased(harder, 0.7))).normalize() * (power * (1.0 - 0.5 * harder));
+    let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
+    let ball = best + (worst - best) * luck;
+
+    let lag = kick::curl(player.body.facing, ball.truncate(), ball.length());
+    let flat = math::unit(lag).rotate(ball.truncate());
+    let backspin = Vec3::new(way.y, -way.x, 0.0) * SHOT_BACKSPIN;
+    let twist = -CURL * lag + noise::spread(game) * STRAY_SPIN;
+    Struck { velocity: flat.extend(ball.z) * GIVEN, spin: backspin.with_z(twist) }
 }
 
-/// The velocity of a free kick at goal: slower and higher, so that it comes down behind the wall.
+/// A free kick at goal: slower and higher, so that it comes down behind the wall.
 ///
 /// The rise is the one with which a ball of that speed crosses the goal line at 1.2 m.
-pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Vec3 {
+pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Struck {
     let from = game.ball.pos.truncate();
-    let way = aim(game, id, from, plan) - from;
+    let way = aim(game, id, plan) - from;
     let distance = way.length().max(1.0);
     let ahead = way / distance;
     let speed = (20.5 + 0.12 * distance) * (0.9 + 0.1 * game.player(id).skill(Stat::ShotPower));
@@ -118,5 +135,6 @@ pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Vec3 {
     let rise = (1.1 + 0.5 * FALL_MPS2 * time * time) / (speed * time);
     let wild = 0.05 * (1.5 - game.player(id).skill(Stat::Shot));
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * wild)) * speed;
-    flat.extend(speed * (rise * (1.0 + noise::bell(game) * 2.0 * wild)).clamp(0.02, 0.7))
+    let velocity = flat.extend(speed * (rise * (1.0 + noise::bell(game) * 2.0 * wild)).clamp(0.02, 0.7));
+    Struck { velocity, spin: Vec3::new(ahead.y, -ahead.x, 0.0) * SHOT_BACKSPIN }
 }

@@ -205,7 +205,8 @@ pub fn pressed(game: &Match, id: PlayerId) -> bool {
 fn about_to_kick(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     let Some(plan) = player.body.kick else { return false };
-    let wait_s = (plan.ready_at - game.tick as i32).max(0) as f32 * 0.01;
+    let Some(swing) = plan.swing else { return false };
+    let wait_s = (swing.ready_at - game.tick as i32).max(0) as f32 * 0.01;
     let apart = player.pos - game.ball.pos.truncate() + (player.vel - game.ball.vel.truncate()) * wait_s;
     apart.length_squared() <= kick::KICK_M * kick::KICK_M
 }

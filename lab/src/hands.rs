@@ -1,0 +1,62 @@
+//! Under an agent's hands: scenes with a key in every step, played as they were recorded of Google Research Football.
+//!
+//! Every scene stands in `lab/data` beside the figures taken of it: how players are placed, which keys are pressed, what
+//! the columns mean. Here the same keys are pressed in our game and the same columns measured.
+
+mod duels;
+mod kicks;
+mod shots;
+
+use crate::figure::Section;
+use crate::pitch::Failure;
+use serde::de::DeserializeOwned;
+use setpiece::scenario::vocabulary::Action;
+
+/// Measures everything of the section.
+pub(crate) fn measure(count: Option<u64>) -> Result<Section, Failure> {
+    let mut section = Section::new(
+        6,
+        "Under an agent's hands",
+        "An agent presses a key in every step. Rows of several figures are inside where all of them are. Limits: ±1 step \
+         on times (and their spread), ±8 % on speeds (and their spread), ±25 % on heights, 3° and their spread on \
+         directions; shares as far as two samples of those sizes may differ.",
+    );
+    kicks::measure(&mut section, count)?;
+    shots::measure(&mut section, count)?;
+    duels::measure(&mut section, count)?;
+    Ok(section)
+}
+
+/// The rows of a recorded file.
+fn rows<Row: DeserializeOwned>(file: &str, text: &str) -> Result<Vec<Row>, Failure> {
+    #[derive(serde::Deserialize)]
+    struct Recorded<Row> {
+        rows: Vec<Row>,
+    }
+    let recorded: Recorded<Row> = serde_json::from_str(text).map_err(|why| format!("lab/data/{file}: {why}"))?;
+    Ok(recorded.rows)
+}
+
+/// The action of a direction's name in the recorded files; none for a released one.
+fn direction(name: &str) -> Option<Action> {
+    Some(match name {
+        "right" => Action::Right,
+        "left" => Action::Left,
+        "top" => Action::Top,
+        "bottom" => Action::Bottom,
+        "top_right" => Action::TopRight,
+        "bottom_right" => Action::BottomRight,
+        "top_left" => Action::TopLeft,
+        "bottom_left" => Action::BottomLeft,
+        _ => return None,
+    })
+}
+
+/// How far two shares may be apart: what chance does to samples of `theirs` and `ours` in nineteen cases of twenty, and a
+/// tenth more.
+fn share_give(share: f64, theirs: u64, ours: u64) -> f64 {
+    // Agresti and Coull's two successes and two failures keep shares of 0 and 1 from looking certain.
+    let n = theirs as f64;
+    let p = (share * n + 2.0) / (n + 4.0);
+    1.96 * (p * (1.0 - p) * (1.0 / (n + 4.0) + 1.0 / ours as f64)).sqrt() + 0.1
+}

@@ -64,7 +64,10 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     let waits = body.kick.is_some() && game.play.set_piece.is_none();
     let wish = if waits && has_ball { braked(&player, direction) } else { direction.unwrap_or(Vec2::ZERO) * gait };
     body.dribble = wish;
-    body.intent = if fetch {
+    body.intent = if waits && has_ball {
+        // However fast the ball rolls on, they stay with it.
+        Intent::Ball(SPRINT_MPS)
+    } else if fetch {
         Intent::Ball(if has_ball { gait.max(if direction.is_some() { 0.0 } else { RUN_MPS }) } else { SPRINT_MPS })
     } else if chases {
         Intent::Ball(SPRINT_MPS)

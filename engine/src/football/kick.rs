@@ -30,8 +30,22 @@ pub const KICK_M: f32 = 0.85;
 const BEGIN_M: f32 = 1.3;
 /// The hardest pass along the ground at a resting ball, m/s. Measured.
 const GROUND_MPS: f32 = 25.2;
-/// What share of a lofted pass is lost for every m/s at which the ball rolls. Measured.
-const ROLL_LOSS: f32 = 0.022;
+/// How much harder it is struck in stride at most, m/s. Measured.
+const STRIDE_MPS: f32 = 3.2;
+/// The hardest pass behind one's back, m/s. Measured.
+const HEEL_MPS: f32 = 16.8;
+/// The hardest lofted pass behind one's back, m/s. Measured.
+const HIGH_HEEL_MPS: f32 = 33.0;
+/// How much harder a charged pass is struck in stride, m/s, and the gauge from which on. Measured.
+const CHARGE_MPS: f32 = 2.5;
+const CHARGED: f32 = 0.35;
+/// How much faster a ball rises that is played to the side, and behind one's back, m/s. Measured.
+const ASIDE_UP_MPS: f32 = 1.0;
+const HEEL_UP_MPS: f32 = 0.4;
+/// From which angle to the run on a pass is played with the heel, degrees; chosen.
+const HEEL_DEG: f32 = 135.0;
+/// Backspin of a pass along the ground, rad/s: what is lifted off the ground falls with 7.4 m/s², as measured of shots.
+const PASS_BACKSPIN: f32 = 19.0;
 /// The angle by which a pass may still be turned at the contact, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
 /// How far a throw-in goes at most, metres; chosen.
@@ -123,7 +137,7 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     let (way, mate) = meant(game, id, plan);
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
-    let ticks = if at_hand { at_hand_ticks(plan.kind) } else { swing_ticks(player, plan.kind, way) };
+    let ticks = if at_hand { at_hand_ticks(plan.kind) } else { swing_ticks(player, plan, way) };
     let there = game.play.forecast.at(game.tick + ticks as u32);
     let time_s = ticks as f32 * 0.01;
     let place = player.pos + player.vel * (time_s * 0.7);
@@ -150,23 +164,24 @@ fn at_hand_ticks(kind: KickKind) -> i32 {
 }
 
 /// Ticks of a swing at a rolling ball. Fitted to the measured steps after which kicks leave: a runner at full speed must
-/// catch the ball first, and who kicks across or behind their body turns first.
-fn swing_ticks(player: &Player, kind: KickKind, way: Vec2) -> i32 {
+/// catch the ball first, less so the longer they have braked for it; a pass across or behind the body needs a turn.
+fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     let speed = player.vel.length();
     let walks = (speed / RUN_MPS).min(1.0);
-    let sprints = ((speed - RUN_MPS) / (SPRINT_MPS - RUN_MPS)).clamp(0.0, 1.0);
-    let [stand, walk, sprint] = match kind {
-        KickKind::Short | KickKind::Long => [34.0, 24.0, 38.0],
-        KickKind::High => [24.0, 22.0, 26.0],
-        KickKind::Shot | KickKind::Clear => [25.0, 29.0, 48.0],
+    let braked = (f32::from(plan.gauge_ticks) - 10.0) / 30.0;
+    let sprints = ((speed - RUN_MPS) / (SPRINT_MPS - RUN_MPS)).clamp(0.0, 1.0) * (1.0 - braked).clamp(0.0, 1.0);
+    // [standing, walking, sprinting, less for a leg that is back already]
+    let [stand, walk, sprint, back] = match plan.kind {
+        KickKind::Short | KickKind::Long => [34.0, 24.0, 38.0, 0.0],
+        KickKind::High => [24.0, 22.0, 26.0, 5.0],
+        KickKind::Shot | KickKind::Clear => [25.0, 29.0, 48.0, 10.0],
     };
-    let straight = stand + (walk - stand) * walks + (sprint - walk) * sprints;
-    let turn = match kind {
+    let straight = stand + (walk - stand) * walks + (sprint - walk) * sprints - if plan.held { back * walks } else { 0.0 };
+    let turn = match plan.kind {
         KickKind::Shot | KickKind::Clear => 0.0,
         _ => {
-            let ahead = player.vel.normalize_or(player.body.facing);
-            let degrees = math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees();
-            15.0 * walks * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0) + 10.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
+            let degrees = off_run(player, way);
+            (15.0 * walks + 6.0 * sprints) * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0) + 10.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
         }
     };
     (straight + turn) as i32
@@ -233,9 +248,9 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
                 let velocity = throw_velocity(game, id, way);
                 send(game, velocity, Vec3::ZERO);
             } else {
-                let (velocity, curl) = pass_velocity(game, id, kind, way, rough, from_hands);
-                let spin = if kind == KickKind::High { backspin(velocity) } else { Vec3::ZERO };
-                send(game, velocity, spin + Vec3::new(0.0, 0.0, curl));
+                let (velocity, curl) = pass_velocity(game, id, &plan, way, rough, from_hands);
+                let spin = if kind == KickKind::High { backspin(velocity) } else { across(velocity) * PASS_BACKSPIN };
+                send(game, velocity, spin.with_z(curl));
             }
         }
     }
@@ -312,25 +327,34 @@ fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
 ///
 /// How hard a pass of a length is struck, how hard a foot can strike at most, and that what is missing goes into height
 /// are GRF's.
-fn pass_velocity(game: &mut Match, id: PlayerId, kind: KickKind, way: Vec2, rough: f32, by_hand: bool) -> (Vec3, f32) {
+fn pass_velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough: f32, by_hand: bool) -> (Vec3, f32) {
     let player = *game.player(id);
+    let kind = plan.kind;
     let stat = if kind == KickKind::High { Stat::HighPass } else { Stat::ShortPass };
     let skill = player.skill(stat);
     let distance = way.length().clamp(1.0, 60.0);
     let far = libm::powf(distance / 60.0, 1.4);
-    let rolling = game.ball.vel.truncate().length();
+    let degrees = off_run(&player, way);
+    let strides = (player.vel.length() / 2.0).min(1.0);
+    let aside = (degrees / 30.0).min(1.0);
+    let heel = degrees > HEEL_DEG;
+    let charge = (plan.gauge() / CHARGED).min(1.0);
     let (level, up) = if kind == KickKind::High {
-        let rise = 0.39 - 0.07 * distance / 60.0;
-        let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(36.0);
-        // The ball's own roll is in the way of a lofted pass.
-        let level = speed / libm::sqrtf(1.0 + rise * rise) * (1.0 - (ROLL_LOSS * rolling).min(0.25));
+        // Struck to the side it is flatter, and so a little harder.
+        let rise = (0.39 - 0.07 * distance / 60.0) * (1.0 - 0.2 * aside);
+        let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
+        let level = speed / libm::sqrtf(1.0 + rise * rise);
         (level, level * rise)
     } else {
         let wanted = 0.97 * 36.0 * (1.8 * far + 0.3);
-        let most = GROUND_MPS + 0.5 * rolling;
-        let most = if by_hand { 15.0 } else { most };
+        let most = match (by_hand, heel) {
+            (true, _) => 15.0,
+            (_, true) => HEEL_MPS,
+            _ => GROUND_MPS + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
+        };
         let level = wanted.min(most);
-        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0))
+        let lifted = ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
+        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
     let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
@@ -361,9 +385,20 @@ fn throw_velocity(game: &mut Match, id: PlayerId, way: Vec2) -> Vec3 {
     ((ahead + aside) * speed).extend(rise)
 }
 
+/// The axis of backspin for a velocity: level, unit.
+fn across(velocity: Vec3) -> Vec3 {
+    let flat = velocity.truncate().normalize_or_zero();
+    Vec3::new(flat.y, -flat.x, 0.0)
+}
+
+/// The angle between the way a player runs (or faces) and another, degrees.
+fn off_run(player: &Player, way: Vec2) -> f32 {
+    let ahead = player.vel.normalize_or(player.body.facing);
+    math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees()
+}
+
 /// The backspin that lifts a lofted pass, rad/s.
 fn backspin(velocity: Vec3) -> Vec3 {
-    let flat = velocity.truncate().normalize_or_zero();
     let slow = 22.0 / velocity.length().max(8.0);
-    Vec3::new(flat.y, -flat.x, 0.0) * (15.0 * (slow * slow).clamp(0.5, 3.0))
+    across(velocity) * (15.0 * (slow * slow).clamp(0.5, 3.0))
 }

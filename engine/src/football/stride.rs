@@ -25,6 +25,8 @@ const STRAIGHT: f32 = 0.996;
 pub(super) const NO_POINT: f32 = -1.0;
 /// Nearer than this he is there, metres.
 const THERE_M: f32 = 0.25;
+/// Nearer than this the ball is at a player's feet, metres; chosen.
+const AT_FEET_M: f32 = 0.8;
 /// How far within the rim nobody runs on outwards, metres.
 const RIM_CARE_M: f32 = 0.5;
 
@@ -190,7 +192,9 @@ impl Four {
         let (facing_x, facing_y) = (f32x4::new(self.facing_x), f32x4::new(self.facing_y));
         let (mixed_x, mixed_y) = (facing_x + towards_x * little, facing_y + towards_y * little);
         let length = (mixed_x * mixed_x + mixed_y * mixed_y).sqrt();
-        let turns = length.simd_gt(f32x4::splat(0.05));
+        // With the ball at their feet players keep facing the way they went.
+        let at_feet = !runs & (ball_x * ball_x + ball_y * ball_y).simd_lt(f32x4::splat(AT_FEET_M * AT_FEET_M));
+        let turns = length.simd_gt(f32x4::splat(0.05)) & !at_feet;
         self.facing_x = turns.select(mixed_x / length, facing_x).to_array();
         self.facing_y = turns.select(mixed_y / length, facing_y).to_array();
     }

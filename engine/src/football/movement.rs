@@ -25,6 +25,9 @@ pub const RUN_WITH_BALL_MPS: f32 = 5.12;
 /// Top speed with the ball against that without. Measured.
 pub const WITH_BALL: f32 = 0.955;
 
+/// Who wants to stand stops for a ball this near, metres: it is laid where the stop ends.
+const STOPPING_M: f32 = 1.1;
+
 /// Length of a tick, seconds.
 pub const DT: f32 = 0.01;
 /// Metres of distance to m/s of speed wanted.
@@ -120,7 +123,8 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
         } else {
             to_ball * (0.4 / distance.max(0.4))
         };
-        if wish == Vec2::ZERO && distance < 0.8 && ball_vel.length_squared() < 2.0 * 2.0 {
+        let resting = distance < 0.8 && ball_vel.length_squared() < 2.0 * 2.0;
+        if wish == Vec2::ZERO && (resting || has_ball && distance < STOPPING_M) {
             return Vec2::ZERO;
         }
         let catch_up = ball_vel + (to_ball - behind) * 3.5;

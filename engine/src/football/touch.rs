@@ -16,6 +16,10 @@ use setpiece_scenario::vocabulary::{EventKind, Rule, Stat};
 
 /// How near his foot the ball must be for a dribbling touch, metres.
 const FOOT_M: f32 = 0.65;
+/// How far the sole reaches that stops it, metres; chosen.
+const SOLE_M: f32 = 1.0;
+/// Whoever wants to be slower than this with the ball stops it, m/s.
+const STOPS_MPS: f32 = 0.3;
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
 /// A higher ball is headed, or left to come down, metres.
@@ -28,6 +32,11 @@ const AT_LINE_M: f32 = 0.65;
 /// within centimetres), more with an opponent about.
 const FREE_WILD: f32 = 0.004;
 const PRESSED_WILD: f32 = 0.09;
+/// How far ahead of a standing player the ball is laid, metres. Measured.
+const LAID_M: f32 = 0.4;
+/// How a player brakes and a slow ball rolls out, m/s².
+const STOP_MPS2: f32 = 12.0;
+const ROLL_MPS2: f32 = 1.75;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 
@@ -51,7 +60,9 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
         }
         if owner == Some(id) {
             // His own touch comes first; where he lets the ball be, a rival may try it.
-            if distance <= FOOT_M * FOOT_M && ball.z < 0.5 && wants_ball(game, id) && dribble(game, events, id) {
+            let stops = player.body.dribble.length_squared() < STOPS_MPS * STOPS_MPS;
+            let foot = if stops { SOLE_M } else { FOOT_M };
+            if distance <= foot * foot && ball.z < 0.5 && wants_ball(game, id) && dribble(game, events, id) {
                 return;
             }
         } else if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
@@ -130,13 +141,8 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let wish = if armed { player.body.dribble.clamp_length_max(2.5) } else { player.body.dribble };
     let speed = wish.length();
     let to_ball = game.ball.pos.truncate() - player.pos;
-    if speed < 0.3 {
-        if (ball_vel - player.vel * 0.5).length_squared() > 0.8 * 0.8 {
-            let rest = player.vel * 0.25 + (player.body.facing * 0.35 - to_ball) * 1.2;
-            push(game, events, id, rest, 0.0);
-            return true;
-        }
-        return false;
+    if speed < STOPS_MPS {
+        return rest(game, events, id);
     }
     let mut ahead = wish / speed;
     let rolling = ball_vel.length();
@@ -158,6 +164,20 @@ fn dribble(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let wild = wild * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
     let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
     push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
+    true
+}
+
+/// Lays the ball where the player will come to a stand, a little ahead; false where it comes to rest there anyway.
+fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
+    let player = *game.player(id);
+    let speed = player.vel.length();
+    let stop = player.vel * (0.5 * speed / STOP_MPS2) + player.body.facing * LAID_M;
+    let way = stop - (game.ball.pos.truncate() - player.pos);
+    let wanted = way.normalize_or_zero() * libm::sqrtf(2.0 * ROLL_MPS2 * way.length());
+    if (game.ball.vel.truncate() - wanted).length_squared() < 0.8 * 0.8 {
+        return false;
+    }
+    push(game, events, id, wanted, 0.0);
     true
 }
 

@@ -174,7 +174,7 @@ fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     let [stand, walk, sprint, back] = match plan.kind {
         KickKind::Short | KickKind::Long => [34.0, 24.0, 38.0, 0.0],
         KickKind::High => [24.0, 22.0, 26.0, 5.0],
-        KickKind::Shot | KickKind::Clear => [25.0, 29.0, 48.0, 10.0],
+        KickKind::Shot | KickKind::Clear => [25.0, 29.0, 42.0, 10.0],
     };
     let straight = stand + (walk - stand) * walks + (sprint - walk) * sprints - if plan.held { back * walks } else { 0.0 };
     let turn = match plan.kind {

@@ -11,7 +11,7 @@ use setpiece_scenario::vocabulary::Stat;
 /// Backspin of a shot, rad/s: in flight it falls with 7.4 m/s², as measured.
 const SHOT_BACKSPIN: f32 = 19.0;
 /// Side spin of a shot across the body that bends it back, rad/s a radian; chosen.
-const CURL: f32 = 300.0;
+const CURL: f32 = 420.0;
 /// Side spin that a shot gets by chance at most, rad/s; chosen.
 const STRAY_SPIN: f32 = 8.0;
 /// With how much a shot falls, its backspin reckoned in, m/s². Measured.
@@ -25,11 +25,15 @@ const IDEAL_RAD: f32 = 0.2 * std::f32::consts::PI;
 const STEP_MPS: f32 = 1.6;
 const BRAKED_MPS: f32 = 4.5;
 /// What share of the hardest shot is left without a run-up. Measured.
-const STANDING: f32 = 0.72;
-/// What a shot may be off its easiest without getting harder. Fitted to the measured heights and directions.
-const SPARE: f32 = 0.08;
+const STANDING: f32 = 0.79;
+/// How much of GRF's lift of a hard shot is ours. Fitted to the measured heights.
+const LIFT: f32 = 0.3;
+/// How much more a standing player's foot gets under the ball.
+const UNDER: f32 = 0.35;
+/// How hard the easiest shot is. Fitted to the measured directions.
+const LEAST_HARD: f32 = 0.07;
 /// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.
-const GIVEN: f32 = 0.97;
+const GIVEN: f32 = 0.985;
 
 /// A ball as it leaves the foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +108,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
         * (0.7 + 0.3 * libm::powf((pace / 8.0).clamp(0.0, 1.0), 0.3))
         * (1.0 - 0.6 * pushed)
         * (45.0 * (0.7 + 0.3 * wanted.sqrt()));
-    let strides = (player.vel.length() / 2.0).min(1.0);
+    let strides = (player.vel.length() / 1.2).min(1.0);
     let most = (32.0 + 13.0 * player.skill(Stat::ShotPower)) * (STANDING + (1.0 - STANDING) * strides);
     let power = foot.min(most) * (1.0 + 0.2 * meeting);
 
@@ -114,14 +118,14 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
         * (1.0 - 0.4 * meeting * (0.5 - 0.3 * player.skill(Stat::Volley)))
         * (0.6 + 0.4 * eased(1.0 - ((power - 30.0) / 70.0).clamp(0.0, 1.0), 1.0))
         * (1.0 - 0.5 * rough);
-    let hard = (1.0 - SPARE - ease).clamp(0.0, 1.0);
+    let hard = (1.0 - ease).clamp(LEAST_HARD, 1.0);
     let harder = libm::powf(hard, 0.7);
 
     let best = way.extend(0.05).normalize() * power;
     let pulled = (way + (run - way) * (0.8 * hard)).normalize_or(way);
     let shaken = Vec3::new(noise::spread(game), noise::spread(game), noise::spread(game)) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
-    let worst = (worst + Vec3::Z * (0.7 * eased(harder, 0.7))).normalize() * (power * (1.0 - 0.5 * harder));
+    let worst = (worst + Vec3::Z * ((LIFT + UNDER * (1.0 - strides)) * eased(harder, 0.7))).normalize() * (power * (1.0 - 0.5 * harder));
     let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
     let ball = best + (worst - best) * luck;
 

@@ -10,6 +10,11 @@ const SEEDS: u64 = 60;
 /// Steps that an episode may last.
 const STEPS: u32 = 100;
 
+/// How far two rows of theirs with the same keys lie apart because the runner's stride was at another point, steps.
+const PHASE_STEPS: f64 = 2.5;
+/// Steps over which the largest speed is taken.
+const SPEED_STEPS: u32 = 4;
+
 const FILE: &str = "grf_shots_held.json";
 const DATA: &str = include_str!("../../data/grf_shots_held.json");
 
@@ -74,7 +79,8 @@ pub(super) fn measure(section: &mut Section, count: Option<u64>) -> Result<(), F
         ];
         if let (Some(leaves), Some(angle), Some(speed)) = (row.leaves, row.angle, row.speed) {
             let of = |i: usize| shots.iter().filter_map(|s| s.struck).map(|s| s[i]).collect::<Vec<_>>();
-            parts.push(Part::around(leaves, 1.0 + 0.15 * leaves, mean(&of(0))));
+            if std::env::var("DBG").is_ok() { println!("{} {} {} {} {} sd theirs {:?} ours {:.2}", row.x,row.y,row.keeper,row.held,row.presses,row.angle_sd, crate::pitch::deviation(&of(1))); }
+            parts.push(Part::around(leaves, PHASE_STEPS, mean(&of(0))));
             parts.push(Part::around(angle, 3.0 + row.angle_sd.unwrap_or_default(), mean(&of(1))));
             parts.push(Part::around(speed, 0.08 * speed, mean(&of(2))));
         }
@@ -109,6 +115,7 @@ fn play(trial: &mut Trial, row: &Row) -> Result<Shot, Failure> {
             Some(n) if n <= row.presses => Action::Shot,
             Some(_) => Action::Idle,
         };
+        let before = trial.ball();
         if !trial.step(key)? {
             break;
         }
@@ -123,7 +130,13 @@ fn play(trial: &mut Trial, row: &Row) -> Result<Shot, Failure> {
         let free = trial.state().owner.is_none() && vel.length() > 15.0;
         if shot.struck.is_none() && free {
             let angle = -f64::from(vel.y.atan2(vel.x)).to_degrees();
-            shot.struck = Some([f64::from(*n), angle, f64::from(vel.length())]);
+            shot.struck = Some([f64::from(*n), angle, 0.0]);
+        }
+        if let Some([leaves, _, speed]) = &mut shot.struck {
+            let way = (trial.ball() - before).truncate().length();
+            if f64::from(*n) < *leaves + f64::from(SPEED_STEPS) && !trial.events().iter().any(|e| e.kind == EventKind::OutOfPlay) && !goal {
+                *speed = speed.max(f64::from(way) * 10.0);
+            }
         }
     }
     shot.lost = since.is_none();

@@ -7,12 +7,24 @@ use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::{noise, slide};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::{Role, Stat};
 
 /// A carrier slower than this stands, m/s.
 const STANDS_MPS: f32 = 1.0;
 /// He is behind the carrier whose direction and the ball's, seen from there, have a smaller cosine.
 const BEHIND: f32 = -0.2;
+/// A mate this near to the carrier helps, metres; chosen.
+const HELP_M: f32 = 18.0;
+/// How far ahead a carrier is expected, seconds. (GRF's.)
+const AHEAD_S: f32 = 0.5;
+/// From how far a carrier could shoot: nearer to the goal a lone defender goes for the ball, metres. (GRF's.)
+const SHOOT_M: f32 = 24.0;
+/// How far before a carrier a lone defender goes back: a share of what the carrier has left, and its limits, metres.
+/// Fitted to where the measured one stands and is met.
+const CONTAIN_SHARE: f32 = 0.5;
+const CONTAIN_M: f32 = 9.0;
+const CLOSE_M: f32 = 0.4;
 /// How far he passes from the carrier's middle, metres.
 const ROUND_M: f32 = 0.9;
 
@@ -59,6 +71,10 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         cover(game, view, id);
         return;
     }
+    if alone(game, id, carrier.pos) {
+        contain(game, view, id, &carrier);
+        return;
+    }
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
     body.intent = match past_him(view, own, &carrier).or_else(|| around_him(view, own, &carrier)) {
@@ -66,6 +82,36 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         None => Intent::Ball(SPRINT_MPS),
     };
     maybe_slide(game, events, view, id, rival);
+}
+
+/// Whether no mate in the field is near enough to the carrier to help.
+fn alone(game: &Match, id: PlayerId, carrier: Vec2) -> bool {
+    let helps = |mate: PlayerId, player: &Player| {
+        mate != id
+            && player.role != Role::GK
+            && player.ai != Ai::Lazy
+            && player.pos.distance_squared(carrier) < HELP_M * HELP_M
+    };
+    !game.team(id.team()).any(|(mate, player)| helps(mate, player))
+}
+
+/// Goes back before a carrier, on their way to the goal, the nearer the closer they come to where they could shoot from;
+/// there the defender goes for the ball. (GRF's.)
+fn contain(game: &mut Match, view: &View, id: PlayerId, carrier: &Player) {
+    let place = (carrier.pos + carrier.vel * AHEAD_S) * view.side;
+    let way = -GOAL - place;
+    let left_m = way.length() - SHOOT_M;
+    let own = game.player(id).pos * view.side;
+    // Whoever is beaten runs for the goal, not for the ball.
+    let goalside = (own - place).dot(way) > 0.0;
+    if left_m <= 0.0 && goalside {
+        let body = &mut game.players[id.index()].body;
+        body.dribble = Vec2::new(2.0 * view.side, 0.0);
+        body.intent = Intent::Ball(SPRINT_MPS);
+        return;
+    }
+    let off_m = (left_m * CONTAIN_SHARE).clamp(CLOSE_M, CONTAIN_M);
+    send(game, view, id, place + way.normalize_or_zero() * off_m, SPRINT_MPS);
 }
 
 /// Where he runs who has the carrier before him, in his own frame: past him, into his way to the goal; goal-side he

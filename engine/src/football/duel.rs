@@ -12,6 +12,8 @@ const TACKLE_M: f32 = 0.85;
 const LEAST: f32 = 0.025;
 /// How much more often against a man who stands still with the ball; chosen.
 const STANDS: f32 = 0.06;
+/// How much more often against a carrier who runs into the tackler; chosen.
+const INTO: f32 = 0.2;
 /// Ticks for which who has lost the ball can't try it; chosen.
 const BEATEN_TICKS: f32 = 45.0;
 /// Ticks between two tries of one player.
@@ -36,7 +38,10 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let chance = (0.11 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
     // Who stands with it is there to be tried from any side.
     let still = (1.0 - victim.vel.length() / 1.5).max(0.0);
-    let chance = (chance + STANDS * still).clamp(LEAST, 0.9);
+    // Whoever runs into a defender with the ball runs it onto their feet.
+    let run = victim.vel.normalize_or_zero();
+    let into = (tackler.pos - victim.pos).normalize_or_zero().dot(run).max(0.0) * (1.0 - still);
+    let chance = (chance + STANDS * still + INTO * into).clamp(LEAST, 0.9);
     let now = game.tick as i32;
     if noise::happens(game, chance) {
         win(game, events, id, rival, ball);

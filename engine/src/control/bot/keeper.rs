@@ -4,13 +4,26 @@ use crate::control::bot::{GOAL, View, send};
 use crate::football::body::{Intent, Pose};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::touch;
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
 
 /// Further up than this, own frame x, metres, a keeper without mates plays as the only man he is; chosen.
 const STRAYED_M: f32 = -15.0;
 /// Further up than this, own frame x, metres, a keeper goes for a ball that is as good as his alone; chosen.
 const FAR_OUT_M: f32 = -30.0;
+/// How far ahead a keeper reckons with the ball, ticks. (GRF's.)
+const LOOK_TICKS: u32 = 60;
+/// How far ahead a keeper reckons with opponents, seconds. (GRF's.)
+const MEET_S: f32 = 0.32;
+/// How far before the goal line a keeper waits: with the ball in the other half, and at least, metres. (GRF's.)
+const WAIT_M: f32 = 10.0;
+const LINE_M: f32 = 0.7;
+/// How far up towards the ball a keeper waits whose team has it, a share of the way. (GRF's.)
+const UP_SHARE: f32 = 0.3;
+/// From how far the opponent on the ball and a second one shoot, metres. (GRF's.)
+const RIVAL_SHOOTS_M: f32 = 20.0;
+const SECOND_SHOOTS_M: f32 = 24.0;
 /// Seconds by which it must be his there; chosen.
 const FAR_LEAD_S: f32 = 3.0;
 
@@ -31,24 +44,82 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
         body.dribble = Vec2::ZERO;
         return true;
     }
-    let way = view.ball + GOAL;
-    let distance = way.length().max(1.0);
-    let rival_on_ball = view.owner.is_some_and(|owner| owner.team() != view.team);
-    let alone = rival_on_ball && distance < 26.0 && alone_on_goal(game, view, distance);
-    let out = if alone {
-        (distance * 0.45).clamp(1.5, 9.0)
-    } else if distance > 45.0 {
-        (distance * 0.16).min(if view.bias > 0.6 { 14.0 } else { 10.0 })
-    } else {
-        (distance * 0.13).clamp(1.0, 5.0)
-    };
-    let mut spot = way * (out / distance) - GOAL;
-    spot.y = spot.y.clamp(-6.0, 6.0);
-    spot.x = spot.x.max(-54.3);
-    let own = player.pos * view.side;
-    let speed = if own.distance(spot) > 3.0 || alone { SPRINT_MPS } else { RUN_MPS };
+    let (spot, speed) = post(game, view, id);
     send(game, view, id, spot, speed);
     true
+}
+
+/// Where a keeper waits, own frame, and how fast they go there.
+///
+/// On the line that halves the goal as the ball sees it: just before the goal line; further up while the own team has the
+/// ball; all the way out to an opponent whom no mate can stop any more, unless a second one waits for that. (GRF's.)
+fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
+    let keeper = game.player(id).pos * view.side;
+    let ball = game.play.forecast.at(game.tick + LOOK_TICKS).truncate() * view.side;
+    if ball.x > 0.0 {
+        return (Vec2::new(WAIT_M - GOAL.x, 0.0), SPRINT_MPS);
+    }
+    let foot = Vec2::new(LINE_M - GOAL.x, middle_of_goal(ball));
+    let mut front = ball;
+    let mut share = UP_SHARE * ((view.bias - 0.5) * 4.0).clamp(0.0, 1.0);
+    let theirs = view.owner.filter(|owner| owner.team() != view.team);
+    let rival = theirs.or(game.play.chaser[view.team.other().index()]);
+    if let Some(rival) = rival.filter(|_| view.bias < 0.5 || theirs.is_some()) {
+        let other = game.player(rival);
+        let place = (other.pos + other.vel * MEET_S) * view.side;
+        front = if theirs.is_some() { ball * 0.6 + place * 0.4 } else { ball * 0.4 + place * 0.6 };
+        let left_m = shooting_m(place, RIVAL_SHOOTS_M);
+        if nearest_mate_m(game, view, id, place, left_m) > left_m + 1.0 {
+            share = 1.0 - second_danger(game, view, id, rival, left_m);
+        }
+    }
+    if game.play.rush[view.team.index()] {
+        share = 1.0;
+    }
+    let way = front - foot;
+    let out = ((way.length() - 0.5).max(0.0) * share).max(LINE_M);
+    let mut spot = foot + way.normalize_or_zero() * out;
+    spot.x = spot.x.max(0.2 - GOAL.x);
+    // Going back on the line between ball and goal the keeper keeps facing the ball.
+    let on_line = way.normalize_or_zero().perp_dot(keeper - foot).abs() < 1.0;
+    let back = spot.distance(-GOAL) < keeper.distance(-GOAL);
+    (spot, if back && on_line { RUN_MPS } else { SPRINT_MPS })
+}
+
+/// Where the line from a place that halves the view of the goal meets the goal line, own frame y, metres.
+fn middle_of_goal(from: Vec2) -> f32 {
+    let post = |y: f32| (Vec2::new(-GOAL.x, y) - from).normalize_or(Vec2::NEG_X);
+    let half = GOAL_HALF_WIDTH_M as f32;
+    let way = post(half) + post(-half);
+    let along = (LINE_M - GOAL.x - from.x) / way.x.min(-0.01);
+    (from.y + way.y * along).clamp(-half, half)
+}
+
+/// How far a place is from where a shot pays, the nearer to goal the nearer that is, metres.
+fn shooting_m(place: Vec2, from_m: f32) -> f32 {
+    let away = place.distance(-GOAL);
+    (away - from_m * (away / (2.0 * from_m)).min(1.0)).max(0.0)
+}
+
+/// How far the nearest mate in the field is from the point at which an opponent could shoot, metres.
+fn nearest_mate_m(game: &Match, view: &View, id: PlayerId, place: Vec2, left_m: f32) -> f32 {
+    let point = place + (-GOAL - place).normalize_or_zero() * left_m;
+    let mates = game.team(view.team).filter(|(mate, _)| *mate != id);
+    mates.fold(f32::MAX, |least, (_, mate)| least.min(((mate.pos + mate.vel * 0.24) * view.side).distance(point)))
+}
+
+/// How much a second opponent near the goal keeps the keeper on the line, 0..0.7.
+fn second_danger(game: &Match, view: &View, id: PlayerId, rival: PlayerId, left_m: f32) -> f32 {
+    let others = game.team(view.team.other()).filter(|(other, _)| *other != rival);
+    let place_of = |other: &Player| (other.pos + other.vel * MEET_S) * view.side;
+    let near = others.map(|(_, other)| place_of(other)).reduce(|best, next| {
+        if next.distance_squared(-GOAL) < best.distance_squared(-GOAL) { next } else { best }
+    });
+    let Some(place) = near else { return 0.0 };
+    let second_m = shooting_m(place, SECOND_SHOOTS_M);
+    let open = (0.5 * (nearest_mate_m(game, view, id, place, second_m) - second_m)).clamp(0.0, 1.0);
+    let nearer = 1.0 - ((second_m / (left_m + 1e-4) - 1.0) / 0.5).clamp(0.0, 1.0);
+    open * nearer * 0.7
 }
 
 /// Whether a free ball is his: passed to him, or he is surely there before the others. How surely depends on where it
@@ -75,14 +146,4 @@ fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
     };
     let theirs_first = player.body.meet_s + lead_s >= rivals;
     !theirs_first && (player.body.meet_s < mates + 0.3 || in_box && view.ball.x < -44.0)
-}
-
-/// Whether no defender stands between the ball and the goal.
-fn alone_on_goal(game: &Match, view: &View, distance: f32) -> bool {
-    !game.team(view.team).any(|(_, mate)| {
-        let own = mate.pos * view.side;
-        mate.role != setpiece_scenario::vocabulary::Role::GK
-            && own.distance(-GOAL) < distance
-            && own.distance(view.ball) < 6.0
-    })
 }

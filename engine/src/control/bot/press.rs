@@ -25,6 +25,11 @@ const SHOOT_M: f32 = 24.0;
 const CONTAIN_SHARE: f32 = 0.5;
 const CONTAIN_M: f32 = 9.0;
 const CLOSE_M: f32 = 0.4;
+/// Who would be at the ball in less than this much of the carrier's time, of both and a fifth of a second, fights for it.
+/// (GRF's.)
+const FIGHTS: f32 = 0.8;
+/// From how near a hunter goes for the ball, metres; chosen.
+const CHALLENGE_M: f32 = 2.0;
 /// How far he passes from the carrier's middle, metres.
 const ROUND_M: f32 = 0.9;
 
@@ -58,22 +63,22 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     };
     let carrier = *game.player(rival);
     let gap = player.pos.distance(carrier.pos);
-    let deep = (own.x + GOAL.x).max(0.0);
-    let zeal = (17.0 + 10.0 * player.body.mind.mindset.min(0.6))
-        * (0.4 + 0.6 * player.body.level)
-        * (1.0 - 0.3 * player.fatigue)
-        * (0.7 + 0.4 * player.body.stats[Stat::Workrate.index()]);
-    // Whoever has just lost it near the others' goal goes for it at once.
-    let zeal = if view.ball.x > 12.0 { zeal * 1.6 } else { zeal };
-    let goal_near = view.ball.x < -20.0;
     let told = game.play.team_pressure[view.team.index()];
-    if gap > zeal && !goal_near && deep < 95.0 && !told && !stands(&carrier) {
-        cover(game, view, id);
-        return;
-    }
-    if alone(game, id, carrier.pos) {
-        contain(game, view, id, &carrier);
-        return;
+    let goalside = own.x < view.ball.x + 0.5;
+    // Who is about as soon at the ball as the carrier goes for it; who stands in the way goes back with the carrier; the
+    // others hunt where it is near enough.
+    let fights = (carrier.body.meet_s + 0.2) / (player.body.meet_s + 0.2) > FIGHTS;
+    // Somebody goes for a carrier who stands, unless there is nobody to help.
+    let waits = stands(&carrier) && !alone(game, id, carrier.pos);
+    if !told && !fights && !waits {
+        if goalside {
+            contain(game, view, id, &carrier);
+            return;
+        }
+        if gap > hunt_m(&player) {
+            cover(game, view, id);
+            return;
+        }
     }
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
@@ -82,6 +87,12 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         None => Intent::Ball(SPRINT_MPS),
     };
     maybe_slide(game, events, view, id, rival);
+}
+
+/// From how far a player hunts a carrier, metres. (GRF's.)
+fn hunt_m(player: &Player) -> f32 {
+    let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.vel.length() / 8.0).min(1.0));
+    (10.0 + 10.0 * (1.0 - player.body.mind.mindset)) * rested * player.body.level
 }
 
 /// Whether no mate in the field is near enough to the carrier to help.
@@ -174,7 +185,34 @@ pub fn second(game: &mut Match, view: &View, id: PlayerId) {
         body.dribble = Vec2::ZERO;
         return;
     }
+    let rival = view.owner.filter(|owner| owner.team() != view.team);
+    let held = game.play.hands.is_some();
+    if let Some(carrier) = rival.filter(|_| !held).map(|rival| *game.player(rival)) {
+        let player = game.player(id);
+        if player.pos.distance(carrier.pos) < hunt_m(player) {
+            hunt(game, view, id, &carrier);
+            return;
+        }
+    }
     cover(game, view, id);
+}
+
+/// Runs to the point of a carrier's way to goal that is as near to the carrier as to the hunter; from near for the ball.
+/// (GRF's.)
+fn hunt(game: &mut Match, view: &View, id: PlayerId, carrier: &Player) {
+    let (own, place) = (game.player(id).pos * view.side, carrier.pos * view.side);
+    let between = place - own;
+    if between.length() < CHALLENGE_M {
+        let body = &mut game.players[id.index()].body;
+        body.dribble = Vec2::new(2.0 * view.side, 0.0);
+        body.intent = Intent::Ball(SPRINT_MPS);
+        return;
+    }
+    let way = -GOAL - place;
+    // How much of the way it is: the middle between both, seen along it.
+    let share = (0.5 * between.length_squared() / between.dot(-way).max(1e-3)).clamp(0.0, 1.0);
+    let ahead = way.normalize_or_zero() * (0.1 * SPRINT_MPS) + carrier.vel * view.side * 0.14;
+    send(game, view, id, place + way * share + ahead, SPRINT_MPS);
 }
 
 /// Stands between the ball and the own goal, some metres off.

@@ -14,6 +14,10 @@ const LEAST: f32 = 0.025;
 const STANDS: f32 = 0.06;
 /// How much more often against a carrier who runs into the tackler; chosen.
 const INTO: f32 = 0.2;
+/// A carrier runs head-on into a tackler from this cosine on; whoever is beaten so needs so many ticks to turn. Fitted to
+/// what keepers lose there.
+const HEAD_ON: f32 = 0.5;
+const WRONG_FOOTED_TICKS: i8 = 50;
 /// Ticks for which who has lost the ball can't try it; chosen.
 const BEATEN_TICKS: f32 = 45.0;
 /// Ticks between two tries of one player.
@@ -35,7 +39,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let keep =
         0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
     let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
-    let chance = (0.11 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
+    let chance = (0.14 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
     // Who stands with it is there to be tried from any side.
     let still = (1.0 - victim.vel.length() / 1.5).max(0.0);
     // Whoever runs into a defender with the ball runs it onto their feet.
@@ -50,8 +54,14 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
         return;
     }
     game.players[id.index()].body.ready_at = now + RETRY_TICKS;
-    // Beaten: he is wrong-footed for a moment.
-    game.players[id.index()].vel *= 0.45;
+    // Beaten: wrong-footed for a moment, and worst by who came head-on.
+    let beaten = &mut game.players[id.index()];
+    if into > HEAD_ON {
+        beaten.vel = Vec2::ZERO;
+        beaten.body.lag_ticks = -WRONG_FOOTED_TICKS;
+    } else {
+        beaten.vel *= 0.45;
+    }
     if near < 0.7 && foul::trips(game, id, rival) {
         game.players[rival.index()].fall(foul::FALL_TICKS);
         foul::call_or_let_run(game, events, id, rival, severity_of(behind));

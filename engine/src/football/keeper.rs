@@ -21,7 +21,7 @@ const HOLD_TICKS: u32 = 600;
 const BODY_M: f32 = 0.5;
 /// What share of the balls in reach a keeper without any skill saves; what share of them at once and how much more with
 /// every second left. Fitted to the goals that agents' and bots' shots come to.
-const SAVES: [f32; 3] = [0.55, 0.25, 1.5];
+const SAVES: [f32; 3] = [0.3, 0.2, 1.2];
 /// How long a dive takes at least, seconds; chosen.
 const DIVE_S: f32 = 0.1;
 /// No save for balls slower than this, m/s: they are picked up.

@@ -102,7 +102,7 @@ fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool) {
 fn give(four: &Four, at: usize, player: &mut Player) {
     player.pos = Vec2::new(four.x[at], four.y[at]);
     player.vel = Vec2::new(four.vx[at], four.vy[at]);
-    player.body.lag_ticks = four.lag[at] as u8;
+    player.body.lag_ticks = four.lag[at] as i8;
     player.body.facing = Vec2::new(four.facing_x[at], four.facing_y[at]);
 }
 

@@ -25,7 +25,7 @@ const IDEAL_RAD: f32 = 0.2 * std::f32::consts::PI;
 const STEP_MPS: f32 = 1.6;
 const BRAKED_MPS: f32 = 4.5;
 /// What share of the hardest shot is left without a run-up. Measured.
-const STANDING: f32 = 0.79;
+const STANDING: f32 = 0.765;
 /// How much of GRF's lift of a hard shot is ours. Fitted to the measured heights.
 const LIFT: f32 = 0.3;
 /// How much more a standing player's foot gets under the ball.
@@ -33,7 +33,7 @@ const UNDER: f32 = 0.35;
 /// How hard the easiest shot is. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
 /// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.
-const GIVEN: f32 = 0.985;
+const GIVEN: f32 = 1.015;
 
 /// A ball as it leaves the foot.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,7 +13,7 @@ const LEAST: f32 = 0.025;
 /// How much more often against a man who stands still with the ball; chosen.
 const STANDS: f32 = 0.06;
 /// How much more often against a carrier who runs into the tackler; chosen.
-const INTO: f32 = 0.2;
+const INTO: f32 = 0.55;
 /// A carrier runs head-on into a tackler from this cosine on; whoever is beaten so needs so many ticks to turn. Fitted to
 /// what keepers lose there.
 const HEAD_ON: f32 = 0.5;

@@ -22,6 +22,10 @@ const PUSH_MAX_M: f32 = 0.16;
 /// sides before they meet again.
 const PRESSED_M: f32 = 0.2;
 
+/// How far who slips by is moved aside in two ticks, metres, and what share of their pace they keep; chosen.
+const SLIP_M: f32 = 0.05;
+const SLIPS_AT: f32 = 0.985;
+
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;
 /// Share of a push that is left after two ticks: 0.95 a tick.
@@ -78,6 +82,16 @@ fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
     player.vel -= away * player.vel.dot(away).min(0.0);
 }
 
+/// Who runs past an opponent whom they have wrong-footed slips by at the side, a little slower.
+fn slip_by(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
+    let player = &mut game.players[id.index()];
+    let ahead = player.vel.normalize_or(away);
+    let left = Vec2::new(-ahead.y, ahead.x);
+    let side = if left.dot(away) < 0.0 { -left } else { left };
+    player.pos += side * (CONTACT_M - distance).clamp(0.0, SLIP_M);
+    player.vel *= SLIPS_AT;
+}
+
 /// Pushes two bodies apart; the better balanced one yields less.
 fn part(game: &mut Match, events: &mut Events, i: PlayerId, j: PlayerId) {
     let (a, b) = (*game.player(i), *game.player(j));
@@ -90,6 +104,13 @@ fn part(game: &mut Match, events: &mut Events, i: PlayerId, j: PlayerId) {
         (true, false) => return go_round(game, j, away, distance),
         (false, true) => return go_round(game, i, -away, distance),
         (true, true) => return,
+    }
+    if i.team() != j.team() && distance > PRESSED_M {
+        match (a.is_wrong_footed(), b.is_wrong_footed()) {
+            (true, false) => return slip_by(game, j, away, distance),
+            (false, true) => return slip_by(game, i, -away, distance),
+            _ => {}
+        }
     }
     let overlap = (CONTACT_M - distance).max(0.0);
     let mut share = 0.5 + 0.25 * (a.skill(Stat::Balance) - b.skill(Stat::Balance));

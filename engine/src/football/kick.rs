@@ -39,6 +39,8 @@ const HIGH_HEEL_MPS: f32 = 33.0;
 /// How much harder a charged pass is struck in stride, m/s, and the gauge from which on. Measured.
 const CHARGE_MPS: f32 = 2.5;
 const CHARGED: f32 = 0.35;
+/// How much faster a ball rises that is played straight ahead, m/s for every metre of its way. Measured.
+const AHEAD_UP_PER_S: f32 = 0.012;
 /// How much faster a ball rises that is played to the side, and behind one's back, m/s. Measured.
 const ASIDE_UP_MPS: f32 = 1.0;
 const HEEL_UP_MPS: f32 = 0.4;
@@ -353,7 +355,7 @@ fn pass_velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rou
             _ => GROUND_MPS + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
         };
         let level = wanted.min(most);
-        let lifted = ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
+        let lifted = AHEAD_UP_PER_S * distance * (1.0 - aside) + ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
         (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.

@@ -6,6 +6,7 @@
 use crate::football::body::{Intent, Pose};
 use crate::football::rows::{ROWS, WIDTH};
 use crate::football::stride::{self, Four, NO_POINT};
+use crate::football::touch::SPRINTS_MPS;
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -124,7 +125,8 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
             to_ball * (0.4 / distance.max(0.4))
         };
         let resting = distance < 0.8 && ball_vel.length_squared() < 2.0 * 2.0;
-        if wish == Vec2::ZERO && (resting || has_ball && distance < STOPPING_M) {
+        let lays_it = has_ball && distance < STOPPING_M && player.vel.length_squared() < SPRINTS_MPS * SPRINTS_MPS;
+        if wish == Vec2::ZERO && (resting || lays_it) {
             return Vec2::ZERO;
         }
         let catch_up = ball_vel + (to_ball - behind) * 3.5;

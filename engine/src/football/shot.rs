@@ -29,7 +29,7 @@ const STANDING: f32 = 0.765;
 /// How much of GRF's lift of a hard shot is ours. Fitted to the measured heights.
 const LIFT: f32 = 0.3;
 /// How much more a standing player's foot gets under the ball.
-const UNDER: f32 = 0.35;
+const UNDER: f32 = 0.2;
 /// How hard the easiest shot is. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
 /// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.

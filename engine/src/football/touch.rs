@@ -20,6 +20,8 @@ const FOOT_M: f32 = 0.65;
 const SOLE_M: f32 = 1.0;
 /// Whoever wants to be slower than this with the ball stops it, m/s.
 const STOPS_MPS: f32 = 0.3;
+/// Faster than this nobody gets the sole on it, m/s.
+pub(super) const SPRINTS_MPS: f32 = 6.0;
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
 /// A higher ball is headed, or left to come down, metres.
@@ -60,7 +62,8 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
         }
         if owner == Some(id) {
             // His own touch comes first; where he lets the ball be, a rival may try it.
-            let stops = player.body.dribble.length_squared() < STOPS_MPS * STOPS_MPS;
+            let stops = player.body.dribble.length_squared() < STOPS_MPS * STOPS_MPS
+                && player.vel.length_squared() < SPRINTS_MPS * SPRINTS_MPS;
             let foot = if stops { SOLE_M } else { FOOT_M };
             if distance <= foot * foot && ball.z < 0.5 && wants_ball(game, id) && dribble(game, events, id) {
                 return;

@@ -24,7 +24,7 @@ const PRESSED_M: f32 = 0.2;
 
 /// How far who slips by is moved aside in two ticks, metres, and what share of their pace they keep; chosen.
 const SLIP_M: f32 = 0.05;
-const SLIPS_AT: f32 = 0.985;
+const SLIPS_AT: f32 = 0.93;
 
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;

@@ -326,11 +326,6 @@ def test_an_episode_longer_than_a_limit_has_none() -> None:
     assert setpiece.compile(text).name == "longer"
 
 
-def test_a_text_has_no_order_of_teams() -> None:
-    with pytest.raises(TranslationError, match="reverse_team_processing"):
-        to_pitch(ScenarioConfig(reverse_team_processing=True), "turned")
-
-
 @pytest.mark.parametrize("call", ["AddPlayer(math.nan, 0, 1)", "AddPlayer(0, 'x', 1)", "SetBallPosition(0, math.inf)"])
 def test_places_are_numbers(call: str, tmp_path: Path) -> None:
     path = script_file(tmp_path, f"    import math\n    builder.{call}\n", "odd")

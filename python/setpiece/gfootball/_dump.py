@@ -41,7 +41,7 @@ def replay_to_dump(replay: Replay | str | PathLike[str], path: str | PathLike[st
     if replay.action_set == "continuous":
         raise _untellable(replay, "action_set", "the agents' actions were continuous, and a dump tells of keys")
     # Played before anything is written: one that comes to another end leaves no file.
-    longest = _longest_wait(replay)
+    longest = _longest_wait(replay, {**defaults(), "action_set": replay.action_set})
     left, right = _counts(replay)
     config = {
         **defaults(),
@@ -92,11 +92,11 @@ def _whole(replay: Replay, moment: Moment, config: dict[str, Any]) -> dict[str, 
     return whole_match(first, left, right, config, seen_by_left=bool(left))
 
 
-def _longest_wait(replay: Replay) -> int:
-    """The most steps that a set piece waited."""
+def _longest_wait(replay: Replay, config: dict[str, Any]) -> int:
+    """Returns the most steps that a set piece waited, of those that the drop-in counts."""
     longest = waiting = 0
     for moment in replay:
-        waiting = waiting + 1 if moment.observations[replay.agents[0].id]["game_mode"] else 0
+        waiting = waiting + 1 if slot_view(moment.observations[replay.agents[0].id], config)["game_mode"] else 0
         longest = max(longest, waiting)
     return longest
 

@@ -40,10 +40,6 @@ def to_pitch(recorded: ScenarioConfig, name: str, other: ScenarioConfig | None =
     `alternate(…, …)` can say.
     """
     other = recorded if other is None else other
-    if recorded.reverse_team_processing or other.reverse_team_processing:
-        raise TranslationError(
-            "`reverse_team_processing` is no order that a text can ask for", help="leave it out, or False"
-        )
     _check_same(recorded, other)
     kickoff = _kickoff(recorded, other)
     formations = [] if kickoff is None else kickoff.formations(name)
@@ -193,7 +189,10 @@ def _shape(entry: FormationEntry) -> tuple[object, ...]:
 
 def _check_same(recorded: ScenarioConfig, other: ScenarioConfig) -> None:
     """Raises `TranslationError` where two episodes differ in what no text can alternate."""
-    may_differ = ("ball_position", "left_team", "right_team", "left_team_difficulty", "right_team_difficulty")
+    may_differ = (
+        *("ball_position", "left_team", "right_team", "left_team_difficulty", "right_team_difficulty"),
+        "reverse_team_processing",  # The order of the teams has no effect here.
+    )
     for each in fields(recorded):
         if each.name not in may_differ and getattr(recorded, each.name) != getattr(other, each.name):
             raise TranslationError(

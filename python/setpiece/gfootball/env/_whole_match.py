@@ -4,17 +4,27 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from setpiece.gfootball.env.config import has_bug
 from setpiece.gfootball.env.football_action_set import get_sticky_actions
 from setpiece.gfootball.env.observation_rotation import flip_observation
 
 if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config
 
+KICK_OFF = 1
+"""The `game_mode` of a kick-off that waits."""
+OWNERLESS = (1, 2, 3, 4, 6)
+"""The values of `game_mode` in which GRF shows a ball without an owner: all set pieces except the throw-in."""
+
 
 def slot_view(native: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:
-    """Returns a raw observation of the engine with GRF's types."""
+    """Returns a raw observation of the engine with GRF's types and conventions."""
+    mode = native["game_mode"]
+    owner = {"ball_owned_team": -1, "ball_owned_player": -1} if mode in OWNERLESS else {}
     return {
         **native,
+        **owner,
+        "game_mode": 0 if mode == KICK_OFF and has_bug(config, "kick_off_mode") else mode,
         "score": [int(goals) for goals in native["score"]],
         "steps_left": int(native["steps_left"]),
         "sticky_actions": native["sticky_actions"][: len(get_sticky_actions(config))],

@@ -96,7 +96,7 @@ def defaults() -> dict[str, Any]:
         "video_format": "avi",
         "video_quality_level": 0,
         "write_video": False,
-        "grf_bugs": False,
+        "grf_bugs": ["kick_off_mode"],
     }
 
 
@@ -192,8 +192,8 @@ class Config:
         self._values["episode_number"] += inc
         self._scenario = Scenario(self)
         recorded = self._scenario.config()
-        if recorded.reverse_team_processing:
-            raise _no_reverse()
+        if "reverse_team_processing" in self._values:
+            recorded.reverse_team_processing = self._values["reverse_team_processing"]
         recorded.real_time = bool(self["real_time"])
         recorded.left_agents = self.number_of_left_players()
         recorded.right_agents = self.number_of_right_players()
@@ -211,10 +211,6 @@ def has_bug(config: object, name: str) -> bool:
     if isinstance(bugs, str):
         return bugs == name
     return name in bugs if isinstance(bugs, (list, tuple)) else bugs is True
-
-
-def _no_reverse() -> Exception:
-    return unavailable("reverse_team_processing", "an order in which the teams are moved", "leave it out, or False")
 
 
 def _checked(key: str, value: Any) -> Any:
@@ -240,8 +236,9 @@ def _checked(key: str, value: Any) -> Any:
         raise unavailable(key, "another length of a step than 100 ms", "leave it at 10")
     elif key == "write_video" and value:
         raise no_pictures(key)
-    elif key == "reverse_team_processing" and value:
-        raise _no_reverse()
+    elif key == "reverse_team_processing":
+        # No effect on the match: the engine treats both teams alike, in whichever order.
+        return ScenarioConfig(reverse_team_processing=value).reverse_team_processing
     elif key == "video_format":
         check_word(key, value, ("avi", "webm"))
     elif key == "game_engine_random_seed":

@@ -61,6 +61,10 @@ class CoreAction:
         """Whether it is one of the eight directions."""
         return self._directional
 
+    def is_in_actionset(self, config: Config | dict[str, Any]) -> bool:
+        """Returns whether the action belongs to the set of `config["action_set"]`."""
+        return self in get_action_set(config)
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, CoreAction) and other._name == self._name
 
@@ -131,6 +135,33 @@ action_set_dict = {"default": action_set_v1, "v2": action_set_v2, "full": full_a
 
 NUMBERS = {name: number for number, name in enumerate(action.name for action in full_action_set)}
 """Every action's number in the `full` set, and so in each smaller one that has it."""
+
+
+_RELEASES = {
+    name: f"release_{name}"
+    for name in (*BACKEND_NAMES[9:18], "sprint", "dribble")  # All buttons, held or not.
+}
+_COUNTERPARTS = {**_RELEASES, **{release: name for name, release in _RELEASES.items()}}
+
+
+def disable_action(action: CoreAction) -> CoreAction:
+    """Returns the action that ends another one.
+
+    Every direction, and `release_direction` itself, gives `release_direction`. A button gives its release, and a
+    release gives its button. Raises `ActionError` for `idle` and `builtin_ai`, which nothing ends, and for a number.
+
+    >>> disable_action(action_sprint)
+    CoreAction(release_sprint)
+    """
+    if not isinstance(action, CoreAction):
+        raise ActionError(
+            f"expected a `CoreAction`, found `{action!r}`", help="take it from the action set by its number"
+        )
+    if action.directional or action == action_release_direction:
+        return action_release_direction
+    if action.name not in _COUNTERPARTS:
+        raise ActionError(f"no action ends `{action.name}`", help="directions and buttons can be released")
+    return _BY_NAME[_COUNTERPARTS[action.name]]
 
 
 def get_action_set(config: Config | dict[str, Any]) -> list[CoreAction]:

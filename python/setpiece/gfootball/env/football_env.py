@@ -46,7 +46,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
       player's team; without an agent a float, for the left team. `info` has `score_reward`, for the left team, and
       where dumps were finished `dumps`: a list of `{"name", "dump"}`.
 
-    Raises `ActionError` for other actions, and `gymnasium.error.ResetNeeded` outside an episode.
+    `step` before the first `reset` plays the episode that the constructor begins, as in GRF. Raises `ActionError` for
+    other actions, and `gymnasium.error.ResetNeeded` after the end of an episode and after `close`.
     """
 
     metadata = {"render_modes": []}
@@ -63,7 +64,6 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             spaces.Discrete(actions) if count == 1 else spaces.MultiDiscrete(np.full(count, actions, np.int64))
         )
         self._core.reset(inc=0)
-        self._core.done = True
         self.observation_space = _raw_space(self.observation())
         self._processor = ObservationProcessor(config)
 

@@ -10,7 +10,7 @@ import gymnasium
 import numpy as np
 
 import setpiece
-from setpiece._errors import SnapshotError
+from setpiece._errors import ParameterError, SnapshotError
 from setpiece.gfootball._translation import LIMIT_MAX
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env._whole_match import slot_view, whole_match
@@ -38,6 +38,10 @@ _TEMPLATE = (
     *((-0.23, 0.0), (0.05, -0.42), (0.36, 0.85), (1.0, 0.0), (0.36, -0.85)),
 )
 _CENTRAL = [x * x + y * y for x, y in _TEMPLATE]
+
+
+class AgentCountError(ParameterError, AssertionError):
+    """The scenario has `control_all_players`, and agents play a part of a team; an `AssertionError` in GRF."""
 
 
 class FootballEnvCore:
@@ -69,6 +73,7 @@ class FootballEnvCore:
         config = self._config
         config.NewScenario(inc)
         recorded = config.ScenarioConfig()
+        _check_agents(recorded)
         self._enter(config.Scenario().source, _length(recorded), self._playable(recorded))
         assert self._env is not None
         observed, info = self._env.reset(
@@ -174,10 +179,7 @@ class FootballEnvCore:
 
     def _view(self, native: dict[str, Any]) -> dict[str, Any]:
         """A slot's observation with GRF's types."""
-        view = slot_view(native, self._config)
-        if view["game_mode"] == 1 and self._config.has_bug("kick_off_mode"):
-            view["game_mode"] = 0
-        return view
+        return slot_view(native, self._config)
 
     def _hurried(self, chosen: Sequence[CoreAction]) -> list[CoreAction]:
         """The actions, or what takes a set piece that has waited for too long."""
@@ -225,6 +227,19 @@ class FootballEnvCore:
             self._next_frame = now
         self._next_frame += STEP_S
         time.sleep(max(0.0, self._next_frame - now))
+
+
+def _check_agents(recorded: ScenarioConfig) -> None:
+    """Raises `AgentCountError` if agents play a part of a team whose players they all have to play."""
+    if not recorded.control_all_players or not recorded.dynamic_player_selection:
+        return
+    left, right = recorded.controllable_left_players, recorded.controllable_right_players
+    raise AgentCountError(
+        f"this scenario needs agents for no player of a team or for all of them, found {recorded.left_agents} of {left}"
+        f" on the left and {recorded.right_agents} of {right} on the right",
+        name="players",
+        help=f"ask for 0 or {left} on the left, and for 0 or {right} on the right",
+    )
 
 
 def _nothing_held(config: Config) -> Any:

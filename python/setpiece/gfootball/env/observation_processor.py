@@ -11,14 +11,17 @@ import time
 from collections import deque
 from collections.abc import Iterable
 from datetime import datetime
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from setpiece._errors import FileError, FormatError
+from setpiece.gfootball.env.football_action_set import CoreAction
 
 if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config
-    from setpiece.gfootball.env.football_action_set import CoreAction
 
 LAST = 100
 """Steps before the moment that a dump shows."""
@@ -27,7 +30,50 @@ EPISODE_MAX = 10_000
 SCORE_PAUSE_S = 600.0
 """Seconds between two dumps of goals of the same kind."""
 
+PROTOCOL = 4
+"""The pickle protocol of dumps: the newest that every Python which GRF runs on can load."""
+ACTIONS = "gfootball.env.football_action_set"
+"""GRF's module of actions."""
+
 Trace = dict[str, Any]
+
+
+class _Actions:
+    """Stands for GRF's module of actions in a pickle."""
+
+
+_ACTIONS = _Actions()
+
+
+class _Writer(pickle.Pickler):
+    """Pickles records that GRF can load: they name no module of this package and no internals of NumPy."""
+
+    def reducer_override(self, value: object) -> Any:
+        """Returns how to rebuild an action or an array; anything else is pickled as usual."""
+        if isinstance(value, CoreAction):
+            return getattr, (_ACTIONS, f"action_{value.name}")
+        if value is _ACTIONS:
+            return import_module, (ACTIONS,)
+        if isinstance(value, np.ndarray) and value.size:
+            # The pickles of NumPy 2 can't be loaded by the versions that most installations of GRF have.
+            return np.array, (value.tolist(), value.dtype.str)
+        return NotImplemented
+
+
+class _Reader(pickle.Unpickler):
+    """Loads records of this package and of GRF, whether or not a package `gfootball` is there."""
+
+    def find_class(self, module: str, name: str) -> Any:
+        """Returns what a pickle names; GRF's own names are this package's."""
+        if module == "importlib" and name == "import_module":
+            return lambda called: import_module(_own(called))
+        if name == "e_BackendAction":
+            return int
+        return super().find_class(_own(module), name)
+
+
+def _own(module: str) -> str:
+    return f"setpiece.{module}" if module.split(".", 1)[0] == "gfootball" else module
 
 
 class ObservationProcessor:
@@ -104,7 +150,7 @@ def write_dump(path: Path, config: dict[str, Any], traces: Iterable[Trace]) -> N
         with path.open("wb") as file:
             for number, trace in enumerate(traces):
                 debug = {**trace["debug"], "config": config} if number == 0 else trace["debug"]
-                pickle.dump({**trace, "debug": debug}, file)
+                _Writer(file, PROTOCOL).dump({**trace, "debug": debug})
     except OSError as error:
         raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from error
 
@@ -118,7 +164,7 @@ def read_dump(path: str) -> list[Trace]:
     try:
         with Path(path).open("rb") as file:
             while file.peek(1):
-                records.append(pickle.load(file))
+                records.append(_Reader(file).load())
     except OSError as error:
         raise FileError(f"`{path}` can't be read: {error.strerror}", path=path) from error
     except Exception as error:

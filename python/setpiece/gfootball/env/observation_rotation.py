@@ -37,7 +37,7 @@ def flip_team_observation(
 ) -> None:
     """Writes a team of an observation into another one, turned, as the other team: `left` or `right`."""
     for key in _TURNED:
-        result[to_team + key] = -np.asarray(observation[from_team + key])
+        result[to_team + key] = rotate_points(observation[from_team + key])
     for key in _KEPT:
         if from_team + key in observation:
             result[to_team + key] = observation[from_team + key]
@@ -49,14 +49,14 @@ def flip_team_observation(
 def flip_observation(observation: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:
     """Returns an observation as the other side sees it: that of the whole match, or an agent's own.
 
-    What is turned is an array, of a list too.
+    Turned points are arrays, also where the observation has lists. Arrays keep their dtypes, and flipping twice
+    returns the same values.
     """
     result = dict(observation)
     flip_team_observation(observation, result, config, "left", "right")
     flip_team_observation(observation, result, config, "right", "left")
-    turn = np.array([-1.0, -1.0, 1.0])
-    result["ball"] = observation["ball"] * turn
-    result["ball_direction"] = observation["ball_direction"] * turn
+    for key in ("ball", "ball_direction"):
+        result[key] = rotate_3d_point(observation[key])
     owner = observation["ball_owned_team"]
     result["ball_owned_team"] = owner if owner == -1 else 1 - owner
     result["score"] = [observation["score"][1], observation["score"][0]]
@@ -65,13 +65,27 @@ def flip_observation(observation: dict[str, Any], config: Config | dict[str, Any
     return result
 
 
-def rotate_sticky_actions(sticky_actions_state: Any, config: Config | dict[str, Any]) -> NDArray[np.uint8]:
-    """Returns what is held, uint8 `(10,)` or `(13,)`, with the direction turned round; nothing held stays nothing."""
-    names = [action.name for action in get_sticky_actions(config)]
-    state = np.asarray(sticky_actions_state, np.uint8)
+def rotate_3d_point(point: Any) -> NDArray[Any]:
+    """Returns a point `(3,)` turned round the centre spot, with the dtype that it had."""
+    return np.array([-point[0], -point[1], point[2]])
+
+
+def rotate_points(points: Any) -> NDArray[Any]:
+    """Returns points turned round the centre spot, with the shape and dtype that they had."""
+    return -np.asarray(points)
+
+
+def rotate_sticky_actions(sticky_actions_state: Any, config: Config | dict[str, Any]) -> Any:
+    """Returns what is held, 10 or 13 values, with the direction turned round.
+
+    An array gives an array of its dtype, a list gives a list of the same values, and an empty state stays empty.
+    """
+    state = sticky_actions_state
     if not len(state):
         return state
-    return state[[names.index(_OPPOSITE.get(name, name)) for name in names]]
+    names = [action.name for action in get_sticky_actions(config)]
+    order = [names.index(_OPPOSITE.get(name, name)) for name in names]
+    return state[order] if isinstance(state, np.ndarray) else [state[at] for at in order]
 
 
 def flip_single_action(action: Any, config: Config | dict[str, Any]) -> Any:
@@ -80,3 +94,10 @@ def flip_single_action(action: Any, config: Config | dict[str, Any]) -> Any:
     named = named_action_from_action_set(actions, action)
     turned = _ACTIONS[_OPPOSITE.get(named.name, named.name)]
     return turned if isinstance(held_by(action), CoreAction) else actions.index(turned)
+
+
+def flip_action(action: Any, config: Config | dict[str, Any]) -> Any:
+    """Returns an action turned round, or the list of them for a list or an array of actions."""
+    if isinstance(action, list) or (isinstance(action, np.ndarray) and action.ndim):
+        return [flip_single_action(each, config) for each in action]
+    return flip_single_action(action, config)

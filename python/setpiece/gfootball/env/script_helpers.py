@@ -93,4 +93,6 @@ def _config_of(dump_file: str) -> Config:
     values = dict(debug["config"])
     # Making a config counts one episode, and `reset` another.
     values["episode_number"] -= 2
+    # GRF dumps may come with a video.
+    values["write_video"] = False
     return Config(values)

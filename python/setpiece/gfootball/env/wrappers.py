@@ -236,7 +236,8 @@ class FrameStack(Wrapper):
     def step(self, action: Any) -> Any:
         """Plays 100 ms and returns observation, reward, done and info."""
         observation, reward, done, info = self._stepped(action)
-        self._seen.append(observation)
+        # Before the first `reset` nothing was seen.
+        self._seen.extend([observation] * (1 if self._seen else self._seen.maxlen or 1))
         return self._shown(), reward, done, info
 
     def get_state(self, to_pickle: dict[str, Any] | None = None) -> bytes:
@@ -284,6 +285,8 @@ class MultiAgentToSingleAgent(Wrapper):
 
     def step(self, action: Any) -> Any:
         """Plays 100 ms and returns observation, reward, done and info."""
+        if not self._chosen:  # Before the first `reset`.
+            self._of(self.env.unwrapped.observation())  # type: ignore[attr-defined]
         given = list(action) if hasattr(action, "__len__") and getattr(action, "ndim", 1) != 0 else [action]
         if len(given) != len(self._chosen):
             raise ActionError(f"expected {len(self._chosen)} actions, found {len(given)}")

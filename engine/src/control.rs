@@ -65,7 +65,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     game.play.team_pressure = [false; 2];
     game.play.driven = 0;
     for acting in &mut game.play.acting {
-        acting.before = acting.played.take();
+        acting.played = None;
     }
     let slots = game.agents.len();
     for slot in 0..slots {
@@ -95,13 +95,12 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
         if let Some(id) = agent.player.filter(|id| action != Action::BuiltinAi && game.player(*id).active) {
             let acting = &mut game.play.acting[id.index()];
-            *acting = Acting { played: Some(action), before: acting.before, sticky: agent.sticky, chosen: None };
-            let hurried = hurry(game, id, action);
-            let fresh = agent.before != Some(action) || hurried != action;
-            let held = driver::Held { sticky: agent.sticky, steer: agent.steer };
-            driver::drive(game, events, id, held, hurried, fresh);
+            *acting = Acting { played: Some(action), key: None, sticky: agent.sticky, chosen: None };
+            let held = driver::Held { sticky: agent.sticky, steer: agent.steer, key: agent.key };
+            game.agents[slot].key = driver::drive(game, events, id, held, hurry(game, id, action));
+        } else {
+            game.agents[slot].key = None;
         }
-        game.agents[slot].before = Some(action);
     }
     drive_scripted(game, events);
     let before = Before::of(game);
@@ -121,6 +120,7 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
         let acting = &mut game.play.acting[i];
         let Some(action) = acting.chosen.take().filter(|_| free) else {
             acting.sticky = 0;
+            acting.key = None;
             continue;
         };
         acting.sticky = sticky::next(acting.sticky, action);
@@ -128,17 +128,16 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
         if action != Action::BuiltinAi {
             let held = acting.sticky;
             game.play.driven |= bit;
-            let fresh = game.play.acting[i].before != Some(action);
-            let hurried = hurry(game, id, action);
-            let held = driver::Held { sticky: held, steer: None };
-            driver::drive(game, events, id, held, hurried, fresh || hurried != action);
+            let held = driver::Held { sticky: held, steer: None, key: game.play.acting[i].key };
+            game.play.acting[i].key = driver::drive(game, events, id, held, hurry(game, id, action));
         }
     }
 }
 
-/// A set piece that an agent doesn't take is taken for it.
+/// A set piece that an agent doesn't take is taken for it: a short pass is pressed, once.
 fn hurry(game: &Match, id: PlayerId, action: Action) -> Action {
     let late =
         game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id && set_piece.waited_steps >= STALLING_STEPS);
-    if late && game.rule(Rule::AntiStalling) { Action::ShortPass } else { action }
+    let asked = game.player(id).body.kick.is_some();
+    if late && !asked && game.rule(Rule::AntiStalling) { Action::ShortPass } else { action }
 }

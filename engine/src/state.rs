@@ -4,7 +4,7 @@ mod squad;
 
 pub use squad::{Ids, Squad};
 
-use crate::football::body::Body;
+use crate::football::body::{Body, KickKind};
 use crate::football::play::Play;
 use crate::in_place::clone_in_place;
 use crate::random::Stream;
@@ -13,7 +13,7 @@ use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
-use setpiece_scenario::vocabulary::{Action, GameMode, Role, Rule, Team};
+use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// A player: `team * 11 + index`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -191,8 +191,8 @@ pub struct AgentSlot {
     pub sticky: u16,
     /// A direction of any angle and pace, held in place of one of the eight.
     pub steer: Option<Steer>,
-    /// The action of the step before: a key that stays down is pressed once.
-    pub before: Option<Action>,
+    /// The kick that the key asks for which has been down since it was asked for: a key that stays down asks once.
+    pub key: Option<KickKind>,
 }
 
 /// How an agent with continuous actions runs and kicks.
@@ -249,7 +249,7 @@ impl Match {
                     player: agent.fixed,
                     fixed: agent.fixed.is_some(),
                     sticky: 0,
-                    steer: None, before: None,
+                    steer: None, key: None,
                 })
                 .collect(),
             play_random: noise::stream(drawn, Purpose::Play),

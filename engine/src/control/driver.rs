@@ -22,6 +22,8 @@ pub struct Held {
     pub sticky: u16,
     /// A steered direction in the place of a held one.
     pub steer: Option<Steer>,
+    /// The kick whose key has been down since it was asked for.
+    pub key: Option<KickKind>,
 }
 
 impl Held {
@@ -43,22 +45,26 @@ impl Held {
     }
 }
 
-/// Sets the intent and the planned kick of an agent's player. `fresh`: the action was not pressed in the step before.
-pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action, fresh: bool) {
+/// Sets the intent and the planned kick of an agent's player; returns the kick whose key is down and has been heard.
+pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action) -> Option<KickKind> {
     let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
     let power = held.steer.map_or(0.0, |steer| steer.power);
-    match (kick_of(action), action) {
-        (Some(kind), _) => press(game, id, kind, direction, power, fresh),
-        (None, Action::Sliding) if may_slide(game, id) => slide::begin(game, events, id, direction),
-        _ => {}
+    let kind = kick_of(action);
+    let key = match kind {
+        Some(kind) if held.key == Some(kind) => held.key,
+        Some(kind) => press(game, id, kind, direction, power).then_some(kind),
+        None => None,
+    };
+    if action == Action::Sliding && may_slide(game, id) {
+        slide::begin(game, events, id, direction);
     }
     let player = *game.player(id);
     let chases = sticky::presses(held.sticky) && !may_play(game, id);
     let fetch = has_ball || player.body.kick.is_some() || assist::ball_is_his(game, id);
     let body = &mut game.players[id.index()].body;
     if let Some(plan) = &mut body.kick {
-        plan.held = kick_of(action) == Some(plan.kind);
+        plan.held = kind == Some(plan.kind);
         plan.dir = direction;
     }
     let waits = body.kick.is_some() && game.play.set_piece.is_none();
@@ -74,6 +80,7 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     } else {
         Intent::Run(wish)
     };
+    key
 }
 
 /// The kick that an action asks for.
@@ -96,26 +103,25 @@ fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
     ahead * (speed * BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5)))
 }
 
-/// The key of a kick is down: it is asked for, or its gauge goes on filling.
+/// The key of a kick goes down: whether that asks for the kick, or changes one that is asked for.
 ///
 /// A short pass ends a shot or lofted pass that is asked for; any other key changes nothing of it. (GRF's.) A steered pass
 /// of some power goes to a point, so far along its direction; any other finds a mate.
-fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, power: f32, fresh: bool) {
-    let cancels = |plan: KickPlan| {
-        kind == KickKind::Short && matches!(plan.kind, KickKind::Shot | KickKind::High) && plan.swing.is_none()
-    };
+fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, power: f32) -> bool {
     if let Some(plan) = game.player(id).body.kick {
-        if cancels(plan) && game.play.set_piece.is_none() {
+        let ends = kind == KickKind::Short && matches!(plan.kind, KickKind::Shot | KickKind::High);
+        if ends && plan.swing.is_none() && game.play.set_piece.is_none() {
             game.players[id.index()].body.kick = None;
         }
-        return;
+        return true;
     }
-    if !fresh || !may_arm(game, id, kind) {
-        return;
+    if !may_arm(game, id, kind) {
+        return false;
     }
     let from = game.player(id).pos;
     let point = dir.filter(|_| power > 0.0 && kind != KickKind::Shot).map(|dir| from + dir * (power * reach_m(kind)));
     game.players[id.index()].body.kick = Some(KickPlan { dir, point, power, ..kick::pressed(kind, game.tick) });
+    true
 }
 
 /// How far a steered pass of full power goes, metres; chosen.

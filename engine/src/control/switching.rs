@@ -1,7 +1,8 @@
 //! Which player an agent's slot controls.
 //!
 //! Fixed slots keep their player for ever. The others follow the ball: to the mate who will be there much sooner, to
-//! whoever has it, to the receiver of a pass, to the taker of a set piece; never to the keeper if there is another.
+//! whoever has it, to the receiver of a pass, to the taker of a set piece; to the keeper for goal kicks alone, if there is
+//! anybody else.
 
 use crate::football::touch;
 use crate::state::{Match, PlayerId};
@@ -61,7 +62,8 @@ pub fn update(game: &mut Match) {
 /// Gives a player to a slot of his team that may switch, if he may be controlled and isn't yet.
 pub fn hand_to(game: &mut Match, id: PlayerId) {
     let team = id.team();
-    let keeper = game.player(id).role == Role::GK;
+    let takes = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
+    let keeper = game.player(id).role == Role::GK && !takes;
     if keeper || !free(game, id) {
         return;
     }

@@ -1,7 +1,7 @@
 //! What the game keeps of a match beside what everyone may see.
 
 use crate::football::advantage::Advantage;
-use crate::football::body::NEVER;
+use crate::football::body::{KickKind, NEVER};
 use crate::football::forecast::Forecast;
 use crate::state::PlayerId;
 use glam::Vec2;
@@ -75,8 +75,8 @@ pub struct Acting {
     pub chosen: Option<Action>,
     /// What he played in the last step: his agent's action, else his behaviour's, else what is told of the bot.
     pub played: Option<Action>,
-    /// What he played in the step before that.
-    pub before: Option<Action>,
+    /// As [`AgentSlot::key`](crate::state::AgentSlot::key), for who is scripted.
+    pub key: Option<KickKind>,
     /// What he holds by that, as [`AgentSlot::sticky`](crate::state::AgentSlot::sticky).
     pub sticky: u16,
 }
@@ -163,7 +163,7 @@ impl Play {
             rush: [false; 2],
             team_pressure: [false; 2],
             driven: 0,
-            acting: [Acting { chosen: None, played: None, before: None, sticky: 0 }; PLAYERS_MAX],
+            acting: [Acting { chosen: None, played: None, key: None, sticky: 0 }; PLAYERS_MAX],
             next_slot: [0; 2],
             save: [None; 2],
         }

@@ -17,7 +17,7 @@ fn game() -> Match {
     let mut game = Match::blank(&drawn);
     game.agents.clear();
     for (team, player) in [(Team::Left, 1), (Team::Right, 11)] {
-        game.agents.push(AgentSlot { team, player: Some(PlayerId(player)), fixed: true, sticky: 0, steer: None, before: None });
+        game.agents.push(AgentSlot { team, player: Some(PlayerId(player)), fixed: true, sticky: 0, steer: None, key: None });
     }
     game.players[1].vel = Vec2::new(5.44, -8.36);
     game.ball.pos = Vec3::new(27.2, -8.36, 0.5);

@@ -70,7 +70,6 @@ pub(super) fn measure(section: &mut Section, count: Option<u64>) -> Result<(), F
         for seed in 0..seeds {
             trial.again(seed)?;
             run_up(&mut trial, &row.run)?;
-            if std::env::var("DBG").is_ok() && row.kick=="short" && row.after=="R" { let me=trial.me()?; println!("{} seed {seed} pos {:?} vel {:?} face {:?} ball {:?}", row.run, me.pos, me.vel, me.body.facing, trial.state().ball.pos); }
             kicks.extend(play(&mut trial, kick, &row.after)?);
         }
         let share = kicks.len() as f64 / seeds as f64;

@@ -79,7 +79,6 @@ pub(super) fn measure(section: &mut Section, count: Option<u64>) -> Result<(), F
         ];
         if let (Some(leaves), Some(angle), Some(speed)) = (row.leaves, row.angle, row.speed) {
             let of = |i: usize| shots.iter().filter_map(|s| s.struck).map(|s| s[i]).collect::<Vec<_>>();
-            if std::env::var("DBG").is_ok() { println!("{} {} {} {} {} sd theirs {:?} ours {:.2}", row.x,row.y,row.keeper,row.held,row.presses,row.angle_sd, crate::pitch::deviation(&of(1))); }
             parts.push(Part::around(leaves, PHASE_STEPS, mean(&of(0))));
             parts.push(Part::around(angle, 3.0 + row.angle_sd.unwrap_or_default(), mean(&of(1))));
             parts.push(Part::around(speed, 0.08 * speed, mean(&of(2))));

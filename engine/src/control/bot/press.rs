@@ -18,7 +18,7 @@ const BEHIND: f32 = -0.2;
 const HELP_M: f32 = 18.0;
 /// How far ahead a carrier is expected, seconds. (GRF's.)
 const AHEAD_S: f32 = 0.5;
-/// From how far a carrier could shoot: nearer to the goal a lone defender goes for the ball, metres. (GRF's.)
+/// From how far a carrier could shoot: nearer to the goal a defender stands in their feet, metres. (GRF's.)
 const SHOOT_M: f32 = 24.0;
 /// How far before a carrier a lone defender goes back: a share of what the carrier has left, and its limits, metres.
 /// Fitted to where the measured one stands and is met.
@@ -65,20 +65,18 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     let gap = player.pos.distance(carrier.pos);
     let told = game.play.team_pressure[view.team.index()];
     let goalside = own.x < view.ball.x + 0.5;
-    // Who is about as soon at the ball as the carrier goes for it; who stands in the way goes back with the carrier; the
-    // others hunt where it is near enough.
+    // With mates about, whoever is about as soon at the ball as the carrier fights for it, and for one that stands still.
+    // Else who stands in the way goes back with the carrier, and who is behind hunts where it is near enough.
+    let alone = alone(game, id, carrier.pos);
     let fights = (carrier.body.meet_s + 0.2) / (player.body.meet_s + 0.2) > FIGHTS;
-    // Somebody goes for a carrier who stands, unless there is nobody to help.
-    let waits = stands(&carrier) && !alone(game, id, carrier.pos);
-    if !told && !fights && !waits {
-        if goalside {
-            contain(game, view, id, &carrier);
-            return;
-        }
-        if gap > hunt_m(&player) {
-            cover(game, view, id);
-            return;
-        }
+    let goes = told || !alone && (fights || stands(&carrier));
+    if !goes && goalside {
+        contain(game, view, id, &carrier);
+        return;
+    }
+    if !goes && gap > hunt_m(&player) {
+        cover(game, view, id);
+        return;
     }
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
@@ -106,21 +104,12 @@ fn alone(game: &Match, id: PlayerId, carrier: Vec2) -> bool {
     !game.team(id.team()).any(|(mate, player)| helps(mate, player))
 }
 
-/// Goes back before a carrier, on their way to the goal, the nearer the closer they come to where they could shoot from;
-/// there the defender goes for the ball. (GRF's.)
+/// Goes back before a carrier, on their way to the goal, the nearer the closer they come to where they could shoot from:
+/// there the carrier runs into the defender. (GRF's.)
 fn contain(game: &mut Match, view: &View, id: PlayerId, carrier: &Player) {
     let place = (carrier.pos + carrier.vel * AHEAD_S) * view.side;
     let way = -GOAL - place;
     let left_m = way.length() - SHOOT_M;
-    let own = game.player(id).pos * view.side;
-    // Whoever is beaten runs for the goal, not for the ball.
-    let goalside = (own - place).dot(way) > 0.0;
-    if left_m <= 0.0 && goalside {
-        let body = &mut game.players[id.index()].body;
-        body.dribble = Vec2::new(2.0 * view.side, 0.0);
-        body.intent = Intent::Ball(SPRINT_MPS);
-        return;
-    }
     let off_m = (left_m * CONTAIN_SHARE).clamp(CLOSE_M, CONTAIN_M);
     send(game, view, id, place + way.normalize_or_zero() * off_m, SPRINT_MPS);
 }

@@ -33,7 +33,7 @@ class Policy:
     - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the caller sees, stacked as his.
     - `batched`: True: it gets the observations of all its n agents at once, an array with a leading axis n (a tuple of
       n dicts for `"raw"`), and returns n actions. False: it gets one agent's and returns one, agent by agent.
-    - `scale`: whether that `observation` is scaled, as in `setpiece.make`; without one the caller's `scale` counts.
+    - `scale`: whether that `observation` is scaled, as in `setpiece.make`. What the caller sees is scaled as theirs is.
 
     Every agent sees itself attack towards +x. Actions are integers 0..19; 19 hands the step over to the bot.
     """

@@ -14,7 +14,7 @@ static SIMPLE: LazyLock<Vec<f32>> = LazyLock::new(|| layout::simple115v2_sticky(
 /// player has the same.
 static EGOCENTRIC: LazyLock<Vec<f32>> = LazyLock::new(|| layout::egocentric(TEAM_MAX).factors());
 
-/// What stands for a missing player: GRF's -1 would be a constant of up to -83.6.
+/// What stands for a missing player: GRF's -1 would become constants down to -83.6.
 const MISSING: f32 = 0.0;
 
 /// Writes agent `agent`'s observation in the units of [`layout::Layout::scaled`]; `team` is the larger team's size.

@@ -401,8 +401,10 @@ impl Environment {
         match floats {
             Floats::Simple115 => layout::simple115(),
             Floats::Simple115v2 => layout::simple115v2(),
+            Floats::Simple115v2Sticky => layout::simple115v2_sticky(),
             Floats::Egocentric => layout::egocentric(self.larger_team()),
             Floats::Vector => layout::declared(&self.observed_names()),
+            Floats::Scaled(scaled) => self.layout(scaled.plain()).scaled(),
         }
     }
 
@@ -414,8 +416,10 @@ impl Environment {
         match floats {
             Floats::Simple115 => observe::simple115(&self.game, agent, out),
             Floats::Simple115v2 => observe::simple115v2(&self.game, agent, out),
+            Floats::Simple115v2Sticky => observe::simple115v2_sticky(&self.game, agent, out),
             Floats::Egocentric => observe::egocentric(&self.game, agent, self.larger_team(), out),
             Floats::Vector => self.observe_vector(agent, out),
+            Floats::Scaled(scaled) => observe::scaled(&self.game, agent, scaled, self.larger_team(), out),
         }
     }
 

@@ -10,13 +10,15 @@ mod frame;
 pub mod layout;
 mod mask;
 mod raw;
+mod scaled;
 mod simple115;
 mod smm;
 
 pub use egocentric::{egocentric, size as egocentric_size};
 pub use mask::action_mask;
 pub use raw::{Raw, RawTeam, raw, raw_of};
-pub use simple115::{simple115, simple115v2};
+pub use scaled::scaled;
+pub use simple115::{simple115, simple115v2, simple115v2_sticky};
 pub use smm::{SMM_HEIGHT, SMM_WIDTH, smm, smm_size};
 
 use crate::state::{AgentSlot, Match};
@@ -28,10 +30,51 @@ pub enum Floats {
     Simple115,
     /// GRF's second one.
     Simple115v2,
+    /// GRF's second one, and the held keys.
+    Simple115v2Sticky,
     /// What a player sees from where he is.
     Egocentric,
     /// The scenario's own: `observe vector { … }`.
     Vector,
+    /// One of those above in other units: see [`Floats::scaled`].
+    Scaled(Scaled),
+}
+
+/// An observation that has a scaled form: lengths in 50 m, heights in 10 m, velocities in 10 m/s, 0 for missing
+/// players. Flags and shares stay 0..1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scaled {
+    /// [`Floats::Simple115v2`].
+    Simple115v2,
+    /// [`Floats::Simple115v2Sticky`].
+    Simple115v2Sticky,
+    /// [`Floats::Egocentric`].
+    Egocentric,
+}
+
+impl Floats {
+    /// The scaled form; `None` for `Simple115`, whose columns depend on the teams, and `Vector`, whose units are the
+    /// scenario's.
+    pub fn scaled(self) -> Option<Floats> {
+        Some(Floats::Scaled(match self {
+            Floats::Simple115v2 => Scaled::Simple115v2,
+            Floats::Simple115v2Sticky => Scaled::Simple115v2Sticky,
+            Floats::Egocentric => Scaled::Egocentric,
+            Floats::Scaled(scaled) => scaled,
+            Floats::Simple115 | Floats::Vector => return None,
+        }))
+    }
+}
+
+impl Scaled {
+    /// The observation that it scales.
+    pub fn plain(self) -> Floats {
+        match self {
+            Scaled::Simple115v2 => Floats::Simple115v2,
+            Scaled::Simple115v2Sticky => Floats::Simple115v2Sticky,
+            Scaled::Egocentric => Floats::Egocentric,
+        }
+    }
 }
 
 /// Why nothing was written.

@@ -249,7 +249,8 @@ impl Match {
                     player: agent.fixed,
                     fixed: agent.fixed.is_some(),
                     sticky: 0,
-                    steer: None, key: None,
+                    steer: None,
+                    key: None,
                 })
                 .collect(),
             play_random: noise::stream(drawn, Purpose::Play),

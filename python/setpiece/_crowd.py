@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from setpiece._actions import array_of, integers
 from setpiece._errors import ActionError
-from setpiece._opponents import Table, ask
+from setpiece._opponents import Look, Table, ask
 from setpiece._vocabulary import Action
 
 
@@ -23,7 +23,9 @@ class Crowd:
     def __init__(self, table: Table, num_envs: int) -> None:
         self._table, self._num_envs = table, num_envs
 
-    def actions(self, given: Any, observations: NDArray[Any], look: Callable[[str], list[Any]]) -> NDArray[np.int64]:
+    def actions(
+        self, given: Any, observations: NDArray[Any], look: Callable[[str, bool], list[Any]]
+    ) -> NDArray[np.int64]:
         """Returns everyone's actions, int64 `(num_envs, agents)`: the caller's, and what the opponents say.
 
         `observations` has a row for every match and agent; `look` observes each match in another observation. Raises
@@ -32,11 +34,11 @@ class Crowd:
         table = self._table
         actions = np.full((self._num_envs, table.n_agents), int(Action.BUILTIN_AI), np.int64)
         actions[:, table.mine] = self._read(given)
-        looks: dict[str | None, Any] = {None: observations}
+        looks: dict[Look | None, Any] = {None: observations}
         for seat in table.seats:
-            kind = seat.policy.observation
+            kind = seat.look
             if kind is not None and kind not in looks:
-                looks[kind] = look(kind)
+                looks[kind] = look(*kind)
             acts = ask(seat, _rows(looks[kind], seat.at), self._num_envs * len(seat.at))
             actions[:, seat.at] = np.reshape(acts, (self._num_envs, len(seat.at)))
         return actions

@@ -39,6 +39,7 @@ from setpiece._spaces import (
     Layout,
     check_action_set,
     check_observation,
+    check_scale,
     check_size,
     check_stack,
     observation_layout,
@@ -110,6 +111,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         bot_action: bool = False,
         stack: int = 1,
         size: tuple[int, int] = (96, 72),
+        scale: bool = False,
         switching: Literal["auto", "fixed"] | None = None,
         record: str | PathLike[str] | None = None,
         record_when: When = "always",
@@ -134,6 +136,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             "bot_action": check_flag("bot_action", bot_action),
             "stack": check_stack(stack, self._observation),
             "size": check_size(size),
+            "scale": check_scale(scale, self._observation),
             "left": left,
             "right": right,
             "switching": switching,
@@ -307,10 +310,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         action_set: str = self._options["action_set"]
         return action_set
 
-    def look(self, observation: str) -> Any:
+    def look(self, observation: str, scale: bool = False) -> Any:
         """Returns what all of `slots` see now in an observation of any kind, whatever the environment's own.
 
-        Looking changes nothing. Raises `ResetNeeded` before the first episode.
+        `scale` is that of `setpiece.make`. Looking changes nothing. Raises `ResetNeeded` before the first episode.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
@@ -320,8 +323,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """
         if self._native.episode is None:
             raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
+        kind = check_observation(observation)
+        scale = check_scale(scale, kind)
         with one_thread:
-            return self._native.look(check_observation(observation))
+            return self._native.look(kind, scale)
 
     def clone(self) -> FootballEnv:
         """Returns an independent environment in the same state, with the same opponents; it doesn't watch or record.

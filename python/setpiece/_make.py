@@ -38,6 +38,7 @@ def make(
     bot_action: bool = False,
     stack: int = 1,
     size: tuple[int, int] = (96, 72),
+    scale: bool = False,
     switching: Literal["auto", "fixed"] | None = None,
     record: str | PathLike[str] | None = None,
     record_when: When = "always",
@@ -60,13 +61,19 @@ def make(
       - the path of an `.onnx` file: see `setpiece.onnx_policy`.
 
       Everyone sees himself attack towards +x. An opponent that fails raises `OpponentError`.
-    - `observation`: `"simple115v2"` or its forerunner `"simple115"` (float32 `(115,)`), `"smm"` (GRF's `extracted`;
-      uint8 `(72, 96, 4)`), `"raw"` (a dict), `"egocentric"` (float32 `(n,)`: what the player sees from where he is, for
-      any number of players) or `"vector"` (float32 `(n,)`: what the scenario's `observe vector` declares).
-      `env.observation_layout` tells what stands where.
+    - `observation`: what an agent sees; `env.observation_layout` tells what stands where.
+      - `"simple115v2"` or its forerunner `"simple115"`: float32 `(115,)`;
+      - `"simple115v2+sticky"`: float32 `(125,)`, `simple115v2` and the held keys, which masks depend on;
+      - `"egocentric"`: float32 `(n,)`, what the player sees from where they are, for any number of players;
+      - `"vector"`: float32 `(n,)`, what the scenario's `observe vector` declares;
+      - `"smm"` (GRF's `extracted`): uint8 `(72, 96, 4)`;
+      - `"raw"`: a dict.
     - `stack`: how many observations are shown at once, on the last axis, the oldest first; the first one of an episode,
       or after `restore`, is shown so many times.
     - `size`: width and height of `"smm"`.
+    - `scale`: whether the numbers of `"simple115v2"`, `"simple115v2+sticky"` and `"egocentric"` are in units that suit
+      learning: lengths in 50 m, heights in 10 m, velocities in 10 m/s; missing players are 0. Flags and shares stay
+      0..1. Raises `ParameterError` with other observations.
     - `switching`: whether the agents of a count change players (`"auto"`) or keep them (`"fixed"`); None: as the
       scenario says.
     - `rewards`: names that replace the scenario's own choice: `"scoring,checkpoints"` or a list; functions in the list
@@ -125,6 +132,7 @@ def make(
         "bot_action": bot_action,
         "stack": stack,
         "size": size,
+        "scale": scale,
         "switching": switching,
         "record": record,
         "record_when": record_when,

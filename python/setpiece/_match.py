@@ -74,6 +74,6 @@ def match_of(scenario: Scenario, opponents: Mapping[str, Opponent] | None, optio
         table = Table(agents, opponents, _native.ACTION_SETS[action_set])
         agents = [agents[at] for at in table.mine]
         for kind in table.observations:
-            native.look(kind)
+            native.look(*kind)
     spaces_of = observation_space(native, observation, agents), action_space(len(agents), action_set)
     return Match(scenario, scenario.digest, native, table, agents, *spaces_of)

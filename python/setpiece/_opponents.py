@@ -14,8 +14,9 @@ from setpiece._actions import integers
 from setpiece._errors import ActionError, OpponentError, ParameterError
 from setpiece._native import ACTION_SETS, AgentInfo
 from setpiece._onnx import onnx_policy
+from setpiece._options import check_flag
 from setpiece._rows import Picker, pick_info
-from setpiece._spaces import check_observation
+from setpiece._spaces import check_observation, check_scale
 from setpiece._vocabulary import Action
 from setpiece._words import similar
 
@@ -32,6 +33,7 @@ class Policy:
     - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the caller sees, stacked as his.
     - `batched`: True: it gets the observations of all its n agents at once, an array with a leading axis n (a tuple of
       n dicts for `"raw"`), and returns n actions. False: it gets one agent's and returns one, agent by agent.
+    - `scale`: whether that `observation` is scaled, as in `setpiece.make`. What the caller sees is scaled as theirs is.
 
     Every agent sees itself attack towards +x. Actions are integers 0..19; 19 hands the step over to the bot.
     """
@@ -39,7 +41,11 @@ class Policy:
     play: Callable[[Any], Any] | str | PathLike[str] | Any
     observation: str | None = None
     batched: bool = True
+    scale: bool = False
 
+
+Look = tuple[str, bool]
+"""The name of an observation, and whether it is scaled."""
 
 Opponent = Policy | Callable[[Any], Any] | str | PathLike[str] | Any
 """Who plays agents instead of the caller; the forms are told in `setpiece.make`."""
@@ -64,6 +70,12 @@ class Seat:
     policy: Policy
     play: Callable[[Any], Any]
     side: Literal["left", "right"] | None
+
+    @property
+    def look(self) -> Look | None:
+        """What the opponent asks to see; None: what everyone is shown."""
+        policy = self.policy
+        return None if policy.observation is None else (policy.observation, policy.scale)
 
 
 class Table:
@@ -98,9 +110,9 @@ class Table:
         self.seen = None
 
     @property
-    def observations(self) -> set[str]:
+    def observations(self) -> set[Look]:
         """What opponents see who ask for something."""
-        return {seat.policy.observation for seat in self.seats if seat.policy.observation}
+        return {seat.look for seat in self.seats if seat.look is not None}
 
     def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
         """Returns the caller's part of what all agents see, and keeps the rest for the opponents."""
@@ -120,7 +132,7 @@ class Table:
         """Returns the caller's part of everyone's masks."""
         return self._pick(mask)[..., : self.n_actions]
 
-    def actions(self, action: Any, look: Callable[[str], Any]) -> list[int]:
+    def actions(self, action: Any, look: Callable[[str, bool], Any]) -> list[int]:
         """Returns everyone's action: the caller's, and what the opponents say to the last thing shown.
 
         `look` observes the match in another observation. Raises `ActionError` for the caller's action, `OpponentError`
@@ -129,11 +141,11 @@ class Table:
         all_actions = [int(Action.BUILTIN_AI)] * self.n_agents
         for at, one in zip(self.mine, self._read_actions(action), strict=True):
             all_actions[at] = one
-        looks: dict[str | None, Any] = {None: self.seen}
+        looks: dict[Look | None, Any] = {None: self.seen}
         for seat in self.seats:
-            kind = seat.policy.observation
+            kind = seat.look
             if kind is not None and kind not in looks:
-                looks[kind] = look(kind)
+                looks[kind] = look(*kind)
             for at, one in zip(seat.at, ask(seat, seat.pick(looks[kind]), len(seat.at)), strict=True):
                 all_actions[at] = one
         return all_actions
@@ -243,7 +255,14 @@ def no_agent(who: str, ids: Sequence[str]) -> ParameterError:
 def _policy(who: str, opponent: Opponent) -> Policy:
     if isinstance(opponent, Policy):
         if opponent.observation is not None:
-            return replace(opponent, observation=check_observation(opponent.observation))
+            kind = check_observation(opponent.observation)
+            return replace(opponent, observation=kind, scale=check_scale(opponent.scale, kind))
+        if check_flag("scale", opponent.scale):
+            raise ParameterError(
+                f"`opponents[{who!r}]` scales no observation of its own",
+                name="scale",
+                help='name one: `Policy(…, "simple115v2", scale=True)`',
+            )
         return opponent
     if is_onnx(opponent) or callable(getattr(opponent, "predict", None)):
         return Policy(opponent)

@@ -38,6 +38,7 @@ def parallel_env(
     bot_action: bool = False,
     stack: int = 1,
     size: tuple[int, int] = (96, 72),
+    scale: bool = False,
     max_cycles: int | None = None,
     record: str | PathLike[str] | None = None,
     record_when: When = "always",
@@ -94,6 +95,7 @@ def parallel_env(
         bot_action=bot_action,
         stack=stack,
         size=size,
+        scale=scale,
     )
     return ParallelFootballEnv(env, max_cycles, read_record(record, record_when))
 

@@ -11,12 +11,21 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._errors import ParameterError, UnavailableError
+from setpiece._options import check_flag
 from setpiece._words import check_word
 
 COUNT_MAX = 2**32 - 1
 """Greatest count of goals or steps: the engine counts in 32 bits."""
 
-OBSERVATIONS = ("simple115v2", "simple115", "egocentric", "smm", "raw", "vector")
+OBSERVATIONS = ("simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "raw", "vector")
+
+UNSCALED = {
+    "simple115": "what its columns hold depends on how many players there are",
+    "smm": "its pixels are bytes",
+    "raw": "raw observations are dicts",
+    "vector": "its units are those that the scenario declares",
+}
+"""Observations that can't be scaled, and why."""
 
 ALIASES = {"extracted": "smm"}
 """GRF's names of observations that have another here."""
@@ -98,6 +107,17 @@ def check_size(size: object) -> tuple[int, int]:
     ):
         return int(size[0]), int(size[1])
     raise ParameterError(f"`size` is {size!r}; it can be (width, height), each in 1..{SIZE_MAX}", name="size")
+
+
+def check_scale(scale: object, observation: str) -> bool:
+    """Returns whether an observation is scaled, or raises `ParameterError`."""
+    scale = check_flag("scale", scale)
+    if scale and observation in UNSCALED:
+        scalable = "`, `".join(name for name in OBSERVATIONS if name not in UNSCALED)
+        raise ParameterError(
+            f"`{observation}` can't be scaled: {UNSCALED[observation]}", name="scale", help=f"`{scalable}` can"
+        )
+    return scale
 
 
 def one_action_space(action_set: str) -> spaces.Discrete | spaces.Box:

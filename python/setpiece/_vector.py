@@ -32,6 +32,7 @@ from setpiece._spaces import (
     action_space,
     check_action_set,
     check_observation,
+    check_scale,
     check_size,
     check_stack,
     observation_layout,
@@ -87,6 +88,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         action_set: str = "default",
         stack: int = 1,
         size: tuple[int, int] = (96, 72),
+        scale: bool = False,
         left: Seats = None,
         right: Seats = None,
         opponents: Mapping[str, Opponent] | None = None,
@@ -126,6 +128,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             next_step=self.autoreset_mode == AutoresetMode.NEXT_STEP,
             stack=self._stack,
             size=check_size(size),
+            scale=check_scale(scale, self._observation),
             left=left,
             right=right,
             switching=switching,
@@ -137,7 +140,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             table = Table(agents, played, self._n_actions)
             self._crowd, mine = Crowd(table, self.num_envs), table.mine
             for kind in table.observations:
-                self._batch.look(kind)
+                self._batch.look(*kind)
             if not mine:
                 raise ParameterError("the opponents leave the caller no agent", name="opponents")
         # One agent of the caller's has no axis of its own; a run of them needs no copy.
@@ -247,10 +250,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             raise ActionError(f"expected actions of shape {self.action_space.shape}, found `{given!r}`")
         return actions
 
-    def _look(self, observation: str) -> list[Any]:
+    def _look(self, observation: str, scale: bool) -> list[Any]:
         """Observes each match in another observation."""
         with one_thread:
-            return self._batch.look(observation)
+            return self._batch.look(observation, scale)
 
     def _begin_again(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> dict[str, Any]:
         """Begins the next episode of those that have ended, and puts the end of the last into `final_obs`."""
@@ -342,6 +345,7 @@ def make_vec(
     action_set: str = "default",
     stack: int = 1,
     size: tuple[int, int] = (96, 72),
+    scale: bool = False,
     left: Seats = None,
     right: Seats = None,
     opponents: Mapping[str, Opponent] | None = None,
@@ -380,6 +384,7 @@ def make_vec(
         "action_set": action_set,
         "stack": stack,
         "size": size,
+        "scale": scale,
         "left": left,
         "right": right,
         "opponents": opponents,

@@ -4,10 +4,10 @@
 //! few threads, without the interpreter.
 
 use crate::actions::{self, Act, ActionSet};
-use crate::environment::{AgentInfo, SMM_SIZE, agents_of, from_episode, observable, players_of, prepare};
+use crate::environment::{AgentInfo, SMM_SIZE, agents_of, from_episode, players_of, prepare};
 use crate::errors;
 use crate::info::{records, write_mask};
-use crate::observation::{self, Kind, Observer, Stack, write_floats, write_map};
+use crate::observation::{self, Kind, Observer, Stack, Wanted, write_floats, write_map};
 use crate::params::bind;
 use crate::scenario::Scenario;
 use crate::seats::Seats;
@@ -93,7 +93,7 @@ impl Batch {
     #[new]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments of one call in Python")]
     #[pyo3(signature = (scenario, n, threads, *, observation, rewards, action_set, next_step,
-        stack, size, left, right, switching))]
+        stack, size, scale, left, right, switching))]
     fn new(
         py: Python<'_>,
         scenario: &Scenario,
@@ -105,12 +105,13 @@ impl Batch {
         next_step: bool,
         stack: usize,
         size: (usize, usize),
+        scale: bool,
         left: Option<&Bound<'_, PyAny>>,
         right: Option<&Bound<'_, PyAny>>,
         switching: Option<&str>,
     ) -> PyResult<Batch> {
-        let seats = Seats { left, right, switching };
-        let (engine, kind, action_set) = prepare(py, scenario, rewards, (observation, size), action_set, &seats)?;
+        let (wanted, seats) = (Wanted { name: observation, size, scale }, Seats { left, right, switching });
+        let (engine, kind, action_set) = prepare(py, scenario, rewards, wanted, action_set, &seats)?;
         if kind == Kind::Raw {
             let message = "raw observations are dicts, which a vector environment doesn't stack";
             return Err(errors::parameter(py, "observation", message));
@@ -271,10 +272,12 @@ impl Batch {
     }
 
     /// What all agents of each environment see now in an observation of any kind; looking changes nothing.
-    fn look<'py>(&mut self, py: Python<'py>, observation: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    #[pyo3(signature = (observation, scale = false))]
+    fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let wanted = Wanted { name: observation, size: SMM_SIZE, scale };
         let held = self.action_set.held();
         let look = |lane: &mut Lane| {
-            let kind = observable(py, &lane.engine, observation, SMM_SIZE)?;
+            let kind = wanted.of(py, &lane.engine)?;
             Observer::new(py, kind, &lane.engine, (1, true), held).observe(py, &mut lane.engine, true)
         };
         self.lanes.lanes_mut().iter_mut().map(look).collect()

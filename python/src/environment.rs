@@ -3,7 +3,7 @@
 use crate::actions::{self, Act, ActionSet};
 use crate::errors;
 use crate::info::{InfoOptions, InfoWriter};
-use crate::observation::{self, Kind, Observer};
+use crate::observation::{self, Kind, Observer, Wanted};
 use crate::params::{bind, to_python};
 use crate::replay::Replay;
 use crate::scenario::Scenario;
@@ -16,7 +16,7 @@ use setpiece::Error;
 use setpiece::engine::batch::EpisodeError;
 use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, ResetError, Scratch};
 use setpiece::engine::judge::Outcome;
-use setpiece::engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH};
+use setpiece::engine::observe::{SMM_HEIGHT, SMM_WIDTH};
 use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
 use setpiece::replay::{Recorder, Replay as Recording};
@@ -58,9 +58,13 @@ pub(crate) struct Environment {
 #[pymethods]
 impl Environment {
     #[new]
-    #[allow(clippy::too_many_arguments, reason = "keyword arguments of one call in Python")]
+    #[allow(
+        clippy::too_many_arguments,
+        clippy::fn_params_excessive_bools,
+        reason = "keyword arguments of one call in Python"
+    )]
     #[pyo3(signature = (scenario, *, observation, rewards, events, copy, action_set, bot_action,
-        stack, size, left, right, switching))]
+        stack, size, scale, left, right, switching))]
     fn new(
         py: Python<'_>,
         scenario: &Scenario,
@@ -72,12 +76,13 @@ impl Environment {
         bot_action: bool,
         stack: usize,
         size: (usize, usize),
+        scale: bool,
         left: Option<&Bound<'_, PyAny>>,
         right: Option<&Bound<'_, PyAny>>,
         switching: Option<&str>,
     ) -> PyResult<Environment> {
-        let (engine, kind, action_set) =
-            prepare(py, scenario, rewards, (observation, size), action_set, &Seats { left, right, switching })?;
+        let (wanted, seats) = (Wanted { name: observation, size, scale }, Seats { left, right, switching });
+        let (engine, kind, action_set) = prepare(py, scenario, rewards, wanted, action_set, &seats)?;
         let info = InfoOptions { actions: action_set, events, bot_action };
         Ok(Environment::around(py, engine, (kind, stack, copy), info))
     }
@@ -120,8 +125,9 @@ impl Environment {
     }
 
     /// What all agents see now in an observation of any kind; looking changes nothing.
-    fn look<'py>(&mut self, py: Python<'py>, observation: &str) -> PyResult<Bound<'py, PyAny>> {
-        let kind = observable(py, &self.engine, observation, SMM_SIZE)?;
+    #[pyo3(signature = (observation, scale = false))]
+    fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Bound<'py, PyAny>> {
+        let kind = Wanted { name: observation, size: SMM_SIZE, scale }.of(py, &self.engine)?;
         let mut observer = Observer::new(py, kind, &self.engine, (1, true), self.action_set.held());
         observer.observe(py, &mut self.engine, true)
     }
@@ -387,28 +393,16 @@ pub(crate) fn prepare(
     py: Python<'_>,
     scenario: &Scenario,
     rewards: Option<Vec<String>>,
-    (observation, size): (&str, (usize, usize)),
+    wanted: Wanted<'_>,
     action_set: &str,
     seats: &Seats<'_, '_>,
 ) -> PyResult<(Engine, Kind, ActionSet)> {
     let options = EnvironmentOptions { rewards, agents: read_seats(py, seats)?, ..EnvironmentOptions::default() };
     let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
-    let kind = observable(py, &engine, observation, size)?;
+    let kind = wanted.of(py, &engine)?;
     let action_set = ActionSet::from_name(action_set)
         .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{action_set}`")))?;
     Ok((engine, kind, action_set))
-}
-
-/// The observation of a name, if the scenario has it.
-pub(crate) fn observable(py: Python<'_>, engine: &Engine, observation: &str, size: (usize, usize)) -> PyResult<Kind> {
-    let kind = Kind::from_name(observation, size)
-        .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{observation}`")))?;
-    if kind == Kind::Floats(Floats::Vector) && engine.observed_names().is_empty() {
-        let name = &engine.scenario().name;
-        let message = format!("`{name}` declares no observation: it has no `observe vector {{ … }}`");
-        return Err(errors::parameter(py, "observation", &message));
-    }
-    Ok(kind)
 }
 
 pub(crate) fn from_snapshot(py: Python<'_>, why: SnapshotError) -> PyErr {

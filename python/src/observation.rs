@@ -30,16 +30,23 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// The kind of a name in `setpiece.make`; `size` is a map's width and height.
-    pub(crate) fn from_name(name: &str, (width, height): (usize, usize)) -> Option<Kind> {
+    fn from_name(name: &str, (width, height): (usize, usize)) -> Option<Kind> {
         Some(match name {
             "simple115" => Kind::Floats(Floats::Simple115),
             "simple115v2" => Kind::Floats(Floats::Simple115v2),
+            "simple115v2+sticky" => Kind::Floats(Floats::Simple115v2Sticky),
             "egocentric" => Kind::Floats(Floats::Egocentric),
             "vector" => Kind::Floats(Floats::Vector),
             "smm" => Kind::Smm { width, height },
             "raw" => Kind::Raw,
             _ => return None,
         })
+    }
+
+    /// The scaled form; none for what has no floats, or none with units that are known.
+    fn scaled(self) -> Option<Kind> {
+        let Kind::Floats(floats) = self else { return None };
+        floats.scaled().map(Kind::Floats)
     }
 
     /// The shape of one agent's observation, `stack` of them on the last axis; empty for a dict.
@@ -54,6 +61,35 @@ impl Kind {
     /// Numbers on the last axis of one observation.
     pub(crate) fn planes(self, engine: &Engine) -> usize {
         self.shape(engine, 1).last().copied().unwrap_or_default()
+    }
+}
+
+/// The observation that a caller asks for.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted<'a> {
+    /// Its name in `setpiece.make`.
+    pub(crate) name: &'a str,
+    /// Width and height of a map.
+    pub(crate) size: (usize, usize),
+    /// Whether floats are scaled.
+    pub(crate) scale: bool,
+}
+
+impl Wanted<'_> {
+    /// The kind of observation, if the scenario has it.
+    pub(crate) fn of(self, py: Python<'_>, engine: &Engine) -> PyResult<Kind> {
+        let name = self.name;
+        let kind = Kind::from_name(name, self.size)
+            .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{name}`")))?;
+        if kind == Kind::Floats(Floats::Vector) && engine.observed_names().is_empty() {
+            let scenario = &engine.scenario().name;
+            let message = format!("`{scenario}` declares no observation: it has no `observe vector {{ … }}`");
+            return Err(errors::parameter(py, "observation", &message));
+        }
+        if !self.scale {
+            return Ok(kind);
+        }
+        kind.scaled().ok_or_else(|| errors::parameter(py, "scale", &format!("`{name}` can't be scaled")))
     }
 }
 

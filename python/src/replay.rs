@@ -1,9 +1,10 @@
 //! Recorded episodes: what `setpiece.Replay` is made of.
 
 use crate::actions::ActionSet;
-use crate::environment::{Environment, SMM_SIZE, observable};
+use crate::environment::{Environment, SMM_SIZE};
 use crate::errors;
 use crate::info::InfoOptions;
+use crate::observation::Wanted;
 use crate::scenario::Scenario;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -99,7 +100,7 @@ impl Replay {
     /// An environment that it can be played in with `replayed`, before its start.
     fn environment(&self, py: Python<'_>, observation: &str) -> PyResult<Environment> {
         let engine = self.inner.environment().map_err(|error| errors::from_facade(py, &error))?;
-        let kind = observable(py, &engine, observation, SMM_SIZE)?;
+        let kind = Wanted { name: observation, size: SMM_SIZE, scale: false }.of(py, &engine)?;
         let info = InfoOptions { actions: self.set(), events: true, bot_action: false };
         Ok(Environment::around(py, engine, (kind, 1, true), info))
     }

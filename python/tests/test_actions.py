@@ -81,7 +81,7 @@ def test_numbers_that_are_none_are_refused() -> None:
         setpiece.make(THREE, action_set="continuous", right=1, opponents={"right": "bot"})
 
 
-@pytest.mark.parametrize("observation", ["simple115v2", "simple115", "egocentric", "smm", "raw"])
+@pytest.mark.parametrize("observation", ["simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "raw"])
 @pytest.mark.parametrize("stack", [1, 3])
 def test_the_layout_covers_the_observation(observation: str, stack: int) -> None:
     if observation == "raw":

@@ -24,9 +24,9 @@ def played_examples() -> dict[str, Any]:
     return names
 
 
-def ranges(low: Any, high: Any) -> str:
+def ranges(low: Any, high: Any, digits: int = 10) -> str:
     """Returns the ranges of numbers, one round of them where they repeat."""
-    each = [f"{least:.10g}..{most:.10g}" for least, most in zip(np.ravel(low), np.ravel(high), strict=True)]
+    each = [f"{least:.{digits}g}..{most:.{digits}g}" for least, most in zip(np.ravel(low), np.ravel(high), strict=True)]
     round_ = next(n for n in range(1, len(each) + 1) if each == each[:n] * (len(each) // n))
     runs = [(len(list(run)), one) for one, run in groupby(each[:round_])]
     return ", ".join(f"{n} times {one}" if n > 1 else one for n, one in runs)
@@ -42,6 +42,27 @@ def blocks(env: setpiece.FootballEnv) -> str:
         bounds = ranges(space.low[..., where], space.high[..., where])
         rows.append((numbers, block.meaning, block.unit, bounds))
     return table(BLOCKS, rows)
+
+
+def changed(kind: str) -> str:
+    """Returns the blocks that `scale` changes; those of mates and opponents once."""
+    plain, scaled = setpiece.make(NAME, observation=kind), setpiece.make(NAME, observation=kind, scale=True)
+    rows, seen = [], set()
+    for before, after in zip(plain.observation_layout, scaled.observation_layout, strict=True):
+        assert isinstance(before, Block)
+        assert isinstance(after, Block)
+        what = before.meaning.split(":")[-1]
+        if before.unit == after.unit or what in seen:
+            continue
+        seen.add(what)
+        where = slice(before.start, before.start + before.length)
+        high = plain.observation_space.high[where], scaled.observation_space.high[where]
+        each = [f"{factor:.6g}" for factor in high[1].astype(float) / high[0]]
+        round_ = next(n for n in range(1, len(each) + 1) if each == each[:n] * (len(each) // n))
+        numbers = str(before.start) if before.length == 1 else f"{before.start}..{where.stop - 1}"
+        bounds = ranges(scaled.observation_space.low[where], scaled.observation_space.high[where], digits=5)
+        rows.append((numbers, before.meaning, before.unit, after.unit, ", ".join(each[:round_]), bounds))
+    return table(("numbers", "meaning", "unit", "with `scale`", "multiplied by", "range with `scale`"), rows)
 
 
 def keys(env: setpiece.FootballEnv) -> str:
@@ -88,9 +109,11 @@ def test_the_tables_are_the_layouts() -> None:
     vector = played_examples()["env"]
     assert vector.observation == "vector"
     tables = {"kinds": kinds(vector), "numbers": numbers(), "raw": keys(setpiece.make(NAME, observation="raw"))}
-    for kind in ("simple115v2", "simple115", "smm", "egocentric"):
-        tables[kind] = blocks(setpiece.make(NAME, observation=kind))
+    for kind in ("simple115v2", "simple115v2+sticky", "simple115", "smm", "egocentric"):
+        tables[kind.removeprefix("simple115v2+")] = blocks(setpiece.make(NAME, observation=kind))
     tables["vector"] = blocks(vector)
+    for kind in ("simple115v2", "egocentric"):
+        tables[f"scaled_{kind}"] = changed(kind)
     tables["stacked"] = blocks(setpiece.make(NAME, observation="smm", stack=2))
     hold_tables(PAGE, tables)
 

@@ -122,7 +122,9 @@ def test_the_bot_is_the_builtin_ai() -> None:
     )
 
 
-@pytest.mark.parametrize("kind", ["simple115v2", "simple115", "egocentric", "smm", "extracted", "raw"])
+@pytest.mark.parametrize(
+    "kind", ["simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "extracted", "raw"]
+)
 def test_opponents_see_themselves_from_the_left_in_their_own_observation(kind: str) -> None:
     """An opponent sees exactly what a caller in its place would."""
     recorder = Recorder(Action.RIGHT)

@@ -13,7 +13,7 @@ import setpiece
 
 THREE = "academy_3_vs_1_with_keeper"
 CLOSE = "academy_empty_goal_close"
-KINDS = ["simple115v2", "simple115", "egocentric", "smm"]
+KINDS = ["simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm"]
 
 
 def actions(rng: np.random.Generator, envs: setpiece.FootballVectorEnv) -> Any:
@@ -44,6 +44,10 @@ def test_a_vector_plays_what_single_environments_play(observation: str, stack: i
         {"left_CM_1": setpiece.Policy(hashed, observation="egocentric"), "right": setpiece.Policy(of_dicts, "raw")},
         {"left_CM_3": lambda seen: int(seen.sum() * 31) % 19, "right": setpiece.Policy(hashed, "smm")},
         {"left_CM_2": setpiece.Policy(hashed, observation="simple115v2")},
+        {
+            "left_CM_2": setpiece.Policy(hashed, "egocentric", scale=True),
+            "left_CM_3": setpiece.Policy(hashed, "egocentric"),
+        },
         {"right": "lazy"},
     ],
 )

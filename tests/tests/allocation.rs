@@ -9,6 +9,9 @@ use setpiece::engine::observe;
 use setpiece::scenario::{Action, Scenario};
 use std::sync::Arc;
 
+/// The observation that takes most steps to write.
+const SCALED: observe::Floats = observe::Floats::Scaled(observe::Scaled::Simple115v2Sticky);
+
 /// Some steps after the first episode.
 #[derive(Debug, Default)]
 struct Steps {
@@ -27,6 +30,7 @@ fn steps_of(scenario: Arc<Scenario>, episodes: u64) -> Steps {
     let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
     let mut scratch = Scratch::default();
     let mut floats = vec![0.0; observe::layout::SIMPLE115];
+    let mut scaled = vec![0.0; observe::layout::SIMPLE115_STICKY];
     let mut map = vec![0; observe::smm_size(observe::SMM_WIDTH, observe::SMM_HEIGHT)];
     let mut steps = Steps::default();
     for index in 0..=episodes {
@@ -36,6 +40,7 @@ fn steps_of(scenario: Arc<Scenario>, episodes: u64) -> Steps {
             let counted = allocation_counter::measure(|| {
                 environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
                 observe::simple115(environment.state(), 0, &mut floats).unwrap();
+                environment.observe(SCALED, 0, &mut scaled).unwrap();
                 observe::smm(environment.state(), 0, observe::SMM_WIDTH, observe::SMM_HEIGHT, &mut map).unwrap();
             });
             // The first episode warms up; an outcome's label may be made when one ends.

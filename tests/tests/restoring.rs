@@ -198,7 +198,12 @@ fn moments(environment: &Environment) -> Vec<&'static str> {
     let happened = |kind: EventKind| environment.events().iter().any(|event| event.kind == kind);
     let bodies = || game.players.iter().filter(|player| player.active).map(|player| &player.body);
     let moments = [
-        ("mid-kick", bodies().any(|body| body.kick.is_some_and(|kick| kick.ready_at > game.tick as i32))),
+        (
+            "mid-kick",
+            bodies().any(|body| {
+                body.kick.is_some_and(|kick| kick.swing.is_some_and(|swing| swing.ready_at > game.tick as i32))
+            }),
+        ),
         ("mid-save", game.play.save.iter().any(Option::is_some)),
         ("diving", bodies().any(|body| body.pose == Pose::Diving)),
         ("sliding", bodies().any(|body| body.pose == Pose::Sliding)),

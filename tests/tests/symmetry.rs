@@ -62,8 +62,16 @@ fn same(there: &Match, back: &Match) -> Result<(), String> {
             && a.yellow_cards == b.yellow_cards
             && c.facing == -d.facing
             && (c.pose, c.pose_ticks, c.ready_at, c.touched_at) == (d.pose, d.pose_ticks, d.ready_at, d.touched_at)
-            && c.kick.map(|plan| (plan.kind, plan.mate, plan.ready_at))
-                == d.kick.map(|plan| (plan.kind, plan.mate.map(other), plan.ready_at));
+            && c.kick.map(|plan| {
+                (plan.kind, plan.mate, plan.gauge_ticks, plan.swing.map(|swing| (swing.ready_at, swing.mate)))
+            }) == d.kick.map(|plan| {
+                (
+                    plan.kind,
+                    plan.mate.map(other),
+                    plan.gauge_ticks,
+                    plan.swing.map(|swing| (swing.ready_at, swing.mate.map(other))),
+                )
+            });
         check("player", same).map_err(|why| format!("{why} {i}:\n{a:?}\n{b:?}"))?;
     }
     check("owner", there.owner == back.owner.map(other))?;

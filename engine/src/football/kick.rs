@@ -178,12 +178,14 @@ fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
         KickKind::High => [24.0, 22.0, 26.0, 5.0],
         KickKind::Shot | KickKind::Clear => [25.0, 29.0, 42.0, 10.0],
     };
-    let straight = stand + (walk - stand) * walks + (sprint - walk) * sprints - if plan.held { back * walks } else { 0.0 };
+    let straight =
+        stand + (walk - stand) * walks + (sprint - walk) * sprints - if plan.held { back * walks } else { 0.0 };
     let turn = match plan.kind {
         KickKind::Shot | KickKind::Clear => 0.0,
         _ => {
             let degrees = off_run(player, way);
-            (15.0 * walks + 6.0 * sprints) * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0) + 10.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
+            (15.0 * walks + 6.0 * sprints) * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0)
+                + 10.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
         }
     };
     (straight + turn) as i32
@@ -344,7 +346,8 @@ fn pass_velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rou
     let (level, up) = if kind == KickKind::High {
         // Struck to the side it is flatter, and so a little harder.
         let rise = (0.39 - 0.07 * distance / 60.0) * (1.0 - 0.2 * aside);
-        let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
+        let speed =
+            (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
         let level = speed / libm::sqrtf(1.0 + rise * rise);
         (level, level * rise)
     } else {
@@ -355,7 +358,8 @@ fn pass_velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rou
             _ => GROUND_MPS + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
         };
         let level = wanted.min(most);
-        let lifted = AHEAD_UP_PER_S * distance * (1.0 - aside) + ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
+        let lifted =
+            AHEAD_UP_PER_S * distance * (1.0 - aside) + ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
         (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.

@@ -125,7 +125,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let pulled = (way + (run - way) * (0.8 * hard)).normalize_or(way);
     let shaken = Vec3::new(noise::spread(game), noise::spread(game), noise::spread(game)) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
-    let worst = (worst + Vec3::Z * ((LIFT + UNDER * (1.0 - strides)) * eased(harder, 0.7))).normalize() * (power * (1.0 - 0.5 * harder));
+    let worst = (worst + Vec3::Z * ((LIFT + UNDER * (1.0 - strides)) * eased(harder, 0.7))).normalize()
+        * (power * (1.0 - 0.5 * harder));
     let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
     let ball = best + (worst - best) * luck;
 

@@ -1,7 +1,7 @@
 //! `egocentric`: what a player sees from where he is.
 
 use super::frame::Frame;
-use super::layout::{OTHER, OTHERS};
+use super::layout::{FAR_M, OTHER, OTHERS};
 use super::{ObserveError, check_size, slot};
 use crate::football::offside;
 use crate::state::{Match, Player, PlayerId};
@@ -14,8 +14,6 @@ use setpiece_scenario::vocabulary::{Role, StickyAction};
 const SPEED_MPS: f32 = 10.0;
 /// The unit of heights, metres.
 const HEIGHT_M: f32 = 10.0;
-/// The unit of distances: across the pitch and its rim, metres.
-const FAR_M: f32 = 128.0;
 /// Goals ahead that fill the scale.
 const GOALS: f32 = 5.0;
 /// Greatest size of a number of places and velocities: [`super::layout::egocentric`].

@@ -1,12 +1,12 @@
-//! `simple115v2`, and `simple115` before it: 115 numbers.
+//! `simple115v2`, with the held keys behind it or without, and `simple115` before it.
 
 use super::frame::Frame;
-use super::layout::SIMPLE115;
+use super::layout::{SIMPLE115, SIMPLE115_STICKY};
 use super::{ObserveError, check_size, slot};
 use crate::state::{AgentSlot, Match};
 use setpiece_scenario::pitch::TEAM_MAX;
 
-/// What stands for a player who is missing.
+/// What stands for a missing player.
 const MISSING: f32 = -1.0;
 
 /// Writes agent `agent`'s `simple115v2` observation; the layout is [`super::layout::simple115v2`].
@@ -14,13 +14,35 @@ const MISSING: f32 = -1.0;
 /// # Errors
 /// [`ObserveError`] for no such agent, or a buffer that has not 115 numbers; nothing is written then.
 pub fn simple115v2(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+    write_v2(game, agent, SIMPLE115, MISSING, out)
+}
+
+/// Writes agent `agent`'s `simple115v2+sticky` observation: the held keys stand behind `simple115v2`; the layout is
+/// [`super::layout::simple115v2_sticky`].
+///
+/// # Errors
+/// [`ObserveError`] for no such agent, or a buffer that has not 125 numbers; nothing is written then.
+pub fn simple115v2_sticky(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+    write_v2(game, agent, SIMPLE115_STICKY, MISSING, out)
+}
+
+/// Writes `simple115v2` and as many held keys as `expected` has room for; `missing` fills the numbers of players who
+/// are missing.
+pub(super) fn write_v2(
+    game: &Match,
+    agent: usize,
+    expected: usize,
+    missing: f32,
+    out: &mut [f32],
+) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
-    check_size(out.len(), SIMPLE115)?;
+    check_size(out.len(), expected)?;
     let frame = Frame { game, us: slot.team };
+    let (out, held) = out.split_at_mut(SIMPLE115);
     out.fill(0.0);
     for (block, team) in frame.teams().into_iter().enumerate() {
         let base = block * 4 * TEAM_MAX;
-        out[base..base + 4 * TEAM_MAX].fill(MISSING);
+        out[base..base + 4 * TEAM_MAX].fill(missing);
         for (place, (_, player)) in frame.roster(team).enumerate().filter(|(_, (_, player))| player.active) {
             let at = base + 2 * place;
             write(&mut out[at..at + 2], &frame.place_of(player.pos), &[2.0, 1.5]);
@@ -29,6 +51,9 @@ pub fn simple115v2(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), Ob
         }
     }
     write_ball_and_modes(game, frame, slot, out);
+    for (bit, held) in held.iter_mut().enumerate() {
+        *held = f32::from(slot.sticky >> bit & 1);
+    }
     Ok(())
 }
 

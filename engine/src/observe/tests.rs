@@ -1,3 +1,4 @@
+use super::layout::Layout;
 use super::*;
 use crate::state::PlayerId;
 use crate::testing::scenario;
@@ -17,7 +18,14 @@ fn game() -> Match {
     let mut game = Match::blank(&drawn);
     game.agents.clear();
     for (team, player) in [(Team::Left, 1), (Team::Right, 11)] {
-        game.agents.push(AgentSlot { team, player: Some(PlayerId(player)), fixed: true, sticky: 0, steer: None, key: None });
+        game.agents.push(AgentSlot {
+            team,
+            player: Some(PlayerId(player)),
+            fixed: true,
+            sticky: 0,
+            steer: None,
+            key: None,
+        });
     }
     game.players[1].vel = Vec2::new(5.44, -8.36);
     game.ball.pos = Vec3::new(27.2, -8.36, 0.5);
@@ -76,7 +84,11 @@ fn who_is_sent_off_is_missing() {
 
 #[test]
 fn blocks_cover_the_vector_and_bounds_hold() {
-    for layout in [layout::simple115v2(), layout::simple115(), layout::egocentric(2), layout::egocentric(11)] {
+    let plain = || {
+        let simple = [layout::simple115v2(), layout::simple115v2_sticky(), layout::simple115()];
+        simple.into_iter().chain([layout::egocentric(2), layout::egocentric(11)])
+    };
+    for layout in plain().chain(plain().map(Layout::scaled)) {
         let mut next = 0;
         for block in &layout.blocks {
             assert_eq!(block.start, next);
@@ -201,4 +213,118 @@ fn egocentric_is_seen_from_the_player() {
         egocentric(&game, 0, team, &mut [0.0; 3]),
         Err(ObserveError::Size { expected: egocentric_size(team), found: 3 })
     );
+}
+
+#[test]
+fn the_held_keys_stand_behind_simple115v2() {
+    let mut game = game();
+    game.agents[0].sticky = 1 << StickyAction::TopLeft.index()
+        | 1 << StickyAction::Dribble.index()
+        | 1 << StickyAction::TeamPressure.index();
+    let (mut plain, mut sticky) = ([9.0; layout::SIMPLE115], [9.0; layout::SIMPLE115_STICKY]);
+    simple115v2(&game, 0, &mut plain).unwrap();
+    simple115v2_sticky(&game, 0, &mut sticky).unwrap();
+    assert_eq!(sticky[..115], plain);
+    assert_eq!(sticky[115..], [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    // They are those of GRF's `sticky_actions`, in its order.
+    let raw = raw(&game, 0).unwrap();
+    assert_eq!(sticky[115..], std::array::from_fn::<f32, 10, _>(|bit| f32::from(raw.sticky_actions[bit])));
+    // Each agent sees its own keys.
+    simple115v2_sticky(&game, 1, &mut sticky).unwrap();
+    assert_eq!(sticky[115..], [0.0; 10]);
+    assert_eq!(simple115v2_sticky(&game, 0, &mut [0.0; 115]), Err(ObserveError::Size { expected: 125, found: 115 }));
+}
+
+#[test]
+fn scaled_numbers_are_in_metres_and_seconds() {
+    let mut game = game();
+    game.agents[0].sticky = 1 << StickyAction::Right.index();
+    let mut out = [9.0; layout::SIMPLE115_STICKY];
+    scaled(&game, 0, Scaled::Simple115v2Sticky, 2, &mut out).unwrap();
+    let [length, speed] = [|metres: f32| metres / 50.0, |mps: f32| mps / 10.0];
+    near(&out[0..4], &[-54.4, 0.0, 27.2, 8.36].map(length));
+    near(&out[22..26], &[0.0, 0.0, 5.44, -8.36].map(speed));
+    near(&out[44..46], &[54.4, 0.0].map(length));
+    near(&out[88..94], &[length(27.2), length(-8.36), 0.5 / 10.0, speed(0.0), speed(8.36), speed(2.0)]);
+    // Flags stay as they are, and a missing player is 0.
+    let mut plain = [9.0; layout::SIMPLE115_STICKY];
+    simple115v2_sticky(&game, 0, &mut plain).unwrap();
+    assert_eq!(out[94..], plain[94..]);
+    for missing in [4..22, 26..44, 46..66, 68..88] {
+        assert!(out[missing].iter().all(|value| *value == 0.0));
+    }
+    game.players[1].active = false;
+    scaled(&game, 0, Scaled::Simple115v2Sticky, 2, &mut out).unwrap();
+    assert_eq!((&out[2..4], &out[24..26]), (&[0.0; 2][..], &[0.0; 2][..]));
+    // Without the keys it is the same.
+    let mut short = [9.0; layout::SIMPLE115];
+    scaled(&game, 0, Scaled::Simple115v2, 2, &mut short).unwrap();
+    assert_eq!(short, out[..115]);
+}
+
+#[test]
+fn scaled_egocentric_has_one_unit_of_length() {
+    let game = game();
+    for team in [2, 11] {
+        let (mut plain, mut out) = (vec![9.0; egocentric_size(team)], vec![9.0; egocentric_size(team)]);
+        egocentric(&game, 0, team, &mut plain).unwrap();
+        scaled(&game, 0, Scaled::Egocentric, team, &mut out).unwrap();
+        let factors = layout::egocentric(team).factors();
+        let times: Vec<f32> = plain.iter().zip(&factors).map(|(value, factor)| value * factor).collect();
+        assert_eq!(out, times);
+    }
+    let (me, ball) = (Vec2::new(27.2, 8.36), Vec2::new(27.2, -8.36));
+    let mut out = vec![9.0; egocentric_size(2)];
+    scaled(&game, 0, Scaled::Egocentric, 2, &mut out).unwrap();
+    near(&out[0..4], &[27.2 / 50.0, 8.36 / 50.0, 0.544, -0.836]);
+    near(&out[17..21], &[0.0, (ball - me).y / 50.0, 0.05, (ball - me).length() / 50.0]);
+    let mate = Vec2::new(-54.4, 0.0) - me;
+    near(&out[46..49], &[1.0, mate.x / 50.0, mate.y / 50.0]);
+    near(&out[51..52], &[mate.length() / 50.0]);
+}
+
+#[test]
+fn scaled_bounds_hold() {
+    let mut game = game();
+    game.ball.pos = Vec3::new(1e6, -1e6, 1e6);
+    game.ball.vel = Vec3::splat(-1e6);
+    game.players[1].vel = Vec2::splat(1e6);
+    for (of, layout) in [
+        (Scaled::Simple115v2, layout::simple115v2()),
+        (Scaled::Simple115v2Sticky, layout::simple115v2_sticky()),
+        (Scaled::Egocentric, layout::egocentric(2)),
+    ] {
+        let layout = layout.scaled();
+        let (low, high) = layout.bounds();
+        let mut out = vec![9.0; layout.len()];
+        for agent in [0, 1] {
+            scaled(&game, agent, of, 2, &mut out).unwrap();
+            for (at, value) in out.iter().enumerate() {
+                assert!((low[at]..=high[at]).contains(value), "{at}: {value}");
+            }
+        }
+        assert_eq!(scaled(&game, 0, of, 2, &mut [0.0; 3]), Err(ObserveError::Size { expected: out.len(), found: 3 }));
+    }
+}
+
+#[test]
+fn flags_and_shares_are_never_scaled() {
+    for layout in [layout::simple115v2_sticky(), layout::egocentric(11)] {
+        for (plain, scaled) in layout.blocks.iter().zip(layout.clone().scaled().blocks) {
+            let kept = ["one-hot", "flag", "flags", "share", "0 fresh", "flags of `sticky_actions`"];
+            if kept.iter().any(|unit| plain.unit.starts_with(unit)) && plain.len != layout::OTHER {
+                assert_eq!((&plain.low, &plain.high, plain.unit), (&scaled.low, &scaled.high, scaled.unit));
+            }
+            assert!(!scaled.unit.contains("54.4") && !scaled.unit.contains("normalised"), "{}", scaled.unit);
+        }
+    }
+}
+
+#[test]
+fn what_has_no_units_of_its_own_has_no_scaled_form() {
+    assert_eq!((Floats::Simple115.scaled(), Floats::Vector.scaled()), (None, None));
+    for scaled in [Scaled::Simple115v2, Scaled::Simple115v2Sticky, Scaled::Egocentric] {
+        assert_eq!(scaled.plain().scaled(), Some(Floats::Scaled(scaled)));
+        assert_eq!(Floats::Scaled(scaled).scaled(), Some(Floats::Scaled(scaled)));
+    }
 }

@@ -1,6 +1,6 @@
-use crate::football::body::{Intent, KickKind, KickPlan};
+use crate::football::body::{Intent, KickKind, KickPlan, Swing};
 use crate::football::play::{Flight, Restart, Save, SetPiece};
-use crate::football::{advantage::Advantage, begin};
+use crate::football::{advantage::Advantage, begin, kick};
 use crate::judge::View;
 use crate::snapshot::{SNAPSHOT_VERSION, checksum, match_bytes};
 use crate::state::{Match, PlayerId};
@@ -37,8 +37,11 @@ fn busy() -> Match {
     let body = &mut game.players[0].body;
     body.intent = Intent::Go(spot, 1.0);
     let kind = KickKind::Shot;
-    body.kick =
-        Some(KickPlan { kind, dir: Some(spot), mate: Some(id), point: Some(spot), power: 0.0, ready_at: 0, until: 0 });
+    let swing = Some(Swing { ready_at: 0, way: Some(spot), mate: Some(id) });
+    let (dir, point) = (Some(spot), Some(spot));
+    body.kick = Some(KickPlan { dir, mate: Some(id), point, swing, ..kick::pressed(kind, 0) });
+    game.play.acting[0].key = Some(kind);
+    game.agents[0].key = Some(kind);
     game
 }
 

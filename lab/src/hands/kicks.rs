@@ -77,9 +77,11 @@ pub(super) fn measure(section: &mut Section, count: Option<u64>) -> Result<(), F
         let mut parts = vec![Part::around(row.kicked, give, share)];
         if let (Some(when), Some(speed), Some(angle), Some(peak)) = (row.when, row.speed, row.angle, row.peak) {
             let of = |what: fn(&Kick) -> f64| kicks.iter().map(what).collect::<Vec<_>>();
-            let [when_sd, speed_sd, angle_sd] = [row.when_sd, row.speed_sd, row.angle_sd].map(Option::unwrap_or_default);
+            let [when_sd, speed_sd, angle_sd] =
+                [row.when_sd, row.speed_sd, row.angle_sd].map(Option::unwrap_or_default);
             // Angles by turns to two mates have no middle.
-            let turns = of(|k| k.angle).iter().map(|of| (of - angle + 540.0).rem_euclid(360.0) - 180.0).collect::<Vec<_>>();
+            let turns =
+                of(|k| k.angle).iter().map(|of| (of - angle + 540.0).rem_euclid(360.0) - 180.0).collect::<Vec<_>>();
             parts.push(Part::around(when, 1.0 + when_sd, mean(&of(|k| k.when))));
             parts.push(Part::around(speed, 0.08 * speed + speed_sd, mean(&of(|k| k.speed))));
             parts.push(Part::around(angle, 3.0 + angle_sd, angle + mean(&turns)));

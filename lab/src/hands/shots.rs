@@ -133,7 +133,10 @@ fn play(trial: &mut Trial, row: &Row) -> Result<Shot, Failure> {
         }
         if let Some([leaves, _, speed]) = &mut shot.struck {
             let way = (trial.ball() - before).truncate().length();
-            if f64::from(*n) < *leaves + f64::from(SPEED_STEPS) && !trial.events().iter().any(|e| e.kind == EventKind::OutOfPlay) && !goal {
+            if f64::from(*n) < *leaves + f64::from(SPEED_STEPS)
+                && !trial.events().iter().any(|e| e.kind == EventKind::OutOfPlay)
+                && !goal
+            {
                 *speed = speed.max(f64::from(way) * 10.0);
             }
         }

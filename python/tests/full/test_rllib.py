@@ -30,7 +30,14 @@ def cluster() -> Any:
 
 
 @pytest.mark.parametrize(
-    "shown", [{}, {"stack": 4}, {"observation": "smm"}, {"observation": "smm", "stack": 4, "size": (40, 30)}]
+    "shown",
+    [
+        {},
+        {"stack": 4},
+        {"observation": "simple115v2+sticky", "scale": True},
+        {"observation": "smm"},
+        {"observation": "smm", "stack": 4, "size": (40, 30)},
+    ],
 )
 def test_passes_the_checks_of_rllib(shown: dict[str, Any]) -> None:
     check_multiagent_environments(RllibFootballEnv({"scenario": THREE, "left": "all", "right": "all", **shown}))

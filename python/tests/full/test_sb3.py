@@ -28,11 +28,19 @@ THREE = "academy_3_vs_1_with_keeper"
 pytestmark = pytest.mark.filterwarnings("default")
 
 
-@pytest.mark.parametrize("observation", ["simple115v2", "smm"])
-def test_is_step_by_step_what_dummy_vec_env_is(observation: str) -> None:
+@pytest.mark.parametrize(
+    "shown",
+    [
+        {"observation": "simple115v2"},
+        {"observation": "smm"},
+        {"observation": "simple115v2+sticky", "scale": True},
+        {"observation": "egocentric", "scale": True, "stack": 2},
+    ],
+)
+def test_is_step_by_step_what_dummy_vec_env_is(shown: dict[str, Any]) -> None:
     """The reference is Stable-Baselines3's own vector environment over the same environments."""
-    ours = make_vec(CLOSE, 3, observation=observation)
-    theirs = DummyVecEnv([lambda: setpiece.make(CLOSE, observation=observation)] * 3)
+    ours = make_vec(CLOSE, 3, **shown)
+    theirs = DummyVecEnv([lambda: setpiece.make(CLOSE, **shown)] * 3)
     assert ours.observation_space == theirs.observation_space
     assert ours.action_space == theirs.action_space
     for vec in (ours, theirs):

@@ -112,9 +112,9 @@ fn nearest_mate_m(game: &Match, view: &View, id: PlayerId, place: Vec2, left_m: 
 fn second_danger(game: &Match, view: &View, id: PlayerId, rival: PlayerId, left_m: f32) -> f32 {
     let others = game.team(view.team.other()).filter(|(other, _)| *other != rival);
     let place_of = |other: &Player| (other.pos + other.vel * MEET_S) * view.side;
-    let near = others.map(|(_, other)| place_of(other)).reduce(|best, next| {
-        if next.distance_squared(-GOAL) < best.distance_squared(-GOAL) { next } else { best }
-    });
+    let near = others
+        .map(|(_, other)| place_of(other))
+        .reduce(|best, next| if next.distance_squared(-GOAL) < best.distance_squared(-GOAL) { next } else { best });
     let Some(place) = near else { return 0.0 };
     let second_m = shooting_m(place, SECOND_SHOOTS_M);
     let open = (0.5 * (nearest_mate_m(game, view, id, place, second_m) - second_m)).clamp(0.0, 1.0);

@@ -158,7 +158,7 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         if game.play.team_pressure[view.team.index()] {
             press::first(game, events, view, id);
         } else {
-            press::second(game, view, id);
+            press::second(game, events, view, id);
         }
         return;
     }

@@ -108,15 +108,14 @@ fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
 /// A short pass ends a shot or lofted pass that is asked for; any other key changes nothing of it. (GRF's.) A steered pass
 /// of some power goes to a point, so far along its direction; any other finds a mate.
 fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, power: f32) -> bool {
+    if !may_arm(game, id, kind) {
+        return false;
+    }
     if let Some(plan) = game.player(id).body.kick {
-        let ends = kind == KickKind::Short && matches!(plan.kind, KickKind::Shot | KickKind::High);
-        if ends && plan.swing.is_none() && game.play.set_piece.is_none() {
+        if plan.kind != kind {
             game.players[id.index()].body.kick = None;
         }
         return true;
-    }
-    if !may_arm(game, id, kind) {
-        return false;
     }
     let from = game.player(id).pos;
     let point = dir.filter(|_| power > 0.0 && kind != KickKind::Shot).map(|dir| from + dir * (power * reach_m(kind)));
@@ -133,8 +132,13 @@ fn reach_m(kind: KickKind) -> f32 {
     }
 }
 
-/// Whether a kick can be asked for: the ball is his to play, and a throw-in is a pass to a mate.
+/// Whether the key of a kick does something: the ball is the player's to play, and a throw-in is a pass to a mate; while a
+/// kick is asked for its own key goes on, and a short pass ends a shot or lofted pass whose swing has not begun.
 pub fn may_arm(game: &Match, id: PlayerId, kind: KickKind) -> bool {
+    if let Some(plan) = game.player(id).body.kick {
+        let ends = kind == KickKind::Short && matches!(plan.kind, KickKind::Shot | KickKind::High);
+        return plan.kind == kind || ends && plan.swing.is_none() && game.play.set_piece.is_none();
+    }
     let thrown = game.play.set_piece.is_some_and(|set_piece| set_piece.mode == GameMode::ThrowIn);
     may_play(game, id) && !(thrown && matches!(kind, KickKind::High | KickKind::Shot))
 }

@@ -123,7 +123,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
 
     let best = way.extend(0.05).normalize() * power;
     let pulled = (way + (run - way) * (0.8 * hard)).normalize_or(way);
-    let shaken = Vec3::new(noise::spread(game), noise::spread(game), noise::spread(game)) * (0.5 * hard);
+    let (on, aside, up) = (noise::spread(game), noise::spread(game), noise::spread(game));
+    let shaken = (way * on + way.perp() * aside).extend(up) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
     let worst = (worst + Vec3::Z * ((LIFT + UNDER * (1.0 - strides)) * eased(harder, 0.7))).normalize()
         * (power * (1.0 - 0.5 * harder));

@@ -90,7 +90,8 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
 /// From how far a player hunts a carrier, metres. (GRF's.)
 fn hunt_m(player: &Player) -> f32 {
     let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.vel.length() / 8.0).min(1.0));
-    (10.0 + 10.0 * (1.0 - player.body.mind.mindset)) * rested * player.body.level
+    let works = 0.7 + 0.4 * player.body.stats[Stat::Workrate.index()];
+    (10.0 + 10.0 * (1.0 - player.body.mind.mindset)) * rested * player.body.level * works
 }
 
 /// Whether no mate in the field is near enough to the carrier to help.
@@ -167,7 +168,7 @@ fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId,
 }
 
 /// The second man.
-pub fn second(game: &mut Match, view: &View, id: PlayerId) {
+pub fn second(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if view.owner.is_none() && game.player(id).body.meet_s < 1.0 && game.play.pass.is_none() {
         let body = &mut game.players[id.index()].body;
         body.intent = Intent::Ball(SPRINT_MPS);
@@ -180,6 +181,9 @@ pub fn second(game: &mut Match, view: &View, id: PlayerId) {
         let player = game.player(id);
         if player.pos.distance(carrier.pos) < hunt_m(player) {
             hunt(game, view, id, &carrier);
+            if let Some(rival) = rival {
+                maybe_slide(game, events, view, id, rival);
+            }
             return;
         }
     }

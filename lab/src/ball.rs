@@ -110,8 +110,8 @@ fn kicks(section: &mut Section) -> Result<(), Failure> {
     use Action::{HighPass, LongPass, ShortPass, Shot};
     let cases = [
         ("shot, standing", Shot, None, RunUp::Stand, [3.0, 3.0], [26.0, 27.5], [0.7, 1.2], "0.9–2.6"),
-        ("shot, walking", Shot, None, RunUp::Walk, [2.0, 4.0], [29.4, 29.4], [0.44, 0.44], "1.5–1.8"),
-        ("shot, sprinting", Shot, None, RunUp::Sprint, [2.0, 4.0], [29.6, 29.6], [0.44, 0.44], "1.5–1.8"),
+        ("shot, walking", Shot, None, RunUp::Walk, [3.5, 3.5], [30.0, 30.0], [0.32, 0.32], "1.5–1.8"),
+        ("shot, sprinting", Shot, None, RunUp::Sprint, [2.0, 5.4], [30.0, 30.0], [0.36, 0.36], "1.5–1.8"),
         ("short pass, 0.2", ShortPass, Some(0.2), RunUp::Stand, [4.0; 2], [15.0; 2], [0.26; 2], "<0.1"),
         ("short pass, 0.4", ShortPass, Some(0.4), RunUp::Stand, [4.0; 2], [23.8; 2], [0.83; 2], "<0.1"),
         ("short pass, 0.8", ShortPass, Some(0.8), RunUp::Stand, [4.0; 2], [24.3; 2], [2.1; 2], "<0.1"),

@@ -75,8 +75,7 @@ def _rules(recorded: ScenarioConfig) -> list[str]:
     if recorded.deterministic and recorded.game_engine_random_seed == FIXED_SEED:
         rules.append("stochastic: off")
     if recorded.second_half < min(recorded.game_duration, LIMIT_MAX):
-        # As the match itself, the first half lasts a step longer there than its number says.
-        rules.append(f"half_time: {recorded.second_half + 1} steps")
+        rules.append(f"half_time: {recorded.second_half} steps")
     return [f"    rules {{ {', '.join(rules)} }}"]
 
 

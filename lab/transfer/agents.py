@@ -1,7 +1,7 @@
 """Twelve agents that play by rules: for whole matches and scenes, from places alone.
 
-Each is a function of a scene and of its own memory that names an action. `Player` presses it: a direction or sprint that
-is held already is not pressed again, unless the agent wants it in every step.
+Each is a function of a scene and of its own memory; it names an action. `Player` presses it and remembers what it holds.
+Most press their direction again in every step, as many agents do.
 """
 
 from __future__ import annotations
@@ -12,10 +12,14 @@ import numpy as np
 from scene import Scene
 
 GOAL = np.array([54.4, 0.0])
-NAMES = (
-    "idle left top_left top top_right right bottom_right bottom bottom_left long_pass high_pass short_pass shot "
-    "sprint release_direction release_sprint sliding dribble release_dribble"
-).split()
+# The 19 actions in their order.
+# fmt: off
+NAMES = [
+    "idle", "left", "top_left", "top", "top_right", "right", "bottom_right", "bottom",
+    "bottom_left", "long_pass", "high_pass", "short_pass", "shot", "sprint", "release_direction",
+    "release_sprint", "sliding", "dribble", "release_dribble",
+]
+# fmt: on
 ACTION = {name: index for index, name in enumerate(NAMES)}
 WAYS = ["right", "bottom_right", "bottom", "bottom_left", "left", "top_left", "top", "top_right"]
 
@@ -28,7 +32,7 @@ def direction(way: np.ndarray) -> str:
     return WAYS[int(np.round(np.arctan2(way[1], way[0]) / (np.pi / 4))) % 8]
 
 
-def run(scene: Scene, memory: Memory, way: np.ndarray, sprint: bool = True) -> str:
+def run(memory: Memory, way: np.ndarray, sprint: bool = True) -> str:
     """The next press on the way: the direction first, then the gait."""
     wanted = direction(way)
     if memory.get("direction") != wanted:
@@ -52,7 +56,7 @@ def chase(scene: Scene, memory: Memory, slides: bool = False) -> str:
         spot = spot + np.array([-3.0, 0.0])
     if slides and not scene.our_ball and np.linalg.norm(scene.ball - scene.place) < 1.8 and scene.step % 7 == 0:
         return "sliding"
-    return run(scene, memory, spot - scene.place)
+    return run(memory, spot - scene.place)
 
 
 def best_mate(scene: Scene, forward: float) -> tuple[int, float] | None:
@@ -84,7 +88,7 @@ def lane(scene: Scene, to: np.ndarray) -> float:
     return least
 
 
-def aimed(scene: Scene, memory: Memory, way: np.ndarray, kick: str) -> str:
+def aimed(memory: Memory, way: np.ndarray, kick: str) -> str:
     """Presses the direction of a kick, then the kick."""
     wanted = direction(way)
     return kick if memory.get("direction") == wanted else wanted
@@ -96,7 +100,7 @@ def runner(scene: Scene, memory: Memory) -> str:
         return chase(scene, memory)
     if np.linalg.norm(to_goal(scene)) < 18.0:
         return "shot"
-    return run(scene, memory, to_goal(scene))
+    return run(memory, to_goal(scene))
 
 
 def long_shooter(scene: Scene, memory: Memory) -> str:
@@ -104,8 +108,8 @@ def long_shooter(scene: Scene, memory: Memory) -> str:
     if not scene.mine:
         return chase(scene, memory)
     if np.linalg.norm(to_goal(scene)) < 28.0:
-        return aimed(scene, memory, to_goal(scene), "shot")
-    return run(scene, memory, to_goal(scene))
+        return aimed(memory, to_goal(scene), "shot")
+    return run(memory, to_goal(scene))
 
 
 def charger(scene: Scene, memory: Memory) -> str:
@@ -118,7 +122,7 @@ def charger(scene: Scene, memory: Memory) -> str:
     if np.linalg.norm(to_goal(scene)) < 22.0:
         memory["charge"] = 4
         return "shot"
-    return run(scene, memory, to_goal(scene))
+    return run(memory, to_goal(scene))
 
 
 def passer(scene: Scene, memory: Memory) -> str:
@@ -126,11 +130,11 @@ def passer(scene: Scene, memory: Memory) -> str:
     if not scene.mine:
         return chase(scene, memory)
     if np.linalg.norm(to_goal(scene)) < 17.0:
-        return aimed(scene, memory, to_goal(scene), "shot")
+        return aimed(memory, to_goal(scene), "shot")
     mate = best_mate(scene, 0.25)
     if scene.pressed(5.0) and mate and mate[1] > 2.0:
-        return aimed(scene, memory, scene.ours[mate[0]] - scene.place, "short_pass")
-    return run(scene, memory, to_goal(scene))
+        return aimed(memory, scene.ours[mate[0]] - scene.place, "short_pass")
+    return run(memory, to_goal(scene))
 
 
 def builder(scene: Scene, memory: Memory) -> str:
@@ -140,11 +144,11 @@ def builder(scene: Scene, memory: Memory) -> str:
         return chase(scene, memory)
     memory["held"] = memory.get("held", 0) + 1
     if np.linalg.norm(to_goal(scene)) < 15.0:
-        return aimed(scene, memory, to_goal(scene), "shot")
+        return aimed(memory, to_goal(scene), "shot")
     mate = best_mate(scene, 0.12)
     if memory["held"] > 12 and mate and mate[1] > 1.5:
-        return aimed(scene, memory, scene.ours[mate[0]] - scene.place, "short_pass")
-    return run(scene, memory, to_goal(scene), sprint=False)
+        return aimed(memory, scene.ours[mate[0]] - scene.place, "short_pass")
+    return run(memory, to_goal(scene), sprint=False)
 
 
 def direct(scene: Scene, memory: Memory) -> str:
@@ -152,10 +156,10 @@ def direct(scene: Scene, memory: Memory) -> str:
     if not scene.mine:
         return chase(scene, memory)
     if np.linalg.norm(to_goal(scene)) < 20.0:
-        return aimed(scene, memory, to_goal(scene), "shot")
+        return aimed(memory, to_goal(scene), "shot")
     if scene.place[0] < 20.0 and scene.step % 3 == 0:
-        return aimed(scene, memory, np.array([1.0, 0.0]), "long_pass")
-    return run(scene, memory, np.array([1.0, 0.0]))
+        return aimed(memory, np.array([1.0, 0.0]), "long_pass")
+    return run(memory, np.array([1.0, 0.0]))
 
 
 def crosser(scene: Scene, memory: Memory) -> str:
@@ -165,10 +169,10 @@ def crosser(scene: Scene, memory: Memory) -> str:
     side = 1.0 if scene.place[1] >= 0 else -1.0
     if scene.place[0] > 38.0:
         if abs(scene.place[1]) > 14.0:
-            return aimed(scene, memory, np.array([0.0, -side]), "high_pass")
-        return aimed(scene, memory, to_goal(scene), "shot")
+            return aimed(memory, np.array([0.0, -side]), "high_pass")
+        return aimed(memory, to_goal(scene), "shot")
     wing = np.array([scene.place[0] + 12.0, side * 26.0])
-    return run(scene, memory, wing - scene.place)
+    return run(memory, wing - scene.place)
 
 
 def cutter(scene: Scene, memory: Memory) -> str:
@@ -178,10 +182,10 @@ def cutter(scene: Scene, memory: Memory) -> str:
     side = 1.0 if scene.place[1] >= 0 else -1.0
     if scene.place[0] < 30.0:
         wing = np.array([scene.place[0] + 12.0, side * 15.0])
-        return run(scene, memory, wing - scene.place)
+        return run(memory, wing - scene.place)
     if np.linalg.norm(to_goal(scene)) < 19.0:
         return "shot"
-    return run(scene, memory, np.array([1.0, -side]))
+    return run(memory, np.array([1.0, -side]))
 
 
 def dribbler(scene: Scene, memory: Memory) -> str:
@@ -195,8 +199,10 @@ def dribbler(scene: Scene, memory: Memory) -> str:
         away = scene.place - rival
         distance = float(np.linalg.norm(away))
         if distance < 8.0 and way @ -away > 0:
-            way = way + np.array([-way[1], way[0]]) * np.sign(way[0] * away[1] - way[1] * away[0]) * (1.6 - 0.2 * distance)
-    return run(scene, memory, way)
+            way = way + np.array([-way[1], way[0]]) * np.sign(way[0] * away[1] - way[1] * away[0]) * (
+                1.6 - 0.2 * distance
+            )
+    return run(memory, way)
 
 
 def presser(scene: Scene, memory: Memory) -> str:
@@ -207,8 +213,8 @@ def presser(scene: Scene, memory: Memory) -> str:
         return "shot"
     mate = best_mate(scene, 0.2)
     if mate and mate[1] > 3.0:
-        return aimed(scene, memory, scene.ours[mate[0]] - scene.place, "short_pass")
-    return run(scene, memory, to_goal(scene))
+        return aimed(memory, scene.ours[mate[0]] - scene.place, "short_pass")
+    return run(memory, to_goal(scene))
 
 
 def counter(scene: Scene, memory: Memory) -> str:
@@ -217,13 +223,13 @@ def counter(scene: Scene, memory: Memory) -> str:
         if scene.our_ball:
             return chase(scene, memory)
         spot = scene.ball + np.array([-9.0, -0.25 * scene.ball[1]])
-        return run(scene, memory, spot - scene.place)
+        return run(memory, spot - scene.place)
     if np.linalg.norm(to_goal(scene)) < 18.0:
-        return aimed(scene, memory, to_goal(scene), "shot")
+        return aimed(memory, to_goal(scene), "shot")
     mate = best_mate(scene, 0.5)
     if scene.place[0] < 0 and mate and scene.step % 5 == 0:
-        return aimed(scene, memory, scene.ours[mate[0]] - scene.place, "high_pass")
-    return run(scene, memory, to_goal(scene))
+        return aimed(memory, scene.ours[mate[0]] - scene.place, "high_pass")
+    return run(memory, to_goal(scene))
 
 
 def hammerer(scene: Scene, memory: Memory) -> str:
@@ -234,7 +240,7 @@ def hammerer(scene: Scene, memory: Memory) -> str:
         return "short_pass"
     if not scene.mine:
         return chase(scene, memory)
-    return run(scene, memory, to_goal(scene))
+    return run(memory, to_goal(scene))
 
 
 AGENTS: dict[str, Policy] = {

@@ -1,4 +1,4 @@
-"""Agents by rules in both games: `python compare.py` plays them here and sets them beside the recorded runs there.
+"""Agents by rules in both games: `python compare.py` plays them here, beside the recorded runs there.
 
 The runs of Google Research Football 2.10.2 lie in `recorded/`, one file a scenario, as `matches.py gfootball` wrote them.
 Writes `docs/transfer.md`.
@@ -58,17 +58,21 @@ def section(scenario: str, there: dict, here: dict) -> str:
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     total = {column: [sum(side[name][column] for name in names) for side in (here, there)] for column in COLUMNS}
     order = correlation([here[name]["goals"] for name in names], [there[name]["goals"] for name in names])
-    shares = [
-        f"{column} {total[column][0] / total[column][1]:.2f}" for column in COLUMNS if total[column][1] > 0
+    shares = [f"{column} {total[column][0] / total[column][1]:.2f}" for column in COLUMNS if total[column][1] > 0]
+    lines += [
+        "",
+        f"Rank correlation of goals: {order:.2f}. All agents together, here over there: {', '.join(shares)}.",
+        "",
     ]
-    lines += ["", f"Rank correlation of goals: {order:.2f}. All agents together, here over there: {', '.join(shares)}.", ""]
     return "\n".join(lines)
 
 
 def main() -> None:
     """Plays every recorded scenario and writes the page."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--episodes", type=int, default=20, help="of every agent in a whole match; scenes get five times as many")
+    parser.add_argument(
+        "--episodes", type=int, default=20, help="of every agent in a whole match; scenes get five times as many"
+    )
     options = parser.parse_args()
     football = importlib.import_module("setpiece.gfootball.env")
     page = [HEAD]

@@ -9,6 +9,7 @@ import argparse
 import importlib
 import json
 import time
+from pathlib import Path
 
 import numpy as np
 from agents import AGENTS, Player
@@ -16,19 +17,21 @@ from scene import METRES, scene_of_raw
 
 # A free ball that moves faster has been kicked, metres a step.
 KICKED = 1.15
-# Half the width of a goal, metres.
-POST = 3.66
+# What is counted of a match.
+# fmt: off
+COUNTED = [
+    "goals", "conceded", "shots", "wide", "passes", "completed", "owned", "lost", "box", "third",
+    "free", "goal_kicks", "corners", "throw_ins", "free_kicks", "set_piece_steps", "kick_keys",
+    "unplayed", "steps",
+]
+# fmt: on
 
 
 class Tally:
     """What is counted of a match, from raw observations alone."""
 
     def __init__(self) -> None:
-        self.counts = dict.fromkeys(
-            "goals conceded shots wide passes completed owned lost box third free goal_kicks corners throw_ins free_kicks "
-            "set_piece_steps kick_keys unplayed steps".split(),
-            0,
-        )
+        self.counts = dict.fromkeys(COUNTED, 0)
         self.speeds: list[float] = []
         self.owner = None
         self.flight = None
@@ -148,7 +151,7 @@ def main() -> None:
             f"lost {row['lost']:4.0f} speed {row['shot_speed']:4.1f} {time.time() - began:5.0f} s",
             flush=True,
         )
-        with open(options.out, "w") as file:
+        with Path(options.out).open("w") as file:
             json.dump({"game": options.game, "scenario": options.scenario, "rows": rows}, file, indent=1)
 
 

@@ -50,7 +50,9 @@ def scene_of(ball, ball_before, height, me, ours, theirs, step) -> Scene:
     their_away = np.linalg.norm(theirs - ball, axis=1) if len(theirs) else np.array([99.0])
     low = height < 1.0
     mine = low and away[me] < AT_FEET and away[me] <= their_away.min() + 0.3
-    return Scene(ball, ball - ball_before, height, me, ours, theirs, bool(mine), bool(away.min() <= their_away.min()), step)
+    return Scene(
+        ball, ball - ball_before, height, me, ours, theirs, bool(mine), bool(away.min() <= their_away.min()), step
+    )
 
 
 def scene_of_raw(raw: dict, ball_before, step: int) -> Scene:

@@ -1,7 +1,7 @@
 """Twelve agents that play by rules: for whole matches and scenes, from places alone.
 
-Each is a function of a scene and of its own memory; it names an action. `Player` presses it and remembers what it holds.
-Most press their direction again in every step, as many agents do.
+Each is a function of a scene and of its own memory; it names an action. `Player` presses it and remembers what it
+holds. Most press their direction again in every step, as many agents do.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Agents by rules in both games: `python compare.py` plays them here, beside the recorded runs there.
 
-The runs of Google Research Football 2.10.2 lie in `recorded/`, one file a scenario, as `matches.py gfootball` wrote them.
+The runs of Google Research Football 2.10.2 lie in `recorded/`, one file a scenario, as
+`matches.py gfootball` wrote them.
 Writes `docs/transfer.md`.
 """
 

@@ -17,7 +17,7 @@ words! {
         LongPass = "long_pass", "a ground pass ahead of a team mate";
         HighPass = "high_pass", "a lofted pass or cross";
         ShortPass = "short_pass", "a ground pass to a team mate's feet";
-        Shot = "shot", "a shot along a held direction, or at goal; one towards the goal chooses its side";
+        Shot = "shot", "a shot at goal: a held direction chooses the part of the goal mouth; a key that is held charges it";
         Sprint = "sprint", "sprint until released";
         ReleaseDirection = "release_direction", "stop running";
         ReleaseSprint = "release_sprint", "stop sprinting";

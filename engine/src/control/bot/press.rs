@@ -175,24 +175,21 @@ pub fn second(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) 
         body.dribble = Vec2::ZERO;
         return;
     }
-    let rival = view.owner.filter(|owner| owner.team() != view.team);
-    let held = game.play.hands.is_some();
-    if let Some(carrier) = rival.filter(|_| !held).map(|rival| *game.player(rival)) {
-        let player = game.player(id);
-        if player.pos.distance(carrier.pos) < hunt_m(player) {
-            hunt(game, view, id, &carrier);
-            if let Some(rival) = rival {
-                maybe_slide(game, events, view, id, rival);
-            }
-            return;
+    let carrier = view.owner.filter(|owner| owner.team() != view.team && game.play.hands.is_none());
+    let player = game.player(id);
+    match carrier.filter(|rival| player.pos.distance(game.player(*rival).pos) < hunt_m(player)) {
+        Some(rival) => {
+            hunt(game, view, id, rival);
+            maybe_slide(game, events, view, id, rival);
         }
+        None => cover(game, view, id),
     }
-    cover(game, view, id);
 }
 
 /// Runs to the point of a carrier's way to goal that is as near to the carrier as to the hunter; from near for the ball.
 /// (GRF's.)
-fn hunt(game: &mut Match, view: &View, id: PlayerId, carrier: &Player) {
+fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
+    let carrier = *game.player(rival);
     let (own, place) = (game.player(id).pos * view.side, carrier.pos * view.side);
     let between = place - own;
     if between.length() < CHALLENGE_M {

@@ -82,7 +82,7 @@ fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
     player.vel -= away * player.vel.dot(away).min(0.0);
 }
 
-/// Who runs past an opponent whom they have wrong-footed slips by at the side, a little slower.
+/// Who runs past a wrong-footed opponent slips by at the side, a little slower.
 fn slip_by(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
     let player = &mut game.players[id.index()];
     let ahead = player.vel.normalize_or(away);

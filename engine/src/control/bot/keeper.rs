@@ -52,7 +52,7 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
 /// Where a keeper waits, own frame, and how fast they go there.
 ///
 /// On the line that halves the goal as the ball sees it: just before the goal line; further up while the own team has the
-/// ball; all the way out to an opponent whom no mate can stop any more, unless a second one waits for that. (GRF's.)
+/// ball; all the way out to an opponent that no mate can stop any more, unless a second one waits for that. (GRF's.)
 fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
     let keeper = game.player(id).pos * view.side;
     let ball = game.play.forecast.at(game.tick + LOOK_TICKS).truncate() * view.side;

@@ -26,7 +26,7 @@ const LOST_S: f32 = 0.7;
 const MISSED_TICKS: i32 = 30;
 /// How near the ball must be to be kicked, metres.
 pub const KICK_M: f32 = 0.85;
-/// How far from his path a ball may be at the contact for a player to begin his swing, metres; chosen.
+/// How far from their path a ball may be at the contact for a player to begin the swing, metres; chosen.
 const BEGIN_M: f32 = 1.3;
 /// The hardest pass along the ground at a resting ball, m/s. Measured.
 const GROUND_MPS: f32 = 25.2;

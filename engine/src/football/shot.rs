@@ -16,7 +16,7 @@ const CURL: f32 = 420.0;
 const STRAY_SPIN: f32 = 8.0;
 /// With how much a shot falls, its backspin reckoned in, m/s². Measured.
 const FALL_MPS2: f32 = 7.4;
-/// How far ahead of himself a player reckons as he aims, seconds. (GRF's.)
+/// How far ahead a player's own movement counts in the aim, seconds. (GRF's.)
 const AHEAD_S: f32 = 0.12;
 /// The angle to the run at which a shot is easiest, radians: across the body. (GRF's.)
 const IDEAL_RAD: f32 = 0.2 * std::f32::consts::PI;

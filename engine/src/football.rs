@@ -3,7 +3,7 @@
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
 //! [`movement`] (with `rows` and `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
-//! ball first; [`touch`], [`duel`], [`slide`], [`kick`] and [`keeper`] play it; [`flight`] says what that means;
+//! ball first; [`touch`], [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`]) and [`keeper`] play it; [`flight`] says what that means;
 //! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on.
 
 pub mod advantage;
@@ -21,6 +21,7 @@ pub mod kick;
 pub mod movement;
 pub mod noise;
 pub mod offside;
+pub mod pass;
 pub mod pass_target;
 pub mod play;
 pub mod possession;

@@ -1,13 +1,12 @@
-//! Kicks: when the foot meets the ball, and how the ball leaves it.
+//! Kicks: from the key to the moment at which the foot meets the ball.
 //!
-//! Decides the ball's velocity and spin; leaves whom a pass is for to `pass_target`, where a shot goes to `shot`.
+//! Leaves whom a pass is for to `pass_target`, how the ball leaves the foot to `pass` and `shot`.
 
 use crate::event::Events;
 use crate::football::body::{KickKind, KickPlan, NEVER, Swing};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
-use crate::football::{flight, forecast, noise, offside, pass_target, report, shot, touch};
+use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch};
 use crate::math;
-use crate::physics::constants::{GRAVITY, MAGNUS};
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
@@ -28,32 +27,8 @@ const MISSED_TICKS: i32 = 30;
 pub const KICK_M: f32 = 0.85;
 /// How far from their path a ball may be at the contact for a player to begin the swing, metres; chosen.
 const BEGIN_M: f32 = 1.3;
-/// The hardest pass along the ground at a resting ball, m/s. Measured.
-const GROUND_MPS: f32 = 25.2;
-/// How much harder it is struck in stride at most, m/s. Measured.
-const STRIDE_MPS: f32 = 3.2;
-/// The hardest pass behind one's back, m/s. Measured.
-const HEEL_MPS: f32 = 16.8;
-/// The hardest lofted pass behind one's back, m/s. Measured.
-const HIGH_HEEL_MPS: f32 = 33.0;
-/// How much harder a charged pass is struck in stride, m/s, and the gauge from which on. Measured.
-const CHARGE_MPS: f32 = 2.5;
-const CHARGED: f32 = 0.35;
-/// How much faster a ball rises that is played straight ahead, m/s for every metre of its way. Measured.
-const AHEAD_UP_PER_S: f32 = 0.012;
-/// How much faster a ball rises that is played to the side, and behind one's back, m/s. Measured.
-const ASIDE_UP_MPS: f32 = 1.0;
-const HEEL_UP_MPS: f32 = 0.4;
-/// From which angle to the run on a pass is played with the heel, degrees; chosen.
-const HEEL_DEG: f32 = 135.0;
-/// Backspin of a pass along the ground, rad/s: what is lifted off the ground falls with 7.4 m/s², as measured of shots.
-const PASS_BACKSPIN: f32 = 19.0;
 /// The angle by which a pass may still be turned at the contact, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
-/// How far a throw-in goes at most, metres; chosen.
-const THROW_M: f32 = 25.0;
-/// The height at which a throw-in comes to a mate, metres; chosen.
-const CHEST_M: f32 = 1.0;
 /// Highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
@@ -183,7 +158,7 @@ fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     let turn = match plan.kind {
         KickKind::Shot | KickKind::Clear => 0.0,
         _ => {
-            let degrees = off_run(player, way);
+            let degrees = pass::off_run(player, way);
             (15.0 * walks + 6.0 * sprints) * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0)
                 + 10.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
         }
@@ -245,17 +220,15 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             let way = way + Vec2::new(-way.y, way.x) * (noise::bell(game) * 0.25);
             send(game, (way * 21.0).extend(10.0), Vec3::ZERO);
         }
-        kind => {
+        _ => {
             let (way, mate) = refined(game, id, &plan);
             receiver = mate;
-            if mode == Some(GameMode::ThrowIn) {
-                let velocity = throw_velocity(game, id, way);
-                send(game, velocity, Vec3::ZERO);
+            let ball = if mode == Some(GameMode::ThrowIn) {
+                pass::thrown(game, id, way)
             } else {
-                let (velocity, curl) = pass_velocity(game, id, &plan, way, rough, from_hands);
-                let spin = if kind == KickKind::High { backspin(velocity) } else { across(velocity) * PASS_BACKSPIN };
-                send(game, velocity, spin.with_z(curl));
-            }
+                pass::struck(game, id, &plan, way, rough, from_hands)
+            };
+            send(game, ball.velocity, ball.spin);
         }
     }
     flight::note(game, id, if exempt { flight::Touch::Exempt } else { flight::Touch::Played });
@@ -325,86 +298,4 @@ fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
     let volley = if kind == KickKind::Shot { 1.22 - 0.4 * player.skill(Stat::Volley) } else { 1.0 };
     let hurry = 1.3 - 0.4 * player.skill(Stat::Calmness);
     (moving * volley + far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
-}
-
-/// The velocity of a pass along a way of so many metres, and the side spin that bends it back to it, rad/s.
-///
-/// How hard a pass of a length is struck, how hard a foot can strike at most, and that what is missing goes into height
-/// are GRF's.
-fn pass_velocity(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough: f32, by_hand: bool) -> (Vec3, f32) {
-    let player = *game.player(id);
-    let kind = plan.kind;
-    let stat = if kind == KickKind::High { Stat::HighPass } else { Stat::ShortPass };
-    let skill = player.skill(stat);
-    let distance = way.length().clamp(1.0, 60.0);
-    let far = libm::powf(distance / 60.0, 1.4);
-    let degrees = off_run(&player, way);
-    let strides = (player.vel.length() / 2.0).min(1.0);
-    let aside = (degrees / 30.0).min(1.0);
-    let heel = degrees > HEEL_DEG;
-    let charge = (plan.gauge() / CHARGED).min(1.0);
-    let (level, up) = if kind == KickKind::High {
-        // Struck to the side it is flatter, and so a little harder.
-        let rise = (0.39 - 0.07 * distance / 60.0) * (1.0 - 0.2 * aside);
-        let speed =
-            (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
-        let level = speed / libm::sqrtf(1.0 + rise * rise);
-        (level, level * rise)
-    } else {
-        let wanted = 0.97 * 36.0 * (1.8 * far + 0.3);
-        let most = match (by_hand, heel) {
-            (true, _) => 15.0,
-            (_, true) => HEEL_MPS,
-            _ => GROUND_MPS + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
-        };
-        let level = wanted.min(most);
-        let lifted =
-            AHEAD_UP_PER_S * distance * (1.0 - aside) + ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
-        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
-    };
-    // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
-    let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
-    let aside = noise::bell(game) * wild;
-    let power = 1.0 + noise::bell(game) * wild * 0.8;
-    let ahead = way.normalize_or(player.body.facing);
-    let lag = curl(player.body.facing, ahead, level) * if kind == KickKind::High { 0.2 } else { 1.0 };
-    let ahead = math::unit(lag).rotate(ahead);
-    let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
-    (flat.extend(up * power * (1.0 + noise::bell(game) * wild)), -2.0 * lag / (distance * MAGNUS))
-}
-
-/// By what angle a ball leaves nearer to the way a body faces than the kick is meant, radians. (GRF's.)
-pub fn curl(facing: Vec2, way: Vec2, speed_mps: f32) -> f32 {
-    let turn = math::atan2(facing.perp_dot(way), facing.dot(way)) / std::f32::consts::PI;
-    let turn = if turn.abs() > 0.5 { (1.0 - turn.abs()) * math::sign_or(turn, 1.0) } else { turn };
-    -0.5 * turn * (0.4 + 0.6 * (speed_mps / 70.0).clamp(0.0, 1.0))
-}
-
-/// The velocity of a throw-in: it comes down to a mate's chest at the end of a way.
-fn throw_velocity(game: &mut Match, id: PlayerId, way: Vec2) -> Vec3 {
-    let distance = way.length().clamp(2.0, THROW_M);
-    let speed = 7.0 + 0.35 * distance;
-    let time = distance / (0.95 * speed);
-    let rise = (CHEST_M - game.ball.pos.z + 0.5 * GRAVITY * time * time) / time;
-    let ahead = way.normalize_or(game.player(id).body.facing);
-    let aside = Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * 0.02);
-    ((ahead + aside) * speed).extend(rise)
-}
-
-/// The axis of backspin for a velocity: level, unit.
-fn across(velocity: Vec3) -> Vec3 {
-    let flat = velocity.truncate().normalize_or_zero();
-    Vec3::new(flat.y, -flat.x, 0.0)
-}
-
-/// The angle between the way a player runs (or faces) and another, degrees.
-fn off_run(player: &Player, way: Vec2) -> f32 {
-    let ahead = player.vel.normalize_or(player.body.facing);
-    math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees()
-}
-
-/// The backspin that lifts a lofted pass, rad/s.
-fn backspin(velocity: Vec3) -> Vec3 {
-    let slow = 22.0 / velocity.length().max(8.0);
-    across(velocity) * (15.0 * (slow * slow).clamp(0.5, 3.0))
 }

@@ -1,7 +1,7 @@
 //! Where a shot goes and how hard.
 
 use crate::football::body::KickPlan;
-use crate::football::{kick, noise};
+use crate::football::{noise, pass};
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
@@ -131,7 +131,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
     let ball = best + (worst - best) * luck;
 
-    let lag = kick::curl(player.body.facing, ball.truncate(), ball.length());
+    let lag = pass::curl(player.body.facing, ball.truncate(), ball.length());
     let flat = math::unit(lag).rotate(ball.truncate());
     let backspin = Vec3::new(way.y, -way.x, 0.0) * SHOT_BACKSPIN;
     let twist = -CURL * lag + noise::spread(game) * STRAY_SPIN;

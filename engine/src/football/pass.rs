@@ -1,0 +1,121 @@
+//! How hard, how high and with what spin a pass or a throw-in leaves a player.
+//!
+//! Whom it is for and along which way is `pass_target`'s and `kick`'s.
+
+use crate::football::body::{KickKind, KickPlan};
+use crate::football::noise;
+use crate::football::shot::Struck;
+use crate::math;
+use crate::physics::constants::{GRAVITY, MAGNUS};
+use crate::state::{Match, Player, PlayerId};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::vocabulary::Stat;
+
+/// The hardest pass along the ground at a resting ball, m/s. Measured.
+const GROUND_MPS: f32 = 25.2;
+/// How much harder it is struck in stride at most, m/s. Measured.
+const STRIDE_MPS: f32 = 3.2;
+/// The hardest pass behind one's back, m/s. Measured.
+const HEEL_MPS: f32 = 16.8;
+/// The hardest lofted pass behind one's back, m/s. Measured.
+const HIGH_HEEL_MPS: f32 = 33.0;
+/// How much harder a charged pass is struck in stride, m/s, and the gauge from which on. Measured.
+const CHARGE_MPS: f32 = 2.5;
+const CHARGED: f32 = 0.35;
+/// How much faster a ball rises that is played straight ahead, m/s for every metre of its way. Measured.
+const AHEAD_UP_PER_S: f32 = 0.012;
+/// How much faster a ball rises that is played to the side, and behind one's back, m/s. Measured.
+const ASIDE_UP_MPS: f32 = 1.0;
+const HEEL_UP_MPS: f32 = 0.4;
+/// From which angle to the run on a pass is played with the heel, degrees; chosen.
+const HEEL_DEG: f32 = 135.0;
+/// Backspin of a pass along the ground, rad/s: what is lifted off the ground falls with 7.4 m/s², as measured of shots.
+const PASS_BACKSPIN: f32 = 19.0;
+/// How far a throw-in goes at most, metres; chosen.
+const THROW_M: f32 = 25.0;
+/// The height at which a throw-in comes to a mate, metres; chosen.
+const CHEST_M: f32 = 1.0;
+
+/// A pass along a way of so many metres; its side spin bends it back to the way.
+///
+/// How hard a pass of a length is struck, how hard a foot can strike at most, and that what is missing goes into height
+/// are GRF's.
+pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough: f32, by_hand: bool) -> Struck {
+    let player = *game.player(id);
+    let kind = plan.kind;
+    let stat = if kind == KickKind::High { Stat::HighPass } else { Stat::ShortPass };
+    let skill = player.skill(stat);
+    let distance = way.length().clamp(1.0, 60.0);
+    let far = libm::powf(distance / 60.0, 1.4);
+    let degrees = off_run(&player, way);
+    let strides = (player.vel.length() / 2.0).min(1.0);
+    let aside = (degrees / 30.0).min(1.0);
+    let heel = degrees > HEEL_DEG;
+    let charge = (plan.gauge() / CHARGED).min(1.0);
+    let (level, up) = if kind == KickKind::High {
+        // Struck to the side it is flatter, and so a little harder.
+        let rise = (0.39 - 0.07 * distance / 60.0) * (1.0 - 0.2 * aside);
+        let speed =
+            (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
+        let level = speed / libm::sqrtf(1.0 + rise * rise);
+        (level, level * rise)
+    } else {
+        let wanted = 0.97 * 36.0 * (1.8 * far + 0.3);
+        let most = match (by_hand, heel) {
+            (true, _) => 15.0,
+            (_, true) => HEEL_MPS,
+            _ => GROUND_MPS + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
+        };
+        let level = wanted.min(most);
+        let lifted =
+            AHEAD_UP_PER_S * distance * (1.0 - aside) + ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
+        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
+    };
+    // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
+    let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
+    let aside = noise::bell(game) * wild;
+    let power = 1.0 + noise::bell(game) * wild * 0.8;
+    let ahead = way.normalize_or(player.body.facing);
+    let lag = curl(player.body.facing, ahead, level) * if kind == KickKind::High { 0.2 } else { 1.0 };
+    let ahead = math::unit(lag).rotate(ahead);
+    let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
+    let velocity = flat.extend(up * power * (1.0 + noise::bell(game) * wild));
+    let spin = if kind == KickKind::High { backspin(velocity) } else { across(velocity) * PASS_BACKSPIN };
+    Struck { velocity, spin: spin.with_z(-2.0 * lag / (distance * MAGNUS)) }
+}
+
+/// By what angle a ball leaves nearer to the way a body faces than the kick is meant, radians. (GRF's.)
+pub fn curl(facing: Vec2, way: Vec2, speed_mps: f32) -> f32 {
+    let turn = math::atan2(facing.perp_dot(way), facing.dot(way)) / std::f32::consts::PI;
+    let turn = if turn.abs() > 0.5 { (1.0 - turn.abs()) * math::sign_or(turn, 1.0) } else { turn };
+    -0.5 * turn * (0.4 + 0.6 * (speed_mps / 70.0).clamp(0.0, 1.0))
+}
+
+/// A throw-in: it comes down to a mate's chest at the end of a way.
+pub fn thrown(game: &mut Match, id: PlayerId, way: Vec2) -> Struck {
+    let distance = way.length().clamp(2.0, THROW_M);
+    let speed = 7.0 + 0.35 * distance;
+    let time = distance / (0.95 * speed);
+    let rise = (CHEST_M - game.ball.pos.z + 0.5 * GRAVITY * time * time) / time;
+    let ahead = way.normalize_or(game.player(id).body.facing);
+    let aside = Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * 0.02);
+    Struck { velocity: ((ahead + aside) * speed).extend(rise), spin: Vec3::ZERO }
+}
+
+/// The axis of backspin for a velocity: level, unit.
+fn across(velocity: Vec3) -> Vec3 {
+    let flat = velocity.truncate().normalize_or_zero();
+    Vec3::new(flat.y, -flat.x, 0.0)
+}
+
+/// The angle between the way a player runs (or faces) and another, degrees.
+pub fn off_run(player: &Player, way: Vec2) -> f32 {
+    let ahead = player.vel.normalize_or(player.body.facing);
+    math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees()
+}
+
+/// The backspin that lifts a lofted pass, rad/s.
+fn backspin(velocity: Vec3) -> Vec3 {
+    let slow = 22.0 / velocity.length().max(8.0);
+    across(velocity) * (15.0 * (slow * slow).clamp(0.5, 3.0))
+}

@@ -23,11 +23,16 @@ pub const FALL_TICKS: f32 = 45.0;
 /// How often a push from behind brings a man down who runs fast.
 const SHOVE: f32 = 0.02;
 
-/// Whether a failed tackle brings the victim down.
+/// At this speed a victim falls as often as the average one does, m/s; chosen.
+const FALLS_MPS: f32 = 4.0;
+
+/// Whether a failed tackle brings the victim down: the faster they run the more often, and never one who stands. (GRF needs
+/// two bodies that run into each other.)
 pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
     let clumsy = 1.25 - game.player(id).skill(Stat::StandingTackle);
     let steady = 0.5 + 0.5 * game.player(rival).skill(Stat::Balance);
-    let chance = 0.035 * clumsy / steady;
+    let pace = (game.player(rival).vel.length() / FALLS_MPS).min(2.0);
+    let chance = 0.035 * clumsy / steady * pace;
     noise::happens(game, chance)
 }
 

@@ -24,7 +24,7 @@ pub const FALL_TICKS: f32 = 45.0;
 const SHOVE: f32 = 0.02;
 
 /// At this speed a victim falls as often as the average one does, m/s; chosen.
-const FALLS_MPS: f32 = 4.0;
+const FALLS_MPS: f32 = 2.5;
 
 /// Whether a failed tackle brings the victim down: the faster they run the more often, and never one who stands. (GRF needs
 /// two bodies that run into each other.)

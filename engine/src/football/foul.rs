@@ -21,7 +21,7 @@ const HANDBALL: f32 = 0.04;
 /// How long a tripped man lies, ticks.
 pub const FALL_TICKS: f32 = 45.0;
 /// How often a push from behind brings a man down who runs fast.
-const SHOVE: f32 = 0.02;
+const SHOVE: f32 = 0.03;
 
 /// At this speed a victim falls as often as the average one does, m/s; chosen.
 const FALLS_MPS: f32 = 2.5;
@@ -32,7 +32,7 @@ pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
     let clumsy = 1.25 - game.player(id).skill(Stat::StandingTackle);
     let steady = 0.5 + 0.5 * game.player(rival).skill(Stat::Balance);
     let pace = (game.player(rival).vel.length() / FALLS_MPS).min(2.0);
-    let chance = 0.035 * clumsy / steady * pace;
+    let chance = 0.06 * clumsy / steady * pace;
     noise::happens(game, chance)
 }
 

@@ -21,13 +21,15 @@ const HANDBALL: f32 = 0.04;
 /// How long a tripped man lies, ticks.
 pub const FALL_TICKS: f32 = 45.0;
 /// How often a push from behind brings a man down who runs fast.
-const SHOVE: f32 = 0.02;
+const SHOVE: f32 = 0.003;
+/// How often a failed tackle of an average player brings an average one down.
+const TRIP: f32 = 0.01;
 
 /// Whether a failed tackle brings the victim down.
 pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
     let clumsy = 1.25 - game.player(id).skill(Stat::StandingTackle);
     let steady = 0.5 + 0.5 * game.player(rival).skill(Stat::Balance);
-    let chance = 0.035 * clumsy / steady;
+    let chance = TRIP * clumsy / steady;
     noise::happens(game, chance)
 }
 

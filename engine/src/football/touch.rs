@@ -76,9 +76,15 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
     let near = libm::sqrtf(distance);
     if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
         duel::challenge(game, events, id, rival, near);
-    } else if near <= TRAP_M && !about_to_kick(game, id) {
+    } else if near <= trap_m(game, id) && !about_to_kick(game, id) {
         trap(game, events, id);
     }
+}
+
+/// How near a player must be to take the free ball, metres: where both rest it is theirs from further away.
+fn trap_m(game: &Match, id: PlayerId) -> f32 {
+    let rests = game.player(id).vel.length_squared() + game.ball.vel.length_squared() < STOPS_MPS * STOPS_MPS;
+    if rests { SOLE_M } else { TRAP_M }
 }
 
 /// Whoever is dribbling the ball though it rolls free between two touches.

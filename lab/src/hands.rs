@@ -3,9 +3,15 @@
 //! Every scene stands in `lab/data` beside the figures taken of it: how players are placed, which keys are pressed, what
 //! the columns mean. Here the same keys are pressed in our game and the same columns measured.
 
+mod contact;
 mod duels;
+mod keys;
 mod kicks;
+mod recorded;
+mod set_pieces;
 mod shots;
+mod stage;
+mod trace;
 
 use crate::figure::Section;
 use crate::pitch::Failure;
@@ -24,6 +30,9 @@ pub(crate) fn measure(count: Option<u64>) -> Result<Section, Failure> {
     kicks::measure(&mut section, count)?;
     shots::measure(&mut section, count)?;
     duels::measure(&mut section, count)?;
+    for topic in [contact::TOPIC, set_pieces::TOPIC] {
+        recorded::measure(&mut section, &topic, count)?;
+    }
     Ok(section)
 }
 

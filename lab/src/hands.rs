@@ -5,18 +5,38 @@
 
 mod contact;
 mod duels;
+mod early_kicks;
+mod first_touch;
+mod keepers;
 mod keys;
 mod kicks;
+mod openings;
 mod recorded;
 mod set_pieces;
 mod shots;
 mod stage;
+mod switching;
 mod trace;
+mod turns;
+mod winning;
 
 use crate::figure::Section;
 use crate::pitch::Failure;
 use serde::de::DeserializeOwned;
 use setpiece::scenario::vocabulary::Action;
+
+/// The topics in the common form, in the order of the report.
+const TOPICS: [recorded::Topic; 9] = [
+    contact::TOPIC,
+    set_pieces::TOPIC,
+    switching::TOPIC,
+    keepers::TOPIC,
+    early_kicks::TOPIC,
+    first_touch::TOPIC,
+    winning::TOPIC,
+    turns::TOPIC,
+    openings::TOPIC,
+];
 
 /// Measures everything of the section.
 pub(crate) fn measure(count: Option<u64>) -> Result<Section, Failure> {
@@ -30,8 +50,8 @@ pub(crate) fn measure(count: Option<u64>) -> Result<Section, Failure> {
     kicks::measure(&mut section, count)?;
     shots::measure(&mut section, count)?;
     duels::measure(&mut section, count)?;
-    for topic in [contact::TOPIC, set_pieces::TOPIC] {
-        recorded::measure(&mut section, &topic, count)?;
+    for topic in &TOPICS {
+        recorded::measure(&mut section, topic, count)?;
     }
     Ok(section)
 }

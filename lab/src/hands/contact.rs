@@ -36,7 +36,6 @@ const COLUMNS: [Column; 19] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "contact",
     file: "grf_contact.json",
-    data: include_str!("../../data/grf_contact.json"),
     columns: &COLUMNS,
     read,
 };

@@ -31,7 +31,6 @@ const COLUMNS: [Column; 9] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "early kick",
     file: "grf_early_kicks.json",
-    data: include_str!("../../data/grf_early_kicks.json"),
     columns: &COLUMNS,
     read,
 };

@@ -19,7 +19,6 @@ const COLUMNS: [Column; 9] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "first touch",
     file: "grf_first_touch.json",
-    data: include_str!("../../data/grf_first_touch.json"),
     columns: &COLUMNS,
     read,
 };

@@ -23,7 +23,6 @@ const COLUMNS: [Column; 9] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "keeper",
     file: "grf_keepers.json",
-    data: include_str!("../../data/grf_keepers.json"),
     columns: &COLUMNS,
     read,
 };

@@ -1,6 +1,6 @@
 //! The keys of an agent: a list of keys, each pressed every step until a condition holds.
 
-use super::trace::View;
+use super::trace::{View, apart};
 use crate::pitch::Failure;
 use setpiece::scenario::vocabulary::Action;
 
@@ -15,6 +15,9 @@ const WAYS: [Action; 8] = [
     Action::Bottom,
     Action::BottomRight,
 ];
+
+/// The scripted agent shoots when it owns the ball nearer to the goal than this, metres.
+const SHOT_M: f64 = 16.0;
 
 /// A condition as recorded: so many steps, or words.
 #[derive(Clone, Debug, serde::Deserialize)]
@@ -40,12 +43,15 @@ pub(super) struct Keys<'a> {
     mirrored: bool,
     at: usize,
     pressed: u32,
+    /// What the scripted agent holds: its direction, and the sprint.
+    held: Option<Action>,
+    sprints: bool,
 }
 
 impl<'a> Keys<'a> {
     /// At the start of a plan.
     pub(super) fn new(plan: &'a [Phase], agent: usize, team: usize, mirrored: bool) -> Keys<'a> {
-        Keys { plan, agent, team, mirrored, at: 0, pressed: 0 }
+        Keys { plan, agent, team, mirrored, at: 0, pressed: 0, held: None, sprints: false }
     }
 
     /// The key of the next step.
@@ -68,6 +74,22 @@ impl<'a> Keys<'a> {
         Ok(match key.as_str() {
             "chase" => towards([view.ball[0], view.ball[1]]),
             "goal" => towards([54.4 * side, 0.0]),
+            "scripted" => {
+                let goal = [54.4 * side, 0.0];
+                let owned = view.owned_by(self.team as i8, view.active[self.agent]);
+                let way = towards(if owned { goal } else { [view.ball[0], view.ball[1]] });
+                if owned && apart(goal, me) < SHOT_M {
+                    Action::Shot
+                } else if self.held != Some(way) {
+                    self.held = Some(way);
+                    way
+                } else if self.sprints {
+                    Action::Idle
+                } else {
+                    self.sprints = true;
+                    Action::Sprint
+                }
+            }
             key if self.mirrored => mirror(action(key)?),
             key => action(key)?,
         })

@@ -7,6 +7,7 @@ use super::trace::{Take, View, play};
 use crate::figure::{Part, Section};
 use crate::pitch::{Failure, mean};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// Episodes of every row.
 const EPISODES: u64 = 48;
@@ -18,6 +19,10 @@ const FEWEST: u64 = 5;
 pub(super) enum Kind {
     /// A share of the episodes.
     Share,
+    /// A share of an episode's steps: ±0.05.
+    Part,
+    /// A count in an episode: ±0.25.
+    Count,
     /// Steps: ±1.
     Steps,
     /// m/s: ±8 %.
@@ -39,8 +44,8 @@ pub(super) type Column = (&'static str, Kind);
 pub(super) struct Topic {
     /// What its rows are about.
     pub(super) name: &'static str,
+    /// In `lab/data`.
     pub(super) file: &'static str,
-    pub(super) data: &'static str,
     pub(super) columns: &'static [Column],
     /// The figures of an episode in the order of the columns.
     pub(super) read: fn(&[View], &Row) -> Vec<Option<f64>>,
@@ -90,7 +95,9 @@ struct Measured {
 /// Measures every row of a topic.
 pub(super) fn measure(section: &mut Section, topic: &Topic, count: Option<u64>) -> Result<(), Failure> {
     let named = |why: String| format!("lab/data/{}: {why}", topic.file);
-    let file: File = serde_json::from_str(topic.data).map_err(|why| named(why.to_string()))?;
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(topic.file);
+    let text = std::fs::read_to_string(&path).map_err(|why| named(why.to_string()))?;
+    let file: File = serde_json::from_str(&text).map_err(|why| named(why.to_string()))?;
     let episodes = count.unwrap_or(EPISODES);
     for row in &file.rows {
         let take = Take {
@@ -114,7 +121,11 @@ pub(super) fn measure(section: &mut Section, topic: &Topic, count: Option<u64>) 
             names.push(name.replace('_', " "));
             parts.extend(part(kind, theirs, ours));
         }
-        let about = if row.right == usual() { String::new() } else { format!(", difficulty {}", row.right) };
+        let about = match [row.left, row.right] {
+            [left, right] if left != one() => format!(", difficulties {left} and {right}"),
+            [_, right] if right != usual() => format!(", difficulty {right}"),
+            _ => String::new(),
+        };
         section.row(format!("{}: {}, {}{about}: {}", topic.name, row.scene, row.plan, names.join(" · ")), parts);
     }
     Ok(())
@@ -127,6 +138,8 @@ fn part(kind: Kind, theirs: &Measured, ours: &[f64]) -> Option<Part> {
     let chance = 1.96 * theirs.sd.unwrap_or_default() * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
     let give = match kind {
         Kind::Share => share_give(middle, theirs.n, n),
+        Kind::Part => 0.05 + chance,
+        Kind::Count => 0.25 + chance,
         Kind::Steps => 1.0 + chance,
         Kind::Speed => 0.08 * middle + chance,
         Kind::Degrees => 3.0 + chance,

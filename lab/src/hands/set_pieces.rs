@@ -7,6 +7,10 @@ use setpiece::scenario::vocabulary::Role;
 
 /// Steps after the ball has moved in which the last owner counts.
 const KEPT_STEPS: usize = 15;
+/// Steps over which the largest speed is taken.
+const SPEED_STEPS: usize = 5;
+/// Faster than any kick: the ball was placed, m/s.
+const PLACED_MPS: f64 = 60.0;
 
 const COLUMNS: [Column; 16] = [
     ("awarded", Kind::Share),
@@ -31,7 +35,6 @@ const COLUMNS: [Column; 16] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "set piece",
     file: "grf_set_pieces.json",
-    data: include_str!("../../data/grf_set_pieces.json"),
     columns: &COLUMNS,
     read,
 };
@@ -84,7 +87,11 @@ fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
         role(&[Role::CF]),
         Some(apart(start.teams[1][start.nearest(1, spot, |_| true)], spot)),
         Some(apart(start.player(0, 0), spot)),
-        moved.map(|from| trace[from..trace.len().min(from + 5)].iter().map(|view| view.speed).fold(0.0, f64::max)),
+        moved.map(|from| {
+            let after = trace[from..trace.len().min(from + SPEED_STEPS)].iter();
+            let plays = after.filter(|view| [0, mode].contains(&view.mode) && view.score == start.score);
+            plays.map(|view| view.speed).filter(|mps| *mps < PLACED_MPS).fold(0.0, f64::max)
+        }),
         moved.map(|from| {
             let after = &trace[from..=last.min(from + KEPT_STEPS)];
             yes(after.iter().rev().find(|view| view.owner >= 0).is_some_and(|view| view.owner == 1))

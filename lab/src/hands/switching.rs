@@ -23,16 +23,15 @@ const COLUMNS: [Column; 11] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "switching",
     file: "grf_switching.json",
-    data: include_str!("../../data/grf_switching.json"),
     columns: &COLUMNS,
     read,
 };
 
 fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
     let event = match row.event.as_str() {
-        "kick" => first(trace, 2, |view| {
-            [Action::ShortPass, Action::LongPass, Action::HighPass].contains(&view.pressed[0])
-        }),
+        "kick" => {
+            first(trace, 2, |view| [Action::ShortPass, Action::LongPass, Action::HighPass].contains(&view.pressed[0]))
+        }
         "lost" => first(trace, 2, |view| view.owner == 1),
         "score" => first(trace, 2, |view| view.score != trace[0].score),
         _ => Some(2),

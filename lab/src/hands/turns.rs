@@ -23,7 +23,6 @@ const COLUMNS: [Column; 7] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "turn",
     file: "grf_turns.json",
-    data: include_str!("../../data/grf_turns.json"),
     columns: &COLUMNS,
     read,
 };

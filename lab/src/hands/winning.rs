@@ -18,7 +18,6 @@ const COLUMNS: [Column; 8] = [
 pub(super) const TOPIC: Topic = Topic {
     name: "winning the ball",
     file: "grf_winning.json",
-    data: include_str!("../../data/grf_winning.json"),
     columns: &COLUMNS,
     read,
 };

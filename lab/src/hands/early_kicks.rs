@@ -61,7 +61,7 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
         kick.map(|step| step as f64 - key as f64 + 1.0),
         kick.zip(arrives).map(|(step, arrives)| (step - arrives) as f64),
         kick.map(|step| trace[step].velocity()),
-        kick.map(|step| trace[step].degrees()),
+        kick.map(|step| trace[step].degrees().abs()),
         kick.map(|step| {
             trace[step..trace.len().min(step + PEAK_STEPS)].iter().map(|view| view.ball[2]).fold(0.0, f64::max)
         }),

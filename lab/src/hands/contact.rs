@@ -33,12 +33,7 @@ const COLUMNS: [Column; 19] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "contact",
-    file: "grf_contact.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "contact", file: "grf_contact.json", columns: &COLUMNS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let mut jockeyed = Vec::new();

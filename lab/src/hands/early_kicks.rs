@@ -28,12 +28,7 @@ const COLUMNS: [Column; 9] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "early kick",
-    file: "grf_early_kicks.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "early kick", file: "grf_early_kicks.json", columns: &COLUMNS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let pressed = |view: &View| [Action::Shot, Action::ShortPass, Action::HighPass].contains(&view.pressed[1]);

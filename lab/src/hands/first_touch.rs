@@ -16,12 +16,7 @@ const COLUMNS: [Column; 9] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "first touch",
-    file: "grf_first_touch.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "first touch", file: "grf_first_touch.json", columns: &COLUMNS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let mut figures = vec![None; COLUMNS.len()];

@@ -20,12 +20,7 @@ const COLUMNS: [Column; 9] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "keeper",
-    file: "grf_keepers.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "keeper", file: "grf_keepers.json", columns: &COLUMNS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let Some(key) = first(trace, 1, |view| view.pressed[0] == Action::Shot) else {

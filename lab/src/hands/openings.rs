@@ -21,12 +21,7 @@ const COLUMNS: [Column; 10] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "match",
-    file: "grf_matches.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "match", file: "grf_matches.json", columns: &COLUMNS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let plays = |pair: &&[View]| pair[0].mode == 0 && pair[1].mode == 0 && pair[0].score == pair[1].score;

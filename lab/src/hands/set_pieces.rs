@@ -32,12 +32,7 @@ const COLUMNS: [Column; 16] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "set piece",
-    file: "grf_set_pieces.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "set piece", file: "grf_set_pieces.json", columns: &COLUMNS, read };
 
 /// The `game_mode` of a scene; a kick-off shows none.
 fn mode_of(scene: &str) -> usize {

@@ -20,12 +20,7 @@ const COLUMNS: [Column; 11] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "switching",
-    file: "grf_switching.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "switching", file: "grf_switching.json", columns: &COLUMNS, read };
 
 fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
     let event = match row.event.as_str() {

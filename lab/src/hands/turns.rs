@@ -20,12 +20,7 @@ const COLUMNS: [Column; 7] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "turn",
-    file: "grf_turns.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "turn", file: "grf_turns.json", columns: &COLUMNS, read };
 
 /// The key of a turn and its way.
 fn turn(plan: &str) -> (Action, f64) {

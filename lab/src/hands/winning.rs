@@ -15,12 +15,7 @@ const COLUMNS: [Column; 8] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic = Topic {
-    name: "winning the ball",
-    file: "grf_winning.json",
-    columns: &COLUMNS,
-    read,
-};
+pub(super) const TOPIC: Topic = Topic { name: "winning the ball", file: "grf_winning.json", columns: &COLUMNS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let owned = first(trace, 1, |view| view.owner >= 0);

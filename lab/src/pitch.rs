@@ -65,10 +65,15 @@ impl Trial {
 
     /// Plays a step; false once the episode has ended.
     pub(crate) fn step(&mut self, action: Action) -> Result<bool, Failure> {
+        self.step_all(&[action])
+    }
+
+    /// Plays a step of several agents, the left team's first; false once the episode has ended.
+    pub(crate) fn step_all(&mut self, actions: &[Action]) -> Result<bool, Failure> {
         if !self.environment.is_running() {
             return Ok(false);
         }
-        self.environment.step(&[action], &mut self.scratch).map_err(|why| why.to_string())?;
+        self.environment.step(actions, &mut self.scratch).map_err(|why| why.to_string())?;
         Ok(true)
     }
 

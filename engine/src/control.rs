@@ -134,10 +134,14 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
     }
 }
 
-/// A set piece that an agent doesn't take is taken for it: a short pass is pressed, once.
+/// A set piece that an agent doesn't take is taken for it: a short pass is pressed, once, and let go.
 fn hurry(game: &Match, id: PlayerId, action: Action) -> Action {
     let late =
         game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id && set_piece.waited_steps >= STALLING_STEPS);
     let asked = game.player(id).body.kick.is_some();
-    if late && !asked && game.rule(Rule::AntiStalling) { Action::ShortPass } else { action }
+    match (late && game.rule(Rule::AntiStalling), asked) {
+        (false, _) => action,
+        (true, false) => Action::ShortPass,
+        (true, true) => Action::Idle,
+    }
 }

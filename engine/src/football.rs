@@ -4,7 +4,8 @@
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
 //! [`movement`] (with `rows` and `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
 //! ball first; [`touch`], [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`]) and [`keeper`] play it; [`flight`] says what that means;
-//! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on.
+//! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and
+//! [`lineup`] say who stands where.
 
 pub mod advantage;
 pub mod begin;
@@ -18,6 +19,7 @@ pub mod foul;
 pub mod frame;
 pub mod keeper;
 pub mod kick;
+pub mod lineup;
 pub mod movement;
 pub mod noise;
 pub mod offside;

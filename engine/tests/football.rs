@@ -15,6 +15,8 @@ mod referee;
 mod rules;
 #[path = "football/scenarios.rs"]
 mod scenarios;
+#[path = "football/set_pieces.rs"]
+mod set_pieces;
 #[path = "football/statistics.rs"]
 mod statistics;
 

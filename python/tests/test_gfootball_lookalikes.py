@@ -382,7 +382,6 @@ def test_an_order_of_teams_needs_no_words_in_a_text() -> None:
     assert _translation.to_pitch(turned, "turned", recorded) == plain
 
 
-@pytest.mark.xfail(strict=True, reason="the engine's second half begins one step earlier than GRF's")
 def test_the_second_half_begins_after_five_steps() -> None:
     """The left player begins at the ball, and in the second half in the place that the right one had."""
     env = FootballEnv(Config({"level": "tests.second_half"}))
@@ -392,3 +391,130 @@ def test_the_second_half_begins_after_five_steps() -> None:
         [seen], _, done, _ = env.step(actions.action_idle)
         across.append(float(seen["left_team"][1][0]))
     assert np.allclose(across, [0.0] * 5 + [-0.5] * 6, atol=0.1)
+
+
+def test_the_second_half_of_a_script_begins_as_late(tmp_path: Path) -> None:
+    script = tmp_path / "halves.py"
+    script.write_text(
+        "from . import *\n"
+        "def build_scenario(builder):\n"
+        "    builder.config().game_duration = 30\n"
+        "    builder.config().second_half = 20\n"
+        "    for team, x in ((Team.e_Left, 0.0), (Team.e_Right, -0.5)):\n"
+        "        builder.SetTeam(team)\n"
+        "        builder.AddPlayer(-1.0, 0.0, e_PlayerRole_GK, lazy=True)\n"
+        "        builder.AddPlayer(x, 0.02, e_PlayerRole_CM, lazy=True)\n"
+    )
+    env = FootballEnv(Config({"level": str(script)}))
+    env.reset()
+    done, across = False, []
+    while not done:
+        [seen], _, done, _ = env.step(actions.action_idle)
+        across.append(float(seen["left_team"][1][0]))
+    assert np.allclose(across, [0.0] * 20 + [-0.5] * 11, atol=0.1)
+    assert env.unwrapped._config.ScenarioConfig().second_half == 20
+
+
+def test_the_library_knows_when_a_second_half_begins() -> None:
+    for level, begins in (("11_vs_11_kaggle", 1500), ("tests.second_half", 5), (FULL, 999_999_999)):
+        assert Config({"level": level}).ScenarioConfig().second_half == begins
+
+
+def ended(level: str, episode: int, pressed: list[Any], *, reverse: bool = False) -> dict[str, Any]:
+    """Returns what the first slot sees at the end of an episode in which every slot presses one action."""
+    sides = ("left", "right")[: len(pressed)]
+    settings = {
+        "level": f"tests.{level}",
+        "players": [f"agent:{','.join(f'{side}_players=1' for side in sides)}"],
+        "episode_number": episode,
+        "reverse_team_processing": reverse,
+    }
+    env = FootballEnv(Config(settings))
+    [seen, *_], done = env.reset(), False
+    while not done:
+        [seen, *_], _, done, _ = env.step(pressed)
+    return seen
+
+
+ORDERS = pytest.mark.parametrize("reverse", [False, True])
+
+
+def near(place: Any, expected: tuple[float, float], within: float) -> bool:
+    return bool(np.allclose(np.asarray(place)[:2], expected, atol=within))
+
+
+@ORDERS
+@pytest.mark.parametrize(("episode", "side"), [(0, 1.0), (1, -1.0)])
+def test_the_places_at_a_corner(episode: int, side: float, reverse: bool) -> None:
+    """Who leads the ball over their own line gives a corner away, and the lazy don't take it."""
+    seen = ended("corner_test", episode, [actions.action_left] * 2, reverse=reverse)
+    assert seen["game_mode"] == 4
+    assert near(seen["ball"], (-1.011 * side, 0.431 * side), 0.01)
+    taker, defender = ("right", "left") if side > 0 else ("left", "right")
+    assert near(seen[f"{taker}_team"][1], (-1.046 * side, 0.446 * side), 0.01)
+    assert near(seen[f"{defender}_team"][1], (-0.95 * side, -0.084 * side), 0.01)
+    assert near(seen["left_team"][2], (-0.959, 0.013) if side > 0 else (0.354, -0.04), 0.01)
+    assert near(seen["left_team"][0], (-0.991, 0.0), 0.01)
+    assert near(seen["right_team"][0], (0.991, 0.0), 0.01)
+    assert seen["active"] == (2 if side > 0 else 1)
+
+
+@ORDERS
+@pytest.mark.parametrize(("episode", "side"), [(0, 1.0), (1, -1.0)])
+def test_the_places_at_a_goal_kick(episode: int, side: float, reverse: bool) -> None:
+    seen = ended("keeper_test", episode, [actions.action_right] * 2, reverse=reverse)
+    assert seen["game_mode"] == 2
+    assert near(seen["ball"], (0.93 * side, 0.0), 0.01)
+    own, other = ("right", "left") if side > 0 else ("left", "right")
+    assert near(seen[f"{own}_team"][0], (0.972 * side, 0.0), 0.01)
+    assert near(seen[f"{own}_team"][1], (0.414 * side, 0.232 * side), 0.01)
+    assert near(seen[f"{other}_team"][0], (-0.991 * side, 0.0), 0.01)
+    assert near(seen[f"{other}_team"][1], (-0.339 * side, -0.232 * side), 0.01)
+    assert near(seen["left_team"][2], (-0.404, -0.045) if side > 0 else (-0.506, -0.045), 0.01)
+    assert seen["active"] == (1 if side > 0 else 0)
+
+
+def test_a_lazy_player_never_takes_a_penalty() -> None:
+    seen = ended("penalty", 1, [actions.action_sliding])
+    assert seen["game_mode"] == 6
+    assert near(seen["ball"], (-0.809, 0.0), 0.01)
+    assert near(seen["left_team"][0], (-0.991, 0.0), 0.01)
+    assert near(seen["left_team"][1], (-0.699, -0.233), 0.01)
+    assert near(seen["right_team"][0], (0.991, 0.0), 0.01)
+    assert near(seen["right_team"][1], (-0.754, 0.0), 0.01)
+    assert seen["active"] == 0
+
+
+@ORDERS
+@pytest.mark.parametrize(("episode", "side"), [(0, "left"), (1, "right")])
+def test_a_goal_in_either_net(episode: int, side: str, reverse: bool) -> None:
+    seen = ended("goal_test", episode, [actions.action_right] * 2, reverse=reverse)
+    assert list(seen["score"]) == ([1, 0] if side == "left" else [0, 1])
+    assert near(seen["ball"], (0.0, 0.0), 0.01)
+
+
+@ORDERS
+@pytest.mark.parametrize(("episode", "side"), [(1, "left"), (0, "right")])
+def test_a_keepers_pass_to_an_offside_mate(episode: int, side: str, reverse: bool) -> None:
+    """The agent begins with the keeper, who is nearest to the ball, and passes to the only mate, who is offside."""
+    settings = {
+        "level": "tests.offside_test",
+        "players": [f"agent:{side}_players=1"],
+        "episode_number": episode,
+        "reverse_team_processing": reverse,
+    }
+    env = FootballEnv(Config(settings))
+    assert env.reset()[0]["active"] == 0
+    [seen], _, done, _ = env.step(actions.action_long_pass)
+    assert seen["active"] == 0
+    while not done and seen["game_mode"] != 3:
+        [seen], _, done, _ = env.step(actions.action_idle)
+    assert seen["game_mode"] == 3
+    assert 0.6 < seen["ball"][0] < 1.0
+    assert near(seen["left_team"][0], (-0.991, 0.0), 0.01)
+    assert near(seen["left_team"][1], (-0.37, -0.22), 0.1)
+    assert near(seen["right_team"][1], (0.64, 0.18), 0.1)
+    for _ in range(8):
+        if not done:
+            [seen], _, done, _ = env.step(actions.action_idle)
+            assert seen["game_mode"] == 3, "the lazy never take it"

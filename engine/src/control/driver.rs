@@ -60,6 +60,7 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
         slide::begin(game, events, id, direction);
     }
     let player = *game.player(id);
+    let takes = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
     let chases = sticky::presses(held.sticky) && !may_play(game, id);
     let fetch = has_ball || player.body.kick.is_some() || assist::ball_is_his(game, id);
     let body = &mut game.players[id.index()].body;
@@ -69,6 +70,13 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     }
     let waits = body.kick.is_some() && game.play.set_piece.is_none();
     let wish = if waits && has_ball { braked(&player, direction) } else { direction.unwrap_or(Vec2::ZERO) * gait };
+    if takes {
+        // Whoever takes a set piece stands until the run-up.
+        body.dribble = Vec2::ZERO;
+        let runs = body.kick.is_some_and(|plan| !plan.held || plan.swing.is_some());
+        body.intent = if runs { Intent::Ball(SPRINT_MPS) } else { Intent::Stand };
+        return key;
+    }
     body.dribble = wish;
     body.intent = if waits && has_ball {
         // However fast the ball rolls on, they stay with it.

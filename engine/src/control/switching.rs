@@ -1,8 +1,8 @@
 //! Which player an agent's slot controls.
 //!
 //! Fixed slots keep their player for ever. The others follow the ball: to the mate who will be there much sooner, to
-//! whoever has it, to the receiver of a pass, to the taker of a set piece; to the keeper for goal kicks alone, if there is
-//! anybody else.
+//! whoever has it, to the receiver of a pass, to the taker of a set piece. At the start and at restarts they go to those
+//! nearest to the ball, keepers too; in play never to a keeper.
 
 use crate::football::touch;
 use crate::state::{Match, PlayerId};
@@ -158,8 +158,7 @@ fn fill(game: &mut Match) {
         let ball = game.ball.pos.truncate();
         let mut best: Option<(f32, PlayerId)> = None;
         for (id, player) in game.team(agent.team) {
-            let keeper = if player.role == Role::GK { 1.0e6 } else { 0.0 };
-            let distance = player.pos.distance_squared(ball) + keeper;
+            let distance = player.pos.distance_squared(ball);
             if free(game, id) && best.is_none_or(|(least, _)| distance < least) {
                 best = Some((distance, id));
             }

@@ -1,8 +1,9 @@
 //! The first moment of a match.
 
+use crate::control::bot::formation;
 use crate::football::body::Body;
 use crate::football::play::Restart;
-use crate::football::{forecast, noise, reach, restart, stats};
+use crate::football::{forecast, noise, reach, restart, set_piece, stats};
 use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -27,7 +28,7 @@ pub fn begin(drawn: &Drawn) -> Match {
         player.body = body;
         player.heading_rad = start.heading_rad.unwrap_or_else(|| crate::math::heading(to_ball));
     }
-    crate::control::bot::formation::assign_slots(&mut game);
+    formation::assign_slots(&mut game);
     game.play.others = drawn.others;
     game.play.ball_mean = drawn.ball_pos.truncate();
     let nearest = nearest_team(&mut game);
@@ -63,14 +64,14 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
     let placed: [(Vec2, Vec2); PLAYERS_MAX] = std::array::from_fn(|i| (game.players[i].pos, game.players[i].vel));
     restart::place(game, Restart { mode, team, spot });
     // What the scenario says of its players stands, but for the taker.
-    let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
     if mode != GameMode::KickOff {
-        for (i, (place, velocity)) in placed.into_iter().enumerate() {
-            if taker.is_none_or(|id| id.index() != i) {
-                (game.players[i].pos, game.players[i].vel) = (place, velocity);
-            }
+        for (player, (place, velocity)) in game.players.iter_mut().zip(placed) {
+            (player.pos, player.vel) = (place, velocity);
         }
+        set_piece::appoint(game);
+        formation::assign_slots(game);
         restart::face_ball(game);
+        let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
         for (i, player) in game.players.iter_mut().enumerate() {
             let told = drawn.players[i].as_ref().and_then(|start| start.heading_rad);
             if let Some(heading) = told.filter(|_| taker.is_none_or(|id| id.index() != i)) {

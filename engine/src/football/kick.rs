@@ -49,6 +49,12 @@ pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
     KickPlan { held: true, until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
+/// A set piece that a bot takes from now on.
+pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
+    let swing = Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None };
+    KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
+}
+
 fn asked(kind: KickKind) -> KickPlan {
     KickPlan {
         kind,
@@ -108,13 +114,17 @@ pub fn kick_ball(game: &mut Match, events: &mut Events) {
 /// Begins the swing of an agent's kick, once the key is let go (or held long enough) and the ball will be in reach at its
 /// end.
 fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
-    if plan.held && plan.gauge_ticks <= CHARGE_TICKS {
+    if plan.held && (plan.gauge_ticks <= CHARGE_TICKS || stays(game, plan.kind)) {
         return None;
     }
     let (way, mate) = meant(game, id, plan);
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
-    let ticks = if at_hand { at_hand_ticks(plan.kind) } else { swing_ticks(player, plan, way) };
+    let ticks = match game.play.set_piece {
+        Some(set_piece) => run_up_ticks(set_piece.mode),
+        None if at_hand => at_hand_ticks(plan.kind),
+        None => swing_ticks(player, plan, way),
+    };
     let there = game.play.forecast.at(game.tick + ticks as u32);
     let time_s = ticks as f32 * 0.01;
     let place = player.pos + player.vel * (time_s * 0.7);
@@ -135,7 +145,18 @@ fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>
     }
 }
 
-/// Ticks of a swing at a ball that waits.
+/// Whether the taker of a set piece stands for as long as the key is held, however long; a lofted pass and a throw begin.
+/// (Measured.)
+fn stays(game: &Match, kind: KickKind) -> bool {
+    kind != KickKind::High && game.play.set_piece.is_some_and(|set_piece| set_piece.mode != GameMode::ThrowIn)
+}
+
+/// Ticks from the beginning of a run-up to the contact at a set piece. Measured.
+fn run_up_ticks(mode: GameMode) -> i32 {
+    if mode == GameMode::ThrowIn { 22 } else { 52 }
+}
+
+/// Ticks of a kick out of a keeper's hands.
 fn at_hand_ticks(kind: KickKind) -> i32 {
     if matches!(kind, KickKind::Short | KickKind::Long) { 34 } else { 24 }
 }

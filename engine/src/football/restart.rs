@@ -1,5 +1,6 @@
 //! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
 
+use crate::control::bot::formation;
 use crate::football::body::{Intent, NEVER, Pose};
 use crate::football::play::{Restart, SetPiece};
 use crate::football::{forecast, reach, set_piece};
@@ -39,8 +40,7 @@ pub fn place(game: &mut Match, restart: Restart) {
     lay_ball(game, restart.spot);
     if restart.mode == GameMode::KickOff {
         kick_off(game, restart.team, restart.spot);
-    } else if let Some(taker) = set_piece::taker(game, restart) {
-        set_piece::arrange(game, restart, taker);
+    } else if let Some(taker) = set_piece::arrange(game, restart) {
         game.play.set_piece =
             Some(SetPiece { mode: restart.mode, team: restart.team, taker, spot: restart.spot, waited_steps: 0 });
         game.mode = restart.mode;
@@ -66,6 +66,7 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
         let own = PlayerId(i as u8).team() == team;
         player.pos = player.body.kickoff[usize::from(!own)];
     }
+    formation::assign_slots(game);
     game.mode = GameMode::KickOff;
     game.owner = None;
     game.possession = Some(team);

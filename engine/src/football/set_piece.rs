@@ -1,19 +1,18 @@
 //! Set pieces: who takes one and where everybody stands.
 
-use crate::football::offside;
-use crate::football::play::Restart;
-use crate::state::{Match, PlayerId};
+use crate::control::bot::formation;
+use crate::football::play::{Restart, SetPiece};
+use crate::football::{lineup, offside};
+use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::{
-    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX,
-};
+use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX};
 use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// How far a wall stands from the ball, metres. Laws.
 const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
-/// How far everybody keeps from a penalty, metres. (GRF's, and a little for who is pushed aside.)
-const PENALTY_M: f32 = 9.65 + 0.4;
+/// How far opponents keep from a throw-in, metres; chosen: the laws have 2.
+const THROW_IN_M: f32 = 3.0;
 /// A wall is built for free kicks nearer to goal than this, metres (GRF's).
 pub const WALL_WITHIN_M: f32 = 40.0;
 /// How near two men stand at a set piece at the nearest, metres: about a body's breadth.
@@ -24,18 +23,17 @@ const ONSIDE_M: f32 = 1.0;
 const SPREAD_PASSES: usize = 8;
 /// How high the ball is held before a throw-in, metres; chosen.
 const OVERHEAD_M: f32 = 1.9;
-/// From one man of a wall to the next, metres.
-const WALL_SPACING_M: f32 = 0.75;
+/// From one player of a wall to the next, share of the distance to the ball. (GRF's.)
+const WALL_SPACING: f32 = 0.07;
 
-/// Who takes a set piece: the nearest, but the keeper for goal kicks and nobody but an outfielder else, and who is lazy
-/// only where everybody is.
-pub fn taker(game: &Match, restart: Restart) -> Option<PlayerId> {
+/// Who takes a set piece: whoever of the team stands nearest to the ball once everybody is in place; the lazy only where
+/// nobody else is there. (The nearest: GRF's.)
+fn nearest(game: &Match, team: Team, spot: Vec2, unfit: impl Fn(&Player) -> bool) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
-    for (id, player) in game.team(restart.team) {
-        let keeper = player.role == Role::GK;
-        let misplaced = if keeper == (restart.mode == GameMode::GoalKick) { 0.0 } else { 1.0e4 };
+    for (id, player) in game.team(team) {
         let unwilling = if player.ai == Ai::Lazy { 1.0e5 } else { 0.0 };
-        let distance = player.pos.distance(restart.spot) + misplaced + unwilling;
+        let misplaced = if unfit(player) { 1.0e4 } else { 0.0 };
+        let distance = player.pos.distance(spot) + misplaced + unwilling;
         if best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, id));
         }
@@ -43,38 +41,59 @@ pub fn taker(game: &Match, restart: Restart) -> Option<PlayerId> {
     best.map(|(_, id)| id)
 }
 
-/// Places everyone for a set piece other than a kick-off.
-pub fn arrange(game: &mut Match, restart: Restart, taker: PlayerId) {
-    for i in 0..PLAYERS_MAX {
-        let id = PlayerId(i as u8);
-        let player = &game.players[i];
-        if !player.active || id == taker {
-            continue;
-        }
-        let own = id.team() == restart.team;
-        let place = if player.role == Role::GK {
-            Vec2::new(-53.9 * id.team().side() as f32, 0.0)
-        } else {
-            place_of(restart, id.team(), own, player.body.mind.slot, id.in_team())
-        };
-        game.players[i].pos = place;
+/// Gives the set piece that waits to a taker where everybody else stands as a scenario has it: the nearest, and that is the
+/// keeper for goal kicks and an outfielder else.
+pub fn appoint(game: &mut Match) {
+    let Some(SetPiece { mode, team, spot, .. }) = game.play.set_piece else { return };
+    let unfit = |player: &Player| (player.role == Role::GK) != (mode == GameMode::GoalKick);
+    let Some(taker) = nearest(game, team, spot, unfit) else { return };
+    if let Some(set_piece) = &mut game.play.set_piece {
+        set_piece.taker = taker;
     }
+    game.owner = Some(taker);
+    game.last_touch = Some(taker);
+    let side = team.side() as f32;
+    let player = &mut game.players[taker.index()];
+    (player.pos, player.vel) = (side * lineup::taker(mode, side * spot), Vec2::ZERO);
+}
+
+/// Places everyone for a set piece other than a kick-off; returns who takes it.
+pub fn arrange(game: &mut Match, restart: Restart) -> Option<PlayerId> {
+    line_up(game, restart);
     keep_distance(game, restart);
     build_wall(game, restart);
     if restart.mode == GameMode::FreeKick && game.rule(Rule::Offside) {
         keep_onside(game, restart.team);
     }
+    let taker = nearest(game, restart.team, restart.spot, |_| false)?;
     let side = restart.team.side() as f32;
-    let behind = match restart.mode {
-        GameMode::ThrowIn => Vec2::new(0.0, 0.35 * restart.spot.y.signum()),
-        GameMode::Corner => Vec2::new(0.35 * side, 0.35 * restart.spot.y.signum()),
-        _ => Vec2::new(-0.7 * side, 0.0),
-    };
-    game.players[taker.index()].pos = restart.spot + behind;
+    game.players[taker.index()].pos = side * lineup::taker(restart.mode, side * restart.spot);
     if restart.mode == GameMode::ThrowIn {
         game.ball.pos.z = OVERHEAD_M;
     }
     spread_out(game, taker);
+    for team in [Team::Left, Team::Right] {
+        formation::assign_numbers(game, team);
+    }
+    Some(taker)
+}
+
+/// Sends everyone to the place of their number.
+fn line_up(game: &mut Match, restart: Restart) {
+    let sizes = [Team::Left, Team::Right].map(|team| game.team(team).count());
+    for i in 0..PLAYERS_MAX {
+        let id = PlayerId(i as u8);
+        let side = id.team().side() as f32;
+        let player = &mut game.players[i];
+        if player.active {
+            let own = id.team() == restart.team;
+            player.pos = side
+                * match player.role {
+                    Role::GK => lineup::keeper(),
+                    _ => lineup::place(restart.mode, own, side * restart.spot, id.in_team(), sizes[id.team().index()]),
+                };
+        }
+    }
 }
 
 /// Nobody of the team that takes a free kick waits in an offside position.
@@ -114,36 +133,7 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
     true
 }
 
-/// Where a player of a slot stands: his slot stretched over the part of the pitch that the set piece is about.
-fn place_of(restart: Restart, team: Team, own: bool, slot: Vec2, index: usize) -> Vec2 {
-    let side = team.side() as f32;
-    let (half_x, half_y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
-    // The ball in the own frame of the player's team.
-    let ball = restart.spot * side;
-    let share = (slot.x + 1.0) * 0.5;
-    let (back, front, width, pull_x, focus_x, pull_y) = match restart.mode {
-        GameMode::GoalKick if own => (-0.62 * half_x, 0.15 * half_x, 0.85, 0.0, 0.0, 0.0),
-        GameMode::GoalKick => (-0.45 * half_x, 0.40 * half_x, 0.7, 0.0, 0.0, 0.0),
-        GameMode::Corner if own => (0.05 * half_x, 0.92 * half_x, 0.40, 0.65, 0.86 * half_x, 0.1),
-        GameMode::Corner => (-0.95 * half_x, -0.55 * half_x, 0.42, 0.7, -0.88 * half_x, 0.1),
-        GameMode::ThrowIn if own => (ball.x - 30.0, ball.x + 20.0, 0.8, 0.25, ball.x + 4.0, 0.45),
-        GameMode::ThrowIn => (ball.x - 30.0, ball.x + 15.0, 0.8, 0.25, ball.x - 10.0, 0.4),
-        GameMode::Penalty if own => (-0.2 * half_x, 0.65 * half_x, 0.7, 0.0, 0.0, 0.0),
-        GameMode::Penalty => (-0.66 * half_x, 0.2 * half_x, 0.7, 0.0, 0.0, 0.0),
-        _ if own => (ball.x - 32.0, ball.x + 22.0, 0.8, 0.1, ball.x + 8.0, 0.25),
-        _ => ((ball.x - 34.0).max(-46.0), (ball.x + 12.0).max(-30.0), 0.75, 0.2, (ball.x - 14.0).max(-42.0), 0.3),
-    };
-    let x = back + share * (front - back);
-    let x = x + (focus_x - x) * pull_x;
-    let y = slot.y * width * half_y;
-    let y = y + (ball.y - y) * pull_y;
-    // Two men of one slot stand a little apart.
-    let apart = ((index * 7) % 5) as f32 * 0.35 - 0.7;
-    let place = Vec2::new(x.clamp(-half_x + 1.0, half_x - 1.0), (y + apart).clamp(-half_y + 1.0, half_y - 1.0));
-    place * side
-}
-
-/// The three nearest defenders stand in the way of a free kick near their goal, as near as they may.
+/// The three defenders nearest to the ball stand in the way of a free kick near their goal, as near as they may.
 fn build_wall(game: &mut Match, restart: Restart) {
     let goal = Vec2::new(HALF_LENGTH_M as f32 * restart.team.side() as f32, 0.0);
     let way = goal - restart.spot;
@@ -153,12 +143,11 @@ fn build_wall(game: &mut Match, restart: Restart) {
     }
     let ahead = way / distance;
     let aside = Vec2::new(-ahead.y, ahead.x);
-    let middle = restart.spot + ahead * WALL_M;
     let mut taken = 0u32;
-    for place in [0.0, 1.0, -1.0] {
+    for place in [-1.0, 0.0, 1.0] {
         let mut best: Option<(f32, PlayerId)> = None;
         for (id, player) in game.team(restart.team.other()) {
-            let away = player.pos.distance_squared(middle);
+            let away = player.pos.distance_squared(restart.spot);
             let free = player.role != Role::GK && taken & (1 << id.0) == 0;
             if free && best.is_none_or(|(least, _)| away < least) {
                 best = Some((away, id));
@@ -166,44 +155,25 @@ fn build_wall(game: &mut Match, restart: Restart) {
         }
         let Some((_, id)) = best else { return };
         taken |= 1 << id.0;
-        game.players[id.index()].pos = middle + aside * (place * WALL_SPACING_M);
+        let way = (ahead + aside * (place * WALL_SPACING)).normalize_or(ahead);
+        game.players[id.index()].pos = restart.spot + way * WALL_M;
     }
 }
 
-/// Opponents keep their distance; at a penalty everyone keeps out of the box.
+/// Opponents keep their distance.
 fn keep_distance(game: &mut Match, restart: Restart) {
-    let apart = match restart.mode {
-        GameMode::ThrowIn => 3.0,
-        _ => CIRCLE_RADIUS_M as f32,
-    };
-    let line = (HALF_LENGTH_M - BOX_DEPTH_M) as f32;
-    let side = restart.team.side() as f32;
+    let least = if restart.mode == GameMode::ThrowIn { THROW_IN_M } else { CIRCLE_RADIUS_M as f32 };
+    let inward = (-restart.spot).normalize_or(Vec2::new(-(restart.team.side() as f32), 0.0));
+    let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
     for (i, player) in game.players.iter_mut().enumerate() {
-        if !player.active || player.role == Role::GK {
+        let own = PlayerId(i as u8).team() == restart.team;
+        let away = player.pos - restart.spot;
+        if own || !player.active || player.role == Role::GK || away.length_squared() >= least * least {
             continue;
         }
-        let own = PlayerId(i as u8).team() == restart.team;
-        let least = match restart.mode {
-            GameMode::Penalty => PENALTY_M,
-            _ if own => 2.5,
-            _ => apart,
-        };
-        let away = player.pos - restart.spot;
-        if away.length() < least {
-            let inward = Vec2::new(-restart.spot.x, -restart.spot.y).normalize_or(Vec2::new(-side, 0.0));
-            player.pos = restart.spot + away.normalize_or(inward) * least;
-            let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
-            if player.pos.x.abs() > x || player.pos.y.abs() > y {
-                player.pos = restart.spot + inward * least;
-            }
-        }
-        let in_box = player.pos.x.abs() > line - 0.5 && player.pos.y.abs() < BOX_HALF_WIDTH_M as f32 + 0.5;
-        let that_box = player.pos.x * restart.spot.x > 0.0;
-        if restart.mode == GameMode::Penalty && in_box && that_box {
-            player.pos.x = (line - 1.0) * restart.spot.x.signum();
-        }
-        if restart.mode == GameMode::GoalKick && !own && in_box && that_box {
-            player.pos.x = (line - 1.0) * restart.spot.x.signum();
+        player.pos = restart.spot + away.normalize_or(inward) * least;
+        if player.pos.x.abs() > x || player.pos.y.abs() > y {
+            player.pos = restart.spot + inward * least;
         }
     }
 }

@@ -444,7 +444,7 @@ fn an_agents_penalty_goes_to_the_side_that_is_held() {
             bench.game.agents[0].player = Some(taker);
             bench.step(hold);
             bench.step(Action::Shot);
-            for _ in 0..4 {
+            for _ in 0..6 {
                 bench.step(Action::Idle);
                 if bench.seen(EventKind::Shot).is_some() {
                     break;

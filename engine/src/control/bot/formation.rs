@@ -3,12 +3,17 @@
 //! Slots come from roles, spread among players of one role; the block's formulas are GRF's, simplified.
 
 use crate::control::bot::View;
+use crate::football::lineup;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};
 
 /// Half the pitch, metres.
 const HALF: Vec2 = Vec2::new(55.0, 36.0);
+
+/// Teams of fewer players keep the slots of their roles after a set piece; chosen, so that a team of eleven stays one after
+/// red cards.
+const WHOLE: usize = 8;
 
 /// The block of a team in its own frame.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +76,27 @@ pub fn assign_slots(game: &mut Match) {
         }
         game.players[i].body.mind.slot = slot.clamp(Vec2::splat(-1.0), Vec2::splat(1.0));
         game.players[i].body.mind.mindset = mindset;
+    }
+}
+
+/// Gives every player of a whole team the slot of their number: a set piece has put them there, and they stay. (GRF gives
+/// every slot to whoever is near it.)
+pub fn assign_numbers(game: &mut Match, team: Team) {
+    if game.team(team).count() < WHOLE {
+        return;
+    }
+    for id in game.squad.of(team).ids() {
+        let player = &mut game.players[id.index()];
+        if player.role != Role::GK {
+            let slot = lineup::SLOTS[id.in_team()];
+            player.body.mind.slot = slot;
+            player.body.mind.mindset = match slot.x {
+                ..-0.8 => 0.0,
+                ..-0.5 => 0.25,
+                ..0.8 => 0.5,
+                _ => 1.0,
+            };
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::control::bot::GOAL;
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::kick;
+use crate::football::movement::SPRINT_MPS;
 use crate::football::noise;
 use crate::football::offside;
 use crate::football::play::SetPiece;
@@ -13,8 +14,6 @@ use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{GameMode, Rule};
 
-/// Steps that a bot waits before it plays a set piece.
-const WAIT_STEPS: u16 = 3;
 /// Steps that a team of the lazy waits; chosen, so that it is over before an agent would have had to kick.
 const LAZY_WAIT_STEPS: u16 = 14;
 
@@ -31,11 +30,17 @@ pub fn think(game: &mut Match) {
     // Who is lazy takes it only where he would hold up the game.
     let late = set_piece.waited_steps >= LAZY_WAIT_STEPS && game.rule(Rule::AntiStalling);
     let lazy = game.player(taker).ai == Ai::Lazy && !late;
-    if driven || lazy || set_piece.waited_steps < WAIT_STEPS || game.player(taker).body.kick.is_some() {
+    if driven || lazy {
         return;
     }
-    let plan = choose(game, set_piece);
-    game.players[taker.index()].body.kick = Some(plan);
+    if game.player(taker).body.kick.is_none() {
+        let plan = choose(game, set_piece);
+        game.players[taker.index()].body.kick = Some(plan);
+    }
+    // The run-up.
+    let body = &mut game.players[taker.index()].body;
+    body.dribble = Vec2::ZERO;
+    body.intent = Intent::Ball(SPRINT_MPS);
 }
 
 /// What the taker plays.
@@ -45,7 +50,7 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let luck = noise::whim(game);
     let spread = noise::whim(game) * 2.0 - 1.0;
     let [short, high, shot] =
-        [KickKind::Short, KickKind::High, KickKind::Shot].map(|kind| kick::planned(kind, game.tick));
+        [KickKind::Short, KickKind::High, KickKind::Shot].map(|kind| kick::taken(kind, set_piece.mode, game.tick));
     let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);
     match set_piece.mode {
         GameMode::Penalty => {

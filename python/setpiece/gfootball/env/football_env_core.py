@@ -28,6 +28,9 @@ STALLED = 20
 TURNING = 30
 """Steps after which its taker is sent the other way."""
 
+Clock = tuple[int | None, int | None]
+"""The steps of an episode and those before its second half, or none."""
+
 _KINDS = {"snapshot": bytes, "waiting": int, "step_count": int, "cumulative_reward": float, "done": bool}
 """What parts of a state are that are taken as they are."""
 
@@ -56,7 +59,7 @@ class FootballEnvCore:
         self._played = (1, 0)
         self._env: setpiece.FootballEnv | None = None
         self._source: Source | None = None
-        self._limit: int | None = None
+        self._clock: Clock = (None, None)
         self.slots: list[dict[str, Any]] = []
         """What each slot sees, in its team's own frame."""
         self.whole: dict[str, Any] = {}
@@ -74,7 +77,7 @@ class FootballEnvCore:
         config.NewScenario(inc)
         recorded = config.ScenarioConfig()
         _check_agents(recorded)
-        self._enter(config.Scenario().source, _length(recorded), self._playable(recorded))
+        self._enter(config.Scenario().source, (_length(recorded), _half_time(recorded)), self._playable(recorded))
         assert self._env is not None
         observed, info = self._env.reset(
             seed=recorded.game_engine_random_seed, options={"episode": config["episode_number"] % 2}
@@ -108,7 +111,7 @@ class FootballEnvCore:
         source = self._source
         return {
             "source": (source.name, source.text, source.folder),
-            "limit": self._limit,
+            "clock": self._clock,
             "played": self._played,
             "agents": self._asked,
             "snapshot": self._env.snapshot(),
@@ -131,24 +134,24 @@ class FootballEnvCore:
         source = Source(*state["source"])
         if self._source is None or source.name != self._source.name:
             raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
-        before = self._env, self._source, self._limit, self._played
+        before = self._env, self._source, self._clock, self._played
         try:
-            self._enter(source, state["limit"], state["played"])
+            self._enter(source, state["clock"], state["played"])
             assert self._env is not None
             observed, info = self._env.restore(state["snapshot"])
         except Exception:
-            self._env, self._source, self._limit, self._played = before
+            self._env, self._source, self._clock, self._played = before
             raise
         self.waiting, self.step_count = state["waiting"], state["step_count"]
         self.cumulative_reward, self.done = state["cumulative_reward"], state["done"]
         self._see(observed, info)
 
-    def _enter(self, source: Source, limit: int | None, played: tuple[int, int]) -> None:
+    def _enter(self, source: Source, clock: Clock, played: tuple[int, int]) -> None:
         """Makes the environment of a scenario, unless it is the one that is there."""
-        if self._env is None or (source, limit, played) != (self._source, self._limit, self._played):
-            scenario = source.compiled(str(played[0]), str(played[1]), limit)
+        if self._env is None or (source, clock, played) != (self._source, self._clock, self._played):
+            scenario = source.compiled(str(played[0]), str(played[1]), *clock)
             self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set="full")
-            self._source, self._limit, self._played = source, limit, played
+            self._source, self._clock, self._played = source, clock, played
 
     def _playable(self, recorded: ScenarioConfig) -> tuple[int, int]:
         """How many slots the engine has: one is always there, since somebody has to see the match."""
@@ -244,6 +247,11 @@ def _check_agents(recorded: ScenarioConfig) -> None:
 
 def _nothing_held(config: Config) -> Any:
     return np.zeros(len(get_sticky_actions(config)), np.uint8)
+
+
+def _half_time(recorded: ScenarioConfig) -> int | None:
+    """The steps before half-time, or none: GRF plays one more than it says."""
+    return recorded.second_half + 1 if recorded.second_half < min(recorded.game_duration, LIMIT_MAX) else None
 
 
 def _length(recorded: ScenarioConfig) -> int | None:

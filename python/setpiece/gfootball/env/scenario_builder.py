@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 PACKAGES = ("setpiece.gfootball.scenarios", "gfootball.scenarios")
 TESTS = "tests."
 """What GRF writes before the names of the scenarios of its own tests."""
+HALF_TIME = "half_time"
+"""The parameter by which a scenario that is no script says after how many steps its second half begins."""
 Script = Callable[["Recorder"], object]
 
 
@@ -131,10 +133,16 @@ class Source:
     text: str = ""
     folder: str = ""
 
-    def compiled(self, left: str, right: str, steps: int | None) -> setpiece.Scenario:
-        """Returns the scenario with so many agents on each side (`all` for everybody) and so many steps."""
+    def compiled(self, left: str, right: str, steps: int | None, half_time: int | None = None) -> setpiece.Scenario:
+        """Returns the scenario with so many agents on each side (`all` for everybody), so many steps and half-time then.
+
+        GRF hurries agents, and never a player who is lazy: so the environment does it, and not the engine.
+        """
+        half = "" if half_time is None else f", half_time: {half_time} steps"
         limit = "" if steps is None else f" end limit {steps} steps"
-        return _compiled(self, f"agents {{ left: {left}, right: {right} }}{limit}")
+        return _compiled(
+            self, f"rules {{ anti_stalling: off{half} }} agents {{ left: {left}, right: {right} }}{limit}"
+        )
 
     def agents_on_the_left(self) -> int:
         """Returns how many agents the scenario itself asks for."""
@@ -162,6 +170,7 @@ def _measured(source: Source) -> ScenarioConfig:
     first, turned = views[0], teams[0] == 1
     recorded = ScenarioConfig()
     recorded.game_duration = int(first["steps_left"]) if first["steps_left"] >= 0 else NEVER
+    recorded.second_half = int(scenario.params[HALF_TIME].default) if HALF_TIME in scenario.params else NEVER
     recorded.ball_position = [float(number) for number in first["ball"]]
     if turned:
         recorded.ball_position[:2] = [-number for number in recorded.ball_position[:2]]

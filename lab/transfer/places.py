@@ -125,8 +125,8 @@ class Roster:
 class Tracker:
     """Follows the players of `envs` games from map to map.
 
-    A player keeps a slot from the start of an episode, where the slots' start places tell who is who; with them, order
-    and number of the features don't depend on the game or on who runs past whom.
+    A player keeps one slot throughout an episode: slots are assigned by their start places. So the features have the
+    same order in both games.
     """
 
     def __init__(self, roster: Roster, envs: int) -> None:

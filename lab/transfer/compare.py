@@ -11,6 +11,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+
 from agents import AGENTS
 from matches import play
 from options import is_match

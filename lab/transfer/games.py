@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+
 from places import Tracker
 from policy import Policy, draw
 
-HERE, THERE = "Setpiece", "EnvPool's Google Research Football"
 ENVS_MAX = 8
 """Most games at once in an evaluation."""
 

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+
 from games import Here
 from network import Adam, Mlp
 from places import Roster, Tracker

@@ -9,6 +9,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+
 from games import ENVS_MAX, Here, There, play, there_version
 from intervals import mean_interval, share_interval
 from options import POLICIES, SCENARIOS, episodes_of, is_match
@@ -113,7 +114,9 @@ def table(records: list[dict]) -> str:
             share = share_interval(here, there)
             name = record["scenario"] if kind == KINDS[0] else ""
             steps = f"{record['training']['steps']:,}" if kind == KINDS[0] else ""
-            ratio = "-" if share is None else "{:.0%} ({:.0%} to {:.0%})".format(*share)
+            ratio = (
+                "-" if share is None else "{:.0%} ({:.0%} to {:.0%})".format(*(round(part, 2) + 0.0 for part in share))
+            )
             lines.append(f"| {name} | {steps} | {kind} | {cell(here)} | {cell(there)} | {ratio} |")
             if share is not None:
                 kept.append(share[0])
@@ -130,4 +133,6 @@ def table(records: list[dict]) -> str:
 def cell(ends: np.ndarray) -> str:
     """Returns a mean score with its interval."""
     low, high = mean_interval(ends)
-    return f"{ends.mean():.2f} ({low:.2f} to {high:.2f})"
+    # Adding 0 makes a rounded -0 a plain 0.
+    mean, low, high = (round(value, 2) + 0.0 for value in (float(ends.mean()), low, high))
+    return f"{mean:.2f} ({low:.2f} to {high:.2f})"

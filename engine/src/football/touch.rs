@@ -219,7 +219,9 @@ struct Care {
 fn touch_ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &Care) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     // The stride that the next touch will find, rather than the one that is wanted.
-    let gait = (0.7 * own + 0.3 * speed) / 8.0;
+    let pace = player.vel.length();
+    let under_way = (pace / WALKS_MPS).min(1.0);
+    let gait = (speed + 0.7 * (pace - speed) * under_way) / 8.0;
     let shy = if care.pressed { 0.8 } else { 1.0 };
     let time = (0.12 + 0.6 * gait * gait * gait * gait) * shy;
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);

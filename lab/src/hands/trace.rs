@@ -3,7 +3,7 @@
 use super::keys::{Keys, Plan};
 use super::stage::Scene;
 use crate::pitch::{Failure, Trial, text};
-use setpiece::engine::state::Match;
+use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::vocabulary::{Action, Role, Team};
 
 /// Modes in which the drop-in shows a ball without an owner.
@@ -12,6 +12,8 @@ const OWNERLESS: [usize; 5] = [1, 2, 3, 4, 6];
 const KICK_OFF: usize = 1;
 /// Steps after which a waiting set piece is taken for the agents.
 const STALLED: u32 = 20;
+/// Steps after which its taker is sent the other way.
+const TURNING: u32 = 30;
 
 /// One moment; metres in the frame of the pitch, y towards the bottom.
 #[derive(Clone, Debug)]
@@ -55,13 +57,13 @@ impl View {
             ball,
             vel: game.ball.vel.truncate().to_array().map(f64::from),
             speed: before.map_or(0.0, |b| (ball[0] - b.ball[0]).hypot(ball[1] - b.ball[1]) * 10.0),
-            owner: owner.map_or(-1, |id| if id.team() == Team::Left { 0 } else { 1 }),
-            who: owner.map_or(usize::MAX, |id| id.in_team()),
+            owner: owner.map_or(-1, |id| i8::from(id.team() == Team::Right)),
+            who: owner.map_or(usize::MAX, PlayerId::in_team),
             mode: if mode == KICK_OFF { 0 } else { mode },
             teams: [left, right],
             roles: [left_roles, right_roles],
             pressed,
-            active: game.agents.iter().map(|slot| slot.player.map_or(0, |id| id.in_team())).collect(),
+            active: game.agents.iter().map(|slot| slot.player.map_or(0, PlayerId::in_team)).collect(),
             score: game.score,
         }
     }
@@ -75,10 +77,8 @@ impl View {
     pub(super) fn ball_from(&self, at: [f64; 2]) -> f64 {
         (self.ball[0] - at[0]).hypot(self.ball[1] - at[1])
     }
-}
 
-impl View {
-    /// Whether this team has the ball.
+    /// Whether a team's player has the ball.
     pub(super) fn owned_by(&self, team: i8, player: usize) -> bool {
         self.owner == team && self.who == player
     }
@@ -152,7 +152,9 @@ pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> 
         let view = &trace[trace.len() - 1];
         let mut actions = hands.iter_mut().map(|hand| hand.press(view)).collect::<Result<Vec<_>, _>>()?;
         if waiting >= STALLED {
-            actions.fill(if waiting == STALLED { Action::ShortPass } else { Action::Idle });
+            for (agent, action) in actions.iter_mut().enumerate() {
+                *action = hurried(view, agent, usize::from(agent >= left), waiting);
+            }
         }
         if !trial.step_all(&actions)? {
             break;
@@ -165,6 +167,18 @@ pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> 
         }
     }
     Ok(trace)
+}
+
+/// What the drop-in presses for an agent while a set piece waits for too long.
+fn hurried(view: &View, agent: usize, team: usize, waiting: u32) -> Action {
+    if waiting == STALLED {
+        return Action::ShortPass;
+    }
+    match view.owned_by(team as i8, view.active[agent]) {
+        true if waiting < TURNING => Action::Right,
+        true => Action::Left,
+        false => Action::Idle,
+    }
 }
 
 /// Whether an episode stops here.

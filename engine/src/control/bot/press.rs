@@ -74,7 +74,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     // Else who stands in the way goes back with the carrier, and who is behind hunts where it is near enough.
     let alone = alone(game, id, carrier.pos);
     let fights = (carrier.body.meet_s + 0.2) / (player.body.meet_s + 0.2) > FIGHTS;
-    let goes = told || !alone && (fights || stands(&carrier));
+    let goes = told || !alone && fights;
     if !goes && goalside {
         contain(game, view, id, &carrier);
         return;

@@ -64,3 +64,9 @@ pub fn wrap(angle_rad: f32) -> f32 {
     let turned = (angle_rad + PI) % TAU;
     if turned < 0.0 { turned + PI } else { turned - PI }
 }
+
+/// A smooth step: 0 at 0, 1 at 1, level at both ends.
+pub fn smooth(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}

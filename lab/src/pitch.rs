@@ -6,6 +6,9 @@ use setpiece::engine::event::Event;
 use setpiece::engine::state::{Match, Player};
 use setpiece::scenario::vocabulary::Action;
 
+/// How much further out than the ball a script of GRF's places a player: 55 and 84.96 m for 54.4 and 83.6 m.
+const PLACED: [f64; 2] = [55.0 / 54.4, 84.96 / 83.6];
+
 /// What went wrong, in words.
 pub(crate) type Failure = String;
 
@@ -22,6 +25,24 @@ pub(crate) fn library(name: &str, params: &[(&str, String)]) -> Result<Environme
 pub(crate) fn text(source: &str) -> Result<Environment, Failure> {
     let loaded = setpiece::compile_text(source, "<lab>").map_err(|why| why.to_string())?;
     Environment::new(loaded.scenario, EnvironmentOptions::default()).map_err(|why| why.to_string())
+}
+
+/// The environment of a text whose players stand where a script of GRF's places them: on a wider scale than the ball.
+pub(crate) fn script(source: &str) -> Result<Environment, Failure> {
+    let mut pieces = source.split(" at (");
+    let mut placed = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let of_ball = placed.ends_with("ball");
+        placed.push_str(" at (");
+        let point = piece.split_once(')').and_then(|(point, rest)| Some((point.split_once(", ")?, rest)));
+        match point.and_then(|((x, y), rest)| Some((x.parse::<f64>().ok()?, y.parse::<f64>().ok()?, rest))) {
+            Some((x, y, rest)) if !of_ball => {
+                placed.push_str(&format!("{:.4}, {:.4}){rest}", x * PLACED[0], y * PLACED[1]));
+            }
+            _ => placed.push_str(piece),
+        }
+    }
+    text(&placed)
 }
 
 /// An episode under way whose first agent is led by hand.
@@ -44,10 +65,15 @@ impl Trial {
 
     /// Plays a step; false once the episode has ended.
     pub(crate) fn step(&mut self, action: Action) -> Result<bool, Failure> {
+        self.step_all(&[action])
+    }
+
+    /// Plays a step of several agents, the left team's first; false once the episode has ended.
+    pub(crate) fn step_all(&mut self, actions: &[Action]) -> Result<bool, Failure> {
         if !self.environment.is_running() {
             return Ok(false);
         }
-        self.environment.step(&[action], &mut self.scratch).map_err(|why| why.to_string())?;
+        self.environment.step(actions, &mut self.scratch).map_err(|why| why.to_string())?;
         Ok(true)
     }
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+
 from scene import Scene
 
 GOAL = np.array([54.4, 0.0])

@@ -1,31 +1,23 @@
-"""Agents by rules in both games: `python compare.py` plays them here, beside the recorded runs there.
+"""Agents by rules in both games: plays them here, beside the recorded runs there.
 
-The runs of Google Research Football 2.10.2 lie in `recorded/`, one file a scenario, as
-`matches.py gfootball` wrote them.
-Writes `docs/transfer.md`.
+The runs of Google Research Football 2.10.2 lie in `recorded/`, one file a scenario, as `matches.py gfootball` wrote
+them; the latest runs here are stored beside them, under `here`.
 """
 
 from __future__ import annotations
 
-import argparse
 import importlib
 import json
 from pathlib import Path
 
 import numpy as np
+
 from agents import AGENTS
 from matches import play
+from options import is_match
 
-HERE = Path(__file__).parent
-PAGE = HERE.parent.parent / "docs" / "transfer.md"
+RECORDED = Path(__file__).parent / "recorded"
 COLUMNS = ("goals", "conceded", "shots", "wide", "passes", "completed", "owned", "lost", "shot_speed")
-HEAD = """# Transfer
-
-What agents that play by rules come to here and in Google Research Football 2.10.2: twelve agents, the same keys for the
-same places, raw observations, the left team against the built-in bots. `python lab/transfer/compare.py` plays them here
-and writes this page; the runs there are recorded in `lab/transfer/recorded/` (`matches.py` makes them where the package
-is installed). Every figure is a mean over episodes: here / there.
-"""
 
 
 def ranks(values: list[float]) -> np.ndarray:
@@ -42,12 +34,36 @@ def correlation(here: list[float], there: list[float]) -> float:
     return float(np.corrcoef(a, b)[0, 1])
 
 
+def recorded() -> list[Path]:
+    """Returns the files of recorded runs."""
+    return sorted(RECORDED.glob("*.json"))
+
+
+def play_here(scenarios: list[str], episodes: int) -> None:
+    """Plays the agents here where runs are recorded: a quarter of `episodes` in scenes, a twentieth in matches."""
+    football = importlib.import_module("setpiece.gfootball.env")
+    for file in recorded():
+        runs = json.loads(file.read_text())
+        scenario = runs["scenario"]
+        if scenario not in scenarios:
+            continue
+        count = max(1, episodes // (20 if is_match(scenario) else 4))
+        runs["here"] = {}
+        for name in runs["rows"]:
+            env = football.create_environment(env_name=scenario, representation="raw", rewards="scoring")
+            row = play(env, name, count, 3001)
+            env.close()
+            runs["here"][name] = {key: row[key] for key in (*COLUMNS, "episodes")}
+        print(f"{scenario}: {len(runs['here'])} agents by rules, {count} episodes each", flush=True)
+        file.write_text(json.dumps(runs, indent=1))
+
+
 def section(scenario: str, there: dict, here: dict) -> str:
     """The table of a scenario and what it comes to."""
     names = [name for name in AGENTS if name in there]
     counts = {row["episodes"] for row in there.values()}, {row["episodes"] for row in here.values()}
     lines = [
-        f"## {scenario}",
+        f"### {scenario}",
         "",
         f"Episodes of every agent: {max(counts[1])} here, {max(counts[0])} there.",
         "",
@@ -68,27 +84,7 @@ def section(scenario: str, there: dict, here: dict) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
-    """Plays every recorded scenario and writes the page."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument(
-        "--episodes", type=int, default=20, help="of every agent in a whole match; scenes get five times as many"
-    )
-    options = parser.parse_args()
-    football = importlib.import_module("setpiece.gfootball.env")
-    page = [HEAD]
-    for file in sorted((HERE / "recorded").glob("*.json")):
-        there = json.loads(file.read_text())
-        scenario, here = there["scenario"], {}
-        episodes = options.episodes * (1 if scenario.startswith("11_vs_11") else 5)
-        for name in there["rows"]:
-            env = football.create_environment(env_name=scenario, representation="raw", rewards="scoring")
-            here[name] = play(env, name, episodes, 3001)
-            env.close()
-        page.append(section(scenario, there["rows"], here))
-        print(page[-1], flush=True)
-    PAGE.write_text("\n".join(page))
-
-
-if __name__ == "__main__":
-    main()
+def sections() -> str:
+    """Returns the tables of all scenarios that have been played here."""
+    runs = [json.loads(file.read_text()) for file in recorded()]
+    return "\n".join(section(run["scenario"], run["rows"], run["here"]) for run in runs if "here" in run)

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+
 from agents import AGENTS, Player
 from scene import METRES, scene_of_raw
 

@@ -27,7 +27,7 @@ pub(crate) fn rust_tests() -> Result<(), String> {
 
 /// Builds the wheel once and tests it in an environment of its own.
 pub(crate) fn python() -> Result<(), String> {
-    let python = venv("venv", "requirements-dev.txt")?;
+    let python = venv("venv", "python/requirements-dev.txt")?;
     install_wheel(&python, &wheel(&python)?)?;
     let run_in = |folder: &str, args: &[&str]| {
         run(Command::new(&python).arg("-m").args(args).current_dir(root().join("python").join(folder)))
@@ -35,6 +35,7 @@ pub(crate) fn python() -> Result<(), String> {
     run_in("", &["ruff", "check"])?;
     run_in("", &["ruff", "format", "--check"])?;
     run_in("../benches", &["ruff", "check", "--config", "../python/pyproject.toml"])?;
+    run_in("../lab/transfer", &["ruff", "check", "--config", "../../python/pyproject.toml"])?;
     run_in("tests", &["mypy", "--strict", "--config-file", "../pyproject.toml", "-p", "setpiece"])?;
     run_in("tests", &["mypy.stubtest", "setpiece._native"])?;
     pytest(&python)
@@ -43,30 +44,35 @@ pub(crate) fn python() -> Result<(), String> {
 /// Builds the wheel and runs the Python tests beside the heavy packages, so that none of `tests/full` is left out.
 pub(crate) fn python_full() -> Result<(), String> {
     // The heavy packages want another Gymnasium than what builds the wheel.
-    let wheel = wheel(&venv("venv", "requirements-dev.txt")?)?;
-    let python = venv("venv-full", "requirements-full.txt")?;
+    let wheel = wheel(&venv("venv", "python/requirements-dev.txt")?)?;
+    let python = venv("venv-full", "python/requirements-full.txt")?;
     install_wheel(&python, &wheel)?;
     pytest(&python)
 }
 
+/// The Python that environments are made with.
+pub(crate) fn system_python() -> &'static str {
+    if cfg!(windows) { "python" } else { "python3" }
+}
+
 /// Makes an environment in `target/` with what a file of requirements names; returns its Python.
-fn venv(name: &str, requirements: &str) -> Result<PathBuf, String> {
+pub(crate) fn venv(name: &str, requirements: &str) -> Result<PathBuf, String> {
     let venv = root().join("target").join(name);
     let python = venv.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if !python.exists() {
-        let system = if cfg!(windows) { "python" } else { "python3" };
-        run(Command::new(system).args(["-m", "venv"]).arg(&venv))?;
+        run(Command::new(system_python()).args(["-m", "venv"]).arg(&venv))?;
     }
-    pip(&python, &["--requirement", &format!("python/{requirements}")])?;
+    pip(&python, &["--requirement", requirements])?;
     Ok(python)
 }
 
-fn pip(python: &Path, args: &[&str]) -> Result<(), String> {
+/// Installs packages into an environment.
+pub(crate) fn pip(python: &Path, args: &[&str]) -> Result<(), String> {
     run(Command::new(python).args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(args))
 }
 
 /// Builds the wheel with the maturin of an environment.
-fn wheel(python: &Path) -> Result<PathBuf, String> {
+pub(crate) fn wheel(python: &Path) -> Result<PathBuf, String> {
     let wheels = root().join("target/wheels");
     if wheels.exists() {
         std::fs::remove_dir_all(&wheels).map_err(|why| why.to_string())?;
@@ -85,7 +91,8 @@ fn wheel(python: &Path) -> Result<PathBuf, String> {
         .ok_or_else(|| "maturin left no wheel".to_owned())
 }
 
-fn install_wheel(python: &Path, wheel: &Path) -> Result<(), String> {
+/// Installs the wheel in place of any other build of it.
+pub(crate) fn install_wheel(python: &Path, wheel: &Path) -> Result<(), String> {
     pip(python, &["--force-reinstall", "--no-deps", &wheel.to_string_lossy()])
 }
 

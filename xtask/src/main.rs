@@ -4,6 +4,7 @@
 mod ci;
 mod fuzz;
 mod tidy;
+mod transfer;
 
 use std::process::ExitCode;
 
@@ -20,6 +21,7 @@ fn main() -> ExitCode {
         "schema" => schema(),
         "tidy" => tidy::tidy(),
         "calibrate" | "soak" => ci::lab(&std::env::args().skip(1).collect::<Vec<_>>()),
+        "transfer" => transfer::transfer(&std::env::args().skip(2).collect::<Vec<_>>()),
         "fuzz" => fuzz::fuzz(&std::env::args().skip(2).collect::<Vec<_>>()),
         _ => {
             println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
@@ -32,6 +34,9 @@ fn main() -> ExitCode {
             );
             println!(
                 "cargo xtask soak    [--steps N] [--seed S]: long runs of scenarios made up at random; see lab/soak.csv"
+            );
+            println!(
+                "cargo xtask transfer  [--scenario NAME]… [--steps N] [--episodes N] [--recorded] [--seed S]: agents in both games"
             );
             println!("cargo xtask schema  write docs/pitchc.schema.json");
             println!("cargo xtask tidy    the rules of the house: who may use whom, file lengths");

@@ -190,11 +190,6 @@ impl Player {
         self.body.stats[stat.index()] * self.body.level * (1.0 - 0.3 * self.fatigue)
     }
 
-    /// Whether the player has just been beaten and can't turn yet.
-    pub fn is_wrong_footed(&self) -> bool {
-        self.body.lag_ticks < 0
-    }
-
     /// Whether he stands on his feet on the pitch.
     pub fn is_up(&self) -> bool {
         self.active && self.body.pose == Pose::Up

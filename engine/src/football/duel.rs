@@ -2,26 +2,35 @@
 
 use crate::event::Events;
 use crate::football::{foul, noise, report, touch};
+use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{EventKind, Stat};
+use setpiece_scenario::vocabulary::{EventKind, Role, Stat};
 
 /// How near the ball the tackler's foot must come, metres.
 const TACKLE_M: f32 = 0.85;
-/// How often at least a try succeeds; chosen.
+/// How often a try meets the ball between players of like skill; fitted to how soon a runner loses it to one at their side.
+const TRIES: f32 = 0.27;
+/// How often at least; chosen.
 const LEAST: f32 = 0.025;
-/// How much more often against a man who stands still with the ball; chosen.
+/// How much more often against somebody who stands still with the ball; chosen.
 const STANDS: f32 = 0.06;
-/// How much more often against a carrier who runs into the tackler; chosen.
-const INTO: f32 = 0.55;
-/// A carrier runs head-on into a tackler from this cosine on; whoever is beaten so needs so many ticks to turn. Fitted to
-/// what keepers lose there.
-const HEAD_ON: f32 = 0.5;
-const WRONG_FOOTED_TICKS: i8 = 50;
-/// Ticks for which who has lost the ball can't try it; chosen.
-const BEATEN_TICKS: f32 = 45.0;
-/// Ticks between two tries of one player.
-const RETRY_TICKS: i32 = 32;
+/// How much more often against a carrier who runs into the tackler; fitted to how soon a runner loses it head-on.
+const INTO: f32 = 0.4;
+/// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
+const POKED_MPS: f32 = 3.5;
+/// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
+/// how often the runner has it again soon.
+const BRUSHED: f32 = 0.65;
+/// The same of keepers; fitted to where the ball goes from those who come out.
+const KEEPER_MPS: f32 = 7.5;
+const KEEPER_BRUSHED: f32 = 1.5;
+/// Ticks for which whoever has lost the ball can't try it, and for which who has poked it can't play on; chosen.
+const BEATEN_TICKS: f32 = 12.0;
+const POKED_TICKS: i32 = 30;
+/// Ticks between two tries of one player, and what share of their pace a failed one leaves them; chosen.
+const RETRY_TICKS: i32 = 12;
+const FAILED: f32 = 0.9;
 
 /// A player within reach of the ball that a rival controls tries to win it.
 pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, near: f32) {
@@ -39,7 +48,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let keep =
         0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
     let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
-    let chance = (0.14 + exposed + 0.20 * (tackle - keep) - 0.16 * behind.max(0.0)) * open;
+    let chance = (TRIES + exposed + 0.20 * (tackle - keep)) * open;
     // Who stands with it is there to be tried from any side.
     let still = (1.0 - victim.vel.length() / 1.5).max(0.0);
     // Whoever runs into a defender with the ball runs it onto their feet.
@@ -48,20 +57,16 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let chance = (chance + STANDS * still + INTO * into).clamp(LEAST, 0.9);
     let now = game.tick as i32;
     if noise::happens(game, chance) {
-        win(game, events, id, rival, ball);
-        game.players[rival.index()].body.ready_at = now + victim.shaken(BEATEN_TICKS) as i32;
-        game.players[rival.index()].vel *= 0.6;
+        let brushed = win(game, events, id, rival, ball);
+        let loser = &mut game.players[rival.index()].body;
+        loser.ready_at = loser.ready_at.max(now + victim.shaken((1.0 - brushed) * BEATEN_TICKS) as i32);
+        let winner = &mut game.players[id.index()].body;
+        winner.ready_at = winner.ready_at.max(now + POKED_TICKS);
         return;
     }
-    game.players[id.index()].body.ready_at = now + RETRY_TICKS;
-    // Beaten: wrong-footed for a moment, and worst by who came head-on.
     let beaten = &mut game.players[id.index()];
-    if into > HEAD_ON {
-        beaten.vel = Vec2::ZERO;
-        beaten.body.lag_ticks = -WRONG_FOOTED_TICKS;
-    } else {
-        beaten.vel *= 0.45;
-    }
+    beaten.body.ready_at = now + RETRY_TICKS;
+    beaten.vel *= FAILED;
     if near < 0.7 && foul::trips(game, id, rival) {
         game.players[rival.index()].fall(foul::FALL_TICKS);
         foul::call_or_let_run(game, events, id, rival, severity_of(behind));
@@ -73,20 +78,20 @@ fn severity_of(behind: f32) -> f32 {
     1.05 + 0.3 * behind.max(0.0)
 }
 
-/// The tackler takes the ball along, or pokes it away.
-fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, ball: Vec2) {
+/// The tackler's foot meets the ball, fully or in part: what is left of its way is returned, 0..1.
+fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, ball: Vec2) -> f32 {
     let tackler = *game.player(id);
-    let clean = noise::happens(game, 0.35 + 0.4 * tackler.skill(Stat::BallControl));
     let away = (ball - tackler.pos).normalize_or_zero();
-    let side = id.team().side() as f32;
-    let velocity = if clean {
-        tackler.vel * 0.6 + (away + Vec2::new(side * 0.4, 0.0)) * 1.8
-    } else {
-        tackler.vel * 0.4 + away * 4.5 + Vec2::new(-away.y, away.x) * (noise::bell(game) * 1.5)
-    };
-    let hop = if clean { 0.0 } else { 0.6 + 0.6 * noise::roll(game) };
+    // A keeper who has come out wants it gone.
+    let keeper = tackler.role == Role::GK;
+    let (poked, brush) = if keeper { (KEEPER_MPS, KEEPER_BRUSHED) } else { (POKED_MPS, BRUSHED) };
+    let met = tackler.body.dribble.clamp_length_max(5.0) * 0.5 + away * poked;
+    let brushed = math::smooth(math::smooth(libm::powf(noise::roll(game), brush)));
+    let velocity = met.lerp(game.ball.vel.truncate(), brushed);
+    let hop = (0.5 + noise::roll(game)) * (1.0 - brushed);
     report::did(game, events, EventKind::Tackle, id, Some(rival));
     touch::push(game, events, id, velocity, hop);
     // A poke is no deliberate kick: the keeper may pick it up.
     game.play.kicked_by = None;
+    brushed
 }

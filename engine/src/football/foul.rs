@@ -21,10 +21,12 @@ const HANDBALL: f32 = 0.04;
 /// How long a tripped man lies, ticks.
 pub const FALL_TICKS: f32 = 45.0;
 /// How often a push from behind brings a man down who runs fast.
-const SHOVE: f32 = 0.03;
+const SHOVE: f32 = 0.003;
+/// How often a failed tackle of an average player brings an average one down.
+const TRIP: f32 = 0.01;
 
 /// At this speed a victim falls as often as the average one does, m/s; chosen.
-const FALLS_MPS: f32 = 2.5;
+const FALLS_MPS: f32 = 4.0;
 
 /// Whether a failed tackle brings the victim down: the faster they run the more often, and never one who stands. (GRF needs
 /// two bodies that run into each other.)
@@ -32,7 +34,7 @@ pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
     let clumsy = 1.25 - game.player(id).skill(Stat::StandingTackle);
     let steady = 0.5 + 0.5 * game.player(rival).skill(Stat::Balance);
     let pace = (game.player(rival).vel.length() / FALLS_MPS).min(2.0);
-    let chance = 0.06 * clumsy / steady * pace;
+    let chance = TRIP * clumsy / steady * pace;
     noise::happens(game, chance)
 }
 

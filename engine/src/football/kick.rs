@@ -27,6 +27,12 @@ const MISSED_TICKS: i32 = 30;
 pub const KICK_M: f32 = 0.85;
 /// How far from their path a ball may be at the contact for a player to begin the swing, metres; chosen.
 const BEGIN_M: f32 = 1.3;
+/// What share of their pace whoever begins a swing has on the way to the contact; chosen.
+const BEGIN_PACE: f32 = 0.7;
+/// How soon a sprinter shoots whose ball comes to their foot, ticks, and how near that is, metres; fitted to how soon shots
+/// leave from many points of the stride.
+const QUICK_TICKS: i32 = 22;
+const REACH_M: f32 = 0.8;
 /// The angle by which a pass may still be turned at the contact, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
 /// Highest ball that can be volleyed, metres.
@@ -123,13 +129,30 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     let ticks = match game.play.set_piece {
         Some(set_piece) => run_up_ticks(set_piece.mode),
         None if at_hand => at_hand_ticks(plan.kind),
-        None => swing_ticks(player, plan, way),
+        None => {
+            let longest = swing_ticks(player, plan, way);
+            soonest(game, id, plan, longest).unwrap_or(longest)
+        }
     };
-    let there = game.play.forecast.at(game.tick + ticks as u32);
-    let time_s = ticks as f32 * 0.01;
-    let place = player.pos + player.vel * (time_s * 0.7);
-    let reaches = there.z <= VOLLEY_M && place.distance_squared(there.truncate()) <= BEGIN_M * BEGIN_M;
+    let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
     (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
+}
+
+/// How far a player will be from the ball so many ticks from now, metres; `pace`: what share of their own is left to them
+/// meanwhile. None for a ball that will be too high.
+fn apart(game: &Match, id: PlayerId, ticks: i32, pace: f32) -> Option<f32> {
+    let there = game.play.forecast.at(game.tick + ticks as u32);
+    let player = game.player(id);
+    let place = player.pos + player.vel * (ticks as f32 * 0.01 * pace);
+    (there.z <= VOLLEY_M).then(|| place.distance(there.truncate()))
+}
+
+/// Ticks after which a sprinter who shoots reaches the ball, if that is sooner than they would catch up with one just pushed.
+fn soonest(game: &Match, id: PlayerId, plan: &KickPlan, longest: i32) -> Option<i32> {
+    if plan.kind != KickKind::Shot || game.player(id).vel.length() < RUN_MPS {
+        return None;
+    }
+    (QUICK_TICKS..longest).step_by(2).find(|&ticks| apart(game, id, ticks, 1.0).is_some_and(|apart| apart < REACH_M))
 }
 
 /// What a kick is meant for now: the way to it from the ball, world metres, and the mate.

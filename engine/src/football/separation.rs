@@ -3,9 +3,10 @@
 
 use crate::event::Events;
 use crate::football::body::Pose;
+use crate::football::movement::{DT, SPRINT_MPS};
 use crate::football::rows::{ROWS, WIDTH};
 use crate::football::{foul, frame};
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
@@ -21,10 +22,19 @@ const PUSH_MAX_M: f32 = 0.16;
 /// However hard others press, a meeting leaves two bodies no nearer than this, metres; chosen so that they never change
 /// sides before they meet again.
 const PRESSED_M: f32 = 0.2;
-
-/// How far who slips by is moved aside in two ticks, metres, and what share of their pace they keep; chosen.
-const SLIP_M: f32 = 0.05;
-const SLIPS_AT: f32 = 0.93;
+/// Within this distance two players carry each other along, metres, and how much of the other's velocity they take over
+/// at most. (GRF's.)
+const SHELL_M: f32 = 1.872;
+const DRAG: f32 = 0.25;
+/// What counts in a meeting beside balance: a turned back, pace, the ball nearer by so much, being first at the ball where
+/// bodies touch and where they only run close. (GRF's.)
+const BACK: f32 = 0.8;
+const PACE: f32 = 0.2;
+const BALL_M: f32 = 0.6;
+const FIRST_PUSHED: f32 = 0.4;
+const FIRST_DRAGGED: f32 = 0.6;
+/// Share of a displacement in two ticks that a runner's own velocity takes over; fitted to how dribblers are slowed.
+const TAKEN_OVER: f32 = 0.03;
 
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;
@@ -49,7 +59,8 @@ pub fn separate(game: &mut Match, events: &mut Events) {
             ids.push(id);
         }
     }
-    let near = f32x4::splat(CONTACT_M * CONTACT_M);
+    let near = f32x4::splat(SHELL_M * SHELL_M);
+    let first = first_at_ball(game);
     for i in 0..ids.len() {
         let (x, y) = (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
         for row in i / WIDTH..ids.len().div_ceil(WIDTH) {
@@ -59,7 +70,7 @@ pub fn separate(game: &mut Match, events: &mut Events) {
                 let j = row * WIDTH + meets.trailing_zeros() as usize;
                 meets &= meets - 1;
                 if j > i {
-                    part(game, events, ids[i], ids[j]);
+                    meet(game, events, [ids[i], ids[j]], first);
                 }
             }
         }
@@ -82,56 +93,62 @@ fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
     player.vel -= away * player.vel.dot(away).min(0.0);
 }
 
-/// Who runs past a wrong-footed opponent slips by at the side, a little slower.
-fn slip_by(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
-    let player = &mut game.players[id.index()];
-    let ahead = player.vel.normalize_or(away);
-    let left = Vec2::new(-ahead.y, ahead.x);
-    let side = if left.dot(away) < 0.0 { -left } else { left };
-    player.pos += side * (CONTACT_M - distance).clamp(0.0, SLIP_M);
-    player.vel *= SLIPS_AT;
+/// Whoever has the ball or will have it first.
+fn first_at_ball(game: &Match) -> Option<PlayerId> {
+    let needs = |id: &PlayerId| game.player(*id).body.meet_s;
+    let chasers = game.play.chaser.into_iter().flatten();
+    game.owner.or_else(|| chasers.min_by(|a, b| needs(a).total_cmp(&needs(b))))
 }
 
-/// Pushes two bodies apart; the better balanced one yields less.
-fn part(game: &mut Match, events: &mut Events, i: PlayerId, j: PlayerId) {
+/// Two players meet: who runs close is carried along by the other, bodies that touch are pushed apart; the one who stands
+/// better yields less. (GRF's.)
+fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Option<PlayerId>) {
     let (a, b) = (*game.player(i), *game.player(j));
     let between = b.pos - a.pos;
     let distance = between.length();
-    // Exactly on one spot: they part sideways, the first to his left.
+    // Exactly on one spot: they part sideways, the first to their left.
     let away = if distance > 1e-4 { between / distance } else { Vec2::new(0.0, i.team().side() as f32) };
+    let touching = distance < CONTACT_M;
     match (a.body.pose == Pose::Down, b.body.pose == Pose::Down) {
         (false, false) => {}
-        (true, false) => return go_round(game, j, away, distance),
-        (false, true) => return go_round(game, i, -away, distance),
-        (true, true) => return,
+        (true, false) if touching => return go_round(game, j, away, distance),
+        (false, true) if touching => return go_round(game, i, -away, distance),
+        _ => return,
     }
-    if i.team() != j.team() && distance > PRESSED_M {
-        match (a.is_wrong_footed(), b.is_wrong_footed()) {
-            (true, false) => return slip_by(game, j, away, distance),
-            (false, true) => return slip_by(game, i, -away, distance),
-            _ => {}
-        }
+    let back = |player: &Player, from: Vec2| 0.5 + 0.5 * player.body.facing.dot(from);
+    let pace = (a.vel.length() - b.vel.length()) / SPRINT_MPS;
+    let mut stands = BACK * (back(&a, -away) - back(&b, away)) - PACE * pace.clamp(-1.0, 1.0) + a.skill(Stat::Balance)
+        - b.skill(Stat::Balance);
+    if game.play.chaser[i.team().index()] == Some(i) && game.play.chaser[j.team().index()] == Some(j) {
+        let ball = game.ball.pos.truncate();
+        let off = |player: &Player| player.pos.distance(ball).min(2.0 * BALL_M);
+        stands += (off(&b) - off(&a)).clamp(-BALL_M, BALL_M);
     }
-    let overlap = (CONTACT_M - distance).max(0.0);
-    let mut share = 0.5 + 0.25 * (a.skill(Stat::Balance) - b.skill(Stat::Balance));
-    if game.owner == Some(i) {
-        share += 0.15;
-    } else if game.owner == Some(j) {
-        share -= 0.15;
+    let is_first = f32::from(i8::from(first == Some(i)) - i8::from(first == Some(j)));
+    // The share of each displacement that is the first's.
+    let dragged = 0.5 - 0.45 * (stands + FIRST_DRAGGED * is_first).clamp(-1.0, 1.0);
+    let close = 1.0 - ((distance - CONTACT_M) / (SHELL_M - CONTACT_M)).clamp(0.0, 1.0);
+    let carried = (b.vel - a.vel) * (2.0 * DT * DRAG * libm::powf(close, 0.2));
+    let (mut of_a, mut of_b) = (carried * dragged, carried * (dragged - 1.0));
+    if touching {
+        let pushed = 0.5 - 0.25 * (stands + FIRST_PUSHED * is_first).clamp(-1.0, 1.0);
+        let step = (CONTACT_M - distance).min(PUSH_MAX_M).max(PRESSED_M - distance);
+        of_a -= away * (step * pushed);
+        of_b += away * (step * (1.0 - pushed));
     }
-    let share = share.clamp(0.1, 0.9);
-    let step = overlap.min(PUSH_MAX_M).max(PRESSED_M - distance);
-    let closing = (b.vel - a.vel).dot(away).min(0.0);
-    let first = &mut game.players[i.index()];
-    first.pos -= away * (step * (1.0 - share));
-    first.vel += away * (closing * (1.0 - share));
-    first.body.push_m = (first.body.push_m + step * (1.0 - share)).min(SHOVE_MAX_M);
-    let second = &mut game.players[j.index()];
-    second.pos += away * (step * share);
-    second.vel -= away * (closing * share);
-    second.body.push_m = (second.body.push_m + step * share).min(SHOVE_MAX_M);
-    if i.team() != j.team() && closing < -1.0 {
+    displace(game, i, of_a);
+    displace(game, j, of_b);
+    let closing = (b.vel - a.vel).dot(away);
+    if touching && i.team() != j.team() && closing < -1.0 {
         let victim = if a.body.facing.dot(away) < b.body.facing.dot(-away) { i } else { j };
         foul::shove(game, events, if victim == i { j } else { i }, victim, -closing);
     }
+}
+
+/// Moves a player in two ticks by so much, metres; their own velocity takes some of it over.
+fn displace(game: &mut Match, id: PlayerId, by: Vec2) {
+    let player = &mut game.players[id.index()];
+    player.pos += by;
+    player.vel += by * (TAKEN_OVER / (2.0 * DT));
+    player.body.push_m = (player.body.push_m + by.length()).min(SHOVE_MAX_M);
 }

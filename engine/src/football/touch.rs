@@ -22,6 +22,9 @@ const SOLE_M: f32 = 1.0;
 const STOPS_MPS: f32 = 0.3;
 /// Faster than this nobody gets the sole on it, m/s.
 pub(super) const SPRINTS_MPS: f32 = 6.0;
+/// How far ahead the ball is touched walking (so fast, m/s) and sprinting, metres. Measured.
+const WALKS_MPS: f32 = 5.1;
+const CARRIED_M: [f32; 2] = [0.42, 0.64];
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
 /// A higher ball is headed, or left to come down, metres.
@@ -36,6 +39,10 @@ const FREE_WILD: f32 = 0.004;
 const PRESSED_WILD: f32 = 0.09;
 /// How far ahead of a standing player the ball is laid, metres. Measured.
 const LAID_M: f32 = 0.4;
+/// How whoever turns with the ball brakes, m/s²; chosen.
+const TURN_MPS2: f32 = 14.0;
+/// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
+const SHARP: f32 = 0.6;
 /// How a player brakes and a slow ball rolls out, m/s².
 const STOP_MPS2: f32 = 12.0;
 const ROLL_MPS2: f32 = 1.75;
@@ -64,7 +71,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
             // His own touch comes first; where he lets the ball be, a rival may try it.
             let stops = player.body.dribble.length_squared() < STOPS_MPS * STOPS_MPS
                 && player.vel.length_squared() < SPRINTS_MPS * SPRINTS_MPS;
-            let foot = if stops { SOLE_M } else { FOOT_M };
+            let foot = if stops { SOLE_M } else { foot_m(game, player) };
             if distance <= foot * foot && ball.z < 0.5 && wants_ball(game, id) && dribble(game, events, id) {
                 return;
             }
@@ -76,9 +83,29 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
     let near = libm::sqrtf(distance);
     if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
         duel::challenge(game, events, id, rival, near);
-    } else if near <= TRAP_M && !about_to_kick(game, id) {
+    } else if near <= trap_m(game, id) && !about_to_kick(game, id) {
         trap(game, events, id);
     }
+}
+
+/// How near a player must be to take the free ball, metres: where both rest it is theirs from further away.
+fn trap_m(game: &Match, id: PlayerId) -> f32 {
+    let rests = game.player(id).vel.length_squared() + game.ball.vel.length_squared() < STOPS_MPS * STOPS_MPS;
+    if rests { SOLE_M } else { TRAP_M }
+}
+
+/// How near a dribbler lets a ball come that rolls before them until they touch it again, metres; one that rolls otherwise
+/// they touch from further away.
+fn foot_m(game: &Match, player: &Player) -> f32 {
+    let (ball, own) = (game.ball.vel.truncate(), player.vel);
+    let along = ball.dot(own) > 0.94 * ball.length() * own.length() && player.body.dribble.dot(own) > 0.0;
+    if along { carried_m(own.length()) } else { FOOT_M }
+}
+
+/// How far ahead of a runner at so many m/s the ball is when it is touched, metres. Measured.
+fn carried_m(speed: f32) -> f32 {
+    let sprints = ((speed - WALKS_MPS) / (SPRINTS_MPS + 1.5 - WALKS_MPS)).clamp(0.0, 1.0);
+    CARRIED_M[0] + (CARRIED_M[1] - CARRIED_M[0]) * sprints
 }
 
 /// Whoever is dribbling the ball though it rolls free between two touches.
@@ -195,11 +222,18 @@ struct Care {
 /// The ball's velocity with which he meets it again a moment later, running at `speed` along `ahead`.
 fn touch_ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &Care) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
-    let gait = speed / 8.0;
+    // The stride that the next touch will find, rather than the one that is wanted.
+    let pace = player.vel.length();
+    let under_way = (pace / WALKS_MPS).min(1.0);
+    let gait = (speed + 0.7 * (pace - speed) * under_way) / 8.0;
     let shy = if care.pressed { 0.8 } else { 1.0 };
-    let time = (0.25 + 0.5 * gait * gait) * shy;
+    // Whoever turns carries the rest of their run on until they have braked it.
+    let turns = player.vel.dot(ahead) < SHARP * pace;
+    let rest = if turns { player.vel - ahead * own } else { Vec2::ZERO };
+    let brakes = rest.length() / TURN_MPS2;
+    let time = ((0.12 + 0.6 * gait * gait * gait * gait) * shy).max(brakes);
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
-    let free = ahead * (mean * time + 0.42 + 0.03 * speed);
+    let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
     let cut = if care.lines { within_lines(player.pos, free) } else { None };
     let place = cut.unwrap_or(free);
     let way = place - to_ball;

@@ -2,7 +2,7 @@
 
 use super::rows;
 use crate::figure::{Part, Section, short};
-use crate::pitch::{Failure, Trial, text};
+use crate::pitch::{Failure, Trial, script};
 use setpiece::scenario::vocabulary::{Action, Team};
 
 /// Seeds of every row.
@@ -40,7 +40,7 @@ pub(super) fn measure(section: &mut Section, count: Option<u64>) -> Result<(), F
     for row in rows::<Row>(FILE, DATA)? {
         let source =
             SCENE.replace("LEVEL", &row.difficulty.to_string()).replace("PLACE", &format!("{:.3}", -0.3 + row.gap));
-        let mut trial = Trial::new(text(&source)?, 0)?;
+        let mut trial = Trial::new(script(&source)?, 0)?;
         let mut runs = Vec::new();
         for seed in 0..seeds {
             trial.again(seed)?;

@@ -2,7 +2,7 @@
 
 use super::{rows, share_give};
 use crate::figure::{Part, Section};
-use crate::pitch::{Failure, Trial, mean, text};
+use crate::pitch::{Failure, Trial, mean, script};
 use setpiece::scenario::vocabulary::Action;
 
 /// Seeds of every row.
@@ -58,7 +58,7 @@ struct Kick {
 /// Measures every row.
 pub(super) fn measure(section: &mut Section, count: Option<u64>) -> Result<(), Failure> {
     let seeds = count.unwrap_or(SEEDS);
-    let mut trial = Trial::new(text(SCENE)?, 0)?;
+    let mut trial = Trial::new(script(SCENE)?, 0)?;
     for row in rows::<Row>(FILE, DATA)? {
         let kick = match row.kick.as_str() {
             "short" => Action::ShortPass,

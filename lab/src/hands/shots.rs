@@ -2,7 +2,7 @@
 
 use super::{direction, rows, share_give};
 use crate::figure::{Part, Section};
-use crate::pitch::{Failure, Trial, mean, text};
+use crate::pitch::{Failure, Trial, mean, script};
 use setpiece::scenario::vocabulary::{Action, EventKind, GameMode, Team};
 
 /// Seeds of every row.
@@ -64,7 +64,7 @@ pub(super) fn measure(section: &mut Section, count: Option<u64>) -> Result<(), F
             .replace("STARTX", &format!("{:.3}", row.x - 0.15))
             .replace("SIDE", &row.y.to_string())
             .replace("KEEPER", keeper);
-        let mut trial = Trial::new(text(&source)?, 0)?;
+        let mut trial = Trial::new(script(&source)?, 0)?;
         let mut shots = Vec::new();
         for seed in 0..seeds {
             trial.again(seed)?;

@@ -12,6 +12,8 @@ from setpiece.gfootball.env.scenario_config import FIXED_SEED, FormationEntry, S
 
 METRES = (54.4, 83.6)
 """Metres per unit of x and y."""
+PLACED = (55.0, 84.96)
+"""Metres per unit of x and y of a player's place in a script: a wider scale than that of the ball and of observations."""
 OVERLAP = 0.3
 """Metres below which two constant places overlap."""
 AT_THE_BALL = 2.0
@@ -106,7 +108,7 @@ def _players(recorded: ScenarioConfig, other: ScenarioConfig, side: str) -> list
     crowded = _crowded(recorded, side) | _crowded(other, side)
     lines = []
     for number, (entry, twin) in enumerate(zip(entries, others, strict=True)):
-        x, y = (_both(entry.position[axis], twin.position[axis]) for axis in (0, 1))
+        x, y = (_both(here, there) for here, there in zip(_place(entry), _place(twin), strict=True))
         lines.append(f"        {_role(entry)} at {frame}({x}, {y}){_options(entry, number in crowded)}")
     return lines
 
@@ -133,7 +135,7 @@ def _crowded(recorded: ScenarioConfig, side: str) -> set[int]:
 
 def _metres(entry: FormationEntry, side: str) -> tuple[float, float]:
     sign = 1.0 if side == "left" else -1.0
-    return sign * entry.position[0] * METRES[0], sign * entry.position[1] * METRES[1]
+    return sign * entry.position[0] * PLACED[0], sign * entry.position[1] * PLACED[1]
 
 
 @dataclass(frozen=True)
@@ -219,8 +221,15 @@ def _role(entry: FormationEntry) -> str:
     return entry.role.name.rpartition("_")[2]
 
 
+def _place(entry: FormationEntry) -> tuple[float, float]:
+    """Returns where a player stands as observations show it, rounded to half a centimetre."""
+    x, y = (round(entry.position[axis] * PLACED[axis] / METRES[axis], 4) for axis in (0, 1))
+    return x, y
+
+
 def _point(entry: FormationEntry) -> str:
-    return f"({number_text(entry.position[0])}, {number_text(entry.position[1])})"
+    x, y = _place(entry)
+    return f"({number_text(x)}, {number_text(y)})"
 
 
 def _either(recorded: ScenarioConfig, other: ScenarioConfig, axis: int) -> str:

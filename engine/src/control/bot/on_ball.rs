@@ -35,6 +35,8 @@ const PLACED_M: f32 = 2.9;
 const PASS_COST: f32 = 0.008;
 /// Ticks after which a kick that did not come off is thought over.
 const MIND_TICKS: i32 = 80;
+/// How near to goal defenders are in a hurry to clear, metres. (GRF's.)
+const PANIC_M: std::ops::Range<f32> = 2.0..16.0;
 /// Steps between two thoughts.
 const PAUSE_STEPS: u32 = 2;
 
@@ -107,11 +109,20 @@ fn best(game: &mut Match, view: &View, id: PlayerId, with_run: bool) -> Choice {
             offer(game, worth, Act::Run(way, speed));
         }
     }
-    let crowded = nearest_rival(game, id, player.pos) < 2.5;
-    if own.x < -30.0 && crowded {
+    if own.x < -30.0 && must_clear(game, view, id) {
         offer(game, value(own) + 0.012, Act::Clear);
     }
     best
+}
+
+/// Whether a defender had better kick the ball away: a rival will have it as soon, the nearer to goal the less soon
+/// suffices. (GRF's.)
+fn must_clear(game: &Match, view: &View, id: PlayerId) -> bool {
+    let player = game.player(id);
+    let rivals = game.team(view.team.other());
+    let rival_s = rivals.map(|(_, rival)| rival.body.meet_s).fold(f32::MAX, f32::min);
+    let close = 1.0 - ((player.pos * view.side).distance(-GOAL) - PANIC_M.start) / (PANIC_M.end - PANIC_M.start);
+    (rival_s + 0.2) / (player.body.meet_s + 0.2) < 0.9 + 0.8 * close.clamp(0.0, 1.0)
 }
 
 /// Turns the choice into an intent or a kick.

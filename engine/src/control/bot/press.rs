@@ -30,6 +30,11 @@ const CLOSE_M: f32 = 0.4;
 const FIGHTS: f32 = 0.8;
 /// From how near a hunter goes for the ball, metres; chosen.
 const CHALLENGE_M: f32 = 2.0;
+/// How far beside a carrier a defender runs past them, and how far ahead of them they are beside the ball, metres; chosen.
+const SHOULDER_M: f32 = 0.85;
+const BESIDE_M: f32 = 0.2;
+/// To how far past them they run, so that they don't slow down beside them, metres; chosen.
+const PAST_M: f32 = 5.0;
 /// How far he passes from the carrier's middle, metres.
 const ROUND_M: f32 = 0.9;
 
@@ -69,7 +74,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     // Else who stands in the way goes back with the carrier, and who is behind hunts where it is near enough.
     let alone = alone(game, id, carrier.pos);
     let fights = (carrier.body.meet_s + 0.2) / (player.body.meet_s + 0.2) > FIGHTS;
-    let goes = told || !alone && (fights || stands(&carrier));
+    let goes = told || !alone && fights;
     if !goes && goalside {
         contain(game, view, id, &carrier);
         return;
@@ -123,12 +128,24 @@ fn past_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
         let runs = carrier.vel.length() > 4.0 && (1.2..2.2).contains(&gap);
         return runs.then(|| view.ball + carrier.vel * view.side * 0.25);
     }
-    // At his side he challenges him.
-    if gap < 2.0 {
-        return None;
+    if gap < CHALLENGE_M {
+        return alongside(view, own, carrier);
     }
     let way = (-GOAL - view.ball).normalize_or(Vec2::NEG_X);
     Some(view.ball + way * (gap * 0.6).clamp(1.5, 6.0) + carrier.vel * view.side * 0.3)
+}
+
+/// Where a defender runs who has a running carrier's back before them, in their own frame: past the carrier's shoulder;
+/// none where they are beside the carrier.
+fn alongside(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
+    let place = carrier.pos * view.side;
+    let way = (-GOAL - place).normalize_or(Vec2::NEG_X);
+    let from = own - place;
+    if from.dot(way) > BESIDE_M || stands(carrier) {
+        return None;
+    }
+    let shoulder = if way.perp_dot(from) < 0.0 { -way.perp() } else { way.perp() };
+    Some(place + shoulder * SHOULDER_M + way * PAST_M)
 }
 
 /// Whether he stands still with the ball.
@@ -195,7 +212,10 @@ fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
     if between.length() < CHALLENGE_M {
         let body = &mut game.players[id.index()].body;
         body.dribble = Vec2::new(2.0 * view.side, 0.0);
-        body.intent = Intent::Ball(SPRINT_MPS);
+        body.intent = match alongside(view, own, &carrier) {
+            Some(point) => Intent::Go(point * view.side, SPRINT_MPS),
+            None => Intent::Ball(SPRINT_MPS),
+        };
         return;
     }
     let way = -GOAL - place;

@@ -1,0 +1,87 @@
+//! An agent dribbles at one or two defenders: what happens at contact and after it.
+
+use super::recorded::{Column, Kind, Row, Topic};
+use super::trace::{View, apart, pace, yes};
+
+/// Within this distance of a defender they are in contact, metres.
+const CONTACT_M: f64 = 1.0;
+/// A defender nearer than this jockeys, metres.
+const JOCKEY_M: f64 = 8.0;
+/// Steps of jockeying that a mean is taken of.
+const JOCKEY_STEPS: usize = 5;
+
+const COLUMNS: [Column; 19] = [
+    ("contact", Kind::Share),
+    ("jockey_m", Kind::Metres),
+    ("furthest_x", Kind::Place),
+    ("lost", Kind::Share),
+    ("lost_step", Kind::Steps),
+    ("contact_step", Kind::Steps),
+    ("contact_x", Kind::Place),
+    ("ours_5", Kind::Share),
+    ("theirs_5", Kind::Share),
+    ("ours_10", Kind::Share),
+    ("theirs_10", Kind::Share),
+    ("ball_before", Kind::Speed),
+    ("ball_at", Kind::Speed),
+    ("ball_after", Kind::Speed),
+    ("me_before", Kind::Speed),
+    ("me_at", Kind::Speed),
+    ("me_after", Kind::Speed),
+    ("foul", Kind::Share),
+    ("goal", Kind::Share),
+];
+
+/// The topic.
+pub(super) const TOPIC: Topic = Topic { name: "contact", file: "grf_contact.json", columns: &COLUMNS, read };
+
+fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+    let mut jockeyed = Vec::new();
+    let mut contact = None;
+    let mut lost = None;
+    let mut furthest: Option<f64> = None;
+    for (step, view) in trace.iter().enumerate().skip(1) {
+        if view.owner == 1 && lost.is_none() {
+            lost = Some(step);
+        }
+        if view.owner == 0 {
+            furthest = Some(furthest.unwrap_or(-9.0).max(view.ball[0] / 54.4));
+        }
+        let me = view.player(0, 0);
+        let nearest = view.teams[1].iter().skip(1).map(|foe| apart(*foe, me)).fold(f64::INFINITY, f64::min);
+        if lost.is_some() || contact.is_some() {
+            continue;
+        }
+        if nearest <= CONTACT_M {
+            contact = Some(step);
+        } else if nearest < JOCKEY_M && view.owner == 0 {
+            jockeyed.push(nearest);
+        }
+    }
+    let at = |step: usize| &trace[step.min(trace.len() - 1)];
+    let owned = |team: i8, later: usize| contact.map(|step| yes(at(step + later).owner == team));
+    let moment = |later: isize| contact.and_then(|step| step.checked_add_signed(later)).filter(|s| *s > 0);
+    let ball = |later| moment(later).and_then(|step| trace.get(step)).map(|view| view.speed);
+    let me = |later| pace(trace, moment(later)?, trace[contact?].active[0]);
+    vec![
+        Some(yes(contact.is_some())),
+        (jockeyed.len() >= JOCKEY_STEPS).then(|| crate::pitch::mean(&jockeyed)),
+        furthest,
+        Some(yes(lost.is_some())),
+        lost.map(|step| step as f64),
+        contact.map(|step| step as f64),
+        contact.map(|step| trace[step].ball[0] / 54.4),
+        owned(0, 5),
+        owned(1, 5),
+        owned(0, 10),
+        owned(1, 10),
+        ball(-2),
+        ball(0),
+        ball(3),
+        me(-2),
+        me(0),
+        me(3),
+        Some(yes(trace.iter().any(|view| [3, 6].contains(&view.mode)))),
+        Some(yes(trace[trace.len() - 1].score[0] > 0)),
+    ]
+}

@@ -1,0 +1,65 @@
+//! Kicks that a receiver asks for before the pass arrives.
+
+use super::recorded::{Column, Kind, Row, Topic};
+use super::trace::{View, first, leaves, yes};
+use setpiece::scenario::vocabulary::Action;
+
+/// A ball so near to the receiver has arrived, metres.
+const ARRIVED_M: f64 = 1.2;
+/// A free ball faster than this may have been kicked, m/s.
+const KICKED_MPS: f64 = 11.5;
+/// A kick turns the ball by so much, degrees.
+const TURN_DEG: f64 = 25.0;
+/// Or makes it so much faster, m/s.
+const FASTER_MPS: f64 = 3.0;
+/// Steps over which the largest height is taken.
+const PEAK_STEPS: usize = 12;
+
+const COLUMNS: [Column; 9] = [
+    ("pressed", Kind::Share),
+    ("owned", Kind::Share),
+    ("kicked", Kind::Share),
+    ("kick_step", Kind::Steps),
+    ("after_arrival", Kind::Steps),
+    ("speed", Kind::Speed),
+    ("degrees", Kind::Degrees),
+    ("peak", Kind::Height),
+    ("goal", Kind::Share),
+];
+
+/// The topic.
+pub(super) const TOPIC: Topic = Topic { name: "early kick", file: "grf_early_kicks.json", columns: &COLUMNS, read };
+
+fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+    let pressed = |view: &View| [Action::Shot, Action::ShortPass, Action::HighPass].contains(&view.pressed[1]);
+    let (Some(left), Some(key)) = (leaves(trace), first(trace, 1, pressed)) else {
+        let mut none = vec![None; COLUMNS.len()];
+        none[0] = Some(0.0);
+        return none;
+    };
+    let me = trace[0].active[1];
+    let arrives = first(trace, left, |view| view.ball_from(view.teams[0][me]) < ARRIVED_M);
+    let kick = arrives.and_then(|arrives| {
+        let before = &trace[left.max(arrives - 1)];
+        let kicked = first(trace, arrives, |view| {
+            let turn = (view.degrees() - before.degrees() + 180.0).rem_euclid(360.0) - 180.0;
+            let other = turn.abs() > TURN_DEG || view.velocity() > before.velocity() + FASTER_MPS;
+            let over = view.score != trace[0].score || view.mode != 0;
+            over || (view.owner == -1 && view.velocity() > KICKED_MPS && other)
+        });
+        kicked.filter(|step| trace[*step].score == trace[0].score && trace[*step].mode == 0)
+    });
+    vec![
+        Some(1.0),
+        Some(yes(trace[left..].iter().any(|view| view.owned_by(0, me)))),
+        Some(yes(kick.is_some())),
+        kick.map(|step| step as f64 - key as f64 + 1.0),
+        kick.zip(arrives).map(|(step, arrives)| (step - arrives) as f64),
+        kick.map(|step| trace[step].velocity()),
+        kick.map(|step| trace[step].degrees().abs()),
+        kick.map(|step| {
+            trace[step..trace.len().min(step + PEAK_STEPS)].iter().map(|view| view.ball[2]).fold(0.0, f64::max)
+        }),
+        Some(yes(trace[trace.len() - 1].score[0] > 0)),
+    ]
+}

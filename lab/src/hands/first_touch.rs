@@ -1,0 +1,39 @@
+//! The first touch of a pass.
+
+use super::recorded::{Column, Kind, Row, Topic};
+use super::trace::{View, first, leaves, pace, yes};
+
+const COLUMNS: [Column; 9] = [
+    ("left", Kind::Share),
+    ("got", Kind::Share),
+    ("own_step", Kind::Steps),
+    ("arrives_mps", Kind::Speed),
+    ("ball_1", Kind::Metres),
+    ("ball_3", Kind::Metres),
+    ("kept_5", Kind::Share),
+    ("ball_mps_3", Kind::Speed),
+    ("me_mps_3", Kind::Speed),
+];
+
+/// The topic.
+pub(super) const TOPIC: Topic = Topic { name: "first touch", file: "grf_first_touch.json", columns: &COLUMNS, read };
+
+fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+    let mut figures = vec![None; COLUMNS.len()];
+    let left = leaves(trace);
+    figures[0] = Some(yes(left.is_some()));
+    let Some(left) = left else { return figures };
+    let me = trace[0].active[1];
+    let owned = first(trace, left, |view| view.owned_by(0, me));
+    figures[1] = Some(yes(owned.is_some()));
+    let Some(owned) = owned else { return figures };
+    let away = |later: usize| trace.get(owned + later).map(|view| view.ball_from(view.teams[0][me]));
+    figures[2] = Some((owned - left) as f64);
+    figures[3] = Some(trace[owned - 1].speed);
+    figures[4] = away(1);
+    figures[5] = away(3);
+    figures[6] = trace.get(owned + 5).map(|view| yes(view.owner == 0));
+    figures[7] = trace.get(owned + 3).map(|view| view.speed);
+    figures[8] = pace(trace, owned + 3, me);
+    figures
+}

@@ -1,0 +1,48 @@
+//! The first steps of matches: how fast the ball is and who has it.
+
+use super::recorded::{Column, Kind, Row, Topic};
+use super::trace::{View, yes};
+use crate::pitch::mean;
+
+/// Faster than any kick: the ball was placed, m/s.
+const PLACED_MPS: f64 = 60.0;
+
+const COLUMNS: [Column; 10] = [
+    ("slow", Kind::Part),
+    ("middling", Kind::Part),
+    ("fast", Kind::Part),
+    ("fastest", Kind::Part),
+    ("owned_left", Kind::Part),
+    ("owned_right", Kind::Part),
+    ("stopped", Kind::Part),
+    ("high", Kind::Part),
+    ("goals_left", Kind::Count),
+    ("goals_right", Kind::Count),
+];
+
+/// The topic.
+pub(super) const TOPIC: Topic = Topic { name: "match", file: "grf_matches.json", columns: &COLUMNS, read };
+
+fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+    let plays = |pair: &&[View]| pair[0].mode == 0 && pair[1].mode == 0 && pair[0].score == pair[1].score;
+    let speeds = trace.windows(2).filter(plays).map(|pair| pair[1].speed).filter(|mps| *mps < PLACED_MPS);
+    let speeds: Vec<f64> = speeds.collect();
+    let between =
+        |low: f64, high: f64| Some(mean(&speeds.iter().map(|mps| yes((low..high).contains(mps))).collect::<Vec<_>>()));
+    let share = |holds: &dyn Fn(&View) -> bool| {
+        Some(mean(&trace.iter().skip(1).map(|view| yes(holds(view))).collect::<Vec<_>>()))
+    };
+    let score = trace[trace.len() - 1].score;
+    vec![
+        between(0.0, 5.0),
+        between(5.0, 15.0),
+        between(15.0, 25.0),
+        between(25.0, PLACED_MPS),
+        share(&|view| view.owner == 0),
+        share(&|view| view.owner == 1),
+        share(&|view| view.mode != 0),
+        share(&|view| view.ball[2] > 1.0),
+        Some(f64::from(score[0])),
+        Some(f64::from(score[1])),
+    ]
+}

@@ -1,0 +1,62 @@
+//! Which player the agent has, and when it changes.
+
+use super::recorded::{Column, Kind, Row, Topic};
+use super::trace::{View, first, yes};
+use crate::pitch::mean;
+use setpiece::scenario::vocabulary::Action;
+
+const COLUMNS: [Column; 11] = [
+    ("happened", Kind::Share),
+    ("switch", Kind::Share),
+    ("switch_step", Kind::Steps),
+    ("to_nearest", Kind::Share),
+    ("to_owner", Kind::Share),
+    ("new_m", Kind::Metres),
+    ("changes", Kind::Steps),
+    ("nearest", Kind::Share),
+    ("keeper", Kind::Share),
+    ("owner_step", Kind::Steps),
+    ("leave_step", Kind::Steps),
+];
+
+/// The topic.
+pub(super) const TOPIC: Topic = Topic { name: "switching", file: "grf_switching.json", columns: &COLUMNS, read };
+
+fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
+    let event = match row.event.as_str() {
+        "kick" => {
+            first(trace, 2, |view| [Action::ShortPass, Action::LongPass, Action::HighPass].contains(&view.pressed[0]))
+        }
+        "lost" => first(trace, 2, |view| view.owner == 1),
+        "score" => first(trace, 2, |view| view.score != trace[0].score),
+        _ => Some(2),
+    };
+    let Some(event) = event.filter(|event| *event < trace.len()) else {
+        let mut none = vec![None; COLUMNS.len()];
+        none[0] = Some(0.0);
+        return none;
+    };
+    let nearest = |view: &View| view.nearest(0, [view.ball[0], view.ball[1]], |player| player > 0);
+    let before = trace[event - 1].active[0];
+    let other = row.event == "kick";
+    let owner = first(trace, event, |view| view.owner == 0 && !(other && view.who == before));
+    let switch = first(trace, event, |view| view.active[0] != before);
+    let new = switch.map(|step| (&trace[step], trace[step].active[0]));
+    let rest = &trace[event..];
+    let share = |holds: &dyn Fn(&View) -> bool| Some(mean(&rest.iter().map(|v| yes(holds(v))).collect::<Vec<_>>()));
+    let changes = trace[event - 1..].windows(2).filter(|pair| pair[0].active[0] != pair[1].active[0]).count();
+    let steps = |step: Option<usize>| step.map(|step| (step - event) as f64);
+    vec![
+        Some(1.0),
+        Some(yes(switch.is_some())),
+        steps(switch),
+        new.map(|(view, player)| yes(player == nearest(view))),
+        new.zip(owner).map(|((_, player), owner)| yes(player == trace[owner].who)),
+        new.map(|(view, player)| view.ball_from(view.teams[0][player])),
+        Some(changes as f64),
+        share(&|view| view.active[0] == nearest(view)),
+        share(&|view| view.active[0] == 0),
+        steps(owner),
+        steps(first(trace, event, |view| view.owner == -1 && view.speed > 9.0)).filter(|_| other),
+    ]
+}

@@ -1,0 +1,66 @@
+//! Turns with the ball, an opponent near.
+
+use super::recorded::{Column, Kind, Row, Topic};
+use super::trace::{View, apart, first, yes};
+use setpiece::scenario::vocabulary::Action;
+
+/// Slower than this nobody has a way, m/s.
+const MOVES_MPS: f64 = 1.5;
+/// So near to the new direction the turn is done, degrees.
+const TURNED_DEG: f64 = 25.0;
+
+const COLUMNS: [Column; 7] = [
+    ("had", Kind::Share),
+    ("foe_m", Kind::Metres),
+    ("lost", Kind::Share),
+    ("kept_5", Kind::Share),
+    ("kept_15", Kind::Share),
+    ("turn_step", Kind::Steps),
+    ("turn_owned", Kind::Share),
+];
+
+/// The topic.
+pub(super) const TOPIC: Topic = Topic { name: "turn", file: "grf_turns.json", columns: &COLUMNS, read };
+
+/// The key of a turn and its way.
+fn turn(plan: &str) -> (Action, f64) {
+    match plan.rsplit(' ').next() {
+        Some("45") => (Action::TopRight, 45.0),
+        Some("90") => (Action::Top, 90.0),
+        Some("135") => (Action::TopLeft, 135.0),
+        _ => (Action::Left, 180.0),
+    }
+}
+
+fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
+    let (key, way) = turn(&row.plan);
+    let begins = first(trace, 1, |view| view.pressed[0] == key).filter(|step| trace[step - 1].owner == 0);
+    let Some(begins) = begins else {
+        let mut none = vec![None; COLUMNS.len()];
+        none[0] = Some(0.0);
+        return none;
+    };
+    let before = &trace[begins - 1];
+    let me = before.active[0];
+    let at = before.teams[0][me];
+    let foe = before.teams[1].iter().skip(1).map(|foe| apart(*foe, at)).fold(f64::INFINITY, f64::min);
+    let last = trace.len() - 1;
+    let kept = |steps: usize| {
+        let to = last.min(begins + steps);
+        Some(yes(trace[begins..=to].iter().all(|view| view.owner != 1) && trace[to].mode == 0))
+    };
+    let turned = (begins..=last).find(|step| {
+        let (now, before) = (trace[*step].teams[0][me], trace[step - 1].teams[0][me]);
+        let off = (-(now[1] - before[1])).atan2(now[0] - before[0]).to_degrees() - way;
+        apart(now, before) * 10.0 > MOVES_MPS && ((off + 180.0).rem_euclid(360.0) - 180.0).abs() < TURNED_DEG
+    });
+    vec![
+        Some(1.0),
+        foe.is_finite().then_some(foe),
+        Some(yes(trace[begins..].iter().any(|view| view.owner == 1))),
+        kept(5),
+        kept(15),
+        turned.map(|step| (step - begins + 1) as f64),
+        turned.map(|step| yes(trace[step].owner == 0)),
+    ]
+}

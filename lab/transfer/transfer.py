@@ -1,0 +1,92 @@
+"""Agents in both games, in one page: `cargo xtask transfer` makes the environment and runs this.
+
+Trains policies here and plays them in both games (`trained.py`), plays agents by rules (`compare.py`), and writes
+`docs/transfer.md`.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import compare
+import trained
+from options import is_match, parse
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "transfer.md"
+HEAD = """# Transfer
+
+How much of its score an agent keeps when it moves from Setpiece to the real game, Google Research Football.
+`cargo xtask transfer` trains and plays the agents of this page and writes it. The results are stored in
+`lab/transfer/recorded/`. "here" is Setpiece, "there" the real game.
+
+```
+cargo xtask transfer                                        # all of it: hours
+cargo xtask transfer --scenario academy_corner --steps 2000000
+cargo xtask transfer --recorded                             # stored policies, without the real game
+```
+
+`--recorded` plays the stored policies here again, beside the scores that the same weights had in the real game. It
+shows what a change of this game does to these policies. It can't show how policies trained after the change would
+score in the real game: that takes a run without `--recorded`.
+
+## Policies trained here
+
+One policy per scenario, trained by PPO in Setpiece alone. It sees only what the super mini map shows: the places of the
+players, the ball and the controlled player, decoded from the planes of the newest four maps. `lab/transfer/places.py`
+decodes the maps of both games. The real game is EnvPool's, with 19 actions and one controlled player.
+
+- A score is the mean goal difference of an episode, with its 95 % interval in brackets.
+- "kept" is the score there divided by the score here.
+- "likeliest" presses the policy's likeliest action; "drawn" draws an action by its probability, as in training.
+- Policies are trained with the rewards `scoring` and `checkpoints`. In a scene the training ends early once the last
+  1,000 episodes score 0.97.
+
+"""
+DIFFERENCES = """
+The maps have the same form in both games: 72 rows, 96 columns, and the planes own team, opponents, ball and controlled
+player with the values 0 and 255. Some differences still matter to a policy that reads them:
+
+- On the first map of an episode the real game often marks another player than the one at the ball, and in the Academy
+  the keeper. From the second map on it marks the player at the ball. For both games the first map is read as if the
+  player nearest to the ball was marked.
+- A player whose place is on the border of two cells can be drawn in either. Many start a cell apart in the two games.
+- Two players in one cell are one mark, and no mark says which player it is. Players are identified by their places at
+  the start and followed from map to map.
+- A place that never changes here can change by a cell there. Inputs are divided by at least 0.5 m.
+
+"""
+RULES = """## Agents by rules
+
+Twelve agents that press the same keys for the same places. They see raw observations and play the left team against
+the built-in bots. The runs there are recorded from Google Research Football 2.10.2: `matches.py` makes them where the
+package `gfootball` is installed. Every figure is a mean over episodes: here / there.
+
+"""
+
+
+def write_page() -> None:
+    """Writes the page from the stored results."""
+    records = trained.stored()
+    policies = trained.table(records) if records else "No policy has been trained yet.\n"
+    PAGE.write_text(HEAD + policies + DIFFERENCES + RULES + compare.sections())
+
+
+def main(argv: list[str]) -> None:
+    """Trains and plays; writes the page after every scenario, so that a stopped run keeps what it has."""
+    options = parse(argv)
+    for scenario in sorted(options.scenario, key=is_match):
+        if not options.recorded:
+            trained.both(scenario, options)
+        elif (trained.POLICIES / f"{scenario}.json").exists():
+            trained.again(scenario, options)
+        else:
+            print(f"{scenario}: no stored policy")
+        write_page()
+    compare.play_here(options.scenario, options.episodes)
+    write_page()
+    print(f"wrote {PAGE}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

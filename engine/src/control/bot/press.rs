@@ -35,11 +35,12 @@ const SHOULDER_M: f32 = 0.85;
 const BESIDE_M: f32 = 0.2;
 /// To how far past them they run, so that they don't slow down beside them, metres; chosen.
 const PAST_M: f32 = 5.0;
-/// How far ahead a slide is thought of, ticks; how far the ball must be from the tackler then, metres; how long the carrier
-/// must need to it, seconds; and how far it must lie on the tackler's side, a cosine. (GRF's.)
+/// How far ahead a slide is thought of, ticks; how far the ball must be from the tackler then, metres (GRF's); how far the
+/// carrier must have pushed it, metres (what takes a sprinter as long as GRF asks for); and how far it must lie on the
+/// tackler's side, a cosine. (GRF's.)
 const SLIDE_AHEAD_TICKS: u32 = 20;
 const SLIDE_M: std::ops::Range<f32> = 0.7..1.6;
-const LONG_TOUCH_S: f32 = 0.26;
+const LONG_TOUCH_M: f32 = 0.62;
 const OPEN: f32 = 0.4;
 /// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
 const SLIDES: f32 = 0.5;
@@ -193,8 +194,9 @@ fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId,
     let ball = game.play.forecast.at(game.tick + SLIDE_AHEAD_TICKS).truncate();
     let ahead_s = SLIDE_AHEAD_TICKS as f32 * 0.01;
     let gap = (player.pos + player.vel * ahead_s).distance(ball);
+    let lead = carrier.pos.distance(game.ball.pos.truncate());
     let between = (ball - carrier.pos).normalize_or_zero().dot((player.pos - carrier.pos).normalize_or_zero());
-    if !SLIDE_M.contains(&gap) || carrier.body.meet_s < LONG_TOUCH_S || between < OPEN {
+    if !SLIDE_M.contains(&gap) || lead < LONG_TOUCH_M || between < OPEN {
         return;
     }
     let tackler = player.skill(Stat::SlidingTackle);

@@ -88,6 +88,10 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if game.player(id).body.pose == Pose::Sliding {
         return;
     }
+    if !goes && !alone && gap < hunt_m(&player) {
+        hunt(game, view, id, rival);
+        return;
+    }
     if !goes && goalside {
         contain(game, view, id, &carrier);
         return;

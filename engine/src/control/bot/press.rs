@@ -44,6 +44,8 @@ const LONG_TOUCH_M: f32 = 0.62;
 const OPEN: f32 = 0.4;
 /// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
 const SLIDES: f32 = 0.5;
+/// How near, as a share of how far they hunt, the first of two goes out; chosen between how often bots and agents lose it.
+const HUNTS_AT: f32 = 0.4;
 /// How far he passes from the carrier's middle, metres.
 const ROUND_M: f32 = 0.9;
 
@@ -88,7 +90,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if game.player(id).body.pose == Pose::Sliding {
         return;
     }
-    if !goes && !alone && gap < hunt_m(&player) {
+    if !goes && !alone && gap < HUNTS_AT * hunt_m(&player) {
         hunt(game, view, id, rival);
         return;
     }

@@ -1,11 +1,11 @@
 //! Which player an agent's slot controls.
 //!
-//! Fixed slots keep their player for ever. The others follow the ball: to the mate who will be there much sooner, to
-//! whoever has it, to the receiver of a pass, to the taker of a set piece. At the start and at restarts they go to those
-//! nearest to the ball, keepers too; in play never to a keeper.
+//! Fixed slots keep their player. The others follow the ball: to the mate who reaches it much sooner, to whoever has it, to
+//! the receiver of a pass, to the taker of a set piece. A match begins with the first places of the team, keepers too; a
+//! restart with the players nearest to the ball. In play no slot changes to a keeper.
 
 use crate::football::touch;
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
@@ -14,6 +14,17 @@ use setpiece_scenario::{Ai, Others};
 const RUN_STEPS: u32 = 40;
 /// Whoever is nearest to a point so far ahead of the caller runs, metres. (GRF's.)
 const AHEAD_M: f32 = 26.0;
+/// A mate takes over if three times their time to the ball is still less than the player's own. (GRF's.)
+const SOONER: f32 = 3.0;
+
+/// Which players the slots get that have none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// In the order of the team: GRF's at the start of a match.
+    InOrder,
+    /// Those nearest to the ball.
+    Nearest,
+}
 
 /// Whether some slot controls the player.
 pub fn controlled(game: &Match, id: PlayerId) -> bool {
@@ -28,7 +39,7 @@ fn free(game: &Match, id: PlayerId) -> bool {
 
 /// Switches at the start of a step.
 pub fn update(game: &mut Match) {
-    fill(game);
+    fill(game, Fill::Nearest);
     for team in [Team::Left, Team::Right] {
         if !game.agents.iter().any(|slot| slot.team == team && !slot.fixed) {
             continue;
@@ -53,7 +64,7 @@ pub fn update(game: &mut Match) {
             .fold(f32::MAX, |least, id| least.min(game.player(id).body.meet_s));
         let pass_to = game.play.pass.and_then(|pass| pass.to);
         let awaited = pass_to.is_some_and(|to| to.team() == team && controlled(game, to));
-        if !awaited && 3.0 * game.player(chaser).body.meet_s < fastest {
+        if !awaited && SOONER * game.player(chaser).body.meet_s < fastest {
             hand_to(game, chaser);
         }
     }
@@ -148,27 +159,25 @@ fn nearest(measured: impl Iterator<Item = (f32, PlayerId)>) -> Option<PlayerId> 
     measured.reduce(|best, next| if next.0 < best.0 { next } else { best }).map(|(_, id)| id)
 }
 
-/// Gives every slot without a player the free one nearest to the ball.
-fn fill(game: &mut Match) {
+/// Gives every slot without a player a free one.
+fn fill(game: &mut Match, order: Fill) {
     for slot in 0..game.agents.len() {
         let agent = game.agents[slot];
         if agent.fixed || agent.player.is_some_and(|id| game.player(id).active) {
             continue;
         }
         let ball = game.ball.pos.truncate();
-        let mut best: Option<(f32, PlayerId)> = None;
-        for (id, player) in game.team(agent.team) {
-            let distance = player.pos.distance_squared(ball);
-            if free(game, id) && best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, id));
-            }
-        }
-        game.agents[slot].player = best.map(|(_, id)| id);
+        let measure = |player: &Player| match order {
+            Fill::InOrder => 0.0,
+            Fill::Nearest => player.pos.distance_squared(ball),
+        };
+        let players = game.team(agent.team).filter(|(id, _)| free(game, *id));
+        game.agents[slot].player = nearest(players.map(|(id, player)| (measure(player), id)));
     }
 }
 
-/// Gives the slots that may switch their players anew: at the start and at restarts.
-pub fn reassign(game: &mut Match) {
+/// Gives the slots that may switch their players again: at the start and at restarts.
+pub fn assign(game: &mut Match, order: Fill) {
     for slot in &mut game.agents {
         if !slot.fixed {
             slot.player = None;
@@ -177,5 +186,5 @@ pub fn reassign(game: &mut Match) {
     if let Some(set_piece) = game.play.set_piece {
         hand_to(game, set_piece.taker);
     }
-    fill(game);
+    fill(game, order);
 }

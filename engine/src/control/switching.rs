@@ -1,12 +1,14 @@
 //! Which player an agent's slot controls.
 //!
 //! Fixed slots keep their player. The others follow the ball: to the mate who reaches it much sooner, to whoever has it, to
-//! the receiver of a pass, to the taker of a set piece. A match begins with the first places of the team, keepers too; a
-//! restart with the players nearest to the ball. In play no slot changes to a keeper.
+//! the receiver of a pass, to the taker of a set piece. A match begins with certain places of the team, keepers
+//! too; a restart with the players nearest to the ball. In play no slot changes to a keeper.
 
 use crate::football::touch;
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{AgentSlot, Match, PlayerId};
+use arrayvec::ArrayVec;
 use glam::Vec2;
+use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
@@ -17,14 +19,8 @@ const AHEAD_M: f32 = 26.0;
 /// A mate takes over if three times their time to the ball is still less than the player's own. (GRF's.)
 const SOONER: f32 = 3.0;
 
-/// Which players the slots get that have none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fill {
-    /// In the order of the team: GRF's at the start of a match.
-    InOrder,
-    /// Those nearest to the ball.
-    Nearest,
-}
+/// The places of a team in the order in which a match's first slots get them. (GRF's.)
+const FIRST_PLACES: [usize; TEAM_MAX] = [6, 5, 7, 8, 10, 0, 9, 2, 3, 1, 4];
 
 /// Whether some slot controls the player.
 pub fn controlled(game: &Match, id: PlayerId) -> bool {
@@ -39,7 +35,7 @@ fn free(game: &Match, id: PlayerId) -> bool {
 
 /// Switches at the start of a step.
 pub fn update(game: &mut Match) {
-    fill(game, Fill::Nearest);
+    fill(game);
     for team in [Team::Left, Team::Right] {
         if !game.agents.iter().any(|slot| slot.team == team && !slot.fixed) {
             continue;
@@ -159,25 +155,43 @@ fn nearest(measured: impl Iterator<Item = (f32, PlayerId)>) -> Option<PlayerId> 
     measured.reduce(|best, next| if next.0 < best.0 { next } else { best }).map(|(_, id)| id)
 }
 
-/// Gives every slot without a player a free one.
-fn fill(game: &mut Match, order: Fill) {
+/// Gives every slot without a player the free one nearest to the ball.
+fn fill(game: &mut Match) {
     for slot in 0..game.agents.len() {
         let agent = game.agents[slot];
         if agent.fixed || agent.player.is_some_and(|id| game.player(id).active) {
             continue;
         }
         let ball = game.ball.pos.truncate();
-        let measure = |player: &Player| match order {
-            Fill::InOrder => 0.0,
-            Fill::Nearest => player.pos.distance_squared(ball),
-        };
         let players = game.team(agent.team).filter(|(id, _)| free(game, *id));
-        game.agents[slot].player = nearest(players.map(|(id, player)| (measure(player), id)));
+        let distances = players.map(|(id, player)| (player.pos.distance_squared(ball), id));
+        game.agents[slot].player = nearest(distances);
     }
 }
 
-/// Gives the slots that may switch their players again: at the start and at restarts.
-pub fn assign(game: &mut Match, order: Fill) {
+/// Gives the slots that may switch their first players, wherever the ball is: each team's slots by place.
+pub fn open(game: &mut Match) {
+    release(game);
+    for team in [Team::Left, Team::Right] {
+        let open = |slot: &AgentSlot| slot.team == team && slot.player.is_none();
+        let slots = game.agents.iter().filter(|slot| open(slot)).count();
+        let ids = FIRST_PLACES.map(|place| PlayerId::new(team, place));
+        let mut firsts: ArrayVec<_, TEAM_MAX> = ids.into_iter().filter(|id| free(game, *id)).take(slots).collect();
+        firsts.sort_unstable_by_key(|id| id.0);
+        for (slot, id) in game.agents.iter_mut().filter(|slot| open(slot)).zip(firsts) {
+            slot.player = Some(id);
+        }
+    }
+}
+
+/// Gives the slots that may switch the players nearest to the ball, and the taker of a set piece.
+pub fn reassign(game: &mut Match) {
+    release(game);
+    fill(game);
+}
+
+/// Frees the slots that may switch of their players; the taker of a set piece gets one.
+fn release(game: &mut Match) {
     for slot in &mut game.agents {
         if !slot.fixed {
             slot.player = None;
@@ -186,5 +200,4 @@ pub fn assign(game: &mut Match, order: Fill) {
     if let Some(set_piece) = game.play.set_piece {
         hand_to(game, set_piece.taker);
     }
-    fill(game, order);
 }

@@ -1,7 +1,6 @@
 //! The first moment of a match.
 
 use crate::control::bot::formation;
-use crate::control::switching::Fill;
 use crate::football::body::Body;
 use crate::football::play::Restart;
 use crate::football::{forecast, noise, reach, restart, set_piece, stats};
@@ -42,7 +41,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     forecast::renew(&mut game);
     reach::assess(&mut game);
     start_of(&mut game, drawn, nearest);
-    crate::control::switching::assign(&mut game, Fill::InOrder);
+    crate::control::switching::open(&mut game);
     crate::control::prepare(&mut game);
     game
 }
@@ -98,7 +97,7 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
         }
         forecast::renew(game);
         reach::assess(game);
-        crate::control::switching::assign(game, Fill::Nearest);
+        crate::control::switching::reassign(game);
     }
 }
 

@@ -1,7 +1,6 @@
 //! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
 
 use crate::control::bot::formation;
-use crate::control::switching::Fill;
 use crate::football::body::{Intent, NEVER, Pose};
 use crate::football::play::{Restart, SetPiece};
 use crate::football::{forecast, reach, set_piece};
@@ -55,7 +54,7 @@ pub fn place(game: &mut Match, restart: Restart) {
     face_ball(game);
     forecast::renew(game);
     reach::assess(game);
-    crate::control::switching::assign(game, Fill::Nearest);
+    crate::control::switching::reassign(game);
 }
 
 /// Times that a crowd at the circle is gone through.

@@ -2,7 +2,7 @@
 
 use super::keys::{Keys, Plan};
 use super::stage::Scene;
-use crate::pitch::{Failure, Trial, text};
+use crate::pitch::{Failure, Trial, script};
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::vocabulary::{Action, Role, Team};
 
@@ -137,7 +137,7 @@ pub(super) struct Take<'a> {
 
 /// Plays an episode: the start, then every step.
 pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> {
-    let mut trial = Trial::new(text(&take.scene.source(episode, take.difficulty))?, episode)?;
+    let mut trial = Trial::new(script(&take.scene.source(episode, take.difficulty))?, episode)?;
     let left = take.scene.agents()[0];
     let mirrored = take.scene.mirrored(episode);
     let mut hands: Vec<Keys<'_>> = take

@@ -26,8 +26,8 @@ use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Rule};
 use tell::Before;
 
-/// Steps that a set piece may wait for an agent.
-const STALLING_STEPS: u16 = 20;
+/// Steps that a set piece may wait for an agent. (GRF's: it is the twentieth that is hurried.)
+const STALLING_STEPS: u16 = 19;
 
 /// Before a step: who can be at the ball first, and which player each agent has in it.
 pub fn prepare(game: &mut Match) {
@@ -136,12 +136,12 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
 
 /// A set piece that an agent doesn't take is taken for it: a short pass is pressed, once, and let go.
 fn hurry(game: &Match, id: PlayerId, action: Action) -> Action {
-    let late =
-        game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id && set_piece.waited_steps >= STALLING_STEPS);
     let asked = game.player(id).body.kick.is_some();
-    match (late && game.rule(Rule::AntiStalling), asked) {
-        (false, _) => action,
-        (true, false) => Action::ShortPass,
-        (true, true) => Action::Idle,
+    let waiting = game.play.set_piece.filter(|set_piece| set_piece.taker == id && game.rule(Rule::AntiStalling));
+    match waiting.map_or(0, |set_piece| set_piece.waited_steps) {
+        ..STALLING_STEPS => action,
+        STALLING_STEPS => Action::ShortPass,
+        _ if asked => Action::Idle,
+        _ => Action::ShortPass,
     }
 }

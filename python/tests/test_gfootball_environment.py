@@ -580,7 +580,8 @@ def test_what_is_not_here_says_so(kwargs: dict[str, Any]) -> None:
 
 def test_what_is_not_here_says_so_later() -> None:
     env = make()
-    for use in (env.render, lambda: env.tracker_setup(0, 1), lambda: create_remote_environment("me", "token")):
+    env.tracker_setup(0, 1)
+    for use in (env.render, lambda: create_remote_environment("me", "token")):
         with pytest.raises(UnavailableError):
             use()
     assert env.disable_render()

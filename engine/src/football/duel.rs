@@ -8,7 +8,7 @@ use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, Role, Stat};
 
 /// How near the ball the tackler's foot must come, metres.
-const TACKLE_M: f32 = 0.85;
+const TACKLE_M: f32 = 0.65;
 /// How often a try meets the ball between players of like skill; fitted to how soon a runner loses it to one at their side.
 const TRIES: f32 = 0.27;
 /// How often at least; chosen.
@@ -17,6 +17,10 @@ const LEAST: f32 = 0.025;
 const STANDS: f32 = 0.06;
 /// How much more often against a carrier who runs into the tackler; fitted to how soon a runner loses it head-on.
 const INTO: f32 = 0.4;
+/// By how much faster than the carrier a ball has just been pushed past the tackler, m/s, and how much less often it is met
+/// then; fitted to how many get through at a sprint.
+const PUSHED_MPS: f32 = 1.5;
+const SURPRISED: f32 = 0.85;
 /// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
 const POKED_MPS: f32 = 3.5;
 /// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
@@ -54,7 +58,10 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     // Whoever runs into a defender with the ball runs it onto their feet.
     let run = victim.vel.normalize_or_zero();
     let into = (tackler.pos - victim.pos).normalize_or_zero().dot(run).max(0.0) * (1.0 - still);
-    let chance = (chance + STANDS * still + INTO * into).clamp(LEAST, 0.9);
+    // A ball just pushed past the tackler is not where they thought.
+    let pushed = (game.ball.vel.length() - victim.vel.length()) / PUSHED_MPS;
+    let meets = 1.0 - SURPRISED * pushed.clamp(0.0, 1.0);
+    let chance = ((chance + INTO * into) * meets + STANDS * still).clamp(LEAST, 0.9);
     let now = game.tick as i32;
     if noise::happens(game, chance) {
         let brushed = win(game, events, id, rival, ball);

@@ -11,8 +11,8 @@ use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// How far a wall stands from the ball, metres. Laws.
 const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
-/// How far opponents keep from a throw-in, metres; chosen: the laws have 2.
-const THROW_IN_M: f32 = 3.0;
+/// How far opponents keep from a throw-in, metres. Laws.
+const THROW_IN_M: f32 = 2.0;
 /// A wall is built for free kicks nearer to goal than this, metres (GRF's).
 pub const WALL_WITHIN_M: f32 = 40.0;
 /// How near two men stand at a set piece at the nearest, metres: about a body's breadth.

@@ -39,6 +39,10 @@ const FREE_WILD: f32 = 0.004;
 const PRESSED_WILD: f32 = 0.09;
 /// How far ahead of a standing player the ball is laid, metres. Measured.
 const LAID_M: f32 = 0.4;
+/// How whoever turns with the ball brakes, m/s²; chosen.
+const TURN_MPS2: f32 = 14.0;
+/// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
+const SHARP: f32 = 0.6;
 /// How a player brakes and a slow ball rolls out, m/s².
 const STOP_MPS2: f32 = 12.0;
 const ROLL_MPS2: f32 = 1.75;
@@ -223,9 +227,13 @@ fn touch_ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &C
     let under_way = (pace / WALKS_MPS).min(1.0);
     let gait = (speed + 0.7 * (pace - speed) * under_way) / 8.0;
     let shy = if care.pressed { 0.8 } else { 1.0 };
-    let time = (0.12 + 0.6 * gait * gait * gait * gait) * shy;
+    // Whoever turns carries the rest of their run on until they have braked it.
+    let turns = player.vel.dot(ahead) < SHARP * pace;
+    let rest = if turns { player.vel - ahead * own } else { Vec2::ZERO };
+    let brakes = rest.length() / TURN_MPS2;
+    let time = ((0.12 + 0.6 * gait * gait * gait * gait) * shy).max(brakes);
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
-    let free = ahead * (mean * time + carried_m(own));
+    let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
     let cut = if care.lines { within_lines(player.pos, free) } else { None };
     let place = cut.unwrap_or(free);
     let way = place - to_ball;

@@ -22,7 +22,8 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET
     let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;
     let directions = &StickyAction::ALL[..StickyAction::Sprint.index()];
-    let kick = |kind: KickKind| driver::may_arm(game, player, kind);
+    // A key that is down may stay so: letting it go is what makes it heard again.
+    let kick = |kind: KickKind| slot.key == Some(kind) || driver::may_arm(game, player, kind);
     for (action, open) in Action::ALL.iter().zip(&mut mask) {
         *open = match action {
             Action::Idle | Action::BuiltinAi => true,

@@ -236,15 +236,17 @@ fn an_agents_run_up_takes_as_long_as_measured() {
         for key in keys {
             // A throw-in is a short pass, whatever is pressed.
             let heard = !throw || key == Action::ShortPass;
-            let once = |at| move |step| if step == at { key } else { Action::Idle };
-            let stalled = if throw { 23 } else { 26 };
+            let once = |at: usize| move |step: usize| if step == at { key } else { Action::Idle };
+            let stalled: usize = if throw { 23 } else { 26 };
             let run_up = if throw { 4 } else { 7 };
-            let after = |waited| if heard { waited + run_up } else { stalled };
+            let after = |waited: usize| if heard { waited + run_up } else { stalled };
             assert_eq!(shown(mode, Team::Left, spot, once(1)), after(0), "{mode}: {key:?} pressed at once");
             assert_eq!(shown(mode, Team::Left, spot, once(6)), after(5), "{mode}: {key:?} pressed late");
             let held = match key {
                 Action::ShortPass if throw => 8,
                 Action::HighPass if !throw => 11,
+                // The short pass that is pressed for them lets it go.
+                Action::Shot if !throw => 25,
                 _ => stalled,
             };
             assert_eq!(shown(mode, Team::Left, spot, |_| key), held, "{mode}: {key:?} held");

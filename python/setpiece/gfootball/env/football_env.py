@@ -16,7 +16,6 @@ from gymnasium import spaces
 
 from setpiece._errors import ParameterError, SetpieceError, SnapshotError
 from setpiece._words import similar
-from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env._old_gym import Stepped, refuse_seed
 from setpiece.gfootball.env.config import Config, no_pictures, parse_player_definition
 from setpiece.gfootball.env.football_action_set import (
@@ -147,9 +146,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return True
 
     def tracker_setup(self, start: int, end: int) -> None:
-        """Raises `UnavailableError`: the engine needs no tracker to find where two runs part."""
+        """Does nothing: GRF's tracker finds where two runs part; here compare `get_state` of both, step by step."""
         del start, end
-        raise unavailable("tracker_setup", "GRF's tracker", "compare `get_state` of two runs, step by step")
 
     def close(self) -> None:
         """Lets go of the match; `reset` begins another."""

@@ -60,6 +60,7 @@ class FootballEnvCore:
         self._env: setpiece.FootballEnv | None = None
         self._source: Source | None = None
         self._clock: Clock = (None, None)
+        self._swapped = False
         self.slots: list[dict[str, Any]] = []
         """What each slot sees, in its team's own frame."""
         self.whole: dict[str, Any] = {}
@@ -77,7 +78,9 @@ class FootballEnvCore:
         config.NewScenario(inc)
         recorded = config.ScenarioConfig()
         _check_agents(recorded)
-        self._enter(config.Scenario().source, (_length(recorded), _half_time(recorded)), self._playable(recorded))
+        swapped = recorded.reverse_team_processing and _is_symmetric(recorded)
+        clock = _length(recorded), _half_time(recorded)
+        self._enter(config.Scenario().source, clock, self._playable(recorded), swapped)
         assert self._env is not None
         observed, info = self._env.reset(
             seed=recorded.game_engine_random_seed, options={"episode": config["episode_number"] % 2}
@@ -113,6 +116,7 @@ class FootballEnvCore:
             "source": (source.name, source.text, source.folder),
             "clock": self._clock,
             "played": self._played,
+            "swapped": self._swapped,
             "agents": self._asked,
             "snapshot": self._env.snapshot(),
             "waiting": self.waiting,
@@ -134,24 +138,29 @@ class FootballEnvCore:
         source = Source(*state["source"])
         if self._source is None or source.name != self._source.name:
             raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
-        before = self._env, self._source, self._clock, self._played
+        before = self._env, self._source, self._clock, self._played, self._swapped
         try:
-            self._enter(source, state["clock"], state["played"])
+            self._enter(source, state["clock"], state["played"], state["swapped"])
             assert self._env is not None
             observed, info = self._env.restore(state["snapshot"])
         except Exception:
-            self._env, self._source, self._clock, self._played = before
+            self._env, self._source, self._clock, self._played, self._swapped = before
             raise
         self.waiting, self.step_count = state["waiting"], state["step_count"]
         self.cumulative_reward, self.done = state["cumulative_reward"], state["done"]
         self._see(observed, info)
 
-    def _enter(self, source: Source, clock: Clock, played: tuple[int, int]) -> None:
-        """Makes the environment of a scenario, unless it is the one that is there."""
-        if self._env is None or (source, clock, played) != (self._source, self._clock, self._played):
-            scenario = source.compiled(str(played[0]), str(played[1]), *clock)
+    def _enter(self, source: Source, clock: Clock, played: tuple[int, int], swapped: bool) -> None:
+        """Makes the environment of a scenario, unless it is the one that is there.
+
+        With `swapped` the left slots play the engine's right team.
+        """
+        wanted = source, clock, played, swapped
+        if self._env is None or wanted != (self._source, self._clock, self._played, self._swapped):
+            left, right = reversed(played) if swapped else played
+            scenario = source.compiled(str(left), str(right), *clock)
             self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set="full")
-            self._source, self._clock, self._played = source, clock, played
+            self._source, self._clock, self._played, self._swapped = wanted
 
     def _playable(self, recorded: ScenarioConfig) -> tuple[int, int]:
         """How many slots the engine has: one is always there, since somebody has to see the match."""
@@ -164,8 +173,11 @@ class FootballEnvCore:
     def _see(self, observed: Any, info: dict[str, Any]) -> None:
         """Takes over what the engine shows."""
         self.score = (info["score"][0], info["score"][1])
-        left = self._played[0]
+        left, right = self._played
         views = [self._view(each) for each in (observed if isinstance(observed, tuple) else (observed,))]
+        if self._swapped:
+            self.score = (info["score"][1], info["score"][0])
+            views = views[right:] + views[:right]
         first = views[0] if left else flip_observation(views[0], self._config)
         asked_left, asked_right = self._asked
         own = views[:left][:asked_left]
@@ -208,7 +220,8 @@ class FootballEnvCore:
         other = [flip_single_action(action, self._config) for action in chosen[asked_left:]][:right]
         if not own and not other:
             return [NUMBERS["builtin_ai"]]
-        return [NUMBERS[action.name] for action in (*own, *other)]
+        ordered = (*other, *own) if self._swapped else (*own, *other)
+        return [NUMBERS[action.name] for action in ordered]
 
     def _first_active(self, recorded: ScenarioConfig) -> None:
         """Shows in the first observation whom GRF shows: it deals the slots out by a layout that nobody stands in."""
@@ -247,6 +260,16 @@ def _check_agents(recorded: ScenarioConfig) -> None:
 
 def _nothing_held(config: Config) -> Any:
     return np.zeros(len(get_sticky_actions(config)), np.uint8)
+
+
+def _is_symmetric(recorded: ScenarioConfig) -> bool:
+    """Whether both teams begin alike, so that the order in which GRF goes through them is all that sets them apart."""
+    left, right = (
+        [(entry.position, entry.role, entry.lazy, entry.controllable) for entry in team]
+        for team in (recorded.left_team, recorded.right_team)
+    )
+    alike = left == right and recorded.left_team_difficulty == recorded.right_team_difficulty
+    return alike and not any(recorded.ball_position[:2])
 
 
 def _half_time(recorded: ScenarioConfig) -> int | None:

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 PACKAGES = ("setpiece.gfootball.scenarios", "gfootball.scenarios")
 TESTS = "tests."
 """What GRF writes before the names of the scenarios of its own tests."""
-HALF_TIME = "half_time"
+STEPS_PER_S = 10
+SECOND_HALF = "second_half"
 """The parameter by which a scenario that is no script says after how many steps its second half begins."""
 Script = Callable[["Recorder"], object]
 
@@ -134,15 +135,13 @@ class Source:
     folder: str = ""
 
     def compiled(self, left: str, right: str, steps: int | None, half_time: int | None = None) -> setpiece.Scenario:
-        """Returns the scenario with so many agents on each side (`all` for everybody), so many steps and half-time then.
+        """Returns the scenario with so many agents a side (`all` for everybody), steps, and steps before half-time.
 
         GRF hurries agents, and never a player who is lazy: so the environment does it, and not the engine.
         """
         half = "" if half_time is None else f", half_time: {half_time} steps"
         limit = "" if steps is None else f" end limit {steps} steps"
-        return _compiled(
-            self, f"rules {{ anti_stalling: off{half} }} agents {{ left: {left}, right: {right} }}{limit}"
-        )
+        return _compiled(self, f"rules {{ anti_stalling: off{half} }} agents {{ left: {left}, right: {right} }}{limit}")
 
     def agents_on_the_left(self) -> int:
         """Returns how many agents the scenario itself asks for."""
@@ -170,7 +169,11 @@ def _measured(source: Source) -> ScenarioConfig:
     first, turned = views[0], teams[0] == 1
     recorded = ScenarioConfig()
     recorded.game_duration = int(first["steps_left"]) if first["steps_left"] >= 0 else NEVER
-    recorded.second_half = int(scenario.params[HALF_TIME].default) if HALF_TIME in scenario.params else NEVER
+    defaults = {name: param.default for name, param in scenario.params.items()}
+    recorded.left_team_difficulty = defaults.get("left_difficulty", recorded.left_team_difficulty)
+    recorded.right_team_difficulty = defaults.get("difficulty", recorded.right_team_difficulty)
+    if SECOND_HALF in defaults:
+        recorded.second_half = round(float(defaults[SECOND_HALF]) * STEPS_PER_S)
     recorded.ball_position = [float(number) for number in first["ball"]]
     if turned:
         recorded.ball_position[:2] = [-number for number in recorded.ball_position[:2]]

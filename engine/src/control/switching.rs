@@ -1,8 +1,8 @@
 //! Which player an agent's slot controls.
 //!
 //! Fixed slots keep their player. The others follow the ball: to the mate who reaches it much sooner, to whoever has it, to
-//! the receiver of a pass, to the taker of a set piece. A match begins with certain places of the team, keepers
-//! too; a restart with the players nearest to the ball. In play no slot changes to a keeper.
+//! the receiver of a pass, to the taker of a set piece. A match begins with certain places of the team, keepers too; a
+//! restart with the players nearest to the ball. In play no slot changes to a keeper.
 
 use crate::football::touch;
 use crate::state::{AgentSlot, Match, PlayerId};

@@ -4,7 +4,7 @@ use crate::control::{assist, sticky};
 use crate::event::Events;
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
-use crate::football::{kick, slide, touch};
+use crate::football::{kick, reach, slide, touch};
 use crate::state::{Match, Player, PlayerId, Steer};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, GameMode};
@@ -77,10 +77,16 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
         body.intent = if runs { Intent::Ball(SPRINT_MPS) } else { Intent::Stand };
         return key;
     }
+    // Whoever asks for nothing else lets a pass come; whoever holds its direction goes to meet it.
+    let meets = direction.is_some_and(|ahead| ahead.dot(game.ball.pos.truncate() - player.pos) > 0.0);
+    let stands = !has_ball && !meets && player.body.kick.is_none() && reach::comes_to(game, &player);
+    let body = &mut game.players[id.index()].body;
     body.dribble = wish;
     body.intent = if waits && has_ball {
         // However fast the ball rolls on, they stay with it.
         Intent::Ball(SPRINT_MPS)
+    } else if fetch && stands {
+        Intent::Stand
     } else if fetch {
         Intent::Ball(if has_ball { gait.max(if direction.is_some() { 0.0 } else { RUN_MPS }) } else { SPRINT_MPS })
     } else if chases {

@@ -35,6 +35,10 @@ const QUICK_TICKS: i32 = 22;
 const REACH_M: f32 = 0.8;
 /// The angle by which a pass may still be turned at the contact, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
+/// A ball that comes faster than this is taken before it is kicked, m/s; chosen.
+const TAKES_MPS: f32 = 8.0;
+/// A swing begins for a ball that is no higher at the contact, metres; chosen.
+const LOW_M: f32 = 0.5;
 /// Highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
@@ -134,8 +138,22 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
             soonest(game, id, plan, longest).unwrap_or(longest)
         }
     };
+    if !at_hand && must_take(game, id) {
+        return None;
+    }
     let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
     (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
+}
+
+/// Whether a player takes the ball before they kick it, or is still taking it: it comes fast, from somebody else.
+/// (Measured.)
+fn must_take(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    if game.last_touch == Some(id) {
+        return (game.tick as i32) < player.body.ready_at;
+    }
+    let meeting = game.ball.vel.truncate() - player.vel;
+    meeting.length_squared() > TAKES_MPS * TAKES_MPS
 }
 
 /// How far a player will be from the ball so many ticks from now, metres; `pace`: what share of their own is left to them
@@ -144,7 +162,7 @@ fn apart(game: &Match, id: PlayerId, ticks: i32, pace: f32) -> Option<f32> {
     let there = game.play.forecast.at(game.tick + ticks as u32);
     let player = game.player(id);
     let place = player.pos + player.vel * (ticks as f32 * 0.01 * pace);
-    (there.z <= VOLLEY_M).then(|| place.distance(there.truncate()))
+    (there.z <= LOW_M).then(|| place.distance(there.truncate()))
 }
 
 /// Ticks after which a sprinter who shoots reaches the ball, if that is sooner than they would catch up with one just pushed.

@@ -6,7 +6,7 @@ use crate::football::body::{KickKind, KickPlan};
 use crate::football::noise;
 use crate::football::shot::Struck;
 use crate::math;
-use crate::physics::constants::MAGNUS;
+use crate::physics::constants::{GRAVITY, MAGNUS};
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
@@ -29,8 +29,13 @@ const ASIDE_UP_MPS: f32 = 1.0;
 const HEEL_UP_MPS: f32 = 0.4;
 /// From which angle to the run on a pass is played with the heel, degrees; chosen.
 const HEEL_DEG: f32 = 135.0;
-/// Backspin of a pass along the ground, rad/s: what is lifted off the ground falls with 7.4 m/s², as measured of shots.
-const PASS_BACKSPIN: f32 = 19.0;
+/// Backspin of a pass along the ground, rad/s: a fast one floats, as measured.
+const PASS_BACKSPIN: f32 = 45.0;
+/// The fall for which the rises above are reckoned, m/s²; a pass falls less the faster it is, but so much at least, at
+/// the speed that it keeps on average, as a share of its first. Fitted to the measured heights.
+const REFERENCE_FALL_MPS2: f32 = 7.4;
+const LEAST_FALL_MPS2: f32 = 2.0;
+const KEPT_SPEED: f32 = 0.87;
 /// How fast a throw-in is, however far the mate is, m/s. Measured.
 const THROW_MPS: f32 = 17.4;
 /// How much faster a throw-in rises for every metre of its way, 1/s. Measured.
@@ -71,7 +76,10 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
         let level = wanted.min(most);
         let lifted =
             AHEAD_UP_PER_S * distance * (1.0 - aside) + ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
-        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
+        let mean = KEPT_SPEED * level;
+        let fall = (GRAVITY - MAGNUS * PASS_BACKSPIN * mean * mean).max(LEAST_FALL_MPS2);
+        let rise = level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted;
+        (level, rise * libm::sqrtf(fall / REFERENCE_FALL_MPS2))
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
     let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
@@ -116,5 +124,5 @@ pub fn off_run(player: &Player, way: Vec2) -> f32 {
 /// The backspin that lifts a lofted pass, rad/s.
 fn backspin(velocity: Vec3) -> Vec3 {
     let slow = 22.0 / velocity.length().max(8.0);
-    across(velocity) * (15.0 * (slow * slow).clamp(0.5, 3.0))
+    across(velocity) * (5.0 * (slow * slow).clamp(0.5, 3.0))
 }

@@ -5,7 +5,7 @@ use crate::football::forecast::{Forecast, POINTS, SPACING_TICKS, time_s};
 use crate::football::play::ticks_since;
 use crate::football::rows::WIDTH;
 use crate::state::{Match, Player, PlayerId};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{Role, Stat, Team};
 use std::ops::Range;
 use wide::f32x4;
@@ -18,6 +18,10 @@ const ROUNDING_M: f32 = 0.01;
 const SPACING_S: f32 = SPACING_TICKS as f32 * 0.01;
 /// How near the ball must come to be played, metres.
 pub const REACH_M: f32 = 0.45;
+
+/// A ball faster than this that passes within so many metres is waited for, m/s; chosen.
+const COMES_MPS: f32 = 10.0;
+const COMES_M: f32 = 0.4;
 
 /// The ball's way on the pitch from a moment on: off the pitch nobody follows the ball.
 pub struct Way<'a> {
@@ -76,6 +80,14 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     }
     let (last, time_s) = (way.forecast.point(end - 1).truncate(), time_s(end - 1, way.offset_s));
     (last, time_s + ((last.distance(at) - speed * time_s) / speed).max(0.0))
+}
+
+/// Whether a fast ball comes to a player, low enough to be taken: they need not go to meet it.
+pub fn comes_to(game: &Match, player: &Player) -> bool {
+    let ball = &game.ball;
+    let fast = ball.vel.truncate().length_squared() > COMES_MPS * COMES_MPS;
+    let comes = |at: Vec3| at.z <= PLAYABLE_M && at.truncate().distance_squared(player.pos) < COMES_M * COMES_M;
+    fast && game.play.forecast.from(game.tick).any(|(_, at)| comes(at))
 }
 
 /// Ticks until a player sees what somebody else's touch has made of the ball: 80 - 40 · reaction ms, and a bot 100 ms

@@ -43,6 +43,19 @@ const LAID_M: f32 = 0.4;
 const TURN_MPS2: f32 = 14.0;
 /// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
 const SHARP: f32 = 0.6;
+/// How fast a trapped ball is drawn to the foot of a standing player, 1/s, and at most, m/s; fitted.
+const SETTLES_PER_S: f32 = 4.0;
+const SETTLED_MPS: f32 = 0.8;
+/// How much faster than its player a trapped ball runs ahead at most, m/s. Measured of standing players.
+const FOLLOWED_MPS: f32 = 3.6;
+/// A ball met faster than this hops off the body that takes it, m/s; chosen.
+const HOPS_MPS: f32 = 8.0;
+/// Ticks until whoever has taken such a ball plays it again; fitted.
+const TAKING_TICKS: i32 = 33;
+/// A ball above this is not at the foot yet, metres: as of whoever owns it.
+pub(super) const FOOT_HIGH_M: f32 = 0.5;
+/// A dribbler's ball is no higher than this, metres; chosen: how high a trapped one hops.
+const HIGH_M: f32 = 1.5;
 /// How a player brakes and a slow ball rolls out, m/s².
 const STOP_MPS2: f32 = 12.0;
 const ROLL_MPS2: f32 = 1.75;
@@ -72,7 +85,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
             let stops = player.body.dribble.length_squared() < STOPS_MPS * STOPS_MPS
                 && player.vel.length_squared() < SPRINTS_MPS * SPRINTS_MPS;
             let foot = if stops { SOLE_M } else { foot_m(game, player) };
-            if distance <= foot * foot && ball.z < 0.5 && wants_ball(game, id) && dribble(game, events, id) {
+            if distance <= foot * foot && ball.z < FOOT_HIGH_M && wants_ball(game, id) && dribble(game, events, id) {
                 return;
             }
         } else if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
@@ -114,7 +127,7 @@ pub fn controller(game: &Match) -> Option<PlayerId> {
     let player = game.player(id);
     let near = player.pos.distance_squared(game.ball.pos.truncate()) < 2.2 * 2.2;
     let own = game.play.pass.is_none() && game.play.shot.is_none();
-    (player.active && near && own && game.ball.pos.z < 0.9).then_some(id)
+    (player.active && near && own && game.ball.pos.z < HIGH_M).then_some(id)
 }
 
 /// Whether an agent, or a behaviour, presses for him.
@@ -139,7 +152,8 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
         return false;
     }
     if game.last_touch == Some(id) {
-        return ticks_since(game.tick, player.body.touched_at) >= PAUSE_TICKS;
+        // What they have taken they let come down.
+        return game.ball.pos.z < FOOT_HIGH_M && ticks_since(game.tick, player.body.touched_at) >= PAUSE_TICKS;
     }
     let Some(last) = game.last_touch else { return true };
     if last.team() != id.team() {
@@ -294,20 +308,41 @@ fn trap(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
     let control = player.skill(Stat::BallControl);
     let wildness = noise::roll(game);
-    let keep = ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (0.85 - 0.55 * control) * (0.15 + 0.75 * wildness);
+    let from_mate = game.play.pass.is_some_and(|pass| pass.by.team() == id.team());
+    let keep = if from_mate {
+        0.0
+    } else {
+        ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (0.85 - 0.55 * control) * (0.15 + 0.75 * wildness)
+    };
     let wish = player.body.dribble;
     let to_ball = ball.pos.truncate() - player.pos;
     let care = Care { pressed: false, lines: minds_lines(game, id) };
-    let soft = if wish.length_squared() > 0.25 {
-        touch_ahead(&player, to_ball, wish.normalize_or_zero(), wish.length().min(5.5), &care) * 0.85
-    } else {
-        player.vel * 0.5
+    let ahead = wish.normalize_or_zero();
+    let hard = meeting > HOPS_MPS;
+    let soft = match (wish.length_squared() > 0.25, hard) {
+        (true, _) => {
+            let on = touch_ahead(&player, to_ball, ahead, wish.length().min(5.5), &care);
+            // A hard one runs ahead no faster than the player can follow.
+            if hard { on.clamp_length_max(player.vel.dot(ahead).max(0.0) + FOLLOWED_MPS) } else { on * 0.85 }
+        }
+        // Towards the foot, where it comes to rest.
+        (false, true) => ((player.body.facing * LAID_M - to_ball) * SETTLES_PER_S).clamp_length_max(SETTLED_MPS),
+        (false, false) => player.vel * 0.5,
     };
     let aside = noise::bell(game) * keep * 0.5;
     let left_over = ball.vel.truncate() * keep;
     let velocity = soft * (1.0 - keep) + left_over + Vec2::new(-left_over.y, left_over.x) * aside;
-    let hop = if meeting > 8.0 { keep * 3.0 } else { 0.0 };
-    push(game, events, id, velocity, hop);
+    push(game, events, id, velocity, if hard { hop_mps(meeting) } else { 0.0 });
+    if hard {
+        game.players[id.index()].body.ready_at = game.tick as i32 + TAKING_TICKS;
+    }
+}
+
+/// How fast a ball rises from the body that takes it, m/s, by how fast they meet. Measured: taken at hip height it comes
+/// down to the foot some .4 s later, after a head-on run some .9 s.
+fn hop_mps(meeting: f32) -> f32 {
+    let hard = ((meeting - 12.0) / 11.0).clamp(0.0, 1.2);
+    0.4 + 2.2 * hard * libm::sqrtf(hard)
 }
 
 /// How much a ball just struck takes a player by surprise, 0..1: GRF's recency of the other's touch, over

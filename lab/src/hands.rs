@@ -91,3 +91,24 @@ fn share_give(share: f64, theirs: u64, ours: u64) -> f64 {
     let p = (share * n + 2.0) / (n + 4.0);
     1.96 * (p * (1.0 - p) * (1.0 / (n + 4.0) + 1.0 / ours as f64)).sqrt() + 0.1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::TOPICS;
+
+    /// The most figures a row of the report holds.
+    const ROW_MAX: usize = 5;
+
+    #[test]
+    fn every_column_is_in_one_row_and_rows_are_short() {
+        for topic in &TOPICS {
+            for (column, _) in topic.columns {
+                let rows = topic.groups.iter().filter(|(_, columns)| columns.contains(column)).count();
+                assert_eq!(rows, 1, "{}: {column}", topic.name);
+            }
+            let named: usize = topic.groups.iter().map(|(_, columns)| columns.len()).sum();
+            assert_eq!(named, topic.columns.len(), "{}", topic.name);
+            assert!(topic.groups.iter().all(|(_, columns)| columns.len() <= ROW_MAX), "{}", topic.name);
+        }
+    }
+}

@@ -1,12 +1,14 @@
 //! Which player an agent's slot controls.
 //!
-//! Fixed slots keep their player for ever. The others follow the ball: to the mate who will be there much sooner, to
-//! whoever has it, to the receiver of a pass, to the taker of a set piece. At the start and at restarts they go to those
-//! nearest to the ball, keepers too; in play never to a keeper.
+//! Fixed slots keep their player. The others follow the ball: to the mate who reaches it much sooner, to whoever has it, to
+//! the receiver of a pass, to the taker of a set piece. A match begins with certain places of the team, keepers too; a
+//! restart with the players nearest to the ball. In play no slot changes to a keeper.
 
 use crate::football::touch;
-use crate::state::{Match, PlayerId};
+use crate::state::{AgentSlot, Match, PlayerId};
+use arrayvec::ArrayVec;
 use glam::Vec2;
+use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
@@ -14,6 +16,11 @@ use setpiece_scenario::{Ai, Others};
 const RUN_STEPS: u32 = 40;
 /// Whoever is nearest to a point so far ahead of the caller runs, metres. (GRF's.)
 const AHEAD_M: f32 = 26.0;
+/// A mate takes over if three times their time to the ball is still less than the player's own. (GRF's.)
+const SOONER: f32 = 3.0;
+
+/// The places of a team in the order in which a match's first slots get them. (GRF's.)
+const FIRST_PLACES: [usize; TEAM_MAX] = [6, 5, 7, 8, 10, 0, 9, 2, 3, 1, 4];
 
 /// Whether some slot controls the player.
 pub fn controlled(game: &Match, id: PlayerId) -> bool {
@@ -53,7 +60,7 @@ pub fn update(game: &mut Match) {
             .fold(f32::MAX, |least, id| least.min(game.player(id).body.meet_s));
         let pass_to = game.play.pass.and_then(|pass| pass.to);
         let awaited = pass_to.is_some_and(|to| to.team() == team && controlled(game, to));
-        if !awaited && 3.0 * game.player(chaser).body.meet_s < fastest {
+        if !awaited && SOONER * game.player(chaser).body.meet_s < fastest {
             hand_to(game, chaser);
         }
     }
@@ -156,19 +163,35 @@ fn fill(game: &mut Match) {
             continue;
         }
         let ball = game.ball.pos.truncate();
-        let mut best: Option<(f32, PlayerId)> = None;
-        for (id, player) in game.team(agent.team) {
-            let distance = player.pos.distance_squared(ball);
-            if free(game, id) && best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, id));
-            }
-        }
-        game.agents[slot].player = best.map(|(_, id)| id);
+        let players = game.team(agent.team).filter(|(id, _)| free(game, *id));
+        let distances = players.map(|(id, player)| (player.pos.distance_squared(ball), id));
+        game.agents[slot].player = nearest(distances);
     }
 }
 
-/// Gives the slots that may switch their players anew: at the start and at restarts.
+/// Gives the slots that may switch their first players, wherever the ball is: each team's slots by place.
+pub fn open(game: &mut Match) {
+    release(game);
+    for team in [Team::Left, Team::Right] {
+        let open = |slot: &AgentSlot| slot.team == team && slot.player.is_none();
+        let slots = game.agents.iter().filter(|slot| open(slot)).count();
+        let ids = FIRST_PLACES.map(|place| PlayerId::new(team, place));
+        let mut firsts: ArrayVec<_, TEAM_MAX> = ids.into_iter().filter(|id| free(game, *id)).take(slots).collect();
+        firsts.sort_unstable_by_key(|id| id.0);
+        for (slot, id) in game.agents.iter_mut().filter(|slot| open(slot)).zip(firsts) {
+            slot.player = Some(id);
+        }
+    }
+}
+
+/// Gives the slots that may switch the players nearest to the ball, and the taker of a set piece.
 pub fn reassign(game: &mut Match) {
+    release(game);
+    fill(game);
+}
+
+/// Frees the slots that may switch of their players; the taker of a set piece gets one.
+fn release(game: &mut Match) {
     for slot in &mut game.agents {
         if !slot.fixed {
             slot.player = None;
@@ -177,5 +200,4 @@ pub fn reassign(game: &mut Match) {
     if let Some(set_piece) = game.play.set_piece {
         hand_to(game, set_piece.taker);
     }
-    fill(game);
 }

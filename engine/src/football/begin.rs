@@ -22,7 +22,7 @@ pub fn begin(drawn: &Drawn) -> Match {
         body.level = 0.3 + 0.7 * start.difficulty.clamp(0.0, 1.0);
         body.speed_top_mps = stats::speed_top(body.stats[Stat::Speed.index()]);
         body.height_m = stats::height_of(index);
-        body.kickoff = start.kickoff.unwrap_or([start.pos; 2]);
+        body.kickoff = [start.pos; 2];
         let to_ball = (drawn.ball_pos.truncate() - start.pos).normalize_or(Vec2::X);
         body.facing = start.heading_rad.map_or(to_ball, crate::math::unit);
         player.body = body;
@@ -33,6 +33,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     game.play.ball_mean = drawn.ball_pos.truncate();
     let nearest = nearest_team(&mut game);
     game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
+    place_kickoffs(&mut game, drawn);
     game.play.lead = drawn.owner.map_or(game.play.first_kickoff, PlayerId::team);
     let half_time = game.rules[Rule::HalfTime.index()];
     game.play.second_half = half_time > 0.0 && f64::from(drawn.elapsed_steps) >= half_time;
@@ -40,9 +41,24 @@ pub fn begin(drawn: &Drawn) -> Match {
     forecast::renew(&mut game);
     reach::assess(&mut game);
     start_of(&mut game, drawn, nearest);
-    crate::control::switching::reassign(&mut game);
+    crate::control::switching::open(&mut game);
     crate::control::prepare(&mut game);
     game
+}
+
+/// Where everybody stands at later kick-offs: where the scenario says, else at the start's places.
+///
+/// If the other team kicks off than at the start, teams of one size swap their places. (GRF's.)
+fn place_kickoffs(game: &mut Match, drawn: &Drawn) {
+    let sizes = [Team::Left, Team::Right].map(|team| game.team(team).count());
+    for id in game.order() {
+        let Some(start) = &drawn.players[id.index()] else { continue };
+        let team = id.team();
+        let twin = drawn.players[PlayerId::new(team.other(), id.in_team()).index()].as_ref();
+        let swapped = twin.filter(|_| sizes[0] == sizes[1]).map_or(start.pos, |twin| -twin.pos);
+        let places = if team == game.play.first_kickoff { [start.pos, swapped] } else { [swapped, start.pos] };
+        game.players[id.index()].body.kickoff = start.kickoff.unwrap_or(places);
+    }
 }
 
 /// Sets up a start that isn't open play.

@@ -194,7 +194,11 @@ fn stays(game: &Match, kind: KickKind) -> bool {
 
 /// Ticks from the beginning of a run-up to the contact at a set piece. Measured.
 fn run_up_ticks(mode: GameMode) -> i32 {
-    if mode == GameMode::ThrowIn { 22 } else { 52 }
+    match mode {
+        GameMode::ThrowIn => 22,
+        GameMode::Penalty => 64,
+        _ => 52,
+    }
 }
 
 /// Ticks of a kick out of a keeper's hands.

@@ -60,7 +60,10 @@ pub fn place(game: &mut Match, restart: Restart) {
 /// Times that a crowd at the circle is gone through.
 const CLEARING_PASSES: usize = 4;
 
-/// Everyone to his place of the kick-off. Play is on at once: the mode says until when it has not been taken.
+/// Sends everyone to their place of the kick-off. Play is on at once; the mode shows that it has not been taken.
+///
+/// Where opponents keep out of the circle, somebody of the team that kicks off is brought to the ball. Elsewhere everyone
+/// stays in place, and whoever is first there has the ball. (GRF's.)
 fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     for (i, player) in game.players.iter_mut().enumerate() {
         let own = PlayerId(i as u8).team() == team;
@@ -73,6 +76,9 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     game.last_touch = None;
     game.play.kick_off = Some(team);
     game.play.kick_off_tick = game.tick;
+    if !game.rule(Rule::KickoffCircle) {
+        return;
+    }
     clear_circle(game, team, spot);
     if let Some(kicker) = bring_kicker(game, team, spot) {
         // Who is moved aside may stand in the circle again, and who leaves it in somebody.
@@ -85,16 +91,14 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     }
 }
 
-/// Opponents of the team that kicks off leave the circle, unless the rule is off.
+/// Moves opponents of the team that kicks off out of the circle.
 fn clear_circle(game: &mut Match, team: Team, spot: Vec2) {
-    if game.rule(Rule::KickoffCircle) {
-        let side = team.other().side() as f32;
-        for (i, player) in game.players.iter_mut().enumerate() {
-            if PlayerId(i as u8).team() != team && player.pos.distance(spot) < CIRCLE_RADIUS_M as f32 {
-                let away = (player.pos - spot).normalize_or(Vec2::new(-side, 0.0));
-                let away = if away.x * side > 0.0 { Vec2::new(-side, 0.0) } else { away };
-                player.pos = spot + away * (CIRCLE_RADIUS_M as f32 + 0.3);
-            }
+    let side = team.other().side() as f32;
+    for (i, player) in game.players.iter_mut().enumerate() {
+        if PlayerId(i as u8).team() != team && player.pos.distance(spot) < CIRCLE_RADIUS_M as f32 {
+            let away = (player.pos - spot).normalize_or(Vec2::new(-side, 0.0));
+            let away = if away.x * side > 0.0 { Vec2::new(-side, 0.0) } else { away };
+            player.pos = spot + away * (CIRCLE_RADIUS_M as f32 + 0.3);
         }
     }
 }
@@ -106,7 +110,7 @@ pub fn end_kick_off(game: &mut Match) {
     }
 }
 
-/// Someone of the team that kicks off must stand by the ball: returns him.
+/// Brings somebody of the team that kicks off to the ball; returns who it is.
 fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(team) {

@@ -26,12 +26,16 @@ const OVERHEAD_M: f32 = 1.9;
 /// From one player of a wall to the next, share of the distance to the ball. (GRF's.)
 const WALL_SPACING: f32 = 0.07;
 
-/// Who takes a set piece: whoever of the team stands nearest to the ball once everybody is in place; the lazy only where
-/// nobody else is there. (The nearest: GRF's.)
+/// Who takes a set piece: whoever of the team stands nearest to the ball once everybody is in place. (GRF's.) Lazy players
+/// that no agent can lead take it only where nobody else is there.
 fn nearest(game: &Match, team: Team, spot: Vec2, unfit: impl Fn(&Player) -> bool) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(team) {
-        let unwilling = if player.ai == Ai::Lazy { 1.0e5 } else { 0.0 };
+        let led = game
+            .agents
+            .iter()
+            .any(|slot| slot.player == Some(id) || slot.team == team && !slot.fixed && player.controllable);
+        let unwilling = if player.ai == Ai::Lazy && !led { 1.0e5 } else { 0.0 };
         let misplaced = if unfit(player) { 1.0e4 } else { 0.0 };
         let distance = player.pos.distance(spot) + misplaced + unwilling;
         if best.is_none_or(|(least, _)| distance < least) {

@@ -1,6 +1,6 @@
 //! An agent dribbles at one or two defenders: what happens at contact and after it.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, pace, yes};
 
 /// Within this distance of a defender they are in contact, metres.
@@ -32,8 +32,17 @@ const COLUMNS: [Column; 19] = [
     ("goal", Kind::Share),
 ];
 
+const GROUPS: [Group; 5] = [
+    ("how near", &["contact", "contact_step", "contact_x", "furthest_x", "jockey_m"]),
+    ("who has it after contact", &["ours_5", "theirs_5", "ours_10", "theirs_10"]),
+    ("how fast the ball is", &["ball_before", "ball_at", "ball_after"]),
+    ("how fast the player is", &["me_before", "me_at", "me_after"]),
+    ("what comes of it", &["lost", "lost_step", "foul", "goal"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "contact", file: "grf_contact.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "contact", file: "grf_contact.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let mut jockeyed = Vec::new();

@@ -1,6 +1,6 @@
 //! Kicks that a receiver asks for before the pass arrives.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, first, leaves, yes};
 use setpiece::scenario::vocabulary::Action;
 
@@ -27,8 +27,15 @@ const COLUMNS: [Column; 9] = [
     ("goal", Kind::Share),
 ];
 
+const GROUPS: [Group; 3] = [
+    ("whether", &["pressed", "owned", "kicked", "goal"]),
+    ("when", &["kick_step", "after_arrival"]),
+    ("where to and how fast", &["speed", "degrees", "peak"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "early kick", file: "grf_early_kicks.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "early kick", file: "grf_early_kicks.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let pressed = |view: &View| [Action::Shot, Action::ShortPass, Action::HighPass].contains(&view.pressed[1]);

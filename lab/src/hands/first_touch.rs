@@ -1,6 +1,6 @@
 //! The first touch of a pass.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, first, leaves, pace, yes};
 
 const COLUMNS: [Column; 9] = [
@@ -15,8 +15,16 @@ const COLUMNS: [Column; 9] = [
     ("me_mps_3", Kind::Speed),
 ];
 
+const GROUPS: [Group; 4] = [
+    ("who has it", &["left", "got", "kept_5"]),
+    ("when and how fast it arrives", &["own_step", "arrives_mps"]),
+    ("how near the ball stays", &["ball_1", "ball_3"]),
+    ("how fast after it", &["ball_mps_3", "me_mps_3"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "first touch", file: "grf_first_touch.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "first touch", file: "grf_first_touch.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let mut figures = vec![None; COLUMNS.len()];

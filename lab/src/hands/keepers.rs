@@ -1,6 +1,6 @@
 //! A keeper against long, diagonal and close shots of a sprinting agent.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
@@ -19,8 +19,15 @@ const COLUMNS: [Column; 9] = [
     ("keeper_m", Kind::Metres),
 ];
 
+const GROUPS: [Group; 3] = [
+    ("what comes of it", &["shot", "goal", "held", "wide", "corner"]),
+    ("the shot", &["leaves", "degrees", "speed"]),
+    ("where the keeper is", &["keeper_m"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "keeper", file: "grf_keepers.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "keeper", file: "grf_keepers.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let Some(key) = first(trace, 1, |view| view.pressed[0] == Action::Shot) else {

@@ -1,6 +1,6 @@
 //! The first steps of matches: how fast the ball is and who has it.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, yes};
 use crate::pitch::mean;
 
@@ -20,8 +20,16 @@ const COLUMNS: [Column; 10] = [
     ("goals_right", Kind::Count),
 ];
 
+const GROUPS: [Group; 4] = [
+    ("how fast the ball is", &["slow", "middling", "fast", "fastest"]),
+    ("who has it", &["owned_left", "owned_right"]),
+    ("how play goes", &["stopped", "high"]),
+    ("goals", &["goals_left", "goals_right"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "match", file: "grf_matches.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "match", file: "grf_matches.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let plays = |pair: &&[View]| pair[0].mode == 0 && pair[1].mode == 0 && pair[0].score == pair[1].score;

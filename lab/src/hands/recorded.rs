@@ -40,6 +40,9 @@ pub(super) enum Kind {
 /// A figure's name and kind.
 pub(super) type Column = (&'static str, Kind);
 
+/// Related figures, which make one row of the report: what they say, and the columns.
+pub(super) type Group = (&'static str, &'static [&'static str]);
+
 /// A topic: its file and how its figures are read from an episode.
 pub(super) struct Topic {
     /// What its rows are about.
@@ -47,6 +50,8 @@ pub(super) struct Topic {
     /// In `lab/data`.
     pub(super) file: &'static str,
     pub(super) columns: &'static [Column],
+    /// Every column once, a few in each.
+    pub(super) groups: &'static [Group],
     /// The figures of an episode in the order of the columns.
     pub(super) read: fn(&[View], &Row) -> Vec<Option<f64>>,
 }
@@ -114,19 +119,27 @@ pub(super) fn measure(section: &mut Section, topic: &Topic, count: Option<u64>) 
                 values.extend(value);
             }
         }
-        let mut names = Vec::new();
-        let mut parts = Vec::new();
-        for (&(name, kind), ours) in topic.columns.iter().zip(&values) {
-            let Some(theirs) = row.figures.get(name).filter(|theirs| theirs.n >= FEWEST) else { continue };
-            names.push(name.replace('_', " "));
-            parts.extend(part(kind, theirs, ours));
-        }
         let about = match [row.left, row.right] {
             [left, right] if left != one() => format!(", difficulties {left} and {right}"),
             [_, right] if right != usual() => format!(", difficulty {right}"),
             _ => String::new(),
         };
-        section.row(format!("{}: {}, {}{about}: {}", topic.name, row.scene, row.plan, names.join(" · ")), parts);
+        let title = format!("{}: {}, {}{about}", topic.name, row.scene, row.plan);
+        for (group, columns) in topic.groups {
+            let mut names = Vec::new();
+            let mut parts = Vec::new();
+            for (&(name, kind), ours) in topic.columns.iter().zip(&values) {
+                let theirs = row.figures.get(name).filter(|theirs| theirs.n >= FEWEST);
+                let Some(theirs) = theirs.filter(|_| columns.contains(&name)) else { continue };
+                if let Some(part) = part(kind, theirs, ours) {
+                    names.push(name.replace('_', " "));
+                    parts.push(part);
+                }
+            }
+            if !parts.is_empty() {
+                section.row(format!("{title}: {group} ({})", names.join(" · ")), parts);
+            }
+        }
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Set pieces: who takes them, when play goes on, and what an agent sees meanwhile.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};
 use crate::pitch::mean;
 use setpiece::scenario::vocabulary::Role;
@@ -31,8 +31,17 @@ const COLUMNS: [Column; 16] = [
     ("first_own", Kind::Steps),
 ];
 
+const GROUPS: [Group; 5] = [
+    ("when", &["awarded", "resumed", "moved"]),
+    ("what is seen meanwhile", &["in_mode", "ownerless"]),
+    ("who takes it", &["agent_takes", "taker_keeper", "taker_defender", "taker_midfielder", "taker_forward"]),
+    ("where they stand", &["taker_m", "waiter_m"]),
+    ("what comes of it", &["ball_speed", "kept", "first_right", "first_own"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "set piece", file: "grf_set_pieces.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "set piece", file: "grf_set_pieces.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 /// The `game_mode` of a scene; a kick-off shows none.
 fn mode_of(scene: &str) -> usize {

@@ -50,7 +50,7 @@ impl Scene {
             format!("({:.5}, {:.5})", x + dx, mirror * (y + dy))
         };
         let mut text = format!(
-            "scenario recorded {{\n rules {{ offside: {}, stochastic: on }}\n agents {{ left: {}, right: {} }}\n ball at {}\n",
+            "scenario recorded {{\n rules {{ offside: {}, kickoff_circle: off, stochastic: on }}\n agents {{ left: {}, right: {} }}\n ball at {}\n",
             if self.offside { "on" } else { "off" },
             self.agents[0],
             self.agents[1],

@@ -1,6 +1,6 @@
 //! Which player the agent has, and when it changes.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, first, yes};
 use crate::pitch::mean;
 use setpiece::scenario::vocabulary::Action;
@@ -19,8 +19,16 @@ const COLUMNS: [Column; 11] = [
     ("leave_step", Kind::Steps),
 ];
 
+const GROUPS: [Group; 4] = [
+    ("when", &["happened", "switch", "switch_step", "changes"]),
+    ("to which player", &["to_nearest", "to_owner", "new_m"]),
+    ("which player the agent has", &["nearest", "keeper"]),
+    ("the ball meanwhile", &["leave_step", "owner_step"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "switching", file: "grf_switching.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "switching", file: "grf_switching.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
     let event = match row.event.as_str() {

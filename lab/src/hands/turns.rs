@@ -1,6 +1,6 @@
 //! Turns with the ball, an opponent near.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
@@ -19,8 +19,15 @@ const COLUMNS: [Column; 7] = [
     ("turn_owned", Kind::Share),
 ];
 
+const GROUPS: [Group; 3] = [
+    ("before it", &["had", "foe_m"]),
+    ("who has it", &["lost", "kept_5", "kept_15"]),
+    ("when", &["turn_step", "turn_owned"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "turn", file: "grf_turns.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "turn", file: "grf_turns.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 /// The key of a turn and its way.
 fn turn(plan: &str) -> (Action, f64) {

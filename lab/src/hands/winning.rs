@@ -1,6 +1,6 @@
 //! An agent wins the ball from a bot, and races one for a loose ball.
 
-use super::recorded::{Column, Kind, Row, Topic};
+use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};
 
 const COLUMNS: [Column; 8] = [
@@ -14,8 +14,16 @@ const COLUMNS: [Column; 8] = [
     ("nearest_m", Kind::Metres),
 ];
 
+const GROUPS: [Group; 4] = [
+    ("who has it", &["first_ours", "won"]),
+    ("when", &["first_step", "won_step"]),
+    ("what comes of it", &["foul", "goal", "out"]),
+    ("how near", &["nearest_m"]),
+];
+
 /// The topic.
-pub(super) const TOPIC: Topic = Topic { name: "winning the ball", file: "grf_winning.json", columns: &COLUMNS, read };
+pub(super) const TOPIC: Topic =
+    Topic { name: "winning the ball", file: "grf_winning.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let owned = first(trace, 1, |view| view.owner >= 0);

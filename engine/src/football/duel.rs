@@ -33,7 +33,7 @@ const KEEPER_BRUSHED: f32 = 1.5;
 const BEATEN_TICKS: f32 = 12.0;
 const POKED_TICKS: i32 = 30;
 /// Ticks between two tries of one player, and what share of their pace a failed one leaves them; chosen.
-const RETRY_TICKS: i32 = 12;
+const RETRY_TICKS: i32 = 16;
 const FAILED: f32 = 0.9;
 
 /// A player within reach of the ball that a rival controls tries to win it.

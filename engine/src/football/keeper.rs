@@ -15,6 +15,8 @@ use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Role, Rule, 
 const HANDS_M: f32 = 2.55;
 /// How near a slow ball must be to be picked up, metres.
 const PICK_M: f32 = 1.0;
+/// How often a keeper takes the ball off the feet of somebody who dribbles it; fitted to how many run past them.
+const BRAVE: f32 = 0.14;
 /// How long he may hold the ball, ticks. Laws.
 const HOLD_TICKS: u32 = 600;
 /// A ball that comes nearer to his middle than this hits him, metres.
@@ -222,7 +224,7 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
     let speed = (game.ball.vel - player.vel.extend(0.0)).length();
     let rival = touch::controller(game).filter(|owner| owner.team() != team);
-    let brave = if rival.is_some() { 0.45 } else { 1.0 };
+    let brave = if rival.is_some() { BRAVE } else { 1.0 };
     let chance = (1.25 - speed / 22.0).clamp(0.1, 1.0) * brave * (0.6 + 0.4 * player.body.level);
     if noise::happens(game, chance) {
         if let Some(shot) = game.play.shot.take().filter(|shot| shot.by.team() != team) {

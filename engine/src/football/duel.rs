@@ -17,6 +17,8 @@ const LEAST: f32 = 0.025;
 const STANDS: f32 = 0.06;
 /// How much more often against a carrier who runs into the tackler; fitted to how soon a runner loses it head-on.
 const INTO: f32 = 0.4;
+/// The tackling for which these hold: a centre back's of the middle difficulty; less skill meets the ball less often.
+const AVERAGE: f32 = 0.5;
 /// By how much faster than the carrier a ball has just been pushed past the tackler, m/s, and how much less often it is met
 /// then; fitted to how many get through at a sprint.
 const PUSHED_MPS: f32 = 1.5;
@@ -61,7 +63,8 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     // A ball just pushed past the tackler is not where they thought.
     let pushed = (game.ball.vel.length() - victim.vel.length()) / PUSHED_MPS;
     let meets = 1.0 - SURPRISED * pushed.clamp(0.0, 1.0);
-    let chance = ((chance + INTO * into) * meets + STANDS * still).clamp(LEAST, 0.9);
+    let able = (tackle / AVERAGE).min(1.3);
+    let chance = ((chance + INTO * into) * meets * able + STANDS * still).clamp(LEAST, 0.9);
     let now = game.tick as i32;
     if noise::happens(game, chance) {
         let brushed = win(game, events, id, rival, ball);

@@ -43,7 +43,7 @@ const SLIDE_M: std::ops::Range<f32> = 0.7..1.6;
 const LONG_TOUCH_M: f32 = 0.62;
 const OPEN: f32 = 0.4;
 /// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
-const SLIDES: f32 = 0.5;
+const SLIDES: f32 = 0.15;
 /// How near, as a share of how far they hunt, the first of two goes out; chosen between how often bots and agents lose it.
 const HUNTS_AT: f32 = 0.4;
 /// How far he passes from the carrier's middle, metres.

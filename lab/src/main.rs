@@ -15,8 +15,6 @@ mod matches;
 mod movement;
 mod pitch;
 #[allow(warnings)]
-mod probe;
-#[allow(warnings)]
 mod soak;
 
 use std::process::ExitCode;
@@ -25,7 +23,6 @@ fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let result = match args.first().map(String::as_str) {
         Some("calibrate") => calibrate::calibrate(&args[1..]),
-        Some("probe") => probe::probe(&args[1..]),
         Some("soak") => soak::soak(&args[1..]),
         _ => Err(
             "lab calibrate [--check] [--only SECTION] [--count N] | lab soak [--steps N] [--seed S] [--from SCENARIO]"

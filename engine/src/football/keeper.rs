@@ -20,10 +20,14 @@ const BRAVE: f32 = 0.14;
 /// How long he may hold the ball, ticks. Laws.
 const HOLD_TICKS: u32 = 600;
 /// A ball that comes nearer to his middle than this hits him, metres.
-const BODY_M: f32 = 0.5;
+const BODY_M: f32 = 0.4;
 /// What share of the balls in reach a keeper without any skill saves; what share of them at once and how much more with
 /// every second left. Fitted to the goals that agents' and bots' shots come to.
-const SAVES: [f32; 3] = [0.3, 0.2, 1.2];
+const SAVES: [f32; 3] = [0.0, 0.1, 0.9];
+/// How easy a ball must be to be held (GRF's), how often it is then, and how a flying ball slows, m/s²; chosen.
+const HOLDS_FROM: f32 = 0.3;
+const HOLDS: f32 = 0.85;
+const SLOWS_MPS2: f32 = 8.0;
 /// How long a dive takes at least, seconds; chosen.
 const DIVE_S: f32 = 0.1;
 /// No save for balls slower than this, m/s: they are picked up.
@@ -86,8 +90,8 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
 }
 
-/// How far past the post a parried ball is pushed, metres; chosen.
-const PAST_POST_M: f32 = 1.5;
+/// How much of the keeper's own speed a parried ball takes along beside three tenths of its own. (GRF's.)
+const PARRIED: f32 = 2.5;
 
 /// The plan that names no moment: nothing to save.
 const IDLE: Save = Save { at_tick: u32::MAX, from_tick: u32::MAX, point: Vec2::ZERO, reaches: false, holds: false };
@@ -140,8 +144,12 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
         0.0
     };
     let reaches = noise::happens(game, chance);
-    let at_hand = game.ball.vel.length();
-    let holds = noise::happens(game, (1.2 - at_hand / 30.0 - 0.5 * ratio).clamp(0.05, 0.95));
+    // A ball that is fast at the hand, or was struck a moment ago, can't be held. (GRF's.)
+    let at_hand = (game.ball.vel.length() - SLOWS_MPS2 * time_s).max(0.0);
+    let window_s = 1.2 - 0.4 * player.skill(Stat::Reaction);
+    let lately = (1.0 - (since as f32 * 0.01 + time_s) / window_s).clamp(0.0, 1.0);
+    let easy = (1.0 - at_hand / 40.0).max(0.0) * (1.0 - libm::powf(lately, 0.6));
+    let holds = noise::happens(game, if easy < HOLDS_FROM { 0.0 } else { HOLDS });
     Some(Save {
         at_tick: game.tick + ((time_s * 100.0) as u32).max(1),
         from_tick: game.tick + (react_s * 100.0) as u32,
@@ -186,19 +194,11 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     report::did(game, events, EventKind::Parry, id, shot.map(|shot| shot.by));
     flight::deflected(game, events, id);
     let side = id.team().side() as f32;
-    let speed = game.ball.vel.length();
-    let y = game.ball.pos.y;
-    let wide = if y.abs() < 0.2 { noise::bell(game).signum() * side } else { y.signum() };
-    let out_wide = noise::happens(game, 0.35 + 0.2 * y.abs());
-    let way = if out_wide {
-        // Round the post.
-        let past = Vec2::new(-(HALF_LENGTH_M as f32) * side, wide * (GOAL_HALF_WIDTH_M as f32 + PAST_POST_M));
-        past - game.ball.pos.truncate()
-    } else {
-        Vec2::new(0.8 * side, wide * (0.3 + noise::roll(game)))
-    };
-    let away = way.normalize_or_zero() * (0.3 * speed + 2.5);
-    game.ball.vel = away.extend(1.2 + noise::roll(game));
+    let (speed, own) = (game.ball.vel.length(), game.player(id).vel);
+    let aside = Vec2::new(0.0, 2.0 * noise::roll(game) - 1.0);
+    let way = game.ball.vel.truncate() * -0.1 + own * 2.0 + Vec2::new(4.0 * side, 0.0) + aside;
+    let away = way.normalize_or_zero() * (0.3 * speed + PARRIED * own.length());
+    game.ball.vel = away.extend(1.2);
     game.ball.spin = Vec3::ZERO;
     game.players[id.index()].body.ready_at = game.tick as i32 + 45;
     forecast::renew(game);

@@ -45,7 +45,7 @@ const OPEN: f32 = 0.4;
 /// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
 const SLIDES: f32 = 0.15;
 /// How near, as a share of how far they hunt, the first of two goes out; chosen between how often bots and agents lose it.
-const HUNTS_AT: f32 = 0.4;
+const HUNTS_AT: f32 = 0.6;
 /// How far he passes from the carrier's middle, metres.
 const ROUND_M: f32 = 0.9;
 

@@ -104,7 +104,7 @@ fn what_depends_on_the_agent_is_recorded_for_each() {
             agents { left: [one, two] }
             rules { assist: off }
             ball at (0, 0.3)
-            team left { one: CM at (0, 0)  two: CM at (0.2, 0) }
+            team left { one: CM at (0, 0)  two: CM at (0.2, 0.1) }
             record way = sum of closing(me, right.goal)
             end limit 30 steps
         }",

@@ -321,7 +321,7 @@ fn a_copy_in_memory_is_the_straight_run() {
             }
         }
     }
-    assert!(stopped > 10, "{stopped} stops of play");
+    assert!(stopped > 5, "{stopped} stops of play");
 }
 
 /// Gives a snapshot's content the head that fits it.

@@ -195,7 +195,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     flight::deflected(game, events, id);
     let side = id.team().side() as f32;
     let (speed, own) = (game.ball.vel.length(), game.player(id).vel);
-    let aside = Vec2::new(0.0, 2.0 * noise::roll(game) - 1.0);
+    let aside = Vec2::new(0.0, (2.0 * noise::roll(game) - 1.0) * side);
     let way = game.ball.vel.truncate() * -0.1 + own * 2.0 + Vec2::new(4.0 * side, 0.0) + aside;
     let away = way.normalize_or_zero() * (0.3 * speed + PARRIED * own.length());
     game.ball.vel = away.extend(1.2);

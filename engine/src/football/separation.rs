@@ -11,6 +11,7 @@ use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
+use std::cmp::Ordering;
 use wide::f32x4;
 
 /// Distance at which two bodies touch, metres.
@@ -95,9 +96,14 @@ fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
 
 /// Whoever has the ball or will have it first.
 fn first_at_ball(game: &Match) -> Option<PlayerId> {
-    let needs = |id: &PlayerId| game.player(*id).body.meet_s;
-    let chasers = game.play.chaser.into_iter().flatten();
-    game.owner.or_else(|| chasers.min_by(|a, b| needs(a).total_cmp(&needs(b))))
+    let [left, right] = game.play.chaser;
+    let needs = |id: Option<PlayerId>| id.map_or(f32::MAX, |id| game.player(id).body.meet_s);
+    // Who are there together are both not first.
+    game.owner.or_else(|| match needs(left).total_cmp(&needs(right)) {
+        Ordering::Less => left,
+        Ordering::Greater => right,
+        Ordering::Equal => None,
+    })
 }
 
 /// Two players meet: who runs close is carried along by the other, bodies that touch are pushed apart; the one who stands

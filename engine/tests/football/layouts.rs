@@ -2,6 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use setpiece_engine::start::{Drawn, DrawnAgent, DrawnPlayer};
+use setpiece_engine::state::PlayerId;
 use setpiece_scenario::vocabulary::{Role, Rule, StartKind, Team};
 use setpiece_scenario::{Ai, Others};
 
@@ -81,6 +82,7 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
     }
     let mut rules = std::array::from_fn(|i| Rule::from_index(i).map_or(0.0, Rule::default_value));
     rules[Rule::Offside.index()] = f64::from(u8::from(offside));
+    let alone = matches!(layout, Layout::Alone | Layout::AloneWithBall);
     if matches!(layout, Layout::Alone) {
         rules[Rule::Assist.index()] = 0.0;
     }
@@ -95,7 +97,7 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
             });
             players[team.index() * 11 + i] = Some(DrawnPlayer {
                 role,
-                ai: if matches!(layout, Layout::Alone | Layout::AloneWithBall) && i != 1 { Ai::Lazy } else { Ai::Bot },
+                ai: if alone && i != 1 { Ai::Lazy } else { Ai::Bot },
                 controllable: true,
                 pos: at(x, y),
                 vel: Vec2::ZERO,
@@ -125,7 +127,7 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
         rules,
         limit_steps: Some(3000),
         others: Others::Bot,
-        agents: vec![DrawnAgent { team: Team::Left, fixed: None }],
+        agents: vec![DrawnAgent { team: Team::Left, fixed: alone.then_some(PlayerId(1)) }],
         lets: Vec::new(),
     }
 }

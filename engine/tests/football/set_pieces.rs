@@ -220,7 +220,11 @@ const SPOTS: [(GameMode, Vec2); 5] = [
 #[test]
 fn a_bots_run_up_takes_as_long_as_measured() {
     for (mode, spot) in SPOTS {
-        let measured = if mode == GameMode::ThrowIn { 3 } else { 6 };
+        let measured = match mode {
+            GameMode::ThrowIn => 3,
+            GameMode::Penalty => 7,
+            _ => 6,
+        };
         for (team, turn) in [(Team::Left, 1.0), (Team::Right, -1.0)] {
             let steps = shown(mode, team, spot * turn, |_| Action::BuiltinAi);
             assert_eq!(steps, measured, "{mode}: the bot of {team}");
@@ -237,21 +241,27 @@ fn an_agents_run_up_takes_as_long_as_measured() {
             // A throw-in is a short pass, whatever is pressed.
             let heard = !throw || key == Action::ShortPass;
             let once = |at: usize| move |step: usize| if step == at { key } else { Action::Idle };
-            let stalled: usize = if throw { 23 } else { 26 };
-            let run_up = if throw { 4 } else { 7 };
+            // A penalty's run-up is a step longer.
+            let longer = usize::from(mode == GameMode::Penalty);
+            let stalled = if throw { 23 } else { 26 + longer };
+            let run_up = match mode {
+                GameMode::ThrowIn => 4,
+                GameMode::Penalty => 8,
+                _ => 7,
+            };
             let after = |waited: usize| if heard { waited + run_up } else { stalled };
             assert_eq!(shown(mode, Team::Left, spot, once(1)), after(0), "{mode}: {key:?} pressed at once");
             assert_eq!(shown(mode, Team::Left, spot, once(6)), after(5), "{mode}: {key:?} pressed late");
             let held = match key {
                 Action::ShortPass if throw => 8,
-                Action::HighPass if !throw => 11,
+                Action::HighPass if !throw => 11 + longer,
                 // The short pass that is pressed for them lets it go.
-                Action::Shot if !throw => 25,
+                Action::Shot if !throw => 25 + longer,
                 _ => stalled,
             };
             assert_eq!(shown(mode, Team::Left, spot, |_| key), held, "{mode}: {key:?} held");
         }
-        let stalled = if throw { 23 } else { 26 };
+        let stalled = if throw { 23 } else { 26 + usize::from(mode == GameMode::Penalty) };
         assert_eq!(shown(mode, Team::Left, spot, |_| Action::Idle), stalled, "{mode}: nothing pressed");
     }
 }

@@ -291,11 +291,11 @@ fn what_waits_for_too_long_is_seen() {
     };
     let taker = waits.after.play.set_piece.unwrap().taker;
     let none = |game: &mut Match| game.play.set_piece = None;
-    assert!(wait(&|_| {}, 26));
-    assert!(wait(&|game| game.play.driven = 1 << taker.0, 26), "the rule hurries agents");
+    assert!(wait(&|_| {}, 27));
+    assert!(wait(&|game| game.play.driven = 1 << taker.0, 27), "the rule hurries agents");
     let unhurried = |game: &mut Match| game.rules[Rule::AntiStalling.index()] = 0.0;
-    assert!(wait(&unhurried, 26), "bots wait for nothing");
-    assert!(!wait(&|game| (unhurried(game), game.play.driven = 1 << taker.0).0, 26), "agents may wait");
+    assert!(wait(&unhurried, 27), "bots wait for nothing");
+    assert!(!wait(&|game| (unhurried(game), game.play.driven = 1 << taker.0).0, 27), "agents may wait");
     let keeper = waits.after.players.iter().position(|player| player.role == Role::GK).unwrap() as u8;
     let hold = |game: &mut Match| (none(game), game.play.hands = Some((PlayerId(keeper), 0))).0;
     assert!(wait(&hold, 61));

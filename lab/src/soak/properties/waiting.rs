@@ -8,7 +8,7 @@ use setpiece::scenario::Ai;
 use setpiece::scenario::vocabulary::Rule;
 
 /// Steps that a set piece may wait: 20 until it is taken for the agent, and what the kick takes.
-const WAIT_STEPS: u32 = 26;
+const WAIT_STEPS: u32 = 27;
 /// Steps that a kick-off keeps the others out of the circle.
 const KICK_OFF_STEPS: u32 = 21;
 /// Steps that a keeper may hold the ball: six seconds, and a step.

@@ -14,7 +14,6 @@ mod hands;
 mod matches;
 mod movement;
 mod pitch;
-#[allow(warnings)]
 mod soak;
 
 use std::process::ExitCode;

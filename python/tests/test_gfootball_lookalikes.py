@@ -119,7 +119,9 @@ def test_a_step_before_the_first_reset_plays(level: str, kwargs: dict[str, Any])
     env = make(level, **kwargs)
     observation, reward, done, info = env.step(5)
     assert not done
-    assert reward == info["score_reward"] == 0
+    assert info["score_reward"] == 0
+    # Who starts with the ball beyond checkpoints is paid for them at once.
+    assert reward == 0 or "rewards" in kwargs
     if isinstance(observation, np.ndarray):
         assert observation in env.observation_space
     env.reset()

@@ -140,13 +140,14 @@ def recorded(path: str, episode: int) -> ScenarioConfig:
 
 
 def places(entries: list[FormationEntry], sign: float) -> list[tuple[float, float]]:
-    return [(sign * entry.position[0], sign * entry.position[1]) for entry in entries]
+    # Scripts place players on a wider scale than observations show them on.
+    return [(sign * entry.position[0] * 55 / 54.4, sign * entry.position[1] * 84.96 / 83.6) for entry in entries]
 
 
 def starts_as(seen: dict[str, Any], said: ScenarioConfig) -> None:
     """Whether an observation of the whole match shows what a script has said."""
-    assert np.allclose(seen["left_team"], places(said.left_team, 1.0), atol=1e-6)
-    assert np.allclose(seen["right_team"], places(said.right_team, -1.0), atol=1e-6)
+    assert np.allclose(seen["left_team"], places(said.left_team, 1.0), atol=1e-4)
+    assert np.allclose(seen["right_team"], places(said.right_team, -1.0), atol=1e-4)
     assert np.allclose(seen["ball"][:2], said.ball_position[:2], atol=1e-6)
     assert seen["left_team_roles"].tolist() == [int(entry.role) for entry in said.left_team]
     assert seen["right_team_roles"].tolist() == [int(entry.role) for entry in said.right_team]
@@ -199,14 +200,14 @@ scenario everything {
 
     team left {
         difficulty: 0.25
-        GK at (-1, 0) { overlap: allowed }
-        AM at (-0.31, 0.2)
+        GK at (-1.011, 0) { overlap: allowed }
+        AM at (-0.3134, 0.2033)
         LM at (0, 0) { ai: lazy, controllable: off, overlap: allowed }
     }
 
     team right {
         difficulty: 0.05
-        GK at own (1, 0) { ai: lazy, overlap: allowed }
+        GK at own (1.011, 0) { ai: lazy, overlap: allowed }
         RM at own (0, 0) { overlap: allowed }
     }
 
@@ -225,15 +226,15 @@ scenario everything {
 def test_sides_that_take_turns_become_a_kick_off(tmp_path: Path) -> None:
     text = import_script(script_file(tmp_path, SIDES_TAKE_TURNS, "turns"))
     assert "kickoff alternate(left, right) { kicking: turns_kicking, receiving: turns_receiving }" in text
-    assert "GK at (-1, 0) { controllable: off }" in text
+    assert "GK at (-1.011, 0) { controllable: off }" in text
     assert "half_time: 100 steps" in text
 
 
 def test_places_that_take_turns_alternate(tmp_path: Path) -> None:
     text = import_script(script_file(tmp_path, PLACES_TAKE_TURNS))
     assert "difficulty: alternate(0.1, 0.9)" in text
-    assert "CF at (alternate(0.1, -0.1), 0.05)" in text
-    assert "CB at own (-0.2, alternate(0.1, 0.3))" in text
+    assert "CF at (alternate(0.1011, -0.1011), 0.0508)" in text
+    assert "CB at own (-0.2022, alternate(0.1016, 0.3049))" in text
 
 
 LIBRARY = """
@@ -312,7 +313,7 @@ def test_to_pitch_of_a_recorded_scenario() -> None:
     said = ScenarioConfig(ball_position=[0.5, 0.0, 0.0])
     said.left_team.append(FormationEntry((-1e-7, math.pi / 10), PlayerRole.e_PlayerRole_CF))
     text = to_pitch(said, "small")
-    assert "CF at (-0.0000001, 0.3141592653589793)" in text
+    assert "CF at (0, 0.3193)" in text
     assert setpiece.compile(text).name == "small"
 
 
@@ -633,7 +634,7 @@ def test_a_players_place_and_role_are_said_once(name: str, tmp_path: Path, capsy
     path = script_file(tmp_path, added + f"    config.left_team[0].{name} = None\n")
     assert main(["grf", path]) == 1
     assert capsys.readouterr().err.startswith(f"`{path}` at line 7: a player's `{name}` can only be read\n")
-    assert "GK at (-1, 0) { ai: lazy" in import_script(script_file(tmp_path, added, "lazy_one"))
+    assert "GK at (-1.011, 0) { ai: lazy" in import_script(script_file(tmp_path, added, "lazy_one"))
 
 
 def test_settings_may_be_numbers_of_numpy(tmp_path: Path) -> None:

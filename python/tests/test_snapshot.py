@@ -29,7 +29,7 @@ scenario scripted extends academy_3_vs_1_with_keeper {
 """
 
 
-def underway(env: setpiece.FootballEnv, steps: int = 20) -> setpiece.FootballEnv:
+def underway(env: setpiece.FootballEnv, steps: int = 8) -> setpiece.FootballEnv:
     env.reset(seed=3)
     for _ in range(steps):
         env.step(Action.RIGHT)

@@ -72,6 +72,16 @@ impl View {
         game.play.chaser[team.index()].map_or(f32::MAX, |id| game.player(id).body.meet_s)
     }
 
+    /// The opponent who has the ball, or will have it first.
+    pub fn carrier(&self, game: &Match) -> Option<PlayerId> {
+        if self.owner.is_some() {
+            return self.owner.filter(|owner| owner.team() != self.team);
+        }
+        let other = self.team.other();
+        let [ours, theirs] = [self.team, other].map(|team| View::soonest(game, team));
+        game.play.chaser[other.index()].filter(|_| theirs < ours)
+    }
+
     /// Whether the team has the ball or is about to.
     pub fn attacks(&self, game: &Match) -> bool {
         if let Some(owner) = self.owner {
@@ -183,6 +193,14 @@ fn pressers(game: &Match, view: &View) -> [Option<PlayerId>; 2] {
         return [first, None];
     }
     let mut queue = [first, second, third].into_iter().flatten().filter(|id| game.play.driven & (1 << id.0) == 0);
+    let carrier = view.carrier(game).filter(|_| !game.play.team_pressure[view.team.index()]);
+    let Some(carrier) = carrier else {
+        return [queue.next(), queue.next()];
+    };
+    // Who has somebody else to mark stays with them. (GRF's.)
+    let marks = |id: PlayerId| game.player(id).body.mind.mark;
+    let own = game.team(view.team).map(|(id, _)| id).find(|&id| marks(id) == Some(carrier));
+    let mut queue = own.into_iter().chain(queue.filter(move |&id| own != Some(id) && marks(id).is_none()));
     [queue.next(), queue.next()]
 }
 

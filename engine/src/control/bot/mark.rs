@@ -13,22 +13,25 @@ const LINE_MAX_M: f32 = 2.0;
 /// How many opponents are marked.
 const MARKED: usize = 5;
 
-/// Gives the most dangerous opponents a marker each.
+/// Gives the most dangerous opponents a marker each, the one with the ball too.
 pub fn assign(game: &mut Match, view: &View) {
     for i in 0..game.players.len() {
         if PlayerId(i as u8).team() == view.team {
             game.players[i].body.mind.mark = None;
         }
     }
-    let goal = Vec2::new(-53.0, 0.0);
+    let carrier = view.carrier(game);
+    // (GRF's.)
+    let aim = Vec2::new(-53.0, 0.0) * 0.8 + view.ball * 0.2;
     let mut taken = 0u32;
     for _ in 0..MARKED {
         let mut worst: Option<(f32, PlayerId, Vec2)> = None;
         for (rival, other) in game.team(view.team.other()) {
             let pos = other.pos * view.side;
-            let danger = 110.0 - pos.distance(goal) * 0.8 - pos.distance(view.ball) * 0.2;
-            let open = taken & (1 << rival.0) == 0 && view.owner != Some(rival) && other.role != Role::GK;
-            if open && pos.x < 15.0 && worst.is_none_or(|(most, _, _)| danger > most) {
+            let carries = carrier == Some(rival);
+            let danger = (1.0 - pos.distance(aim) / 110.0) * 0.95 + if carries { 0.05 } else { 0.0 };
+            let open = taken & (1 << rival.0) == 0 && other.role != Role::GK;
+            if open && (pos.x < 15.0 || carries) && worst.is_none_or(|(most, _, _)| danger > most) {
                 worst = Some((danger, rival, pos));
             }
         }
@@ -39,7 +42,8 @@ pub fn assign(game: &mut Match, view: &View) {
         for (id, player) in game.team(view.team) {
             // Whom an agent plays marks nobody for sure.
             let driven = game.play.driven & (1 << id.0) != 0;
-            let busy = driven || game.play.chaser[view.team.index()] == Some(id) || player.body.mind.mark.is_some();
+            let chases = carrier.is_none() && game.play.chaser[view.team.index()] == Some(id);
+            let busy = driven || chases || player.body.mind.mark.is_some();
             if player.role == Role::GK || busy || player.body.mind.mindset > 0.7 {
                 continue;
             }

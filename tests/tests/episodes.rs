@@ -54,7 +54,7 @@ fn who_stands_on_the_ball_is_left_alone() {
         let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
         let still = summary.episodes.iter().flatten().filter(|episode| episode.outcome == "still").count();
         // As in GRF, where an idle player on the ball is not attacked at all.
-        assert!(still >= 30, "{base}: {still} of 40 stood still for 30 s");
+        assert!(still >= 20, "{base}: {still} of 40 stood still for 30 s");
     }
 }
 

@@ -13,7 +13,7 @@ from setpiece.gfootball.env.scenario_config import FIXED_SEED, FormationEntry, S
 METRES = (54.4, 83.6)
 """Metres per unit of x and y."""
 PLACED = (55.0, 84.96)
-"""Metres per unit of x and y of a player's place in a script: a wider scale than the ball's and that of observations."""
+"""Metres per unit of x and y of a player's place in a script: wider than the ball's and that of observations."""
 OVERLAP = 0.3
 """Metres below which two constant places overlap."""
 AT_THE_BALL = 2.0

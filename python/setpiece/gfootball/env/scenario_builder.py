@@ -170,8 +170,8 @@ def _measured(source: Source) -> ScenarioConfig:
     recorded = ScenarioConfig()
     recorded.game_duration = int(first["steps_left"]) if first["steps_left"] >= 0 else NEVER
     defaults = {name: param.default for name, param in scenario.params.items()}
-    recorded.left_team_difficulty = defaults.get("left_difficulty", recorded.left_team_difficulty)
-    recorded.right_team_difficulty = defaults.get("difficulty", recorded.right_team_difficulty)
+    recorded.left_team_difficulty = float(defaults.get("left_difficulty", recorded.left_team_difficulty))
+    recorded.right_team_difficulty = float(defaults.get("difficulty", recorded.right_team_difficulty))
     if SECOND_HALF in defaults:
         recorded.second_half = round(float(defaults[SECOND_HALF]) * STEPS_PER_S)
     recorded.ball_position = [float(number) for number in first["ball"]]

@@ -3,7 +3,8 @@
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
 //! [`movement`] (with `rows` and `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
-//! ball first; [`touch`], [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`]) and [`keeper`] play it; [`flight`] says what that means;
+//! ball first; [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`])
+//! and [`keeper`] play it; [`flight`] says what that means;
 //! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and
 //! [`lineup`] say who stands where.
 
@@ -11,8 +12,10 @@ pub mod advantage;
 pub mod begin;
 pub mod body;
 pub mod clock;
+mod dribble;
 pub mod duel;
 pub mod fatigue;
+mod first_touch;
 pub mod flight;
 pub mod forecast;
 pub mod foul;

@@ -16,7 +16,7 @@ pub mod taker;
 
 use crate::event::Events;
 use crate::football::body::Intent;
-use crate::football::touch;
+use crate::football::{reach, touch};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::HALF_LENGTH_M;
@@ -74,12 +74,7 @@ impl View {
 
     /// The opponent who has the ball, or will have it first.
     pub fn carrier(&self, game: &Match) -> Option<PlayerId> {
-        if self.owner.is_some() {
-            return self.owner.filter(|owner| owner.team() != self.team);
-        }
-        let other = self.team.other();
-        let [ours, theirs] = [self.team, other].map(|team| View::soonest(game, team));
-        game.play.chaser[other.index()].filter(|_| theirs < ours)
+        self.owner.or_else(|| reach::first(game)).filter(|id| id.team() != self.team)
     }
 
     /// Whether the team has the ball or is about to.

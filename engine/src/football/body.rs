@@ -35,7 +35,7 @@ pub struct Body {
     pub pose_ticks: u8,
     /// How much he has been pushed lately, metres, at most 0.1.
     pub push_m: f32,
-    /// Ticks spent on getting off a standstill; below zero: still wrong-footed.
+    /// Ticks spent on getting off a standstill.
     pub lag_ticks: i8,
     /// Tick of his last touch.
     pub touched_at: i32,

@@ -1,6 +1,6 @@
 //! Kicks: from the key to the moment at which the foot meets the ball.
 //!
-//! Leaves whom a pass is for to `pass_target`, how the ball leaves the foot to `pass` and `shot`.
+//! Leaves the choice of a pass's target to `pass_target`, how the ball leaves the foot to `pass` and `shot`.
 
 use crate::event::Events;
 use crate::football::body::{KickKind, KickPlan, NEVER, Swing};

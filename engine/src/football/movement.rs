@@ -4,9 +4,9 @@
 //! all of them. Leaves to `control` where he wants to go.
 
 use crate::football::body::{Intent, Pose};
+use crate::football::dribble::SPRINTS_MPS;
 use crate::football::rows::{ROWS, WIDTH};
 use crate::football::stride::{self, Four, NO_POINT};
-use crate::football::touch::SPRINTS_MPS;
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;

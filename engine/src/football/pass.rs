@@ -1,6 +1,6 @@
 //! How hard, how high and with what spin a pass or a throw-in leaves a player.
 //!
-//! Whom it is for and along which way is `pass_target`'s and `kick`'s.
+//! Its target is `pass_target`'s, its way `kick`'s.
 
 use crate::football::body::{KickKind, KickPlan};
 use crate::football::noise;

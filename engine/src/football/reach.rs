@@ -7,6 +7,7 @@ use crate::football::rows::WIDTH;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{Role, Stat, Team};
+use std::cmp::Ordering;
 use std::ops::Range;
 use wide::f32x4;
 
@@ -133,6 +134,17 @@ fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
         let (meet, meet_s) = meeting(player, &way);
         player.body.meet = meet;
         player.body.meet_s = meet_s;
+    }
+}
+
+/// Who will be at a free ball first; nobody where two of both teams are there together.
+pub fn first(game: &Match) -> Option<PlayerId> {
+    let [left, right] = game.play.chaser;
+    let needs = |id: Option<PlayerId>| id.map_or(f32::MAX, |id| game.player(id).body.meet_s);
+    match needs(left).total_cmp(&needs(right)) {
+        Ordering::Less => left,
+        Ordering::Greater => right,
+        Ordering::Equal => None,
     }
 }
 

@@ -5,13 +5,12 @@ use crate::event::Events;
 use crate::football::body::Pose;
 use crate::football::movement::{DT, SPRINT_MPS};
 use crate::football::rows::{ROWS, WIDTH};
-use crate::football::{foul, frame};
+use crate::football::{foul, frame, reach};
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
-use std::cmp::Ordering;
 use wide::f32x4;
 
 /// Distance at which two bodies touch, metres.
@@ -61,7 +60,7 @@ pub fn separate(game: &mut Match, events: &mut Events) {
         }
     }
     let near = f32x4::splat(SHELL_M * SHELL_M);
-    let first = first_at_ball(game);
+    let first = game.owner.or_else(|| reach::first(game));
     for i in 0..ids.len() {
         let (x, y) = (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
         for row in i / WIDTH..ids.len().div_ceil(WIDTH) {
@@ -92,18 +91,6 @@ fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
     let player = &mut game.players[id.index()];
     player.pos += away * (LYING_M - distance).clamp(0.0, PUSH_MAX_M);
     player.vel -= away * player.vel.dot(away).min(0.0);
-}
-
-/// Whoever has the ball or will have it first.
-fn first_at_ball(game: &Match) -> Option<PlayerId> {
-    let [left, right] = game.play.chaser;
-    let needs = |id: Option<PlayerId>| id.map_or(f32::MAX, |id| game.player(id).body.meet_s);
-    // Who are there together are both not first.
-    game.owner.or_else(|| match needs(left).total_cmp(&needs(right)) {
-        Ordering::Less => left,
-        Ordering::Greater => right,
-        Ordering::Equal => None,
-    })
 }
 
 /// Two players meet: who runs close is carried along by the other, bodies that touch are pushed apart; the one who stands

@@ -169,7 +169,7 @@ impl Four {
         let got_off = stands.select((lag + one).fast_min(is(LAG_TICKS)), is(LAG_TICKS));
         self.vx = rests.select(brake_x, stands.select(off_x, way_x * pace)).to_array();
         self.vy = rests.select(brake_y, stands.select(off_y, way_y * pace)).to_array();
-        self.lag = rests.select(lag.fast_min(none), got_off).to_array();
+        self.lag = rests.select(none, got_off).to_array();
     }
 
     /// Carries everyone along his velocity, no further than the rim.

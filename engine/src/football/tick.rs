@@ -100,7 +100,7 @@ fn near_bodies(game: &Match) -> ArrayVec<Body, BODIES_MAX> {
         let lately = ticks_since(game.tick, player.body.touched_at) < 30;
         // In the box a keeper meets it with their hands, or does not meet it at all.
         let planned = game.play.save[id.team().index()].is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
-        let by_hand = planned && player.role == Role::GK && super::foul::in_box(flat, id.team());
+        let by_hand = planned && player.role == Role::GK && foul::in_box(flat, id.team());
         if !lately && !by_hand {
             bodies.push(Body { id: id.0, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
         }

@@ -192,7 +192,7 @@ fn around_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
 /// Slides at a ball that the carrier has pushed far ahead, from where it can be reached; only players of a team without
 /// agents do. (GRF's.)
 fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, rival: PlayerId) {
-    let led = game.play.led[view.team.index()] || game.agents.iter().any(|slot| slot.team == view.team);
+    let led = game.agents.iter().any(|slot| slot.team == view.team);
     if led || game.player(id).role == Role::GK || game.ball.pos.z > 0.4 {
         return;
     }

@@ -1,0 +1,164 @@
+//! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
+
+use crate::event::Events;
+use crate::football::{noise, touch};
+use crate::state::{Match, Player, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::vocabulary::Stat;
+
+/// How near his foot the ball must be for a dribbling touch, metres.
+const FOOT_M: f32 = 0.65;
+/// How far the sole reaches that stops it, metres; chosen.
+pub(super) const SOLE_M: f32 = 1.0;
+/// Whoever wants to be slower than this with the ball stops it, m/s.
+pub(super) const STOPS_MPS: f32 = 0.3;
+/// Faster than this nobody gets the sole on it, m/s.
+pub(super) const SPRINTS_MPS: f32 = 6.0;
+/// How far ahead the ball is touched walking and sprinting, so fast, m/s; metres. Measured.
+const WALKS_MPS: f32 = 5.1;
+const FAST_MPS: f32 = 7.5;
+const CARRIED_M: [f32; 2] = [0.42, 0.64];
+/// How near to a line a dribbler will push the ball, metres.
+const LINE_CARE_M: f32 = 0.3;
+/// Whom an agent drives minds a line until he is as near to it, metres; chosen.
+const AT_LINE_M: f32 = 0.65;
+/// How far a dribbling touch strays: next to nothing while nobody is near (measured: the same keys lead to the same place
+/// within centimetres), more with an opponent about.
+const FREE_WILD: f32 = 0.004;
+const PRESSED_WILD: f32 = 0.09;
+/// How far ahead of a standing player the ball is laid, metres. Measured.
+pub(super) const LAID_M: f32 = 0.4;
+/// How whoever turns with the ball brakes, m/s²; chosen.
+const TURN_MPS2: f32 = 14.0;
+/// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
+const SHARP: f32 = 0.6;
+/// A ball rolls the way somebody runs from this cosine on.
+const ALONG: f32 = 0.94;
+/// How a player brakes and a slow ball rolls out, m/s².
+const STOP_MPS2: f32 = 12.0;
+const ROLL_MPS2: f32 = 1.75;
+
+/// How near the ball a dribbler's foot must be for their next touch, metres: one who stops reaches far with the sole, one who
+/// carries it on lets it come, one who turns it does not wait.
+pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
+    let (ball, own, wish) = (game.ball.vel.truncate(), player.vel, player.body.dribble);
+    if wish.length_squared() < STOPS_MPS * STOPS_MPS && own.length_squared() < SPRINTS_MPS * SPRINTS_MPS {
+        return SOLE_M;
+    }
+    let along = ball.dot(own) > ALONG * ball.length() * own.length() && wish.dot(own) > 0.0;
+    if along { carried_m(own.length()) } else { FOOT_M }
+}
+
+/// How far ahead of a runner at so many m/s the ball is when it is touched, metres. Measured.
+fn carried_m(speed: f32) -> f32 {
+    let sprints = ((speed - WALKS_MPS) / (FAST_MPS - WALKS_MPS)).clamp(0.0, 1.0);
+    CARRIED_M[0] + (CARRIED_M[1] - CARRIED_M[0]) * sprints
+}
+
+/// Whether he keeps the ball on the pitch: whom an agent drives does until he is at the line himself.
+pub(super) fn minds_lines(game: &Match, id: PlayerId) -> bool {
+    let pos = game.player(id).pos.abs();
+    let (x, y) = (HALF_LENGTH_M as f32 - AT_LINE_M, HALF_WIDTH_M as f32 - AT_LINE_M);
+    !touch::is_driven(game, id) || (pos.x < x && pos.y < y)
+}
+
+/// Pushes the ball on in the way he wants to run, where it isn't rolling that way already; false where it is.
+pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
+    let player = *game.player(id);
+    let ball_vel = game.ball.vel.truncate();
+    let armed = player.body.kick.is_some();
+    let wish = if armed { player.body.dribble.clamp_length_max(2.5) } else { player.body.dribble };
+    let speed = wish.length();
+    let to_ball = game.ball.pos.truncate() - player.pos;
+    if speed < STOPS_MPS {
+        return rest(game, events, id);
+    }
+    let mut ahead = wish / speed;
+    let rolling = ball_vel.length();
+    if rolling > 1.0 {
+        let cos = ball_vel.dot(ahead) / rolling;
+        if cos > ALONG && to_ball.dot(ahead) > 0.15 && ball_vel.dot(ahead) > player.vel.dot(ahead) + 0.2 {
+            return false;
+        }
+        if speed > 6.0 && player.vel.length() > 5.5 && cos < 0.9 && cos > -0.6 {
+            // At a sprint the ball is bent round by small angles.
+            let left = if ball_vel.perp_dot(ahead) < 0.0 { -0.45 } else { 0.45 };
+            let on = ball_vel / rolling;
+            ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
+        }
+    }
+    let care = Care { pressed: pressed(game, id), lines: minds_lines(game, id) };
+    let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
+    let wild = if care.pressed { PRESSED_WILD } else { FREE_WILD };
+    let wild = wild * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
+    let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
+    touch::push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
+    true
+}
+
+/// Lays the ball where the player will come to a stand, a little ahead; false where it comes to rest there anyway.
+fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
+    let player = *game.player(id);
+    let speed = player.vel.length();
+    let stop = player.vel * (0.5 * speed / STOP_MPS2) + player.body.facing * LAID_M;
+    let way = stop - (game.ball.pos.truncate() - player.pos);
+    let wanted = way.normalize_or_zero() * libm::sqrtf(2.0 * ROLL_MPS2 * way.length());
+    if (game.ball.vel.truncate() - wanted).length_squared() < 0.8 * 0.8 {
+        return false;
+    }
+    touch::push(game, events, id, wanted, 0.0);
+    true
+}
+
+/// What a dribbler minds.
+pub(super) struct Care {
+    /// An opponent who is about to get at him.
+    pub(super) pressed: bool,
+    /// The lines: he doesn't push the ball over them.
+    pub(super) lines: bool,
+}
+
+/// The ball's velocity with which he meets it again a moment later, running at `speed` along `ahead`.
+pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &Care) -> Vec2 {
+    let own = player.vel.dot(ahead).max(0.0);
+    // The stride that the next touch will find, rather than the one that is wanted.
+    let pace = player.vel.length();
+    let under_way = (pace / WALKS_MPS).min(1.0);
+    let gait = (speed + 0.7 * (pace - speed) * under_way) / 8.0;
+    let shy = if care.pressed { 0.8 } else { 1.0 };
+    // Whoever turns carries the rest of their run on until they have braked it.
+    let turns = player.vel.dot(ahead) < SHARP * pace;
+    let rest = if turns { player.vel - ahead * own } else { Vec2::ZERO };
+    let brakes = rest.length() / TURN_MPS2;
+    let time = ((0.12 + 0.6 * gait * gait * gait * gait) * shy).max(brakes);
+    let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
+    let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
+    let cut = if care.lines { within_lines(player.pos, free) } else { None };
+    let place = cut.unwrap_or(free);
+    let way = place - to_ball;
+    let distance = way.length();
+    let average = distance / time;
+    // By a line it must stop there; else it rolls on until he meets it.
+    let start = if cut.is_none() {
+        average + 0.5 * (1.7 + 0.06 * average * average) * time
+    } else {
+        libm::sqrtf(2.0 * 1.7 * distance)
+    };
+    if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
+}
+
+/// The way of a touch, cut; none where it doesn't take the ball off the pitch, or only into a goal.
+fn within_lines(pos: Vec2, way: Vec2) -> Option<Vec2> {
+    let (x, y) = (HALF_LENGTH_M as f32 - LINE_CARE_M, HALF_WIDTH_M as f32 - LINE_CARE_M);
+    let to = pos + way;
+    let x = if to.y.abs() < GOAL_HALF_WIDTH_M as f32 { x + 3.0 } else { x };
+    let cut = to.clamp(Vec2::new(-x, -y), Vec2::new(x, y));
+    (cut != to).then(|| cut - pos)
+}
+
+/// Whether an opponent is about to get at him.
+fn pressed(game: &Match, id: PlayerId) -> bool {
+    let pos = game.player(id).pos;
+    game.team(id.team().other()).any(|(_, rival)| rival.pos.distance_squared(pos) < 2.0 * 2.0)
+}

@@ -1,0 +1,138 @@
+//! The first touch of a free ball: taken down, kept or lost, or headed on.
+
+use crate::event::Events;
+use crate::football::body::KickKind;
+use crate::football::play::ticks_since;
+use crate::football::{dribble, flight, forecast, noise, touch};
+use crate::math;
+use crate::state::{Match, PlayerId};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::pitch::HALF_LENGTH_M;
+use setpiece_scenario::vocabulary::Stat;
+
+/// How near a player must be to take a free ball, metres.
+const TRAP_M: f32 = 0.75;
+/// How fast a trapped ball is drawn to the foot of a standing player, 1/s, and at most, m/s; fitted.
+const SETTLES_PER_S: f32 = 4.0;
+const SETTLED_MPS: f32 = 0.8;
+/// How much faster than its player a trapped ball runs ahead at most, m/s. Measured of standing players.
+const FOLLOWED_MPS: f32 = 3.6;
+/// A ball met faster than this hops off the body that takes it, m/s; chosen.
+const HOPS_MPS: f32 = 8.0;
+/// Ticks until whoever has taken such a ball plays it again; fitted.
+const TAKING_TICKS: i32 = 33;
+
+/// How near a player must be to take the free ball, metres: where both rest it is theirs from further away.
+pub(super) fn reach_m(game: &Match, id: PlayerId) -> f32 {
+    let rests =
+        game.player(id).vel.length_squared() + game.ball.vel.length_squared() < dribble::STOPS_MPS * dribble::STOPS_MPS;
+    if rests { dribble::SOLE_M } else { TRAP_M }
+}
+
+/// Takes a free ball: how much of its speed stays is a matter of ball control.
+pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let ball = game.ball;
+    let meeting = (ball.vel - player.vel.extend(0.0)).length();
+    let taken_from_rival = game.play.pass.is_some_and(|pass| pass.by.team() != id.team());
+    if taken_from_rival || game.play.shot.is_some() {
+        // A ball struck by the others: the faster, the harder to read.
+        let reaction = player.skill(Stat::Reaction);
+        let chance = (1.25 - 0.028 * meeting) * (0.5 + 0.5 * reaction) * (1.0 - 0.95 * surprise(game, reaction));
+        if !noise::happens(game, chance) {
+            game.players[id.index()].body.ready_at = game.tick as i32 + 40;
+            return;
+        }
+    }
+    if ball.pos.z > touch::CHEST_M {
+        header(game, events, id);
+        return;
+    }
+    let control = player.skill(Stat::BallControl);
+    let wildness = noise::roll(game);
+    let from_mate = game.play.pass.is_some_and(|pass| pass.by.team() == id.team());
+    let keep = if from_mate {
+        0.0
+    } else {
+        ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (0.85 - 0.55 * control) * (0.15 + 0.75 * wildness)
+    };
+    let wish = player.body.dribble;
+    let to_ball = ball.pos.truncate() - player.pos;
+    let care = dribble::Care { pressed: false, lines: dribble::minds_lines(game, id) };
+    let ahead = wish.normalize_or_zero();
+    let hard = meeting > HOPS_MPS;
+    let soft = match (wish.length_squared() > 0.25, hard) {
+        (true, _) => {
+            let on = dribble::ahead(&player, to_ball, ahead, wish.length().min(5.5), &care);
+            // A hard one runs ahead no faster than the player can follow.
+            if hard { on.clamp_length_max(player.vel.dot(ahead).max(0.0) + FOLLOWED_MPS) } else { on * 0.85 }
+        }
+        // Towards the foot, where it comes to rest.
+        (false, true) => {
+            ((player.body.facing * dribble::LAID_M - to_ball) * SETTLES_PER_S).clamp_length_max(SETTLED_MPS)
+        }
+        (false, false) => player.vel * 0.5,
+    };
+    let aside = noise::bell(game) * keep * 0.5;
+    let left_over = ball.vel.truncate() * keep;
+    let velocity = soft * (1.0 - keep) + left_over + Vec2::new(-left_over.y, left_over.x) * aside;
+    touch::push(game, events, id, velocity, if hard { hop_mps(meeting) } else { 0.0 });
+    if hard {
+        game.players[id.index()].body.ready_at = game.tick as i32 + TAKING_TICKS;
+    }
+}
+
+/// How fast a ball rises from the body that takes it, m/s, by how fast they meet. Measured: taken at hip height it comes
+/// down to the foot some .4 s later, after a head-on run some .9 s.
+fn hop_mps(meeting: f32) -> f32 {
+    let hard = ((meeting - 12.0) / 11.0).clamp(0.0, 1.2);
+    0.4 + 2.2 * hard * libm::sqrtf(hard)
+}
+
+/// How much a ball just struck takes a player by surprise, 0..1: GRF's recency of the other's touch, over
+/// 1000 - 500 · reaction ms.
+fn surprise(game: &Match, reaction: f32) -> f32 {
+    let since = game.last_touch.map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let window = 100.0 - 50.0 * reaction;
+    libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6)
+}
+
+/// Heads a high ball: on towards what he had in mind, else down in front of him.
+fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let side = id.team().side() as f32;
+    let skill = player.skill(Stat::Header);
+    let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
+    let own_third = player.pos.x * side < -20.0;
+    let plan = player.body.kick;
+    let aimed = match plan.map(|plan| plan.kind) {
+        Some(KickKind::Shot) => Some((goal, 15.0)),
+        Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
+        None if own_third => Some((player.pos + Vec2::new(side * 20.0, math::sign_or(player.pos.y, side) * 8.0), 13.0)),
+        None => None,
+    };
+    let (target, speed) = aimed.unwrap_or((player.pos + player.body.facing * 3.0, 3.5));
+    let way = (target - player.pos).normalize_or_zero();
+    let aside = noise::bell(game) * 0.25 * (1.3 - skill);
+    let flat = (way + Vec2::new(-way.y, way.x) * aside) * speed;
+    let rise = if speed > 10.0 { 1.5 + noise::bell(game) } else { -1.0 };
+    let shot = plan.is_some_and(|plan| plan.kind == KickKind::Shot);
+    let from = game.ball.pos;
+    if !flight::touched(game, events, id, true) {
+        return;
+    }
+    // Whoever jumped with him has lost this ball.
+    let landing = game.tick as i32 + 40;
+    game.each(game.squad, |other| {
+        if other.pos.distance_squared(player.pos) < 1.5 * 1.5 {
+            other.body.ready_at = landing;
+        }
+    });
+    game.players[id.index()].body.kick = None;
+    game.ball.vel = Vec3::new(flat.x, flat.y, if shot { -0.5 } else { rise });
+    game.ball.spin = Vec3::ZERO;
+    if shot {
+        flight::shot_struck(game, events, id, from.truncate());
+    }
+    forecast::renew(game);
+}

@@ -10,6 +10,7 @@
 
 pub mod advantage;
 pub mod begin;
+pub mod block;
 pub mod body;
 pub mod clock;
 mod dribble;
@@ -31,6 +32,7 @@ pub mod pass_target;
 pub mod play;
 pub mod possession;
 pub mod reach;
+pub mod recent;
 pub mod referee;
 pub mod report;
 pub mod restart;
@@ -72,7 +74,7 @@ pub fn play_step(game: &mut Match, actions: &[Action], events: &mut Events, scra
             }
         }
         game.each(game.squad, |player| player.heading_rad = crate::math::heading(player.body.facing));
-        possession::remember(game);
+        recent::remember(game);
         fatigue::tire(game, game.tick - from);
         scratch.laps().end(Phase::Movement);
     }

@@ -1,7 +1,7 @@
 //! The built-in bot: it plays everyone whom no agent drives.
 //!
 //! Decides in this order: a set piece that is his, the ball in his hands or at his feet ([`on_ball`]), going for the
-//! ball ([`press`]), marking ([`mark`]), support ([`support`]), else his place in the block ([`formation`]); keepers by
+//! ball ([`press`]), else [`off_ball`]: a place in the block ([`formation`]), drawn by [`support`] and [`mark`]; keepers by
 //! [`keeper`]. Decisions are staggered: the ball's neighbourhood every step, the rest every fourth.
 //!
 //! Figures of its files without a source are chosen: so that its matches come out as `docs/calibration.md` wants them.
@@ -9,6 +9,7 @@
 pub mod formation;
 pub mod keeper;
 pub mod mark;
+pub mod off_ball;
 pub mod on_ball;
 pub mod press;
 pub mod support;
@@ -28,7 +29,13 @@ const GOAL: Vec2 = Vec2::new(HALF_LENGTH_M as f32, 0.0);
 /// How near a ball must come to one who is to hold his place, metres; chosen.
 const HOLD_M: f32 = 6.0;
 /// Steps between two decisions of a player far from the ball.
-const STAGGER: u32 = 4;
+const STAGGER: u32 = 2;
+/// Steps between two times that slots and opponents are given out. (GRF's.)
+const ASSIGN_EVERY: u32 = 4;
+/// How far ahead the offside line is reckoned, seconds. (GRF's.)
+const LINE_AHEAD_S: f32 = 0.24;
+/// Steps of a match of 90 minutes.
+const WHOLE_MATCH_STEPS: f32 = 3000.0;
 
 /// What a team's bots know of the game in a step.
 #[derive(Clone, Copy, Debug)]
@@ -41,12 +48,18 @@ pub struct View {
     pub ball: Vec2,
     /// Whoever has the ball or dribbles it.
     pub owner: Option<PlayerId>,
-    /// 0 the others have it, 1 we have it, smoothed.
-    pub bias: f32,
-    /// The offside line for us, own frame x, metres.
+    /// Whoever has the ball, or will have it first.
+    pub action: Option<PlayerId>,
+    /// Whether the team is sooner at the ball than the other.
+    pub best: bool,
+    /// How near the team was to the ball lately, compared with the other: 0.5 far to 1.5 near.
+    pub nearness: f32,
+    /// How much the team dares, 0..1: more when behind, late, and with the ball.
+    pub daring: f32,
+    /// The line that the team does not fall back behind, own frame x, metres.
+    pub trap_x: f32,
+    /// The offside line for us a moment from now, own frame x, metres.
     pub line_x: f32,
-    /// The block.
-    pub block: formation::Block,
 }
 
 impl View {
@@ -54,17 +67,24 @@ impl View {
     pub fn of(game: &Match, team: Team) -> View {
         let side = team.side() as f32;
         let owner = game.owner.or_else(|| touch::controller(game));
-        let share = 0.5 + 0.5 * game.play.share * side;
-        let bias = formation::bias(share, game.play.ball_mean.x * side);
-        View {
+        let soonest = [team, team.other()].map(|team| View::soonest(game, team));
+        let mut view = View {
             team,
             side,
             ball: game.ball.pos.truncate() * side,
             owner,
-            bias,
-            line_x: crate::football::offside::line(game, team),
-            block: formation::block(game, team, bias),
-        }
+            action: owner.or_else(|| reach::first(game)).or(game.play.last_owner),
+            best: match owner {
+                Some(owner) => owner.team() == team,
+                None => soonest[0] < soonest[1],
+            },
+            nearness: game.play.recent.nearness[team.index()],
+            daring: daring(game, team),
+            trap_x: 0.0,
+            line_x: crate::football::offside::line_in(game, team, LINE_AHEAD_S),
+        };
+        view.trap_x = mark::trap_x(game, &view);
+        view
     }
 
     /// In how many seconds a team is at the ball.
@@ -72,9 +92,27 @@ impl View {
         game.play.chaser[team.index()].map_or(f32::MAX, |id| game.player(id).body.meet_s)
     }
 
-    /// The opponent who has the ball, or will have it first.
-    pub fn carrier(&self, game: &Match) -> Option<PlayerId> {
-        self.owner.or_else(|| reach::first(game)).filter(|id| id.team() != self.team)
+    /// Where it happens, own frame: the place of whoever has the ball or will have it.
+    pub fn action_at(&self, game: &Match) -> Vec2 {
+        self.action.map_or(self.ball, |id| game.player(id).pos * self.side)
+    }
+
+    /// The opponent who has the ball, or would have it first of theirs.
+    pub fn rival(&self, game: &Match) -> Option<PlayerId> {
+        self.owner.filter(|id| id.team() != self.team).or(game.play.chaser[self.team.other().index()])
+    }
+
+    /// How near the team was to the ball lately, for a player: to who goes for the ball, what is counts more the nearer
+    /// the ball is. (GRF's.)
+    pub fn nearness_of(&self, game: &Match, id: PlayerId) -> f32 {
+        if game.play.chaser[self.team.index()] != Some(id) {
+            return self.nearness;
+        }
+        let ball = game.play.forecast.at(game.tick + 30).truncate();
+        let far = formation::share(ball.distance(game.player(id).pos), 2.0, 14.0);
+        let calm = |team| View::soonest(game, team).min(60.0) + 1.5;
+        let now = calm(self.team.other()) / calm(self.team);
+        now + (self.nearness - now) * far * far
     }
 
     /// Whether the team has the ball or is about to.
@@ -93,6 +131,16 @@ impl View {
     }
 }
 
+/// How much a team dares, 0..1. (GRF's; a match of 3000 steps is 90 minutes.)
+fn daring(game: &Match, team: Team) -> f32 {
+    let behind = game.score[team.other().index()] as f32 - game.score[team.index()] as f32;
+    let behind = (0.5 + 0.25 * behind).clamp(0.0, 1.0);
+    let played = ((game.elapsed_at_start + game.step) as f32 / WHOLE_MATCH_STEPS).min(1.0);
+    let late = 0.5 + 0.5 * played;
+    let had = game.play.recent.minute_s * team.side() as f32 / 60.0;
+    0.5 * (0.5 + (behind - 0.5) * late) + 0.5 * (0.5 + 0.5 * had)
+}
+
 /// Lets the bot decide for everyone whom no agent drives.
 pub fn think(game: &mut Match, events: &mut Events) {
     if game.play.set_piece.is_some() {
@@ -101,9 +149,12 @@ pub fn think(game: &mut Match, events: &mut Events) {
     }
     let views = [View::of(game, Team::Left), View::of(game, Team::Right)];
     for team in game.teams() {
-        if game.step.is_multiple_of(STAGGER) {
-            mark::assign(game, &views[team.index()]);
+        let view = &views[team.index()];
+        if game.step.is_multiple_of(ASSIGN_EVERY) {
+            formation::swap_slots(game, view);
+            mark::assign(game, view);
         }
+        support::assign(game, view);
     }
     for id in game.order() {
         let i = id.index();
@@ -158,45 +209,43 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         press::first(game, events, view, id);
         return;
     }
-    let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
     if second == Some(id) {
-        if game.play.team_pressure[view.team.index()] {
-            press::first(game, events, view, id);
-        } else {
-            press::second(game, events, view, id);
-        }
+        press::second(game, events, view, id);
         return;
     }
+    let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
     let was_on_ball = matches!(game.player(id).body.intent, Intent::Ball(_));
     if !due && !was_on_ball {
         return;
     }
     game.players[id.index()].body.kick = None;
-    if view.attacks(game) {
-        support::place(game, view, id);
-    } else {
-        mark::place(game, view, id);
-    }
+    off_ball::place(game, view, id);
 }
 
-/// The man who goes for the ball, and the one who covers him where the others attack: whoever is there first, but those
-/// whom an agent plays are not relied on.
+/// Who goes for the ball, and who helps: who is there first while the ball is the team's to have; else the two nearest to
+/// the opponent who has it, if they are near enough and mark nobody. (GRF's.)
 fn pressers(game: &Match, view: &View) -> [Option<PlayerId>; 2] {
-    let [second, third] = game.play.behind[view.team.index()];
     let first = game.play.chaser[view.team.index()];
-    if view.attacks(game) {
+    if view.action.is_none_or(|id| id.team() == view.team) {
         return [first, None];
     }
-    let mut queue = [first, second, third].into_iter().flatten().filter(|id| game.play.driven & (1 << id.0) == 0);
-    let carrier = view.carrier(game).filter(|_| !game.play.team_pressure[view.team.index()]);
-    let Some(carrier) = carrier else {
+    if game.play.team_pressure[view.team.index()] {
+        let [second, third] = game.play.behind[view.team.index()];
+        let mut queue = [first, second, third].into_iter().flatten().filter(|id| game.play.driven & (1 << id.0) == 0);
         return [queue.next(), queue.next()];
-    };
-    // Who has somebody else to mark stays with them. (GRF's.)
-    let marks = |id: PlayerId| game.player(id).body.mind.mark;
-    let own = game.team(view.team).map(|(id, _)| id).find(|&id| marks(id) == Some(carrier));
-    let mut queue = own.into_iter().chain(queue.filter(move |&id| own != Some(id) && marks(id).is_none()));
-    [queue.next(), queue.next()]
+    }
+    let Some(rival) = view.rival(game) else { return [None; 2] };
+    if view.best {
+        return [None; 2];
+    }
+    let other = game.player(rival);
+    let mut hunters = support::nearest::<2>(game, view.team, other.pos + other.vel * 0.1, None).map(|id| {
+        let player = game.player(id);
+        let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
+        (player.role != Role::GK && player.body.mind.mark.is_none() && gap < press::hunt_m(game, player)).then_some(id)
+    });
+    let [a, b] = [hunters.next().flatten(), hunters.next().flatten()];
+    if a.is_some() { [a, b] } else { [b, None] }
 }
 
 /// Whether the bot may pass and shoot for him: not for the mates of an agent who can be given to it.

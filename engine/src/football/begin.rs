@@ -30,7 +30,6 @@ pub fn begin(drawn: &Drawn) -> Match {
     }
     formation::assign_slots(&mut game);
     game.play.others = drawn.others;
-    game.play.ball_mean = drawn.ball_pos.truncate();
     let nearest = nearest_team(&mut game);
     game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
     place_kickoffs(&mut game, drawn);

@@ -45,6 +45,8 @@ pub struct Body {
     pub meet: Vec2,
     /// In how many seconds.
     pub meet_s: f32,
+    /// How fast they have run over the last ten seconds or so, m/s.
+    pub mean_mps: f32,
     /// What the bot has in mind for him.
     pub mind: Mind,
 }
@@ -129,10 +131,10 @@ pub struct Swing {
 /// What the bot has in mind for a player.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Mind {
-    /// His slot in the team's block, own frame: x -1 (back) to 1 (front), y -1..1 (+ is down the picture).
+    /// The slot of their number in the team's block, own frame: x -1 (back) to 1 (front), y -1..1 (+ is down the picture).
     pub slot: Vec2,
-    /// 0 defends to 1 attacks.
-    pub mindset: f32,
+    /// Whose slot and role they fill now.
+    pub fills: PlayerId,
     /// The opponent he marks.
     pub mark: Option<PlayerId>,
     /// Until which step he makes a run forward.
@@ -162,7 +164,8 @@ impl Body {
             ready_at: NEVER,
             meet: Vec2::ZERO,
             meet_s: 9.0,
-            mind: Mind { slot: Vec2::ZERO, mindset: 0.5, mark: None, run_until_step: 0, decide_at_step: 0 },
+            mean_mps: 0.0,
+            mind: Mind { slot: Vec2::ZERO, fills: PlayerId(0), mark: None, run_until_step: 0, decide_at_step: 0 },
         }
     }
 

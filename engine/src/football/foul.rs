@@ -187,6 +187,6 @@ pub fn succeed(game: &mut Match, team: Team) {
         let player = &mut game.players[heir.index()];
         player.role = Role::GK;
         player.body.kickoff = keeper.kickoff;
-        (player.body.mind.slot, player.body.mind.mindset) = (keeper.mind.slot, keeper.mind.mindset);
+        player.body.mind.slot = keeper.mind.slot;
     }
 }

@@ -9,10 +9,15 @@ use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Team};
 /// The offside line of the attackers, own frame x of theirs, metres: the second-last opponent or the ball, never in
 /// their own half.
 pub fn line(game: &Match, attackers: Team) -> f32 {
+    line_in(game, attackers, 0.0)
+}
+
+/// The offside line a moment from now, if everybody runs on, as [`line`].
+pub fn line_in(game: &Match, attackers: Team, ahead_s: f32) -> f32 {
     let side = attackers.side() as f32;
     let (mut last, mut second) = (f32::MIN, f32::MIN);
     for (_, rival) in game.team(attackers.other()) {
-        let x = rival.pos.x * side;
+        let x = (rival.pos.x + rival.vel.x * ahead_s) * side;
         if x > last {
             second = last;
             last = x;

@@ -3,6 +3,7 @@
 use crate::football::advantage::Advantage;
 use crate::football::body::{KickKind, NEVER};
 use crate::football::forecast::Forecast;
+use crate::football::recent::Recent;
 use crate::state::PlayerId;
 use glam::Vec2;
 use setpiece_scenario::Others;
@@ -38,10 +39,8 @@ pub struct Play {
     pub chaser: [Option<PlayerId>; 2],
     /// The two who are there next.
     pub behind: [[Option<PlayerId>; 2]; 2],
-    /// Who had the ball lately: 1 the left team alone, -1 the right team.
-    pub share: f32,
-    /// The ball's place, averaged over about two seconds.
-    pub ball_mean: Vec2,
+    /// What the last seconds were like.
+    pub recent: Recent,
     /// The team that goes first in everything that both do: the last to touch the ball, else whose restart it was.
     pub lead: Team,
     /// The team that has a kick-off and has not taken it yet.
@@ -151,8 +150,7 @@ impl Play {
             offside: 0,
             chaser: [None; 2],
             behind: [[None; 2]; 2],
-            share: 0.0,
-            ball_mean: Vec2::ZERO,
+            recent: Recent::blank(),
             last_owner: None,
             lead: Team::Left,
             kick_off: None,

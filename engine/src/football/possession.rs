@@ -46,14 +46,3 @@ fn won(game: &Match, events: &mut Events, owner: Option<PlayerId>) {
     let loser = game.play.last_owner.filter(|loser| loser.team() == before);
     events.push(loser.map_or(lost, |loser| lost.by(loser)));
 }
-
-/// Renews the share of the ball that the teams had lately.
-pub fn remember(game: &mut Match) {
-    let now = match game.possession {
-        Some(team) => team.side() as f32,
-        None => 0.0,
-    };
-    game.play.share += (now - game.play.share) * 0.06;
-    let ball = game.ball.pos.truncate();
-    game.play.ball_mean += (ball - game.play.ball_mean) * 0.06;
-}

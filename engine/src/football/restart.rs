@@ -157,7 +157,7 @@ fn calm(game: &mut Match) {
 /// Lays the ball down.
 fn lay_ball(game: &mut Match, spot: Vec2) {
     game.ball = Ball { pos: spot.extend(BALL_RADIUS_M as f32), vel: Vec3::ZERO, spin: Vec3::ZERO };
-    game.play.ball_mean = spot;
+    game.play.recent.forget_ball();
 }
 
 /// Everyone looks at the ball.

@@ -1,6 +1,5 @@
 //! Set pieces: who takes one and where everybody stands.
 
-use crate::control::bot::formation;
 use crate::football::play::{Restart, SetPiece};
 use crate::football::{lineup, offside};
 use crate::state::{Match, Player, PlayerId};
@@ -76,9 +75,6 @@ pub fn arrange(game: &mut Match, restart: Restart) -> Option<PlayerId> {
         game.ball.pos.z = OVERHEAD_M;
     }
     spread_out(game, taker);
-    for team in [Team::Left, Team::Right] {
-        formation::assign_numbers(game, team);
-    }
     Some(taker)
 }
 

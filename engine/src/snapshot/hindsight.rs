@@ -40,7 +40,6 @@ pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
         body.kickoff = said.kickoff;
         let mind = &mut body.mind;
         mind.slot = said.mind.slot;
-        mind.mindset = said.mind.mindset;
         mind.run_until_step = mind.run_until_step.saturating_sub(past.step);
         mind.decide_at_step = mind.decide_at_step.saturating_sub(past.step);
     }

@@ -1,136 +1,182 @@
-//! The team's block: where everyone's place is, given the ball and who has it.
+//! The team's block in open play: where everyone's place is, given the ball and who is nearer to it.
 //!
-//! Slots come from roles, spread among players of one role; the block's formulas are GRF's, simplified.
+//! Every number has a slot in one formation ([`lineup::SLOTS`]); its role says how its place follows the ball. Players
+//! swap slots where that brings the team to its places sooner. (All figures are GRF's.)
 
 use crate::control::bot::View;
+use crate::football::block::{Block, mix};
 use crate::football::lineup;
+use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{Role, Team};
 
 /// Half the pitch, metres.
-const HALF: Vec2 = Vec2::new(55.0, 36.0);
+const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+/// The whole block's depth and width, shares of the pitch.
+const DEPTH: f32 = 0.45;
+const WIDTH: f32 = 0.95;
+/// How far ahead a player is reckoned to be when slots are given, seconds.
+const SWAP_AHEAD_S: f32 = 0.5;
 
-/// Teams of fewer players keep the slots of their roles after a set piece; chosen, so that a team of eleven stays one after
-/// red cards.
-const WHOLE: usize = 8;
-
-/// The block of a team in its own frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Block {
-    /// Its middle, metres.
-    pub centre: Vec2,
-    /// Half its depth and width, metres.
-    pub half: Vec2,
+/// What a team wants of its block, with and without the ball.
+#[derive(Clone, Copy)]
+struct Wish {
+    /// Shares of the block's depth and width.
+    depth: f32,
+    width: f32,
+    /// How far the block is pulled back, a share of the pitch; negative: pushed up.
+    back: f32,
+    /// Where midfielders stand between the rearmost (0) and the foremost (1).
+    midfield: f32,
+    /// How much the block goes by who has the ball lately instead of by the ball's place.
+    by_side: f32,
+    /// How strongly players are drawn to what happens.
+    drawn: f32,
 }
 
-/// The place of a role in the block and its mindset: x -1 back to 1 front, y + down the picture.
-fn slot_of(role: Role) -> (Vec2, f32) {
+const ATTACK: Wish = Wish { depth: 0.868, width: 0.948, back: 0.04, midfield: 0.828, by_side: 0.176, drawn: 0.826 };
+const DEFENCE: Wish = Wish { depth: 0.71, width: 0.84, back: 0.08, midfield: 0.776, by_side: 0.332, drawn: 0.938 };
+/// How strongly midfielders follow.
+const MIDFIELD_KEEN: f32 = 0.35;
+
+/// How much a role attacks, 0..1.
+pub fn mindset(role: Role) -> f32 {
     match role {
-        Role::GK | Role::CB => (Vec2::new(-1.0, 0.0), 0.0),
-        Role::LB => (Vec2::new(-0.74, -0.77), 0.25),
-        Role::RB => (Vec2::new(-0.74, 0.77), 0.25),
-        Role::DM => (Vec2::new(-0.4, 0.0), 0.25),
-        Role::CM => (Vec2::new(0.0, 0.0), 0.5),
-        Role::LM => (Vec2::new(0.36, -0.85), 0.5),
-        Role::RM => (Vec2::new(0.36, 0.85), 0.5),
-        Role::AM => (Vec2::new(0.55, 0.0), 0.75),
-        Role::CF => (Vec2::new(1.0, 0.0), 1.0),
+        Role::GK | Role::CB => 0.0,
+        Role::LB | Role::RB | Role::DM => 0.25,
+        Role::LM | Role::CM | Role::RM => 0.5,
+        Role::AM => 0.75,
+        Role::CF => 1.0,
     }
 }
 
-/// How far apart the players of one role stand.
-fn spread_of(role: Role) -> f32 {
+/// What a role wants, with the ball and without.
+fn wishes(role: Role) -> [Wish; 2] {
+    let (mut attack, mut defence) = (ATTACK, DEFENCE);
     match role {
-        Role::CB => 0.27,
-        Role::CM => 0.42,
-        Role::LB | Role::RB | Role::LM | Role::RM => 0.12,
-        _ => 0.3,
+        Role::CB => attack.width = 1.0,
+        Role::LB | Role::RB => {
+            (attack.width, attack.back, defence.back) = (1.0, -0.16, -0.07);
+        }
+        Role::LM | Role::RM => (attack.back, defence.back) = (-0.16, -0.02),
+        Role::AM | Role::CF => defence.depth = 0.835,
+        _ => {}
     }
+    let mind = mindset(role) - 0.5;
+    attack.by_side += 0.2 * mind;
+    defence.by_side -= 0.2 * mind;
+    [attack, defence]
 }
 
-/// Gives every player his slot, by role, those of one role from top to bottom as they stand at a kick-off.
+/// Gives every player the slot of their number.
 pub fn assign_slots(game: &mut Match) {
-    for i in 0..game.players.len() {
-        let id = PlayerId(i as u8);
-        let (role, side) = (game.players[i].role, id.team().side() as f32);
-        let y_of = |player: &crate::state::Player| player.body.kickoff[1].y * side;
-        let own_y = y_of(&game.players[i]);
-        let (mut rank, mut count) = (0usize, 0usize);
-        for (other, player) in game.team(id.team()) {
-            if player.role == role {
-                count += 1;
-                let before = y_of(player) < own_y || (y_of(player) == own_y && other.0 < id.0);
-                rank += usize::from(other != id && before);
-            }
+    for team in [Team::Left, Team::Right] {
+        let size = game.team(team).count();
+        for id in game.squad.of(team).ids() {
+            let player = &mut game.players[id.index()];
+            player.body.mind.slot = lineup::slot(id.in_team(), size);
+            player.body.mind.fills = id;
         }
-        let (mut slot, mindset) = slot_of(role);
-        if count > 1 {
-            let place = rank as f32 - (count as f32 - 1.0) * 0.5;
-            let spread = spread_of(role) * if count == 2 { 2.0 } else { 1.0 };
-            slot.y += place * spread;
-            // The middle one of three midfielders holds.
-            if role == Role::CM && count >= 3 {
-                slot.x += if place.abs() < 0.6 { -0.28 } else { 0.05 };
-            }
-        }
-        game.players[i].body.mind.slot = slot.clamp(Vec2::splat(-1.0), Vec2::splat(1.0));
-        game.players[i].body.mind.mindset = mindset;
     }
 }
 
-/// Gives every player of a whole team the slot of their number: a set piece has put them there, and they stay. (GRF gives
-/// every slot to whoever is near it.)
-pub fn assign_numbers(game: &mut Match, team: Team) {
-    if game.team(team).count() < WHOLE {
-        return;
-    }
-    for id in game.squad.of(team).ids() {
-        let player = &mut game.players[id.index()];
+/// Lets players fill each other's slots where both are nearer to the other's, the farther way counting most. (GRF finds
+/// the best of all ways; swaps by two come near it.)
+pub fn swap_slots(game: &mut Match, view: &View) {
+    let mut field = [PlayerId(0); setpiece_scenario::pitch::TEAM_MAX];
+    let mut ways = [[0.0f32; setpiece_scenario::pitch::TEAM_MAX]; setpiece_scenario::pitch::TEAM_MAX];
+    let mut count = 0;
+    for (id, player) in game.team(view.team) {
         if player.role != Role::GK {
-            let slot = lineup::SLOTS[id.in_team()];
-            player.body.mind.slot = slot;
-            player.body.mind.mindset = match slot.x {
-                ..-0.8 => 0.0,
-                ..-0.5 => 0.25,
-                ..0.8 => 0.5,
-                _ => 1.0,
-            };
+            field[count] = id;
+            count += 1;
         }
+    }
+    let field = &field[..count];
+    for (slot, &whose) in field.iter().enumerate() {
+        let to = place(game, view, whose, whose);
+        for (i, &id) in field.iter().enumerate() {
+            let player = game.player(id);
+            let way = ((player.pos + player.vel * SWAP_AHEAD_S) * view.side).distance(to);
+            ways[i][slot] = way * way * way;
+        }
+    }
+    let mut fills = [0usize; setpiece_scenario::pitch::TEAM_MAX];
+    for (i, &id) in field.iter().enumerate() {
+        let slot = field.iter().position(|&whose| whose == game.player(id).body.mind.fills);
+        fills[i] = slot.unwrap_or(i);
+    }
+    // Who has left the pitch leaves a slot that two may claim.
+    let claimed = fills[..count].iter().fold(0u32, |claimed, slot| claimed | 1 << slot);
+    if claimed.count_ones() as usize != count {
+        (0..count).for_each(|i| fills[i] = i);
+    }
+    let mut swapped = true;
+    while swapped {
+        swapped = false;
+        for i in 0..count {
+            for j in i + 1..count {
+                let (a, b) = (fills[i], fills[j]);
+                if ways[i][b] + ways[j][a] + 0.01 < ways[i][a] + ways[j][b] {
+                    (fills[i], fills[j]) = (b, a);
+                    swapped = true;
+                }
+            }
+        }
+    }
+    for (i, &id) in field.iter().enumerate() {
+        game.players[id.index()].body.mind.fills = field[fills[i]];
     }
 }
 
-/// How much a team is in possession, 0..1: lately, and by the ball's place where that is unclear.
-pub fn bias(share: f32, ball_x: f32) -> f32 {
-    let side = (ball_x / HALF.x).clamp(-0.7, 0.7) / 1.4 + 0.5;
-    let weight = 0.6 * (1.0 - (2.0 * share - 1.0).abs());
-    (share * (1.0 - weight) + side * weight).clamp(0.0, 1.0)
+/// From `low` to `high`: 0..1.
+pub fn share(value: f32, low: f32, high: f32) -> f32 {
+    ((value - low) / (high - low)).clamp(0.0, 1.0)
 }
 
-/// The block of a team.
-pub fn block(game: &Match, team: Team, bias: f32) -> Block {
-    let side = team.side() as f32;
-    let mean = game.play.ball_mean * side;
-    let now = game.ball.pos.truncate() * side;
-    let ball = mean * 0.6 + now * 0.4;
-    let depth = 0.45 * (0.72 + 0.16 * bias);
-    let width = 0.95 * (0.78 + 0.17 * bias);
-    let sideways = 0.33 - 0.15 * bias;
-    let x = ball.x * (1.0 - sideways) + 0.2 * HALF.x * (2.0 * bias - 1.0) * sideways + 7.0;
-    let x = x * (0.95 * (1.0 - depth) + 0.05);
-    let y = ball.y * (0.9 * (1.0 - width) + 0.12);
-    Block { centre: Vec2::new(x + 3.0 * (bias - 0.5), y), half: Vec2::new(depth * HALF.x, width * HALF.y) }
-}
-
-/// A player's place in the block, own frame, metres: his slot, drawn a little towards the ball.
-pub fn place(game: &Match, view: &View, id: PlayerId) -> Vec2 {
-    let slot = game.player(id).body.mind.slot;
-    let spot = view.block.centre + slot * view.block.half;
-    let to_ball = view.ball - spot;
-    let far = (to_ball.x * to_ball.x + 0.64 * to_ball.y * to_ball.y) / (50.0 * 50.0);
-    let pull = (1.0 - far).max(0.0) * 0.22;
-    let mut place = spot + Vec2::new(to_ball.x * pull, to_ball.y * pull * 0.7);
-    place.x = place.x.clamp(-48.0, 50.0);
-    place.y = place.y.clamp(-34.0, 34.0);
-    place
+/// A player's place in the block, own frame, metres, in the slot and role of somebody.
+pub fn place(game: &Match, view: &View, id: PlayerId, fills: PlayerId) -> Vec2 {
+    let recent = &game.play.recent;
+    let role = game.player(fills).role;
+    let [attack, defence] = wishes(role);
+    let action = view.action_at(game);
+    let urgent = 1.0 - share(action.distance(game.player(id).pos * view.side), 2.0, 30.0);
+    let mean = |seconds: f32| recent.ball_mean(game.ball.pos.truncate(), seconds) * view.side;
+    let ball_x = mean(3.5 * (1.0 - 0.7 * urgent)).x;
+    let ball_y = mean(4.0 * (1.0 - 0.5 * urgent)).y;
+    // How much the team attacks: by its nearness to the ball, and by the ball's place where that is unclear.
+    let near = share(view.nearness - 0.5, 0.3, 0.7);
+    let unclear = 0.6 * (1.0 - (2.0 * near - 1.0).abs());
+    let up = share(ball_x / HALF.x, -0.7, 0.7);
+    let attacks = (mix(near, up, unclear) + 0.3 * (view.daring - 0.5)).clamp(0.0, 1.0);
+    let both = |with: f32, without: f32| mix(without, with, attacks);
+    let depth = DEPTH * both(attack.depth, defence.depth);
+    let width = WIDTH * both(attack.width, defence.width);
+    let dares = 0.3 * view.daring;
+    let by_side = both((attack.by_side - 0.3 + dares).clamp(0.0, 1.0), (defence.by_side - dares).clamp(0.0, 1.0));
+    let side_x = HALF.x * (0.2 * (2.0 * attacks - 1.0) + 0.8 * recent.side_of(view.team));
+    let middle_x = (mix(ball_x, side_x, by_side) - HALF.x * both(attack.back, defence.back)).clamp(-HALF.x, HALF.x);
+    let middle_x = middle_x * (0.95 * (1.0 - depth) + 0.05);
+    let middle_y = ball_y.clamp(-HALF.y, HALF.y) * (0.9 * (1.0 - width) + 0.1);
+    let (back, front) = ((middle_x - depth * HALF.x).max(view.trap_x), middle_x + depth * HALF.x);
+    // What happens, for those who attack and for those who defend.
+    let focus = (mean(2.0) * 0.5 + action * 0.5).lerp(mean(3.0), attacks);
+    let ahead = Vec2::new((focus.x + 1.0).min(HALF.x), 0.9 * focus.y);
+    let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
+    let low = 0.3 + 0.7 * up;
+    let draws = both(math::pow(low, 0.8), math::pow(1.0 - low, 0.6));
+    let follows = share(ball_x / HALF.x, -0.8, 0.8);
+    let midfield = 0.7 * both(attack.midfield, defence.midfield) + 0.3 * follows;
+    let block = Block {
+        depth: [back, front],
+        half_width: width * HALF.y,
+        middle_y,
+        towards_x: (0.0, 0.0),
+        towards_y: (ball_y, both(0.5, 0.2)),
+        towards: (behind.lerp(ahead, attacks), both(attack.drawn, defence.drawn) * (0.2 + 0.8 * draws)),
+        midfield: (2.0 * midfield - 1.0, MIDFIELD_KEEN),
+    };
+    block.place(game.player(fills).body.mind.slot).clamp(-HALF, HALF)
 }

@@ -1,6 +1,6 @@
 //! The keeper's feet: where he stands, when he comes out. (His hands are `football::keeper`'s.)
 
-use crate::control::bot::{GOAL, View, send};
+use crate::control::bot::{GOAL, View, formation, send};
 use crate::football::body::{Intent, Pose};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::touch;
@@ -61,10 +61,10 @@ fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
     }
     let foot = Vec2::new(LINE_M - GOAL.x, middle_of_goal(ball));
     let mut front = ball;
-    let mut share = UP_SHARE * ((view.bias - 0.5) * 4.0).clamp(0.0, 1.0);
+    let nearness = view.nearness_of(game, id);
+    let mut share = UP_SHARE * formation::share(nearness, 1.0, 1.5);
     let theirs = view.owner.filter(|owner| owner.team() != view.team);
-    let rival = theirs.or(game.play.chaser[view.team.other().index()]);
-    if let Some(rival) = rival.filter(|_| view.bias < 0.5 || theirs.is_some()) {
+    if let Some(rival) = view.rival(game).filter(|_| nearness < 1.0) {
         let other = game.player(rival);
         let place = (other.pos + other.vel * MEET_S) * view.side;
         front = if theirs.is_some() { ball * 0.6 + place * 0.4 } else { ball * 0.4 + place * 0.6 };

@@ -1,108 +1,142 @@
-//! Defending without the ball: the most dangerous opponents are marked, the rest keep the block.
+//! Defending without the ball: the most dangerous opponents are marked, and the back line keeps to its line. (All
+//! figures are GRF's.)
 
-use crate::control::bot::{GOAL, View, formation, send};
-use crate::football::movement::{RUN_MPS, SPRINT_MPS};
+use crate::control::bot::formation::share;
+use crate::control::bot::{GOAL, View};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Role, Rule};
+use setpiece_scenario::pitch::HALF_LENGTH_M;
+use setpiece_scenario::vocabulary::Role;
 
-/// How far behind the ball the back line stands, metres.
-const FALL_BACK_M: f32 = 28.0;
-/// No further up than this stands the back line, own frame x, metres.
-const LINE_MAX_M: f32 = 2.0;
+const HALF_X: f32 = HALF_LENGTH_M as f32;
 /// How many opponents are marked.
-const MARKED: usize = 5;
+const MARKED: usize = 3;
+/// From how far the opponent who has the ball, and another, could shoot, metres.
+const CARRIER_SHOOTS_M: f32 = 24.0;
+const OTHER_SHOOTS_M: f32 = 8.0;
+/// How far ahead an opponent is reckoned to be, and the marker, seconds.
+const RIVAL_AHEAD_S: f32 = 0.5;
+const OWN_AHEAD_S: f32 = 0.14;
+/// How near before an opponent a marker stands at least, and how much nearer than them to where they shoot, metres.
+const CLOSE_M: f32 = 0.4;
+const NEARER_M: f32 = 4.0;
+/// A marker who is late runs towards the goal by this share of what they lack.
+const LATE: f32 = 0.7;
+/// Where the line is that nobody falls back behind: so far from the goal, the further the more a team dares; metres.
+const LINE_M: f32 = 30.0;
+const LINE_DARING_M: f32 = 20.0;
+/// The nearest to the goal that a line holds, metres.
+const LAST_LINE_M: f32 = 6.0;
+/// A line keeps this far from an opponent on the ball, and does not wait for a mate this far behind it, metres.
+const CAUTION_M: f32 = 4.0;
+/// Half the depth in which places are drawn up to the line, metres.
+const LINE_ZONE_M: f32 = 2.0;
 
 /// Gives the most dangerous opponents a marker each, the one with the ball too.
 pub fn assign(game: &mut Match, view: &View) {
-    for i in 0..game.players.len() {
-        if PlayerId(i as u8).team() == view.team {
-            game.players[i].body.mind.mark = None;
-        }
-    }
-    let carrier = view.carrier(game);
-    // (GRF's.)
-    let aim = Vec2::new(-53.0, 0.0) * 0.8 + view.ball * 0.2;
-    let mut taken = 0u32;
+    game.each(game.squad.of(view.team), |player| player.body.mind.mark = None);
+    let carrier = view.rival(game);
+    let aim = Vec2::new(2.0 - HALF_X, 0.0) * 0.8 + view.ball * 0.2;
+    let mut marked = 0u32;
     for _ in 0..MARKED {
-        let mut worst: Option<(f32, PlayerId, Vec2)> = None;
-        for (rival, other) in game.team(view.team.other()) {
-            let pos = other.pos * view.side;
-            let carries = carrier == Some(rival);
-            let danger = (1.0 - pos.distance(aim) / 110.0) * 0.95 + if carries { 0.05 } else { 0.0 };
-            let open = taken & (1 << rival.0) == 0 && other.role != Role::GK;
-            if open && (pos.x < 15.0 || carries) && worst.is_none_or(|(most, _, _)| danger > most) {
-                worst = Some((danger, rival, pos));
-            }
-        }
-        let Some((_, rival, pos)) = worst else { return };
-        taken |= 1 << rival.0;
-        let post = goal_side(pos);
-        let mut best: Option<(f32, PlayerId)> = None;
-        for (id, player) in game.team(view.team) {
-            // Whom an agent plays marks nobody for sure.
-            let driven = game.play.driven & (1 << id.0) != 0;
-            let chases = carrier.is_none() && game.play.chaser[view.team.index()] == Some(id);
-            let busy = driven || chases || player.body.mind.mark.is_some();
-            if player.role == Role::GK || busy || player.body.mind.mindset > 0.7 {
-                continue;
-            }
-            let own = player.pos * view.side;
-            let distance = own.distance(post) + 6.0 * player.body.mind.mindset + if own.x > pos.x { 4.0 } else { 0.0 };
-            if best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, id));
-            }
-        }
-        if let Some((distance, id)) = best
-            && distance < 22.0
-        {
-            game.players[id.index()].body.mind.mark = Some(rival);
-        }
+        let danger = |id: PlayerId| {
+            let far = (game.player(id).pos * view.side).distance(aim) / (2.0 * HALF_X);
+            0.95 * (1.0 - far.min(1.0)) + if carrier == Some(id) { 0.05 } else { 0.0 }
+        };
+        let open = game.team(view.team.other()).map(|(id, _)| id).filter(|id| marked & (1 << id.0) == 0);
+        let Some(rival) = open.max_by(|&a, &b| danger(a).total_cmp(&danger(b)).then(b.cmp(&a))) else { return };
+        marked |= 1 << rival.0;
+        let free =
+            game.team(view.team).filter(|(_, player)| player.role != Role::GK && player.body.mind.mark.is_none());
+        let worth = |id: PlayerId| worth(game, view, id, rival);
+        let best = free.map(|(id, _)| id).max_by(|&a, &b| worth(a).total_cmp(&worth(b)).then(b.cmp(&a)));
+        let Some(best) = best else { return };
+        game.players[best.index()].body.mind.mark = Some(rival);
     }
 }
 
-/// Where a marker stands: between his man and the goal, nearer to him the nearer the goal.
-fn goal_side(pos: Vec2) -> Vec2 {
-    let goal = Vec2::new(-54.0, 0.0);
-    let way = goal - pos;
-    let length = way.length().max(1.0);
-    pos + way * ((length * 0.1).clamp(1.2, 4.5) / length)
+/// How well a player would mark an opponent, 0..1: best those who have them before them, not far to the side.
+fn worth(game: &Match, view: &View, id: PlayerId, rival: PlayerId) -> f32 {
+    let soon = |id: PlayerId| {
+        let player = game.player(id);
+        (player.pos + player.vel * 0.1) * view.side
+    };
+    let (own, other) = (soon(id), soon(rival));
+    let to_goal = -GOAL - own;
+    let reach = to_goal.length().clamp(4.0, 14.0);
+    let way = to_goal.normalize_or(Vec2::NEG_X);
+    let from = other - (own - way * 0.5);
+    let before_m = -from.dot(way);
+    let far_m = if before_m > 0.0 { (before_m - 2.0).abs() } else { -before_m };
+    let beside = (from.perp_dot(way) / reach).abs().min(1.0);
+    let mut worth = (1.0 - 0.5 * share(far_m, 0.0, 60.0).sqrt() - 0.5 * beside.sqrt()).max(0.0);
+    if before_m <= 0.0 {
+        worth *= 0.6;
+    }
+    worth * 0.8 + 0.2 * (1.0 - share(own.distance(other), 0.0, 2.0 * HALF_X))
 }
 
-/// Sends a defender to his man, or to his place.
-pub fn place(game: &mut Match, view: &View, id: PlayerId) {
-    let player = *game.player(id);
-    let own = player.pos * view.side;
-    let mut to = formation::place(game, view, id);
-    let mut speed: f32 = RUN_MPS;
-    if let Some(rival) = player.body.mind.mark {
+/// Where a player with a place to be at, own frame, goes to mark their opponent instead.
+pub fn post(game: &Match, view: &View, id: PlayerId, place: Vec2) -> Vec2 {
+    let player = game.player(id);
+    let Some(rival) = player.body.mind.mark else { return place };
+    let other = game.player(rival);
+    let at = (other.pos + other.vel * RIVAL_AHEAD_S) * view.side;
+    let from_m = if view.action == Some(rival) { CARRIER_SHOOTS_M } else { OTHER_SHOOTS_M };
+    let to_goal = -GOAL - at;
+    let mut left_m = (to_goal.length() - from_m).clamp(CLOSE_M, HALF_X);
+    let mut shoots_at = at + to_goal.normalize_or_zero() * left_m;
+    if shoots_at.x < view.trap_x && to_goal.x < -1e-3 {
+        // The opponent is met no further back than at the line.
+        shoots_at = at + to_goal * ((view.trap_x - at.x) / to_goal.x);
+        left_m = shoots_at.distance(at);
+    }
+    let way = shoots_at - place;
+    let lacks_m = way.length() - (left_m - NEARER_M);
+    let mut post = place + way.clamp_length_max(lacks_m.max(0.0));
+    let own = (player.pos + player.vel * OWN_AHEAD_S) * view.side;
+    let late_m = own.distance(shoots_at) - left_m;
+    if late_m > 0.0 {
+        post += (-GOAL - post).normalize_or_zero() * (late_m * LATE);
+    }
+    post
+}
+
+/// The line, own frame x, metres, behind which nobody falls back for opponents to be offside: it goes back with the
+/// ball, the opponent on it and the mates behind it.
+pub fn trap_x(game: &Match, view: &View) -> f32 {
+    let side = view.side;
+    let from_m = LINE_M + LINE_DARING_M * view.daring;
+    let yields_m = 20.0 + 10.0 * (1.0 - view.daring);
+    let ball = -view.ball.x;
+    let forced = share(ball, HALF_X - from_m - yields_m, HALF_X - LAST_LINE_M);
+    let mut depth = (HALF_X - from_m).max(ball + yields_m * (1.0 - forced));
+    depth = depth.max(-game.play.forecast.at(game.tick + 70).x * side);
+    if let Some(rival) = view.rival(game) {
         let other = game.player(rival);
-        let man = other.pos * view.side;
-        let post = goal_side(man + other.vel * view.side * 0.4);
-        // The nearer to the own goal, the tighter.
-        let weight = (0.95 - (man.x + GOAL.x) / (2.0 * GOAL.x) * 0.6).clamp(0.2, 0.9);
-        // Where nobody is offside, nobody is left behind the line.
-        let loose = own.x > post.x + 1.0 && !game.rule(Rule::Offside);
-        to += (post - to) * if loose { weight.max(0.85) } else { weight };
-        speed = if own.x > post.x + 1.0 { SPRINT_MPS } else { 6.5 };
-    }
-    // The back line keeps behind the ball, the midfield not far before it.
-    let mindset = player.body.mind.mindset;
-    if mindset < 0.3 {
-        // The back line stands together, and who runs past it is offside.
-        let line = (view.ball.x - FALL_BACK_M).clamp(-47.0, LINE_MAX_M);
-        let free = player.body.mind.mark.is_none();
-        to.x = to.x.min(view.ball.x - FALL_BACK_M).max(-47.0);
-        if free {
-            to.x = to.x.clamp(line - 2.0, line + 2.0);
+        let at = |ahead_s: f32| CAUTION_M - (other.pos.x + other.vel.x * ahead_s) * side;
+        if at(0.15) > depth {
+            depth = at(0.1);
         }
-    } else if mindset < 0.7 {
-        to.x = to.x.min(view.ball.x - 6.0).max(-43.0);
     }
-    // Whoever is caught up the pitch runs back.
-    let behind = own.x - to.x;
-    if behind > 8.0 || (behind > 3.0 && own.x > view.ball.x) {
-        speed = SPRINT_MPS;
+    let (mut last, mut second) = (f32::MIN, f32::MIN);
+    for (_, mate) in game.team(view.team) {
+        let x = -mate.pos.x * side;
+        if x > last {
+            (last, second) = (x, last);
+        } else if x > second {
+            second = x;
+        }
     }
-    send(game, view, id, to, speed);
+    -depth.max(second.max(ball).clamp(0.0, HALF_X) - CAUTION_M)
+}
+
+/// Draws a place up to the line.
+pub fn hold_line(view: &View, place: Vec2) -> Vec2 {
+    let zone = view.trap_x + LINE_ZONE_M;
+    if place.x >= zone {
+        return place;
+    }
+    let back = share(zone - place.x, 0.0, 2.0 * LINE_ZONE_M);
+    Vec2::new(zone - LINE_ZONE_M * back, place.y)
 }

@@ -3,6 +3,7 @@
 //! Every choice is rated on one scale, about the chance that it leads to a goal; the best one is taken, with a little
 //! whim and more of it at a low level.
 
+use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View};
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::SPRINT_MPS;
@@ -308,7 +309,7 @@ fn pass_worth(game: &Match, view: &View, id: PlayerId, mate: PlayerId) -> (f32, 
     let keeper = if other.role == Role::GK { 0.02 } else { 0.0 };
     let mut best = (short - keeper, KickKind::Short, None);
     // Into the space ahead of a forward mate.
-    if other.body.mind.mindset >= 0.5 && own_mate.x > own.x - 6.0 && distance < 30.0 {
+    if mindset(other.role) >= 0.5 && own_mate.x > own.x - 6.0 && distance < 30.0 {
         for ahead_m in [8.0, 15.0] {
             let (worth, point) = through(game, view, id, mate, ahead_m);
             if worth > best.0 {

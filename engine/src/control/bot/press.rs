@@ -1,5 +1,6 @@
 //! Going for the ball: the first man chases or presses, the second covers behind him.
 
+use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, on_ball, send};
 use crate::event::Events;
 use crate::football::body::{Intent, Pose};
@@ -90,7 +91,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if game.player(id).body.pose == Pose::Sliding {
         return;
     }
-    if !goes && !alone && gap < HUNTS_AT * hunt_m(&player) {
+    if !goes && !alone && gap < HUNTS_AT * hunt_m(game, &player) {
         hunt(game, view, id, rival);
         return;
     }
@@ -98,7 +99,7 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         contain(game, view, id, &carrier);
         return;
     }
-    if !goes && gap > hunt_m(&player) {
+    if !goes && gap > hunt_m(game, &player) {
         cover(game, view, id);
         return;
     }
@@ -111,10 +112,9 @@ pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
 }
 
 /// From how far a player hunts a carrier, metres. (GRF's.)
-fn hunt_m(player: &Player) -> f32 {
-    let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.vel.length() / 8.0).min(1.0));
-    let works = 0.7 + 0.4 * player.body.stats[Stat::Workrate.index()];
-    (10.0 + 10.0 * (1.0 - player.body.mind.mindset)) * rested * player.body.level * works
+pub fn hunt_m(game: &Match, player: &Player) -> f32 {
+    let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.body.mean_mps / 8.0).min(1.0));
+    (10.0 + 10.0 * (1.0 - mindset(game.player(player.body.mind.fills).role))) * rested * player.body.level
 }
 
 /// Whether no mate in the field is near enough to the carrier to help.
@@ -221,7 +221,7 @@ pub fn second(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) 
     }
     let carrier = view.owner.filter(|owner| owner.team() != view.team && game.play.hands.is_none());
     let player = game.player(id);
-    match carrier.filter(|rival| player.pos.distance(game.player(*rival).pos) < hunt_m(player)) {
+    match carrier.filter(|rival| player.pos.distance(game.player(*rival).pos) < hunt_m(game, player)) {
         Some(rival) => {
             hunt(game, view, id, rival);
             maybe_slide(game, events, view, id, rival);
@@ -259,7 +259,7 @@ pub fn cover(game: &mut Match, view: &View, id: PlayerId) {
     let length = way.length().max(1.0);
     let off = (length * 0.25).clamp(3.5, 8.0);
     let own = game.player(id).pos * view.side;
-    let block = super::formation::place(game, view, id);
+    let block = super::formation::place(game, view, id, id);
     let spot = view.ball + way * (off / length);
     let weight = if own.distance(view.ball) < 25.0 || view.ball.x < -15.0 { 0.75 } else { 0.4 };
     let to = block + (spot - block) * weight;

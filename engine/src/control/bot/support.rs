@@ -1,103 +1,195 @@
-//! Attacking without the ball: find a place where a pass can come, stay onside, run behind now and then.
+//! Helping whoever has the ball: forces draw a player to their place and to the ball, and push them off opponents and
+//! mates. (GRF's figures.)
 
-use crate::control::bot::{View, formation, send};
-use crate::football::movement::{RUN_MPS, SPRINT_MPS};
-use crate::football::noise;
+use crate::control::bot::View;
+use crate::control::bot::formation::{mindset, share};
+use crate::football::block::ease;
+use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Role, Rule, Stat};
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::vocabulary::{Role, Team};
 
-/// Places tried around the block's place, own frame, metres.
-const OFFSETS: [Vec2; 6] = [
-    Vec2::ZERO,
-    Vec2::new(0.0, 6.0),
-    Vec2::new(0.0, -6.0),
-    Vec2::new(6.0, 0.0),
-    Vec2::new(-5.0, 3.0),
-    Vec2::new(-5.0, -3.0),
-];
+/// Half the pitch, metres.
+const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+/// How far ahead everyone is reckoned to be, seconds.
+const AHEAD_S: f32 = 0.1;
+/// Nearer than this to what draws a player it draws less, metres.
+const DAMPED_M: f32 = 7.0;
+/// How far short of the offside line they stay, metres.
+const ONSIDE_M: f32 = 0.08;
+/// How many opponents and mates push.
+const RIVALS: usize = 3;
+const MATES: usize = 6;
+/// A team nearer to the ball than this spreads, and leaves the ball's way.
+const SPREADS: f32 = 1.02;
+const MAKES_WAY: f32 = 1.06;
+/// A run forward lasts this many steps, and is thought of every so many.
+const RUN_STEPS: u32 = 40;
+const RUN_EVERY: u32 = 5;
+/// How often the helper of whoever has the ball is chosen, steps.
+const HELPER_EVERY: u32 = 15;
 
-/// Sends a mate of the ball to where he helps.
-pub fn place(game: &mut Match, view: &View, id: PlayerId) {
-    let player = *game.player(id);
-    let mindset = player.body.mind.mindset;
-    let own = player.pos * view.side;
-    let offside = game.rule(Rule::Offside);
-    if player.body.mind.run_until_step > game.step {
-        // A run behind the defence, towards goal.
-        let to = Vec2::new((own.x + 14.0).min(50.0), own.y * 0.9);
-        send(game, view, id, to, SPRINT_MPS);
-        return;
+/// Forces on a point: their sum, and how strong they are together.
+struct Forces {
+    at: Vec2,
+    sum: Vec2,
+    strength: f32,
+}
+
+impl Forces {
+    /// A point draws, everywhere as strongly.
+    fn draw(&mut self, to: Vec2, power: f32) {
+        let way = to - self.at;
+        let length = way.length();
+        self.sum += way.normalize_or_zero() * (power * (length / DAMPED_M).min(1.0));
+        self.strength += power;
     }
-    let mut base = formation::place(game, view, id);
-    // Forwards stay high, up against the line; midfielders follow the attack.
-    let push = 2.0 + view.bias * (3.0 + 11.0 * mindset);
-    base.x += push;
-    if mindset > 0.7 {
-        base.x = base.x.max(view.line_x - 6.0);
+
+    /// A point draws, the more the nearer it is; not at all from `scale` metres on.
+    fn draw_near(&mut self, to: Vec2, power: f32, scale: f32) {
+        self.draw(to, power * (1.0 - to.distance(self.at) / scale).max(0.0));
     }
-    if mindset >= 0.5 && view.ball.x > 18.0 {
-        // The ball is near their goal: into the box.
-        let box_spot = Vec2::new(43.0 + 3.0 * (mindset - 0.5), base.y * 0.45);
-        base += (box_spot - base) * (0.35 + 0.4 * mindset);
-    }
-    let mut best = (f32::MIN, base);
-    for offset in OFFSETS {
-        let spot = base + offset;
-        let worth = worth(game, view, id, spot) - 0.02 * offset.length();
-        if worth > best.0 {
-            best = (worth, spot);
-        }
-    }
-    let mut to = best.1;
-    if offside {
-        to.x = to.x.min((view.line_x - 0.6).max(view.ball.x - 0.5));
-    }
-    let far = own.distance(to);
-    let speed = if far > 14.0 && mindset > 0.2 { SPRINT_MPS } else { RUN_MPS };
-    send(game, view, id, to, speed);
-    let owner_near = view.owner.is_some_and(|owner| owner.team() == view.team && owner != id)
-        && own.distance(view.ball) < 32.0
-        && view.ball.x > -25.0;
-    let onside = !offside || own.x < view.line_x - 0.2;
-    if mindset >= 0.5 && owner_near && onside && own.x > view.line_x - 9.0 && player.role != Role::GK {
-        let keen = (0.14 + 0.22 * mindset) * (0.3 + 0.8 * player.skill(Stat::OffensivePositioning));
-        if noise::chooses(game, keen) {
-            game.players[id.index()].body.mind.run_until_step = game.step + 14;
+
+    /// A point pushes, the more the nearer it is; not at all from `scale` metres on.
+    fn push(&mut self, from: Vec2, power: f32, scale: f32, exponent: f32) {
+        let way = self.at - from;
+        let near = 1.0 - way.length() / scale;
+        if near > 0.0 {
+            let power = power * if exponent == 1.0 { near } else { math::pow(near, exponent) };
+            self.sum += way.normalize_or_zero() * power;
+            self.strength += power;
         }
     }
 }
 
-/// How good a place is: free of opponents, not crowded by mates, with a clear line to the ball.
-fn worth(game: &Match, view: &View, id: PlayerId, spot: Vec2) -> f32 {
-    let world = spot * view.side;
-    let ball = view.ball * view.side;
-    let mut worth = 0.0;
-    let way = world - ball;
-    let length = way.length().max(1.0);
-    let along = way / length;
-    for (_, rival) in game.team(view.team.other()) {
-        let distance = rival.pos.distance_squared(world);
-        if distance < 64.0 {
-            worth -= (64.0 - distance) * 0.012;
-        }
-        let to = rival.pos - ball;
-        let t = to.dot(along);
-        if t > 1.0 && t < length {
-            let off = (to - along * t).length_squared();
-            if off < 9.0 {
-                worth -= (9.0 - off) * 0.06;
+/// Where a player helps, own frame, given their place in the block.
+pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
+    let player = game.player(id);
+    let role = game.player(player.body.mind.fills).role;
+    let mind = mindset(role);
+    let soon = |id: PlayerId| {
+        let player = game.player(id);
+        (player.pos + player.vel * AHEAD_S) * view.side
+    };
+    let at = soon(id);
+    let ahead = game.play.chaser[view.team.index()].filter(|&chaser| chaser != id);
+    let main = game.play.chaser[view.team.index()].map_or(at, soon);
+    let runs = player.body.mind.run_until_step > game.step && may_run(role, view.nearness);
+    let mut forces = Forces { at, sum: Vec2::ZERO, strength: 0.0 };
+
+    let mut base = base;
+    if game.play.recent.helper[view.team.index()] == Some(id) {
+        base.x += 12.0 * (0.3 + 0.7 * mind);
+    } else {
+        // On the wing that the ball is not on somebody goes forward.
+        let lane_y = if main.y < 0.0 { 8.0 } else { -8.0 };
+        let in_lane = ease(1.0 - share((lane_y - at.y).abs(), 0.0, 30.0));
+        base.x += 22.0 * in_lane * mind * mind.sqrt();
+    }
+    forces.draw(base, 0.7 * (0.3 + 0.7 * share(base.distance(at), 0.0, 20.0)));
+    if runs {
+        forces.draw(Vec2::new(HALF.x, 0.5 * at.y), 2.0);
+    }
+    let caution = match role {
+        Role::CB | Role::LB | Role::RB => 2.2,
+        Role::DM => 2.0,
+        Role::CM | Role::LM | Role::RM => 1.6,
+        Role::AM => 1.2,
+        _ => 1.0,
+    };
+    let (power, scale) = if runs { (0.15 * caution, 2.0) } else { (0.3 * caution, 5.0) };
+    for rival in nearest::<RIVALS>(game, view.team.other(), (at * 0.7 + main * 0.3) * view.side, None) {
+        // Pushed off a point behind the opponent, so that the ball's way is free.
+        let place = soon(rival);
+        forces.push(place + (place - main).normalize_or_zero() * 2.0, power, scale, 0.7);
+    }
+    let nearness = game.play.recent.nearness[view.team.index()];
+    if nearness >= SPREADS {
+        for mate in nearest::<MATES>(game, view.team, at * view.side, None) {
+            if mate != id {
+                forces.push(soon(mate), 0.4, 10.5, 1.0);
             }
         }
     }
-    for (mate, other) in game.team(view.team) {
-        let distance = other.pos.distance_squared(world);
-        if mate != id && distance < 110.0 {
-            worth -= (110.0 - distance) * 0.008;
+    if ahead.is_some() {
+        if nearness >= MAKES_WAY {
+            for ticks in [20, 35, 50, 65] {
+                let ball = game.play.forecast.at(game.tick + ticks).truncate() * view.side;
+                forces.push(ball, 1.0, 2.0, 0.5);
+            }
+        }
+        forces.draw_near(main, 0.45, 21.0);
+        forces.push(main, 0.45, 12.0, 1.0);
+    }
+    let mut to = at + forces.sum / forces.strength.max(1e-3) * SPRINT_TOP_MPS;
+    to.x = to.x.min(view.line_x - ONSIDE_M);
+    to.clamp(-HALF, HALF)
+}
+
+/// The speed that forces are measured in, m/s.
+const SPRINT_TOP_MPS: f32 = 8.0;
+
+/// Whether a role runs forward when its team is so near to the ball.
+fn may_run(role: Role, nearness: f32) -> bool {
+    match role {
+        Role::CF => share(nearness - 0.5, 0.1, 0.6) > 0.7,
+        Role::AM | Role::LM | Role::CM | Role::RM | Role::DM => share(nearness - 0.5, 0.1, 0.7) > 0.9,
+        _ => false,
+    }
+}
+
+/// Chooses who helps whoever has the ball, and who runs forward: one of a team with at most one agent.
+pub fn assign(game: &mut Match, view: &View) {
+    let Some(main) = game.play.chaser[view.team.index()] else { return };
+    let place = game.player(main).pos;
+    if game.step.is_multiple_of(HELPER_EVERY) {
+        let to = place + Vec2::new(1.5 * view.side, 0.0);
+        game.play.recent.helper[view.team.index()] = nearest::<1>(game, view.team, to, Some(main)).next();
+    }
+    let agents = game.agents.iter().filter(|slot| slot.team == view.team).count();
+    if !game.step.is_multiple_of(RUN_EVERY) || agents > 1 || !view.best {
+        return;
+    }
+    if game.team(view.team).any(|(_, player)| player.body.mind.run_until_step > game.step) {
+        return;
+    }
+    let to = place + Vec2::new(26.0 * view.side, 0.0);
+    let driven = game.play.driven;
+    let runner = game
+        .team(view.team)
+        .filter(|(id, _)| *id != main && driven & (1 << id.0) == 0)
+        .min_by(|(_, a), (_, b)| a.pos.distance_squared(to).total_cmp(&b.pos.distance_squared(to)));
+    let Some((runner, player)) = runner else { return };
+    let near = (1.0 - share(player.pos.distance(place), 0.0, 40.0)).sqrt();
+    let spot = Vec2::new(player.pos.x - 10.0 * view.side, 0.8 * player.pos.y);
+    let crowd = nearest::<4>(game, view.team.other(), spot, None)
+        .map(|rival| ease(1.0 - share(game.player(rival).pos.distance(spot), 0.0, 15.0)).sqrt())
+        .sum::<f32>();
+    if near * (1.0 - 0.3 * crowd) >= 0.5 {
+        game.players[runner.index()].body.mind.run_until_step = game.step + RUN_STEPS;
+    }
+}
+
+/// The players of a team who are nearest to a place, world, the nearest first.
+pub fn nearest<const N: usize>(
+    game: &Match,
+    team: Team,
+    to: Vec2,
+    but: Option<PlayerId>,
+) -> impl Iterator<Item = PlayerId> + use<N> {
+    let mut best = [(f32::MAX, PlayerId(0)); N];
+    let mut count = 0;
+    for (id, player) in game.team(team) {
+        let away = player.pos.distance_squared(to);
+        if Some(id) == but {
+            continue;
+        }
+        if let Some(at) = best.iter().position(|(least, _)| away < *least) {
+            best[at..].rotate_right(1);
+            best[at] = (away, id);
+            count = (count + 1).min(N);
         }
     }
-    if length > 28.0 {
-        worth -= (length - 28.0) * 0.02;
-    }
-    worth + 0.01 * spot.x
+    best.into_iter().take(count).map(|(_, id)| id)
 }

@@ -1,0 +1,91 @@
+//! Playing without the ball: a place in the block, drawn to where it helps and to whom it marks. (GRF's figures.)
+
+use crate::control::bot::formation::{mindset, share};
+use crate::control::bot::{View, formation, mark, send, support};
+use crate::football::block::ease;
+use crate::football::movement::SPRINT_MPS;
+use crate::math;
+use crate::state::{Match, PlayerId};
+use setpiece_scenario::vocabulary::{Role, Stat};
+
+/// How fast a player goes to a place that is so far away, 1/s.
+const HASTE: f32 = 2.6;
+/// The speed that all others are measured by, m/s.
+const TOP_MPS: f32 = 8.0;
+/// The speeds at which players run, and up to where each is taken, m/s.
+const PACES: [(f32, f32); 3] = [(1.8, 0.0), (4.2, 3.5), (6.0, 5.0)];
+
+/// How a role plays without the ball.
+struct Manner {
+    /// How firmly it keeps to its own slot far from the ball, 0..1.
+    own_slot: f32,
+    /// Between which nearness of its team to the ball it comes to help.
+    helps: (f32, f32),
+    /// Down to which nearness it marks.
+    marks: f32,
+    /// Whether it keeps to the line.
+    holds_line: bool,
+}
+
+fn manner(role: Role) -> Manner {
+    match role {
+        Role::CB | Role::LB | Role::RB => Manner { own_slot: 1.0, helps: (0.2, 0.9), marks: 1.9, holds_line: true },
+        Role::CF => Manner { own_slot: 0.8, helps: (0.1, 0.6), marks: 1.3, holds_line: false },
+        _ => Manner { own_slot: 0.9, helps: (0.1, 0.7), marks: 1.5, holds_line: true },
+    }
+}
+
+/// Sends a player to where they play without the ball.
+pub fn place(game: &mut Match, view: &View, id: PlayerId) {
+    let player = *game.player(id);
+    let own = player.pos * view.side;
+    let manner = manner(player.role);
+    let fills = player.body.mind.fills;
+    let far = share(own.distance(view.action_at(game)), 15.0, 20.0);
+    let firm = ease(manner.own_slot * far);
+    let mut to = formation::place(game, view, id, id);
+    if firm < 1.0 && fills != id {
+        to += (formation::place(game, view, id, fills) - to) * (1.0 - firm);
+    }
+    let nearness = view.nearness_of(game, id);
+    let helps = share(nearness - 0.5, manner.helps.0, manner.helps.1);
+    if helps > 0.0 {
+        to += (support::place(game, view, id, to) - to) * helps;
+    }
+    let mind = mindset(game.player(fills).role);
+    let marks = math::pow((manner.marks - mind - nearness).clamp(0.0, 1.0), 0.7);
+    if marks > 0.0 {
+        to += (mark::post(game, view, id, to) - to) * marks;
+    }
+    if manner.holds_line {
+        to = mark::hold_line(view, to);
+    }
+    let pace = pace(lazily(game, view, id, own.distance(to) * HASTE));
+    send(game, view, id, to, pace);
+}
+
+/// The speed at which somebody runs who wants to run so fast.
+fn pace(wanted_mps: f32) -> f32 {
+    PACES.into_iter().find(|(below, _)| wanted_mps < *below).map_or(SPRINT_MPS, |(_, pace)| pace)
+}
+
+/// How fast a player runs who is far from what happens, m/s: those the less whom it concerns less, and the tired.
+fn lazily(game: &Match, view: &View, id: PlayerId, wanted_mps: f32) -> f32 {
+    let player = game.player(id);
+    let fresh = 1.0 - player.fatigue;
+    let (near_m, far_m) = (20.0 * (0.8 * fresh + 0.2), 65.0 * (0.5 * fresh + 0.5));
+    let rival = view.team.other();
+    let Some(other) = game.play.chaser[rival.index()] else { return wanted_mps };
+    let far = share(player.pos.distance(game.player(other).pos), near_m, far_m);
+    let mind = mindset(game.player(player.body.mind.fills).role);
+    let ours = (view.nearness_of(game, id) - 0.5).clamp(0.0, 1.0);
+    let lazy = far * (0.5 + 0.5 * (mind + ours * (1.0 - 2.0 * mind)));
+    let wants = if wanted_mps > TOP_MPS { TOP_MPS + 0.1 * (wanted_mps - TOP_MPS) } else { wanted_mps };
+    let mut runs = wants * (1.0 - lazy);
+    if wanted_mps >= 3.5 {
+        runs = runs.max(3.5);
+    }
+    let rested = 1.0 - share(player.body.mean_mps, 0.0, TOP_MPS);
+    let breath = math::pow(rested, 0.8 - 0.2 * player.body.stats[Stat::Workrate.index()]) * 1.2;
+    runs.min(TOP_MPS * (breath.min(1.0) * lazy + 1.0 - lazy))
+}

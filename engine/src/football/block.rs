@@ -1,0 +1,75 @@
+//! A team's block: a formation stretched over a part of the pitch, and drawn to where things happen. (GRF's.)
+//!
+//! Everything is in the own frame of the team, which attacks towards +x.
+
+use crate::math;
+use glam::Vec2;
+use setpiece_scenario::pitch::HALF_WIDTH_M;
+
+/// Half the width of the pitch, metres.
+const HALF_Y: f32 = HALF_WIDTH_M as f32;
+/// How far from the point that draws them players feel nothing of it, metres.
+const DRAW_M: f32 = 50.0;
+
+/// A point that draws players, and how strongly, 0..1.
+pub type Draw = (f32, f32);
+
+/// A team's block.
+#[derive(Clone, Copy, Debug)]
+pub struct Block {
+    /// x of the rearmost and of the foremost slot, metres.
+    pub depth: [f32; 2],
+    /// Half its width, metres.
+    pub half_width: f32,
+    /// y of its middle, metres.
+    pub middle_y: f32,
+    /// The x that draws those near it.
+    pub towards_x: Draw,
+    /// The y that draws those near it.
+    pub towards_y: Draw,
+    /// The point that draws everybody near it.
+    pub towards: (Vec2, f32),
+    /// Where midfielders go, x of a slot.
+    pub midfield: Draw,
+}
+
+impl Block {
+    /// Where a slot of the block lies.
+    pub fn place(&self, slot: Vec2) -> Vec2 {
+        let [back, front] = self.depth;
+        let middle = (1.0 - 1.2 * slot.x.abs()).max(0.0);
+        let moved = mix(slot.x, self.midfield.0, ease(middle) * self.midfield.1);
+        let plain = Vec2::new(back + (0.5 * moved + 0.5) * (front - back), self.middle_y + slot.y * self.half_width);
+        let (x, keen) = self.towards_x;
+        let near = 1.0 - ((x - plain.x) / (front - back)).abs().min(1.0);
+        let place_x = mix(plain.x, x, math::pow(ease(near), 0.8) * keen);
+        let (y, keen) = self.towards_y;
+        let near = 1.0 - ((y - plain.y) / (2.0 * self.half_width)).abs().min(1.0);
+        let place_y = mix(plain.y, y, near * (0.2 + 0.8 * y.abs() / HALF_Y) * keen);
+        self.drawn(plain, Vec2::new(place_x, place_y))
+    }
+
+    /// Draws a place towards the point, by how near to it the slot lies.
+    fn drawn(&self, plain: Vec2, place: Vec2) -> Vec2 {
+        let (point, keen) = self.towards;
+        let far = ((point - plain) * Vec2::new(1.0, 0.8)).length() / DRAW_M;
+        if keen <= 0.0 || far >= 1.0 {
+            return place;
+        }
+        let near = 1.0 - far;
+        let beside = 0.1 * (1.0 - ((far - 0.15).abs() / 0.25).min(1.0));
+        let pull = (mix(near, ease(near), 0.3) + beside).clamp(0.0, 1.0) * keen;
+        let to = Vec2::new(point.x, mix(point.y, place.y, 0.4));
+        place + (to - place) * pull
+    }
+}
+
+/// From `a` to `b` by a share.
+pub fn mix(a: f32, b: f32, share: f32) -> f32 {
+    a + (b - a) * share
+}
+
+/// A share 0..1, slow at both ends.
+pub fn ease(share: f32) -> f32 {
+    0.5 - 0.5 * math::cos(share * std::f32::consts::PI)
+}

@@ -3,7 +3,7 @@
 use crate::control::bot::formation;
 use crate::football::body::Body;
 use crate::football::play::Restart;
-use crate::football::{forecast, noise, reach, restart, set_piece, stats};
+use crate::football::{forecast, noise, reach, recent, restart, set_piece, stats};
 use crate::start::Drawn;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -40,6 +40,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     forecast::renew(&mut game);
     reach::assess(&mut game);
     start_of(&mut game, drawn, nearest);
+    recent::begin(&mut game);
     crate::control::switching::open(&mut game);
     crate::control::prepare(&mut game);
     game

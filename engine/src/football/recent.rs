@@ -8,6 +8,9 @@ use setpiece_scenario::vocabulary::Team;
 const PLACES: usize = 20;
 const APART_STEPS: u32 = 2;
 const APART_S: f32 = 0.1 * APART_STEPS as f32;
+/// The nearness of a team that alone is near the ball, and of the other.
+const NEAR: f32 = 1.5;
+const FAR: f32 = 0.5;
 /// What a team's nearness to the ball fades by in a step. (GRF's, of ten ticks.)
 const FADES: f32 = 0.0489;
 /// What is added to both teams' times to the ball before they are compared, seconds. (GRF's.)
@@ -53,12 +56,6 @@ impl Recent {
         }
     }
 
-    /// The ball lies somewhere else now: where it was says nothing any more.
-    pub fn forget_ball(&mut self) {
-        self.count = 0;
-        self.next = 0;
-    }
-
     /// Where the ball was on average for so many seconds, at most four.
     pub fn ball_mean(&self, ball: Vec2, seconds: f32) -> Vec2 {
         let wanted = ((seconds / APART_S) as usize).min(usize::from(self.count));
@@ -73,16 +70,38 @@ impl Recent {
     }
 }
 
-/// Takes a step in.
-pub fn remember(game: &mut Match) {
-    let soonest = [Team::Left, Team::Right].map(|team| {
-        game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.body.meet_s)).min(60.0) + CALM_S
-    });
-    let holder = match (game.play.hands, game.play.set_piece) {
+/// A start, and the moment in which play goes on after a stop: whose the ball is counts as having had it, or whoever is
+/// sooner at it. (GRF's.)
+pub fn begin(game: &mut Match) {
+    let [left, right] = soonest(game);
+    let sooner = if left < right { Team::Left } else { Team::Right };
+    let team = holder(game).or(game.play.kick_off).unwrap_or(sooner);
+    let recent = &mut game.play.recent;
+    (recent.next, recent.count) = (0, 0);
+    recent.nearness = [FAR; 2];
+    recent.nearness[team.index()] = NEAR;
+}
+
+/// The team that has the ball to itself: in hands, or at a set piece.
+fn holder(game: &Match) -> Option<Team> {
+    match (game.play.hands, game.play.set_piece) {
         (Some((keeper, _)), _) => Some(keeper.team()),
         (_, Some(set_piece)) => Some(set_piece.team),
         _ => None,
-    };
+    }
+}
+
+/// In how many seconds each team is at the ball, and some.
+fn soonest(game: &Match) -> [f32; 2] {
+    [Team::Left, Team::Right].map(|team| {
+        game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.body.meet_s)).min(60.0) + CALM_S
+    })
+}
+
+/// Takes a step in.
+pub fn remember(game: &mut Match) {
+    let soonest = soonest(game);
+    let holder = holder(game);
     let ahead = match game.possession {
         Some(team) => 0.1 * team.side() as f32,
         None => 0.0,
@@ -94,14 +113,10 @@ pub fn remember(game: &mut Match) {
     });
     let recent = &mut game.play.recent;
     for (team, nearness) in recent.nearness.iter_mut().enumerate() {
-        let now = (soonest[1 - team] / soonest[team]).clamp(0.5, 1.5);
+        let now = (soonest[1 - team] / soonest[team]).clamp(FAR, NEAR);
         *nearness = match holder {
             Some(held) => {
-                if held.index() == team {
-                    1.5
-                } else {
-                    0.5
-                }
+                if held.index() == team { NEAR } else { FAR }
             }
             None => *nearness + (now - *nearness) * FADES,
         };

@@ -3,7 +3,7 @@
 use crate::control::bot::formation;
 use crate::football::body::{Intent, NEVER, Pose};
 use crate::football::play::{Restart, SetPiece};
-use crate::football::{forecast, reach, set_piece};
+use crate::football::{forecast, reach, recent, set_piece};
 use crate::state::{Ball, Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, CIRCLE_RADIUS_M};
@@ -54,6 +54,7 @@ pub fn place(game: &mut Match, restart: Restart) {
     face_ball(game);
     forecast::renew(game);
     reach::assess(game);
+    recent::begin(game);
     crate::control::switching::reassign(game);
 }
 
@@ -157,7 +158,6 @@ fn calm(game: &mut Match) {
 /// Lays the ball down.
 fn lay_ball(game: &mut Match, spot: Vec2) {
     game.ball = Ball { pos: spot.extend(BALL_RADIUS_M as f32), vel: Vec3::ZERO, spin: Vec3::ZERO };
-    game.play.recent.forget_ball();
 }
 
 /// Everyone looks at the ball.

@@ -10,6 +10,9 @@ use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
 use setpiece_scenario::vocabulary::{GameMode, Rule, StartKind, Stat, Team};
 
+/// Ticks before which nobody touches the ball of a start. Measured.
+const FIRST_TICKS: i32 = 12;
+
 /// The match that a drawn start begins with.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = Match::blank(drawn);
@@ -20,6 +23,7 @@ pub fn begin(drawn: &Drawn) -> Match {
         let mut body = Body::blank();
         body.stats = stats::stats_of(index, start);
         body.level = 0.3 + 0.7 * start.difficulty.clamp(0.0, 1.0);
+        body.ready_at = FIRST_TICKS;
         body.speed_top_mps = stats::speed_top(body.stats[Stat::Speed.index()]);
         body.height_m = stats::height_of(index);
         body.kickoff = [start.pos; 2];

@@ -23,6 +23,13 @@ const CARRIED_M: [f32; 2] = [0.42, 0.64];
 const LINE_CARE_M: f32 = 0.3;
 /// Whom an agent drives minds a line until he is as near to it, metres; chosen.
 const AT_LINE_M: f32 = 0.65;
+/// How fast a ball is pushed off that lies still: shares of the speed that is wanted and of the runner's. Measured.
+const PUSHED_OFF: f32 = 0.6;
+const RUN_INTO: f32 = 0.4;
+/// How much of what the ball is beside a dribbler's line stays in a touch; chosen.
+const BESIDE: f32 = 0.8;
+/// A slower ball lies still, m/s; chosen.
+pub(super) const LIES_MPS: f32 = 1.0;
 /// How far a dribbling touch strays: next to nothing while nobody is near (measured: the same keys lead to the same place
 /// within centimetres), more with an opponent about.
 const FREE_WILD: f32 = 0.004;
@@ -88,7 +95,7 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
             ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
         }
     }
-    let care = Care { pressed: pressed(game, id), lines: minds_lines(game, id) };
+    let care = Care { pressed: pressed(game, id), lines: minds_lines(game, id), lies: rolling < LIES_MPS };
     let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
     let wild = if care.pressed { PRESSED_WILD } else { FREE_WILD };
     let wild = wild * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
@@ -117,6 +124,8 @@ pub(super) struct Care {
     pub(super) pressed: bool,
     /// The lines: he doesn't push the ball over them.
     pub(super) lines: bool,
+    /// Whether the ball lies still.
+    pub(super) lies: bool,
 }
 
 /// The ball's velocity with which he meets it again a moment later, running at `speed` along `ahead`.
@@ -135,7 +144,13 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
     let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
     let cut = if care.lines { within_lines(player.pos, free) } else { None };
-    let place = cut.unwrap_or(free);
+    if care.lies && cut.is_none() {
+        // A ball that lies is pushed off, and run after.
+        return ahead * (PUSHED_OFF * speed + RUN_INTO * pace);
+    }
+    // Whoever does not turn comes to the ball's line rather than the ball to theirs.
+    let beside = if turns { Vec2::ZERO } else { (to_ball - ahead * to_ball.dot(ahead)) * BESIDE };
+    let place = cut.unwrap_or(free + beside);
     let way = place - to_ball;
     let distance = way.length();
     let average = distance / time;

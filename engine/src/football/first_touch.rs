@@ -58,7 +58,8 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     };
     let wish = player.body.dribble;
     let to_ball = ball.pos.truncate() - player.pos;
-    let care = dribble::Care { pressed: false, lines: dribble::minds_lines(game, id) };
+    let lies = ball.vel.length_squared() < dribble::LIES_MPS * dribble::LIES_MPS;
+    let care = dribble::Care { pressed: false, lines: dribble::minds_lines(game, id), lies };
     let ahead = wish.normalize_or_zero();
     let hard = meeting > HOPS_MPS;
     let soft = match (wish.length_squared() > 0.25, hard) {

@@ -30,6 +30,8 @@ const GOAL: Vec2 = Vec2::new(HALF_LENGTH_M as f32, 0.0);
 const HOLD_M: f32 = 6.0;
 /// Steps between two decisions of a player far from the ball.
 const STAGGER: u32 = 2;
+/// How near to what happens everyone decides in every step, metres; chosen.
+const NEAR_M: f32 = 15.0;
 /// Steps between two times that slots and opponents are given out. (GRF's.)
 const ASSIGN_EVERY: u32 = 4;
 /// How far ahead the offside line is reckoned, seconds. (GRF's.)
@@ -213,9 +215,10 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         press::second(game, events, view, id);
         return;
     }
+    let player = game.player(id);
     let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
-    let was_on_ball = matches!(game.player(id).body.intent, Intent::Ball(_));
-    if !due && !was_on_ball {
+    let near = (player.pos * view.side).distance_squared(view.action_at(game)) < NEAR_M * NEAR_M;
+    if !due && !near && matches!(player.body.intent, Intent::Go(..)) {
         return;
     }
     game.players[id.index()].body.kick = None;

@@ -116,7 +116,11 @@ pub fn remember(game: &mut Match) {
         let now = (soonest[1 - team] / soonest[team]).clamp(FAR, NEAR);
         *nearness = match holder {
             Some(held) => {
-                if held.index() == team { NEAR } else { FAR }
+                if held.index() == team {
+                    NEAR
+                } else {
+                    FAR
+                }
             }
             None => *nearness + (now - *nearness) * FADES,
         };

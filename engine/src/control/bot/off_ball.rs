@@ -3,6 +3,7 @@
 use crate::control::bot::formation::{mindset, share};
 use crate::control::bot::{View, formation, mark, send, support};
 use crate::football::block::ease;
+use crate::football::body::Intent;
 use crate::football::movement::SPRINT_MPS;
 use crate::math;
 use crate::state::{Match, PlayerId};
@@ -62,6 +63,11 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
     }
     let pace = pace(lazily(game, view, id, own.distance(to) * HASTE));
     send(game, view, id, to, pace);
+    // In the thick of it nobody slows down before they are there.
+    if far < 1.0 {
+        let way = (to - own).normalize_or_zero() * view.side;
+        game.players[id.index()].body.intent = Intent::Run(way * pace);
+    }
 }
 
 /// The speed at which somebody runs who wants to run so fast.

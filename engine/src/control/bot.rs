@@ -206,14 +206,13 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         }
         return;
     }
-    let [first, second] = pressers(game, view);
-    if first == Some(id) || game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
-        press::first(game, events, view, id);
-        return;
+    if press::stands_in(game, view, id) {
+        return press::meet(game, events, view, id);
     }
-    if second == Some(id) {
-        press::second(game, events, view, id);
-        return;
+    match presses(game, view, id) {
+        Some(None) => return press::fetch(game, view, id),
+        Some(Some(rival)) => return press::hunt(game, events, view, id, rival),
+        None => {}
     }
     let player = game.player(id);
     let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
@@ -225,30 +224,30 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     off_ball::place(game, view, id);
 }
 
-/// Who goes for the ball, and who helps: who is there first while the ball is the team's to have; else the two nearest to
-/// the opponent who has it, if they are near enough and mark nobody. (GRF's.)
-fn pressers(game: &Match, view: &View) -> [Option<PlayerId>; 2] {
-    let first = game.play.chaser[view.team.index()];
-    if view.action.is_none_or(|id| id.team() == view.team) {
-        return [first, None];
+/// Whether a player goes for the ball: the first of their team for one that is the team's to have; for an opponent's, the
+/// two who are nearest, if they are near enough and mark nobody. (GRF's.)
+fn presses(game: &Match, view: &View, id: PlayerId) -> Option<Option<PlayerId>> {
+    if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
+        return Some(None);
     }
+    let first = game.play.chaser[view.team.index()];
+    let held = game.play.hands.is_some();
+    if held || view.action.is_none_or(|action| action.team() == view.team) {
+        return (first == Some(id) && !held).then_some(None);
+    }
+    let rival = view.rival(game)?;
     if game.play.team_pressure[view.team.index()] {
         let [second, third] = game.play.behind[view.team.index()];
-        let mut queue = [first, second, third].into_iter().flatten().filter(|id| game.play.driven & (1 << id.0) == 0);
-        return [queue.next(), queue.next()];
+        let queue = [first, second, third].into_iter().flatten().find(|id| game.play.driven & (1 << id.0) == 0);
+        return (queue == Some(id)).then_some(Some(rival));
     }
-    let Some(rival) = view.rival(game) else { return [None; 2] };
-    if view.best {
-        return [None; 2];
-    }
-    let other = game.player(rival);
-    let mut hunters = support::nearest::<2>(game, view.team, other.pos + other.vel * 0.1, None).map(|id| {
-        let player = game.player(id);
-        let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
-        (player.role != Role::GK && player.body.mind.mark.is_none() && gap < press::hunt_m(game, player)).then_some(id)
-    });
-    let [a, b] = [hunters.next().flatten(), hunters.next().flatten()];
-    if a.is_some() { [a, b] } else { [b, None] }
+    let (player, other) = (game.player(id), game.player(rival));
+    let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
+    let may = !view.best && player.body.mind.mark.is_none() && player.role != Role::GK;
+    let hunts = may
+        && gap < press::hunt_m(game, player)
+        && support::nearest::<2>(game, view.team, other.pos + other.vel * 0.1, None).any(|near| near == id);
+    hunts.then_some(Some(rival))
 }
 
 /// Whether the bot may pass and shoot for him: not for the mates of an agent who can be given to it.

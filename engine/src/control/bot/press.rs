@@ -1,35 +1,33 @@
-//! Going for the ball: the first man chases or presses, the second covers behind him.
+//! Going for the ball: a free one, or one that an opponent has.
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::{GOAL, View, on_ball, send};
+use crate::control::bot::{GOAL, View, off_ball, on_ball};
 use crate::event::Events;
 use crate::football::body::{Intent, Pose};
-use crate::football::movement::{RUN_MPS, SPRINT_MPS};
+use crate::football::movement::SPRINT_MPS;
 use crate::football::{noise, slide};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::{Role, Stat};
 
 /// A carrier slower than this stands, m/s.
 const STANDS_MPS: f32 = 1.0;
 /// He is behind the carrier whose direction and the ball's, seen from there, have a smaller cosine.
 const BEHIND: f32 = -0.2;
-/// A mate this near to the carrier helps, metres; chosen.
-const HELP_M: f32 = 18.0;
-/// How far ahead a carrier is expected, seconds. (GRF's.)
-const AHEAD_S: f32 = 0.5;
-/// From how far a carrier could shoot: nearer to the goal a defender stands in their feet, metres. (GRF's.)
-const SHOOT_M: f32 = 24.0;
-/// How far before a carrier a lone defender goes back: a share of what the carrier has left, and its limits, metres.
-/// Fitted to where the measured one stands and is met.
-const CONTAIN_SHARE: f32 = 0.5;
-const CONTAIN_M: f32 = 9.0;
-const CLOSE_M: f32 = 0.4;
-/// Who would be at the ball in less than this much of the carrier's time, of both and a fifth of a second, fights for it.
-/// (GRF's.)
-const FIGHTS: f32 = 0.8;
-/// From how near a hunter goes for the ball, metres; chosen.
+/// How far ahead a carrier is reckoned to be, seconds, and how far from them hunters meet them, metres. (GRF's.)
+const AHEAD_S: f32 = 0.14;
+const AHEAD_M: f32 = 0.1 * SPRINT_MPS;
+/// A hunter who has the carrier straight before them, and at least so far, waits: metres, and the slope that counts as
+/// straight. (GRF's.)
+const WAITS_M: f32 = 0.5;
+const STRAIGHT: f32 = 0.8;
+/// A ball is met that comes so near in so many ticks, metres, where the player is so many seconds from now, if the carrier
+/// does not stand between: a smaller cosine than this. Measured: defenders plant their feet about that long before.
+const MEETS_M: f32 = 0.7;
+const MEETS_TICKS: u32 = 30;
+const MEETS_AHEAD_S: f32 = 0.1;
+const OPEN_TO: f32 = 0.6;
+/// From how near a hunter goes for the ball itself, metres; chosen.
 const CHALLENGE_M: f32 = 2.0;
 /// How far beside a carrier a defender runs past them, and how far ahead of them they are beside the ball, metres; chosen.
 const SHOULDER_M: f32 = 0.85;
@@ -45,112 +43,80 @@ const LONG_TOUCH_M: f32 = 0.62;
 const OPEN: f32 = 0.4;
 /// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
 const SLIDES: f32 = 0.15;
-/// How near, as a share of how far they hunt, the first of two goes out; chosen between how often bots and agents lose it.
-const HUNTS_AT: f32 = 0.6;
 /// How far he passes from the carrier's middle, metres.
 const ROUND_M: f32 = 0.9;
 
-/// The first man.
-pub fn first(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
-    let rival = view.owner.filter(|owner| owner.team() != view.team);
-    let held = game.play.hands.is_some_and(|(keeper, _)| keeper.team() != view.team);
+/// Goes for a ball that is the team's to have.
+pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
     let player = *game.player(id);
-    let own = player.pos * view.side;
-    if held {
-        send(game, view, id, Vec2::new(view.ball.x - 18.0, view.ball.y * 0.5), RUN_MPS);
-        return;
+    let to_ball = player.body.meet - player.pos;
+    let body = &mut game.players[id.index()].body;
+    body.intent = Intent::Ball(SPRINT_MPS);
+    body.dribble = to_ball.clamp_length_max(2.0);
+    if player.body.meet_s < 0.7 {
+        on_ball::before_touch(game, view, id);
     }
-    let Some(rival) = rival else {
-        let receives = game.play.pass.is_some_and(|pass| pass.by.team() == view.team);
-        let beaten = game.play.chaser[view.team.other().index()].map_or(9.0, |other| game.player(other).body.meet_s)
-            + 1.2
-            < player.body.meet_s;
-        if beaten && !receives && own.x > view.ball.x {
-            cover(game, view, id);
-            return;
-        }
-        let to_ball = player.body.meet - player.pos;
-        let body = &mut game.players[id.index()].body;
-        body.intent = Intent::Ball(SPRINT_MPS);
-        body.dribble = to_ball.clamp_length_max(2.0);
-        if player.body.meet_s < 0.7 {
-            on_ball::before_touch(game, view, id);
-        }
-        return;
-    };
-    let carrier = *game.player(rival);
-    let gap = player.pos.distance(carrier.pos);
-    let told = game.play.team_pressure[view.team.index()];
-    let goalside = own.x < view.ball.x + 0.5;
-    // With mates about, whoever is about as soon at the ball as the carrier fights for it, and for one that lingers.
-    // Else who stands in the way goes back with the carrier, and who is behind hunts where it is near enough.
-    let alone = alone(game, id, carrier.pos);
-    let fights = (carrier.body.meet_s + 0.2) / (player.body.meet_s + 0.2) > FIGHTS;
-    let goes = told || !alone && (fights || lingers(game, rival));
+}
+
+/// Goes for the ball of an opponent: who has them straight before them waits in their place instead. (GRF's.)
+pub fn hunt(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, rival: PlayerId) {
     maybe_slide(game, events, view, id, rival);
     if game.player(id).body.pose == Pose::Sliding {
         return;
     }
-    if !goes && !alone && gap < HUNTS_AT * hunt_m(game, &player) {
-        hunt(game, view, id, rival);
+    let carrier = *game.player(rival);
+    let own = game.player(id).pos * view.side;
+    let place = carrier.pos * view.side;
+    let between = place - own;
+    let way = -GOAL - place;
+    // The point of the carrier's way that is as near to both.
+    let share = (0.5 * between.length_squared() / between.dot(-way).max(1e-3)).clamp(0.0, 1.0);
+    let point = place + way * share + way.normalize_or_zero() * AHEAD_M + carrier.vel * view.side * AHEAD_S;
+    let deep = (point.x - own.x).max(0.0) - WAITS_M;
+    if (point.y - own.y).abs() <= deep * STRAIGHT && !game.play.team_pressure[view.team.index()] {
+        off_ball::place(game, view, id);
         return;
     }
-    if !goes && goalside {
-        contain(game, view, id, &carrier);
-        return;
-    }
-    if !goes && gap > hunt_m(game, &player) {
-        cover(game, view, id);
-        return;
-    }
+    let near = between.length() < CHALLENGE_M;
+    let past = if near { alongside(view, own, &carrier).or_else(|| around_him(view, own, &carrier)) } else { None };
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
-    body.intent = match past_him(view, own, &carrier).or_else(|| around_him(view, own, &carrier)) {
+    body.intent = match past {
         Some(point) => Intent::Go(point * view.side, SPRINT_MPS),
         None => Intent::Ball(SPRINT_MPS),
     };
+}
+
+/// Whether the ball that an opponent has is about to come to a player: they plant their feet and go for it.
+pub fn stands_in(game: &Match, view: &View, id: PlayerId) -> bool {
+    let Some(rival) = view.owner.filter(|owner| owner.team() != view.team) else { return false };
+    let (player, carrier) = (game.player(id), game.player(rival));
+    let ball = game.play.forecast.at(game.tick + MEETS_TICKS);
+    let at = player.pos + player.vel * MEETS_AHEAD_S;
+    let free = (carrier.pos - player.pos).normalize_or_zero().dot((ball.truncate() - carrier.pos).normalize_or_zero());
+    ball.z < 0.5
+        && ball.truncate().distance_squared(at) < MEETS_M * MEETS_M
+        && free < OPEN_TO
+        && player.role != Role::GK
+}
+
+/// Meets a ball that comes with an opponent.
+pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
+    if let Some(rival) = view.owner {
+        maybe_slide(game, events, view, id, rival);
+    }
+    let body = &mut game.players[id.index()].body;
+    body.kick = None;
+    if body.pose != Pose::Sliding {
+        body.dribble = Vec2::new(2.0 * view.side, 0.0);
+        body.intent = Intent::Ball(SPRINT_MPS);
+    }
 }
 
 /// From how far a player hunts a carrier, metres. (GRF's.)
 pub fn hunt_m(game: &Match, player: &Player) -> f32 {
     let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.body.mean_mps / 8.0).min(1.0));
     (10.0 + 10.0 * (1.0 - mindset(game.player(player.body.mind.fills).role))) * rested * player.body.level
-}
-
-/// Whether no mate in the field is near enough to the carrier to help.
-fn alone(game: &Match, id: PlayerId, carrier: Vec2) -> bool {
-    let helps = |mate: PlayerId, player: &Player| {
-        mate != id
-            && player.role != Role::GK
-            && player.ai != Ai::Lazy
-            && player.pos.distance_squared(carrier) < HELP_M * HELP_M
-    };
-    !game.team(id.team()).any(|(mate, player)| helps(mate, player))
-}
-
-/// Goes back before a carrier, on their way to the goal, the nearer the closer they come to where they could shoot from:
-/// there the carrier runs into the defender. (GRF's.)
-fn contain(game: &mut Match, view: &View, id: PlayerId, carrier: &Player) {
-    let place = (carrier.pos + carrier.vel * AHEAD_S) * view.side;
-    let way = -GOAL - place;
-    let left_m = way.length() - SHOOT_M;
-    let off_m = (left_m * CONTAIN_SHARE).clamp(CLOSE_M, CONTAIN_M);
-    send(game, view, id, place + way.normalize_or_zero() * off_m, SPRINT_MPS);
-}
-
-/// Where he runs who has the carrier before him, in his own frame: past him, into his way to the goal; goal-side he
-/// goes straight in.
-fn past_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
-    let gap = own.distance(carrier.pos * view.side);
-    if own.x < view.ball.x + 0.5 {
-        let runs = carrier.vel.length() > 4.0 && (1.2..2.2).contains(&gap);
-        return runs.then(|| view.ball + carrier.vel * view.side * 0.25);
-    }
-    if gap < CHALLENGE_M {
-        return alongside(view, own, carrier);
-    }
-    let way = (-GOAL - view.ball).normalize_or(Vec2::NEG_X);
-    Some(view.ball + way * (gap * 0.6).clamp(1.5, 6.0) + carrier.vel * view.side * 0.3)
 }
 
 /// Where a defender runs who has a running carrier's back before them, in their own frame: past the carrier's shoulder;
@@ -164,11 +130,6 @@ fn alongside(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     }
     let shoulder = if way.perp_dot(from) < 0.0 { -way.perp() } else { way.perp() };
     Some(place + shoulder * SHOULDER_M + way * PAST_M)
-}
-
-/// Whether a bot stands with the ball: it looks for a pass. An agent who stands is not attacked. (Measured.)
-fn lingers(game: &Match, rival: PlayerId) -> bool {
-    stands(game.player(rival)) && game.play.driven & (1 << rival.0) == 0
 }
 
 /// Whether he stands still with the ball.
@@ -209,60 +170,4 @@ fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId,
     if noise::chooses(game, SLIDES * (0.4 + tackler)) {
         slide::begin(game, events, id, None);
     }
-}
-
-/// The second man.
-pub fn second(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
-    if view.owner.is_none() && game.player(id).body.meet_s < 1.0 && game.play.pass.is_none() {
-        let body = &mut game.players[id.index()].body;
-        body.intent = Intent::Ball(SPRINT_MPS);
-        body.dribble = Vec2::ZERO;
-        return;
-    }
-    let carrier = view.owner.filter(|owner| owner.team() != view.team && game.play.hands.is_none());
-    let player = game.player(id);
-    match carrier.filter(|rival| player.pos.distance(game.player(*rival).pos) < hunt_m(game, player)) {
-        Some(rival) => {
-            hunt(game, view, id, rival);
-            maybe_slide(game, events, view, id, rival);
-        }
-        None => cover(game, view, id),
-    }
-}
-
-/// Runs to the point of a carrier's way to goal that is as near to the carrier as to the hunter; from near for the ball.
-/// (GRF's.)
-fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
-    let carrier = *game.player(rival);
-    let (own, place) = (game.player(id).pos * view.side, carrier.pos * view.side);
-    let between = place - own;
-    if between.length() < CHALLENGE_M {
-        let body = &mut game.players[id.index()].body;
-        body.dribble = Vec2::new(2.0 * view.side, 0.0);
-        body.intent = match alongside(view, own, &carrier) {
-            Some(point) => Intent::Go(point * view.side, SPRINT_MPS),
-            None => Intent::Ball(SPRINT_MPS),
-        };
-        return;
-    }
-    let way = -GOAL - place;
-    // How much of the way it is: the middle between both, seen along it.
-    let share = (0.5 * between.length_squared() / between.dot(-way).max(1e-3)).clamp(0.0, 1.0);
-    let ahead = way.normalize_or_zero() * (0.1 * SPRINT_MPS) + carrier.vel * view.side * 0.14;
-    send(game, view, id, place + way * share + ahead, SPRINT_MPS);
-}
-
-/// Stands between the ball and the own goal, some metres off.
-pub fn cover(game: &mut Match, view: &View, id: PlayerId) {
-    let goal = Vec2::new(-54.0, 0.0);
-    let way = goal - view.ball;
-    let length = way.length().max(1.0);
-    let off = (length * 0.25).clamp(3.5, 8.0);
-    let own = game.player(id).pos * view.side;
-    let block = super::formation::place(game, view, id, id);
-    let spot = view.ball + way * (off / length);
-    let weight = if own.distance(view.ball) < 25.0 || view.ball.x < -15.0 { 0.75 } else { 0.4 };
-    let to = block + (spot - block) * weight;
-    let speed = if own.x > view.ball.x - 1.0 { SPRINT_MPS } else { 6.5 };
-    send(game, view, id, to, speed);
 }

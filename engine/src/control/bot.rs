@@ -6,9 +6,11 @@
 //!
 //! Figures of its files without a source are chosen: so that its matches come out as `docs/calibration.md` wants them.
 
+pub mod dribbling;
 pub mod formation;
 pub mod keeper;
 pub mod mark;
+pub mod odds;
 pub mod off_ball;
 pub mod on_ball;
 pub mod press;

@@ -27,7 +27,7 @@ const SURPRISED: f32 = 0.85;
 const POKED_MPS: f32 = 3.5;
 /// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
 /// how often the runner has it again soon.
-const BRUSHED: f32 = 0.65;
+const BRUSHED: f32 = 0.5;
 /// The same of keepers; fitted to where the ball goes from those who come out.
 const KEEPER_MPS: f32 = 7.5;
 const KEEPER_BRUSHED: f32 = 1.5;

@@ -71,7 +71,7 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
 }
 
 /// The speed at which somebody runs who wants to run so fast.
-fn pace(wanted_mps: f32) -> f32 {
+pub fn pace(wanted_mps: f32) -> f32 {
     PACES.into_iter().find(|(below, _)| wanted_mps < *below).map_or(SPRINT_MPS, |(_, pace)| pace)
 }
 

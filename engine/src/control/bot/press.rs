@@ -53,9 +53,7 @@ pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
     body.dribble = to_ball.clamp_length_max(2.0);
-    if player.body.meet_s < 0.7 {
-        on_ball::before_touch(game, view, id);
-    }
+    on_ball::before_touch(game, view, id);
 }
 
 /// Goes for the ball of an opponent: who has them straight before them waits in their place instead. (GRF's.)

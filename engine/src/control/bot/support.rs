@@ -31,28 +31,38 @@ const RUN_EVERY: u32 = 5;
 const HELPER_EVERY: u32 = 15;
 
 /// Forces on a point: their sum, and how strong they are together.
-struct Forces {
+pub struct Forces {
     at: Vec2,
     sum: Vec2,
     strength: f32,
 }
 
 impl Forces {
-    /// A point draws, everywhere as strongly.
-    fn draw(&mut self, to: Vec2, power: f32) {
+    /// No force yet.
+    pub fn at(at: Vec2) -> Forces {
+        Forces { at, sum: Vec2::ZERO, strength: 0.0 }
+    }
+
+    /// What they come to, no longer than 1.
+    pub fn mean(&self) -> Vec2 {
+        self.sum / self.strength.max(1e-3)
+    }
+
+    /// A point draws, everywhere as strongly; nearer than `damped` metres less.
+    pub fn draw(&mut self, to: Vec2, power: f32, damped: f32) {
         let way = to - self.at;
         let length = way.length();
-        self.sum += way.normalize_or_zero() * (power * (length / DAMPED_M).min(1.0));
+        self.sum += way.normalize_or_zero() * (power * (length / damped).min(1.0));
         self.strength += power;
     }
 
     /// A point draws, the more the nearer it is; not at all from `scale` metres on.
     fn draw_near(&mut self, to: Vec2, power: f32, scale: f32) {
-        self.draw(to, power * (1.0 - to.distance(self.at) / scale).max(0.0));
+        self.draw(to, power * (1.0 - to.distance(self.at) / scale).max(0.0), DAMPED_M);
     }
 
     /// A point pushes, the more the nearer it is; not at all from `scale` metres on.
-    fn push(&mut self, from: Vec2, power: f32, scale: f32, exponent: f32) {
+    pub fn push(&mut self, from: Vec2, power: f32, scale: f32, exponent: f32) {
         let way = self.at - from;
         let near = 1.0 - way.length() / scale;
         if near > 0.0 {
@@ -76,7 +86,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     let ahead = game.play.chaser[view.team.index()].filter(|&chaser| chaser != id);
     let main = game.play.chaser[view.team.index()].map_or(at, soon);
     let runs = player.body.mind.run_until_step > game.step && may_run(role, view.nearness);
-    let mut forces = Forces { at, sum: Vec2::ZERO, strength: 0.0 };
+    let mut forces = Forces::at(at);
 
     let mut base = base;
     if game.play.recent.helper[view.team.index()] == Some(id) {
@@ -87,9 +97,9 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
         let in_lane = ease(1.0 - share((lane_y - at.y).abs(), 0.0, 30.0));
         base.x += 22.0 * in_lane * mind * mind.sqrt();
     }
-    forces.draw(base, 0.7 * (0.3 + 0.7 * share(base.distance(at), 0.0, 20.0)));
+    forces.draw(base, 0.7 * (0.3 + 0.7 * share(base.distance(at), 0.0, 20.0)), DAMPED_M);
     if runs {
-        forces.draw(Vec2::new(HALF.x, 0.5 * at.y), 2.0);
+        forces.draw(Vec2::new(HALF.x, 0.5 * at.y), 2.0, DAMPED_M);
     }
     let caution = match role {
         Role::CB | Role::LB | Role::RB => 2.2,
@@ -122,7 +132,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
         forces.draw_near(main, 0.45, 21.0);
         forces.push(main, 0.45, 12.0, 1.0);
     }
-    let mut to = at + forces.sum / forces.strength.max(1e-3) * SPRINT_TOP_MPS;
+    let mut to = at + forces.mean() * SPRINT_TOP_MPS;
     to.x = to.x.min(view.line_x - ONSIDE_M);
     to.clamp(-HALF, HALF)
 }

@@ -41,6 +41,8 @@ const PANIC_M: std::ops::Range<f32> = 2.0..16.0;
 const KEEPER_CALM: f32 = 3.0;
 /// From how many seconds before the ball comes a player thinks of what to do with it.
 const AHEAD_S: f32 = 1.0;
+/// How far off in time a rival must be for a clearance to come off, seconds; chosen.
+const SWING_S: f32 = 0.1;
 /// Ticks after which a kick that did not come off is thought over; chosen.
 const MIND_TICKS: i32 = 80;
 
@@ -53,23 +55,32 @@ pub fn decide(game: &mut Match, view: &View, id: PlayerId) {
         return;
     }
     game.players[id.index()].body.intent = Intent::Ball(SPRINT_MPS);
-    if game.player(id).body.kick.is_some() {
+    if swings(game, id) {
         return;
     }
     match choose(game, view, id) {
         Some(act) => perform(game, view, id, act),
-        None => game.players[id.index()].body.dribble = dribbling::way(game, view, id),
+        None => {
+            let way = dribbling::way(game, view, id);
+            let body = &mut game.players[id.index()].body;
+            (body.dribble, body.kick) = (way, None);
+        }
     }
+}
+
+/// Whether a player's leg swings already: until then a kick can be thought over.
+fn swings(game: &Match, id: PlayerId) -> bool {
+    game.player(id).body.kick.is_some_and(|plan| plan.swing.is_some())
 }
 
 /// Decides for the player who will have the ball soon.
 pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
-    let player = game.player(id);
-    if player.body.kick.is_some() || game.play.led[view.team.index()] || player.body.meet_s > AHEAD_S {
+    if swings(game, id) || game.play.led[view.team.index()] || game.player(id).body.meet_s > AHEAD_S {
         return;
     }
-    if let Some(act) = choose(game, view, id) {
-        perform(game, view, id, act);
+    match choose(game, view, id) {
+        Some(act) => perform(game, view, id, act),
+        None => game.players[id.index()].body.kick = None,
     }
 }
 
@@ -153,7 +164,8 @@ fn must_clear(game: &Match, view: &View, id: PlayerId, pass: f32) -> bool {
         return ahead < KEEPER_CALM;
     }
     let close = 1.0 - share((player.pos * view.side).distance(-GOAL), PANIC_M.start, PANIC_M.end);
-    (pass == 0.0 || pass < close) && ahead < 0.9 + 0.8 * close
+    // With a rival at the ball there is no time to swing.
+    rival_s > SWING_S && (pass == 0.0 || pass < close) && ahead < 0.9 + 0.8 * close
 }
 
 /// Where to shoot at, own frame; none from where nobody would.

@@ -17,12 +17,14 @@ const LEAST: f32 = 0.025;
 const STANDS: f32 = 0.06;
 /// How much more often against a carrier who runs into the tackler; fitted to how soon a runner loses it head-on.
 const INTO: f32 = 0.4;
+/// How far behind a carrier that begins to count, a cosine; chosen.
+const BESIDE: f32 = 0.5;
 /// The tackling for which these hold: a centre back's of the middle difficulty; less skill meets the ball less often.
 const AVERAGE: f32 = 0.5;
 /// By how much faster than the carrier a ball has just been pushed past the tackler, m/s, and how much less often it is met
 /// then; fitted to how many get through at a sprint.
 const PUSHED_MPS: f32 = 1.5;
-const SURPRISED: f32 = 0.85;
+const SURPRISED: f32 = 0.5;
 /// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
 const POKED_MPS: f32 = 3.5;
 /// How much of the tackler's velocity the ball takes over, and how softly it may be poked; fitted to how near it stays.
@@ -32,7 +34,7 @@ const SOFTEST: f32 = 0.3;
 const FAST_MPS: std::ops::Range<f32> = 5.0..8.0;
 const STOPPED: f32 = 0.6;
 /// What a ball keeps of its speed that is only brushed. Measured.
-const LEFT: f32 = 0.6;
+const LEFT: f32 = 0.75;
 /// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
 /// how often the runner has it again soon.
 const BRUSHED: f32 = 0.5;
@@ -67,7 +69,8 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let still = (1.0 - victim.vel.length() / 1.5).max(0.0);
     // Whoever runs into a defender with the ball runs it onto their feet.
     let run = victim.vel.normalize_or_zero();
-    let into = (tackler.pos - victim.pos).normalize_or_zero().dot(run).max(0.0) * (1.0 - still);
+    let into = (tackler.pos - victim.pos).normalize_or_zero().dot(run);
+    let into = ((into + BESIDE) / (1.0 + BESIDE)).max(0.0) * (1.0 - still);
     // A ball just pushed past the tackler is not where they thought.
     let pushed = (game.ball.vel.length() - victim.vel.length()) / PUSHED_MPS;
     let meets = 1.0 - SURPRISED * pushed.clamp(0.0, 1.0);

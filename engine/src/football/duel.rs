@@ -28,13 +28,13 @@ const SURPRISED: f32 = 0.5;
 /// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
 const POKED_MPS: f32 = 3.5;
 /// How much of the tackler's velocity the ball takes over, and how softly it may be poked; fitted to how near it stays.
-const FOLLOWS: f32 = 0.5;
+const FOLLOWS: f32 = 0.9;
 const SOFTEST: f32 = 0.3;
 /// Between these speeds, m/s, balls are less and less often only brushed, at the faster by this share.
 const FAST_MPS: std::ops::Range<f32> = 5.0..8.0;
 const STOPPED: f32 = 0.6;
-/// What a ball keeps of its speed that is only brushed. Measured.
-const LEFT: f32 = 0.75;
+/// What a ball that is only brushed keeps of its speed past the tackler. Measured.
+const LEFT: f32 = 0.6;
 /// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
 /// how often the runner has it again soon.
 const BRUSHED: f32 = 0.5;
@@ -108,10 +108,11 @@ fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, bal
     let (poked, brush) = if keeper { (KEEPER_MPS, KEEPER_BRUSHED) } else { (POKED_MPS, BRUSHED) };
     let met = tackler.vel * FOLLOWS + away * (poked * (SOFTEST + (1.0 - SOFTEST) * noise::roll(game)));
     // A fast ball does not get past a foot that is there.
-    let fast = (game.ball.vel.truncate().length() - FAST_MPS.start) / (FAST_MPS.end - FAST_MPS.start);
+    let passing = game.ball.vel.truncate() - tackler.vel;
+    let fast = (passing.length() - FAST_MPS.start) / (FAST_MPS.end - FAST_MPS.start);
     let brushed = math::smooth(math::smooth(libm::powf(noise::roll(game), brush)));
     let brushed = brushed * (1.0 - STOPPED * fast.clamp(0.0, 1.0));
-    let velocity = met.lerp(game.ball.vel.truncate() * LEFT, brushed);
+    let velocity = met.lerp(tackler.vel + passing * LEFT, brushed);
     let hop = (0.5 + noise::roll(game)) * (1.0 - brushed);
     report::did(game, events, EventKind::Tackle, id, Some(rival));
     touch::push(game, events, id, velocity, hop);

@@ -31,6 +31,8 @@ pub struct Play {
     pub hands: Option<(PlayerId, u32)>,
     /// Who had the ball last.
     pub last_owner: Option<PlayerId>,
+    /// Since which tick that player has had it.
+    pub owned_since: u32,
     /// Who kicked the ball on purpose last (the back-pass rule), by foot.
     pub kicked_by: Option<PlayerId>,
     /// Players in an offside position when the ball was last touched, a bit each.
@@ -152,6 +154,7 @@ impl Play {
             behind: [[None; 2]; 2],
             recent: Recent::blank(),
             last_owner: None,
+            owned_since: 0,
             lead: Team::Left,
             kick_off: None,
             kick_off_tick: 0,

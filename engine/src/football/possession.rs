@@ -30,8 +30,9 @@ pub fn update(game: &mut Match, events: &mut Events) {
         }
         game.possession = team;
     }
-    if owner.is_some() {
+    if owner.is_some() && owner != game.play.last_owner {
         game.play.last_owner = owner;
+        game.play.owned_since = game.tick;
     }
     game.owner = owner;
 }

@@ -23,14 +23,14 @@ const TO_MIDDLE: f32 = 0.28;
 /// How fast a player runs for a force of one, m/s.
 const FORCE_MPS: f32 = 20.8;
 
-/// The velocity that somebody with the ball wants, world m/s.
-pub fn way(game: &Match, view: &View, id: PlayerId) -> Vec2 {
+/// The velocity that somebody with the ball wants, world m/s; `shy`: how much opponents count.
+pub fn way(game: &Match, view: &View, id: PlayerId, shy: f32) -> Vec2 {
     let player = game.player(id);
     let own = player.pos * view.side;
     let mut forces = Forces::at(own + player.vel * view.side * AHEAD_S);
     for rival in nearest::<RIVALS>(game, view.team.other(), player.pos, None) {
         let rival = game.player(rival);
-        forces.push((rival.pos + rival.vel * AHEAD_S) * view.side, RIVAL.0, RIVAL.1, 1.0);
+        forces.push((rival.pos + rival.vel * AHEAD_S) * view.side, RIVAL.0 * shy, RIVAL.1, 1.0);
     }
     let side_line = Vec2::new(own.x, math::sign_or(own.y, 1.0) * (HALF_WIDTH_M as f32 + LINE_OUT_M));
     let goal_line = Vec2::new(math::sign_or(own.x, 1.0) * (HALF_LENGTH_M as f32 + LINE_OUT_M), own.y);

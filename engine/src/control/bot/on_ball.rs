@@ -35,6 +35,10 @@ const NEARNESS: [f32; 2] = [2.0, 6.0];
 const TO_KEEPER: f32 = 0.7;
 /// What a pass must be worth at least.
 const PASS_LEAST: f32 = 0.1;
+/// After how many seconds with the ball a pass is worth least.
+const LONG_S: f32 = 5.0;
+/// How much less they mind opponents then, so that nobody waits for the other for ever; chosen.
+const DARES: f32 = 0.6;
 /// How near to goal defenders are in a hurry to clear, metres.
 const PANIC_M: std::ops::Range<f32> = 2.0..16.0;
 /// A keeper clears a ball that a rival is less than this many times as far from, in time.
@@ -58,13 +62,10 @@ pub fn decide(game: &mut Match, view: &View, id: PlayerId) {
     if swings(game, id) {
         return;
     }
+    game.players[id.index()].body.dribble = dribbling::way(game, view, id, 1.0 - DARES * long(game, id));
     match choose(game, view, id) {
         Some(act) => perform(game, view, id, act),
-        None => {
-            let way = dribbling::way(game, view, id);
-            let body = &mut game.players[id.index()].body;
-            (body.dribble, body.kick) = (way, None);
-        }
+        None => game.players[id.index()].body.kick = None,
     }
 }
 
@@ -112,6 +113,13 @@ fn placed(game: &Match, view: &View, id: PlayerId, nearness: f32) -> f32 {
 /// The speed that all others are measured by, m/s.
 const SPRINT_TOP_MPS: f32 = 8.0;
 
+/// How long a player has had the ball, 0..1: 1 from five seconds on.
+fn long(game: &Match, id: PlayerId) -> f32 {
+    let ticks = if game.owner == Some(id) { game.tick.saturating_sub(game.play.owned_since) } else { 0 };
+    let long = (ticks as f32 * 0.01 / LONG_S).min(1.0);
+    long * long
+}
+
 /// The best pass: its odds, to whom, which; none if running on is better.
 fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, KickKind)> {
     let player = game.player(id);
@@ -122,8 +130,10 @@ fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, 
     let tactics = 1.0 + 10.0 * mind * mind;
     let apart = (game.ball.vel.truncate() - player.vel).length();
     let hard = (apart / 10.0).min(1.0) * (1.0 - 0.8 * player.skill(Stat::ShortPass));
+    // Whoever has had it for long lets it go for less.
+    let long = long(game, id);
     let mut best = None;
-    let mut most = PASS_LEAST;
+    let mut most = PASS_LEAST * (1.0 - 0.5 * long);
     for (mate, other) in game.team(view.team) {
         if mate == id {
             continue;
@@ -141,7 +151,7 @@ fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, 
             }
         }
         let worth = ((gains - own) * tactics + odds.0 - hard) / (tactics + 1.0);
-        if worth > most && odds.0 > 0.2 * (1.0 - mind) {
+        if worth > most && odds.0 > 0.2 * (1.0 - mind) - 0.1 * long {
             most = worth;
             best = Some((odds.0, mate, odds.1));
         }
@@ -191,6 +201,14 @@ fn shot(game: &mut Match, view: &View, id: PlayerId) -> Option<Vec2> {
 
 /// Turns the choice into a kick.
 fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
+    let (kind, mate) = match act {
+        Act::Shoot(_) => (KickKind::Shot, None),
+        Act::Pass(mate, kind) => (kind, Some(mate)),
+        Act::Clear => (KickKind::Clear, None),
+    };
+    if game.player(id).body.kick.is_some_and(|plan| plan.kind == kind && plan.mate == mate) {
+        return;
+    }
     let until = game.tick as i32 + MIND_TICKS;
     let plan = |kind: KickKind| KickPlan { until, ..kick::planned(kind, game.tick) };
     let (shot, clearance) = (plan(KickKind::Shot), plan(KickKind::Clear));
@@ -205,7 +223,6 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
             game.players[id.index()].body.kick = Some(plan);
         }
         Act::Pass(mate, kind) => {
-            body.dribble = Vec2::ZERO;
             body.kick = Some(KickPlan { until, mate: Some(mate), ..kick::planned(kind, game.tick) });
         }
         Act::Clear => {

@@ -154,8 +154,10 @@ pub fn think(game: &mut Match, events: &mut Events) {
     let views = [View::of(game, Team::Left), View::of(game, Team::Right)];
     for team in game.teams() {
         let view = &views[team.index()];
-        if game.step.is_multiple_of(ASSIGN_EVERY) {
+        let turn = (game.step + 2 * (1 - team.index() as u32)) % ASSIGN_EVERY;
+        if turn == 0 {
             formation::swap_slots(game, view);
+        } else if turn == ASSIGN_EVERY - 1 {
             mark::assign(game, view);
         }
         support::assign(game, view);

@@ -4,7 +4,7 @@
 //! all of them. Leaves to `control` where he wants to go.
 
 use crate::football::body::{Intent, Pose};
-use crate::football::dribble::SPRINTS_MPS;
+use crate::football::dribble::{LIES_MPS, SOLE_M, SPRINTS_MPS};
 use crate::football::rows::{ROWS, WIDTH};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::state::{Match, Player, PlayerId};
@@ -117,8 +117,13 @@ fn go(player: &mut Player) {
 fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, speed: f32) -> Vec2 {
     let to_ball = ball - player.pos;
     let distance = to_ball.length();
+    let wish = player.body.dribble;
+    let lies = ball_vel.length_squared() < LIES_MPS * LIES_MPS;
+    if !has_ball && lies && wish.length_squared() > 0.25 && distance > SOLE_M * 0.5 {
+        // Nobody slows down for a ball that lies there.
+        return to_ball * (speed / distance);
+    }
     if has_ball || distance < 1.2 {
-        let wish = player.body.dribble;
         let behind = if wish.length_squared() > 0.25 {
             wish.normalize_or_zero() * 0.35
         } else {

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -50,9 +51,10 @@ def play_here(scenarios: list[str], episodes: int) -> None:
         count = max(1, episodes // (20 if is_match(scenario) else 4))
         runs["here"] = {}
         for name in runs["rows"]:
-            env = football.create_environment(env_name=scenario, representation="raw", rewards="scoring")
-            row = play(env, name, count, 3001)
-            env.close()
+            create = partial(
+                football.create_environment, env_name=scenario, representation="raw", rewards="scoring"
+            )
+            row = play(create, name, count, 3001)
             runs["here"][name] = {key: row[key] for key in (*COLUMNS, "episodes")}
         print(f"{scenario}: {len(runs['here'])} agents by rules, {count} episodes each", flush=True)
         file.write_text(json.dumps(runs, indent=1))

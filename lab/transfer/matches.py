@@ -9,6 +9,7 @@ import argparse
 import importlib
 import json
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,8 @@ from scene import METRES, scene_of_raw
 
 # A free ball that moves faster has been kicked, metres a step.
 KICKED = 1.15
+# How many episodes one environment plays. Episodes of one environment of the real game go much alike.
+EPISODES_EACH = 2
 # What is counted of a match.
 # fmt: off
 COUNTED = [
@@ -100,12 +103,17 @@ class Tally:
             self.counts["completed"] += 1
 
 
-def play(env, name: str, episodes: int, limit: int) -> dict:
-    """Plays episodes of an agent; returns the totals."""
+def play(create, name: str, episodes: int, limit: int) -> dict:
+    """Plays episodes of an agent, `EPISODES_EACH` in each environment that `create` makes; returns the totals."""
     totals: dict[str, float] = {}
     speeds: list[float] = []
     goals = []
-    for _ in range(episodes):
+    env = None
+    for episode in range(episodes):
+        if episode % EPISODES_EACH == 0:
+            if env is not None:
+                env.close()
+            env = create()
         raw = env.reset()[0]
         player, tally, before, done, step = Player(AGENTS[name]), Tally(), None, False, 0
         while not done and step < limit:
@@ -121,6 +129,8 @@ def play(env, name: str, episodes: int, limit: int) -> dict:
         for key, value in tally.counts.items():
             totals[key] = totals.get(key, 0) + value
         speeds += tally.speeds
+    if env is not None:
+        env.close()
     row = {key: value / episodes for key, value in totals.items()}
     row["shot_speed"] = float(np.median(speeds)) if speeds else 0.0
     row["episodes"] = episodes
@@ -142,9 +152,10 @@ def main() -> None:
     rows = {}
     for name in options.agents.split(","):
         began = time.time()
-        env = football.create_environment(env_name=options.scenario, representation="raw", rewards="scoring")
-        rows[name] = play(env, name, options.episodes, options.limit)
-        env.close()
+        create = partial(
+            football.create_environment, env_name=options.scenario, representation="raw", rewards="scoring"
+        )
+        rows[name] = play(create, name, options.episodes, options.limit)
         row = rows[name]
         print(
             f"{name:13} {row['goals']:5.2f}:{row['conceded']:5.2f}  shots {row['shots']:5.1f} wide {row['wide']:4.1f} "

@@ -134,7 +134,7 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     // The stride that the next touch will find, rather than the one that is wanted.
     let pace = player.vel.length();
     let under_way = (pace / WALKS_MPS).min(1.0);
-    let gait = (speed + 0.7 * (pace - speed) * under_way) / 8.0;
+    let gait = (speed + 0.3 * (pace - speed) * under_way) / 8.0;
     let shy = if care.pressed { 0.8 } else { 1.0 };
     // Whoever turns carries the rest of their run on until they have braked it.
     let turns = player.vel.dot(ahead) < SHARP * pace;

@@ -21,20 +21,17 @@ const INTO: f32 = 0.4;
 const BESIDE: f32 = 0.5;
 /// The tackling for which these hold: a centre back's of the middle difficulty; less skill meets the ball less often.
 const AVERAGE: f32 = 0.5;
-/// By how much faster than the carrier a ball has just been pushed past the tackler, m/s, and how much less often it is met
-/// then; fitted to how many get through at a sprint.
-const PUSHED_MPS: f32 = 1.5;
-const SURPRISED: f32 = 0.5;
+/// Between these speeds past the tackler, m/s, a ball is met the less often, at the faster by this share less; fitted to
+/// how many get through at a sprint.
+const PASSING_MPS: std::ops::Range<f32> = 4.5..8.0;
+const SURPRISED: f32 = 0.9;
 /// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
 const POKED_MPS: f32 = 3.5;
 /// How much of the tackler's velocity the ball takes over, and how softly it may be poked; fitted to how near it stays.
 const FOLLOWS: f32 = 0.9;
 const SOFTEST: f32 = 0.3;
-/// Between these speeds, m/s, balls are less and less often only brushed, at the faster by this share.
-const FAST_MPS: std::ops::Range<f32> = 5.0..8.0;
-const STOPPED: f32 = 0.6;
 /// What a ball that is only brushed keeps of its speed past the tackler. Measured.
-const LEFT: f32 = 0.6;
+const LEFT: f32 = 0.85;
 /// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
 /// how often the runner has it again soon.
 const BRUSHED: f32 = 0.5;
@@ -71,8 +68,9 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let run = victim.vel.normalize_or_zero();
     let into = (tackler.pos - victim.pos).normalize_or_zero().dot(run);
     let into = ((into + BESIDE) / (1.0 + BESIDE)).max(0.0) * (1.0 - still);
-    // A ball just pushed past the tackler is not where they thought.
-    let pushed = (game.ball.vel.length() - victim.vel.length()) / PUSHED_MPS;
+    // A ball that goes past the tackler fast is not where they thought.
+    let passing = (game.ball.vel.truncate() - tackler.vel).length();
+    let pushed = (passing - PASSING_MPS.start) / (PASSING_MPS.end - PASSING_MPS.start);
     let meets = 1.0 - SURPRISED * pushed.clamp(0.0, 1.0);
     let able = (tackle / AVERAGE).min(1.3);
     let chance = ((chance + INTO * into) * meets * able + STANDS * still).clamp(LEAST, 0.9);
@@ -107,11 +105,8 @@ fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, bal
     let keeper = tackler.role == Role::GK;
     let (poked, brush) = if keeper { (KEEPER_MPS, KEEPER_BRUSHED) } else { (POKED_MPS, BRUSHED) };
     let met = tackler.vel * FOLLOWS + away * (poked * (SOFTEST + (1.0 - SOFTEST) * noise::roll(game)));
-    // A fast ball does not get past a foot that is there.
     let passing = game.ball.vel.truncate() - tackler.vel;
-    let fast = (passing.length() - FAST_MPS.start) / (FAST_MPS.end - FAST_MPS.start);
     let brushed = math::smooth(math::smooth(libm::powf(noise::roll(game), brush)));
-    let brushed = brushed * (1.0 - STOPPED * fast.clamp(0.0, 1.0));
     let velocity = met.lerp(tackler.vel + passing * LEFT, brushed);
     let hop = (0.5 + noise::roll(game)) * (1.0 - brushed);
     report::did(game, events, EventKind::Tackle, id, Some(rival));

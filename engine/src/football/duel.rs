@@ -23,7 +23,7 @@ const BESIDE: f32 = 0.5;
 const AVERAGE: f32 = 0.5;
 /// Between these speeds past the tackler, m/s, a ball is met the less often, at the faster by this share less; fitted to
 /// how many get through at a sprint.
-const PASSING_MPS: std::ops::Range<f32> = 4.5..8.0;
+const PASSING_MPS: std::ops::Range<f32> = 3.0..7.0;
 const SURPRISED: f32 = 0.9;
 /// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
 const POKED_MPS: f32 = 3.5;
@@ -42,7 +42,7 @@ const KEEPER_BRUSHED: f32 = 1.5;
 const BEATEN_TICKS: f32 = 12.0;
 const POKED_TICKS: i32 = 30;
 /// Ticks between two tries of one player, and what share of their pace a failed one leaves them; chosen.
-const RETRY_TICKS: i32 = 16;
+const RETRY_TICKS: i32 = 24;
 const FAILED: f32 = 0.9;
 
 /// A player within reach of the ball that a rival controls tries to win it.

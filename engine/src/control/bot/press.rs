@@ -24,7 +24,7 @@ const STRAIGHT: f32 = 0.8;
 /// A ball is met that comes so near in so many ticks, metres, where the player is so many seconds from now, if the carrier
 /// does not stand between: a smaller cosine than this. Measured: defenders plant their feet about that long before.
 const MEETS_M: f32 = 0.7;
-const MEETS_TICKS: u32 = 30;
+const MEETS_TICKS: u32 = 38;
 const MEETS_AHEAD_S: f32 = 0.1;
 const OPEN_TO: f32 = 0.6;
 /// From how near a hunter goes for the ball itself, metres; chosen.
@@ -103,11 +103,12 @@ pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if let Some(rival) = view.owner {
         maybe_slide(game, events, view, id, rival);
     }
+    let comes = game.ball.vel.truncate().dot(game.player(id).pos - game.ball.pos.truncate()) > 0.0;
     let body = &mut game.players[id.index()].body;
     body.kick = None;
     if body.pose != Pose::Sliding {
         body.dribble = Vec2::new(2.0 * view.side, 0.0);
-        body.intent = Intent::Ball(SPRINT_MPS);
+        body.intent = if comes { Intent::Stand } else { Intent::Ball(SPRINT_MPS) };
     }
 }
 

@@ -24,6 +24,7 @@ use layouts::{Layout, drawn};
 use setpiece_engine::control;
 use setpiece_engine::event::{Event, Events};
 use setpiece_engine::football;
+use setpiece_engine::football::body::NEVER;
 use setpiece_engine::physics::Scratch;
 use setpiece_engine::state::Match;
 use setpiece_scenario::vocabulary::{Action, EventKind};
@@ -41,7 +42,12 @@ impl Bench {
     }
 
     fn of(start: &setpiece_engine::start::Drawn) -> Bench {
-        Bench { game: football::begin(start), events: Events::new(), scratch: Scratch::default() }
+        let mut game = football::begin(start);
+        // In the midst of a match everybody may touch the ball.
+        for player in &mut game.players {
+            player.body.ready_at = NEVER;
+        }
+        Bench { game, events: Events::new(), scratch: Scratch::default() }
     }
 
     /// Plays a step; the events stay readable until the next.

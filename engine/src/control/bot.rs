@@ -154,7 +154,7 @@ pub fn think(game: &mut Match, events: &mut Events) {
     let views = [View::of(game, Team::Left), View::of(game, Team::Right)];
     for team in game.teams() {
         let view = &views[team.index()];
-        let turn = (game.step + 2 * (1 - team.index() as u32)) % ASSIGN_EVERY;
+        let turn = (game.step + 2 * u32::from(team == game.play.first_kickoff)) % ASSIGN_EVERY;
         if turn == 0 {
             formation::swap_slots(game, view);
         } else if turn == ASSIGN_EVERY - 1 {
@@ -243,7 +243,9 @@ fn presses(game: &Match, view: &View, id: PlayerId) -> Option<Option<PlayerId>> 
     if game.play.team_pressure[view.team.index()] {
         let [second, third] = game.play.behind[view.team.index()];
         let queue = [first, second, third].into_iter().flatten().find(|id| game.play.driven & (1 << id.0) == 0);
-        return (queue == Some(id)).then_some(Some(rival));
+        if queue == Some(id) {
+            return Some(Some(rival));
+        }
     }
     let (player, other) = (game.player(id), game.player(rival));
     let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);

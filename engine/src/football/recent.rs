@@ -58,7 +58,7 @@ impl Recent {
 
     /// Where the ball was on average for so many seconds, at most four.
     pub fn ball_mean(&self, ball: Vec2, seconds: f32) -> Vec2 {
-        let wanted = ((seconds / APART_S) as usize).min(usize::from(self.count));
+        let wanted = ((seconds / APART_S) as usize).min(usize::from(self.count)).min(PLACES);
         let last = usize::from(self.next) + PLACES;
         let sum = (1..=wanted).fold(ball, |sum, back| sum + self.places[(last - back) % PLACES]);
         sum / (wanted + 1) as f32
@@ -125,12 +125,13 @@ pub fn remember(game: &mut Match) {
             None => *nearness + (now - *nearness) * FADES,
         };
     }
-    recent.side_steps = (recent.side_steps + 1).min(SIDE_STEPS);
+    recent.side_steps = recent.side_steps.saturating_add(1).min(SIDE_STEPS);
     recent.side += (recent.nearness[0] - recent.nearness[1] - recent.side) / f32::from(recent.side_steps);
     recent.minute_s = (recent.minute_s + ahead).clamp(-MINUTE_S, MINUTE_S);
     if step.is_multiple_of(APART_STEPS) {
-        recent.places[usize::from(recent.next)] = ball;
-        recent.next = (recent.next + 1) % PLACES as u8;
-        recent.count = (recent.count + 1).min(PLACES as u8);
+        let next = usize::from(recent.next) % PLACES;
+        recent.places[next] = ball;
+        recent.next = ((next + 1) % PLACES) as u8;
+        recent.count = recent.count.saturating_add(1).min(PLACES as u8);
     }
 }

@@ -185,7 +185,7 @@ fn a_deflection_plays_nobody_onside_and_a_played_ball_does() {
 }
 
 #[test]
-fn who_stands_on_the_ball_is_mostly_left_alone() {
+fn who_stands_on_the_ball_is_attacked_where_mates_are_about() {
     let mut won = 0;
     for seed in 0..20 {
         let mut bench = bench(&[(Rule::Assist, 0.0)], seed);
@@ -202,8 +202,8 @@ fn who_stands_on_the_ball_is_mostly_left_alone() {
             }
         }
     }
-    // In GRF nobody goes for it at all.
-    assert!(won <= 12, "in {won} of 20 matches somebody went for the ball");
+    // GRF's do so; one who is alone waits.
+    assert!(won >= 15, "in {won} of 20 matches somebody won the ball");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
-use setpiece_scenario::vocabulary::{Role, Team};
+use setpiece_scenario::vocabulary::{Role, Stat, Team};
 
 /// Half the pitch, metres.
 const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
@@ -27,6 +27,9 @@ const MAKES_WAY: f32 = 1.06;
 /// A run forward lasts this many steps, and is thought of every so many.
 const RUN_STEPS: u32 = 40;
 const RUN_EVERY: u32 = 5;
+/// How good a chance of a run must be, and how much less good for whoever reads the game; GRF's .5 for the average.
+const RUNS_FROM: f32 = 0.65;
+const READS: f32 = 0.2;
 /// How often the helper of whoever has the ball is chosen, steps.
 const HELPER_EVERY: u32 = 15;
 
@@ -176,7 +179,8 @@ pub fn assign(game: &mut Match, view: &View) {
     let crowd = nearest::<4>(game, view.team.other(), spot, None)
         .map(|rival| ease(1.0 - share(game.player(rival).pos.distance(spot), 0.0, 15.0)).sqrt())
         .sum::<f32>();
-    if near * (1.0 - 0.3 * crowd) >= 0.5 {
+    let reads = player.body.stats[Stat::OffensivePositioning.index()];
+    if near * (1.0 - 0.3 * crowd) >= RUNS_FROM - READS * reads {
         game.players[runner.index()].body.mind.run_until_step = game.step + RUN_STEPS;
     }
 }

@@ -123,7 +123,7 @@ fn what_is_no_snapshot_of_this_version_is_told() {
     changed[40] ^= 1;
     for (bytes, words) in [
         (b"{}".as_slice(), "not a snapshot: it doesn't begin as one"),
-        (&newer, "the snapshot has version 99; this build reads version 5: take it again"),
+        (&newer, "the snapshot has version 99; this build reads version 6: take it again"),
         (&changed, "the snapshot was changed after it was taken: its checksum differs"),
         (&snapshot[..100], "the snapshot is cut off: its end is missing"),
     ] {

@@ -213,10 +213,10 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if press::stands_in(game, view, id) {
         return press::meet(game, events, view, id);
     }
-    match presses(game, view, id) {
-        Some(None) => return press::fetch(game, view, id),
-        Some(Some(rival)) => return press::hunt(game, events, view, id, rival),
-        None => {}
+    match pursuit(game, view, id) {
+        Pursuit::Fetch => return press::fetch(game, view, id),
+        Pursuit::Hunt(rival) => return press::hunt(game, events, view, id, rival),
+        Pursuit::None => {}
     }
     let player = game.player(id);
     let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
@@ -228,32 +228,43 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     off_ball::place(game, view, id);
 }
 
+/// Whether somebody goes for the ball.
+enum Pursuit {
+    /// Not they.
+    None,
+    /// For one that is the team's to have.
+    Fetch,
+    /// For one that an opponent has.
+    Hunt(PlayerId),
+}
+
 /// Whether a player goes for the ball: the first of their team for one that is the team's to have; for an opponent's, the
 /// two who are nearest, if they are near enough and mark nobody. (GRF's.)
-fn presses(game: &Match, view: &View, id: PlayerId) -> Option<Option<PlayerId>> {
+fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
     if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
-        return Some(None);
+        return Pursuit::Fetch;
     }
     let first = game.play.chaser[view.team.index()];
     let held = game.play.hands.is_some();
     if held || view.action.is_none_or(|action| action.team() == view.team) {
-        return (first == Some(id) && !held).then_some(None);
+        return if first == Some(id) && !held { Pursuit::Fetch } else { Pursuit::None };
     }
-    let rival = view.rival(game)?;
+    let Some(rival) = view.rival(game) else { return Pursuit::None };
     if game.play.team_pressure[view.team.index()] {
         let [second, third] = game.play.behind[view.team.index()];
-        let queue = [first, second, third].into_iter().flatten().find(|id| game.play.driven & (1 << id.0) == 0);
-        if queue == Some(id) {
-            return Some(Some(rival));
+        let mut queue = [first, second, third].into_iter().flatten();
+        if queue.find(|id| game.play.driven & (1 << id.0) == 0) == Some(id) {
+            return Pursuit::Hunt(rival);
         }
     }
     let (player, other) = (game.player(id), game.player(rival));
     let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
     let may = !view.best && player.body.mind.mark.is_none() && player.role != Role::GK;
-    let hunts = may
-        && gap < press::hunt_m(game, player)
-        && support::nearest::<2>(game, view.team, other.pos + other.vel * 0.1, None).any(|near| near == id);
-    hunts.then_some(Some(rival))
+    let near = |to: Vec2| support::nearest::<2>(game, view.team, to, None).any(|near| near == id);
+    if may && gap < press::hunt_m(game, player) && near(other.pos + other.vel * 0.1) {
+        return Pursuit::Hunt(rival);
+    }
+    Pursuit::None
 }
 
 /// Whether the bot may pass and shoot for him: not for the mates of an agent who can be given to it.

@@ -1,4 +1,5 @@
-//! Playing without the ball: a place in the block, drawn to where it helps and to whom it marks. (GRF's figures.)
+//! Playing without the ball: a place in the block, drawn to where it helps and to the opponent it marks. (GRF's
+//! figures.)
 
 use crate::control::bot::formation::{mindset, share};
 use crate::control::bot::{View, formation, mark, send, support};
@@ -75,7 +76,7 @@ pub fn pace(wanted_mps: f32) -> f32 {
     PACES.into_iter().find(|(below, _)| wanted_mps < *below).map_or(SPRINT_MPS, |(_, pace)| pace)
 }
 
-/// How fast a player runs who is far from what happens, m/s: those the less whom it concerns less, and the tired.
+/// How fast a player runs who is far from what happens, m/s: slower the less it concerns them, and when tired.
 fn lazily(game: &Match, view: &View, id: PlayerId, wanted_mps: f32) -> f32 {
     let player = game.player(id);
     let fresh = 1.0 - player.fatigue;

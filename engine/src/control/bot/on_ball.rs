@@ -120,7 +120,7 @@ fn long(game: &Match, id: PlayerId) -> f32 {
     long * long
 }
 
-/// The best pass: its odds, to whom, which; none if running on is better.
+/// The best pass: its odds, the mate, its kind; none if running on is better.
 fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, KickKind)> {
     let player = game.player(id);
     let mind = mindset(game.player(player.body.mind.fills).role);

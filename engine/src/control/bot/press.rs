@@ -12,7 +12,7 @@ use setpiece_scenario::vocabulary::{Role, Stat};
 
 /// A carrier slower than this stands, m/s.
 const STANDS_MPS: f32 = 1.0;
-/// He is behind the carrier whose direction and the ball's, seen from there, have a smaller cosine.
+/// A player is behind the carrier if their direction and the ball's, seen from there, have a smaller cosine.
 const BEHIND: f32 = -0.2;
 /// How far ahead a carrier is reckoned to be, seconds, and how far from them hunters meet them, metres. (GRF's.)
 const AHEAD_S: f32 = 0.14;
@@ -43,7 +43,7 @@ const LONG_TOUCH_M: f32 = 0.62;
 const OPEN: f32 = 0.4;
 /// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
 const SLIDES: f32 = 0.15;
-/// How far he passes from the carrier's middle, metres.
+/// How far from a carrier's middle a player goes round them, metres.
 const ROUND_M: f32 = 0.9;
 
 /// Goes for a ball that is the team's to have.
@@ -131,12 +131,12 @@ fn alongside(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     Some(place + shoulder * SHOULDER_M + way * PAST_M)
 }
 
-/// Whether he stands still with the ball.
+/// Whether a carrier stands still with the ball.
 fn stands(carrier: &Player) -> bool {
     carrier.vel.length() < STANDS_MPS
 }
 
-/// Where he runs who has a standing carrier between himself and the ball, in his own frame: round him.
+/// Where a player runs who has a standing carrier between themselves and the ball, in their own frame: round them.
 fn around_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let middle = carrier.pos * view.side;
     let from = own - middle;

@@ -36,6 +36,10 @@ const FIRST_DRAGGED: f32 = 0.6;
 /// Share of a displacement in two ticks that a runner's own velocity takes over; fitted to how dribblers are slowed.
 const TAKEN_OVER: f32 = 0.03;
 
+/// What share of their closing speed a touch of two ticks takes from those who run into an opponent; fitted to how fast
+/// runners get past a keeper.
+const BLOCKED: f32 = 0.1;
+
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;
 /// Share of a push that is left after two ticks: 0.95 a tick.
@@ -132,6 +136,12 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     displace(game, i, of_a);
     displace(game, j, of_b);
     let closing = (b.vel - a.vel).dot(away);
+    if touching && closing < 0.0 && i.team() != j.team() {
+        // Whoever runs into an opponent is stopped by them.
+        let stop = away * (closing * BLOCKED);
+        game.players[i.index()].vel += stop * a.vel.dot(away).clamp(0.0, -closing) / -closing;
+        game.players[j.index()].vel -= stop * (-b.vel.dot(away)).clamp(0.0, -closing) / -closing;
+    }
     if touching && i.team() != j.team() && closing < -1.0 {
         let victim = if a.body.facing.dot(away) < b.body.facing.dot(-away) { i } else { j };
         foul::shove(game, events, if victim == i { j } else { i }, victim, -closing);

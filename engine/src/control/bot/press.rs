@@ -115,7 +115,9 @@ pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
 /// From how far a player hunts a carrier, metres. (GRF's.)
 pub fn hunt_m(game: &Match, player: &Player) -> f32 {
     let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.body.mean_mps / 8.0).min(1.0));
-    (10.0 + 10.0 * (1.0 - mindset(game.player(player.body.mind.fills).role))) * rested * player.body.level
+    // Who works hard hunts from further away: chosen, as much as GRF's for the average.
+    let works = 0.7 + 0.4 * player.body.stats[Stat::Workrate.index()];
+    (10.0 + 10.0 * (1.0 - mindset(game.player(player.body.mind.fills).role))) * rested * works * player.body.level
 }
 
 /// Where a defender runs who has a running carrier's back before them, in their own frame: past the carrier's shoulder;

@@ -51,9 +51,7 @@ def play_here(scenarios: list[str], episodes: int) -> None:
         count = max(1, episodes // (20 if is_match(scenario) else 4))
         runs["here"] = {}
         for name in runs["rows"]:
-            create = partial(
-                football.create_environment, env_name=scenario, representation="raw", rewards="scoring"
-            )
+            create = partial(football.create_environment, env_name=scenario, representation="raw", rewards="scoring")
             row = play(create, name, count, 3001)
             runs["here"][name] = {key: row[key] for key in (*COLUMNS, "episodes")}
         print(f"{scenario}: {len(runs['here'])} agents by rules, {count} episodes each", flush=True)

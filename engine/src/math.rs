@@ -70,3 +70,18 @@ pub fn smooth(x: f32) -> f32 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }
+
+/// From `a` to `b` by a share.
+pub fn mix(a: f32, b: f32, share: f32) -> f32 {
+    a + (b - a) * share
+}
+
+/// How far a value is from `low` (0) to `high` (1), no further than either.
+pub fn share(value: f32, low: f32, high: f32) -> f32 {
+    ((value - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+/// A share 0..1, slow at both ends: a cosine's.
+pub fn ease(share: f32) -> f32 {
+    0.5 - 0.5 * cos(share * std::f32::consts::PI)
+}

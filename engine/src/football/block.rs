@@ -4,10 +4,10 @@
 
 use crate::math;
 use glam::Vec2;
-use setpiece_scenario::pitch::HALF_WIDTH_M;
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 
-/// Half the width of the pitch, metres.
-const HALF_Y: f32 = HALF_WIDTH_M as f32;
+/// Half the pitch, metres.
+pub const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
 /// How far from the point that draws them players feel nothing of it, metres.
 const DRAW_M: f32 = 50.0;
 
@@ -38,14 +38,14 @@ impl Block {
     pub fn place(&self, slot: Vec2) -> Vec2 {
         let [back, front] = self.depth;
         let middle = (1.0 - 1.2 * slot.x.abs()).max(0.0);
-        let moved = mix(slot.x, self.midfield.0, ease(middle) * self.midfield.1);
+        let moved = math::mix(slot.x, self.midfield.0, math::ease(middle) * self.midfield.1);
         let plain = Vec2::new(back + (0.5 * moved + 0.5) * (front - back), self.middle_y + slot.y * self.half_width);
         let (x, keen) = self.towards_x;
         let near = 1.0 - ((x - plain.x) / (front - back)).abs().min(1.0);
-        let place_x = mix(plain.x, x, math::pow(ease(near), 0.8) * keen);
+        let place_x = math::mix(plain.x, x, math::pow(math::ease(near), 0.8) * keen);
         let (y, keen) = self.towards_y;
         let near = 1.0 - ((y - plain.y) / (2.0 * self.half_width)).abs().min(1.0);
-        let place_y = mix(plain.y, y, near * (0.2 + 0.8 * y.abs() / HALF_Y) * keen);
+        let place_y = math::mix(plain.y, y, near * (0.2 + 0.8 * y.abs() / HALF.y) * keen);
         self.drawn(plain, Vec2::new(place_x, place_y))
     }
 
@@ -58,18 +58,8 @@ impl Block {
         }
         let near = 1.0 - far;
         let beside = 0.1 * (1.0 - ((far - 0.15).abs() / 0.25).min(1.0));
-        let pull = (mix(near, ease(near), 0.3) + beside).clamp(0.0, 1.0) * keen;
-        let to = Vec2::new(point.x, mix(point.y, place.y, 0.4));
+        let pull = (math::mix(near, math::ease(near), 0.3) + beside).clamp(0.0, 1.0) * keen;
+        let to = Vec2::new(point.x, math::mix(point.y, place.y, 0.4));
         place + (to - place) * pull
     }
-}
-
-/// From `a` to `b` by a share.
-pub fn mix(a: f32, b: f32, share: f32) -> f32 {
-    a + (b - a) * share
-}
-
-/// A share 0..1, slow at both ends.
-pub fn ease(share: f32) -> f32 {
-    0.5 - 0.5 * math::cos(share * std::f32::consts::PI)
 }

@@ -7,7 +7,7 @@ use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::Stat;
 
-/// How near his foot the ball must be for a dribbling touch, metres.
+/// How near a foot the ball must be for a dribbling touch, metres.
 const FOOT_M: f32 = 0.65;
 /// How far the sole reaches that stops it, metres; chosen.
 pub(super) const SOLE_M: f32 = 1.0;
@@ -21,7 +21,7 @@ const FAST_MPS: f32 = 7.5;
 const CARRIED_M: [f32; 2] = [0.42, 0.64];
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
-/// Whom an agent drives minds a line until he is as near to it, metres; chosen.
+/// A player with an agent minds a line until they are as near to it, metres; chosen.
 const AT_LINE_M: f32 = 0.65;
 /// How fast a ball is pushed off that lies still: shares of the speed that is wanted and of the runner's. Measured.
 const PUSHED_OFF: f32 = 0.6;
@@ -63,14 +63,14 @@ fn carried_m(speed: f32) -> f32 {
     CARRIED_M[0] + (CARRIED_M[1] - CARRIED_M[0]) * sprints
 }
 
-/// Whether he keeps the ball on the pitch: whom an agent drives does until he is at the line himself.
+/// Whether a player keeps the ball on the pitch: one with an agent does until they are at the line themselves.
 pub(super) fn minds_lines(game: &Match, id: PlayerId) -> bool {
     let pos = game.player(id).pos.abs();
     let (x, y) = (HALF_LENGTH_M as f32 - AT_LINE_M, HALF_WIDTH_M as f32 - AT_LINE_M);
     !touch::is_driven(game, id) || (pos.x < x && pos.y < y)
 }
 
-/// Pushes the ball on in the way he wants to run, where it isn't rolling that way already; false where it is.
+/// Pushes the ball on in the way its player wants to run, where it isn't rolling that way already; false where it is.
 pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let player = *game.player(id);
     let ball_vel = game.ball.vel.truncate();
@@ -120,15 +120,15 @@ fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
 
 /// What a dribbler minds.
 pub(super) struct Care {
-    /// An opponent who is about to get at him.
+    /// An opponent who is about to get at them.
     pub(super) pressed: bool,
-    /// The lines: he doesn't push the ball over them.
+    /// The lines: the ball is not pushed over them.
     pub(super) lines: bool,
     /// Whether the ball lies still.
     pub(super) lies: bool,
 }
 
-/// The ball's velocity with which he meets it again a moment later, running at `speed` along `ahead`.
+/// The ball's velocity with which they meet it again a moment later, running at `speed` along `ahead`.
 pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &Care) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     // The stride that the next touch will find, rather than the one that is wanted.
@@ -154,7 +154,7 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let way = place - to_ball;
     let distance = way.length();
     let average = distance / time;
-    // By a line it must stop there; else it rolls on until he meets it.
+    // By a line it must stop there; else it rolls on until they meet it.
     let start = if cut.is_none() {
         average + 0.5 * (1.7 + 0.06 * average * average) * time
     } else {
@@ -172,7 +172,7 @@ fn within_lines(pos: Vec2, way: Vec2) -> Option<Vec2> {
     (cut != to).then(|| cut - pos)
 }
 
-/// Whether an opponent is about to get at him.
+/// Whether an opponent is about to get at a player.
 fn pressed(game: &Match, id: PlayerId) -> bool {
     let pos = game.player(id).pos;
     game.team(id.team().other()).any(|(_, rival)| rival.pos.distance_squared(pos) < 2.0 * 2.0)

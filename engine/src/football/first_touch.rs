@@ -104,7 +104,7 @@ fn surprise(game: &Match, reaction: f32) -> f32 {
     libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6)
 }
 
-/// Heads a high ball: on towards what he had in mind, else down in front of him.
+/// Heads a high ball: on towards what its player has in mind, else down in front of them.
 fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let side = id.team().side() as f32;
@@ -128,7 +128,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     if !flight::touched(game, events, id, true) {
         return;
     }
-    // Whoever jumped with him has lost this ball.
+    // Whoever jumped with them has lost this ball.
     let landing = game.tick as i32 + 40;
     game.each(game.squad, |other| {
         if other.pos.distance_squared(player.pos) < 1.5 * 1.5 {

@@ -4,14 +4,12 @@
 //! that block over a part of the pitch and draws it towards the ball. Everything is in the own frame of the team, which
 //! attacks towards +x.
 
-use crate::football::block::Block;
+use crate::football::block::{Block, HALF};
 use crate::math;
 use glam::Vec2;
-use setpiece_scenario::pitch::{BOX_DEPTH_M, CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, TEAM_MAX};
+use setpiece_scenario::pitch::{BOX_DEPTH_M, CIRCLE_RADIUS_M, TEAM_MAX};
 use setpiece_scenario::vocabulary::GameMode;
 
-/// Half the pitch, metres.
-const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
 /// How far in front of the goal line a keeper waits, metres.
 const KEEPER_M: f32 = 0.02 * HALF.x;
 /// How far everybody keeps from a penalty and from its box, metres beyond the law's distance.

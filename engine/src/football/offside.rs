@@ -12,7 +12,7 @@ pub fn line(game: &Match, attackers: Team) -> f32 {
     line_in(game, attackers, 0.0)
 }
 
-/// The offside line a moment from now, if everybody runs on, as [`line`].
+/// The offside line a moment from now, if everybody runs on, as [`line()`].
 pub fn line_in(game: &Match, attackers: Team, ahead_s: f32) -> f32 {
     let side = attackers.side() as f32;
     let (mut last, mut second) = (f32::MIN, f32::MIN);

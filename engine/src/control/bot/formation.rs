@@ -4,16 +4,14 @@
 //! swap slots where that brings the team to its places sooner. (All figures are GRF's.)
 
 use crate::control::bot::View;
-use crate::football::block::{Block, mix};
+use crate::football::block::{Block, HALF};
 use crate::football::lineup;
-use crate::math;
+use crate::math::{self, mix, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 
-/// Half the pitch, metres.
-const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
 /// The whole block's depth and width, shares of the pitch.
 const DEPTH: f32 = 0.45;
 const WIDTH: f32 = 0.95;
@@ -85,8 +83,8 @@ pub fn assign_slots(game: &mut Match) {
 /// Lets players fill each other's slots where both are nearer to the other's, the farther way counting most. (GRF finds
 /// the best of all ways; swaps by two come near it.)
 pub fn swap_slots(game: &mut Match, view: &View) {
-    let mut field = [PlayerId(0); setpiece_scenario::pitch::TEAM_MAX];
-    let mut ways = [[0.0f32; setpiece_scenario::pitch::TEAM_MAX]; setpiece_scenario::pitch::TEAM_MAX];
+    let mut field = [PlayerId(0); TEAM_MAX];
+    let mut ways = [[0.0f32; TEAM_MAX]; TEAM_MAX];
     let mut count = 0;
     for (id, player) in game.team(view.team) {
         if player.role != Role::GK {
@@ -103,7 +101,7 @@ pub fn swap_slots(game: &mut Match, view: &View) {
             ways[i][slot] = way * way * way;
         }
     }
-    let mut fills = [0usize; setpiece_scenario::pitch::TEAM_MAX];
+    let mut fills = [0usize; TEAM_MAX];
     for (i, &id) in field.iter().enumerate() {
         let slot = field.iter().position(|&whose| whose == game.player(id).body.mind.fills);
         fills[i] = slot.unwrap_or(i);
@@ -129,11 +127,6 @@ pub fn swap_slots(game: &mut Match, view: &View) {
     for (i, &id) in field.iter().enumerate() {
         game.players[id.index()].body.mind.fills = field[fills[i]];
     }
-}
-
-/// From `low` to `high`: 0..1.
-pub fn share(value: f32, low: f32, high: f32) -> f32 {
-    ((value - low) / (high - low)).clamp(0.0, 1.0)
 }
 
 /// A player's place in the block, own frame, metres, in the slot and role of somebody.

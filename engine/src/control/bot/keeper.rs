@@ -1,16 +1,17 @@
-//! The keeper's feet: where he stands, when he comes out. (His hands are `football::keeper`'s.)
+//! The keeper's feet: where they stand, when they come out. (Their hands are `football::keeper`'s.)
 
-use crate::control::bot::{GOAL, View, formation, send};
+use crate::control::bot::{GOAL, View, send};
 use crate::football::body::{Intent, Pose};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::touch;
+use crate::math::share;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
 
-/// Further up than this, own frame x, metres, a keeper without mates plays as the only man he is; chosen.
+/// Further up than this, own frame x, metres, a keeper without mates plays as the only player they are; chosen.
 const STRAYED_M: f32 = -15.0;
-/// Further up than this, own frame x, metres, a keeper goes for a ball that is as good as his alone; chosen.
+/// Further up than this, own frame x, metres, a keeper goes for a ball that is as good as theirs alone; chosen.
 const FAR_OUT_M: f32 = -30.0;
 /// How far ahead a keeper reckons with the ball, ticks. (GRF's.)
 const LOOK_TICKS: u32 = 60;
@@ -24,10 +25,10 @@ const UP_SHARE: f32 = 0.3;
 /// From how far the opponent on the ball and a second one shoot, metres. (GRF's.)
 const RIVAL_SHOOTS_M: f32 = 20.0;
 const SECOND_SHOOTS_M: f32 = 24.0;
-/// Seconds by which it must be his there; chosen.
+/// Seconds by which it must be theirs there; chosen.
 const FAR_LEAD_S: f32 = 3.0;
 
-/// Decides for a keeper without the ball; false if he should go for it like anyone else.
+/// Decides for a keeper without the ball; false if they should go for it like anyone else.
 pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     let player = *game.player(id);
     if player.body.pose == Pose::Diving {
@@ -62,7 +63,7 @@ fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
     let foot = Vec2::new(LINE_M - GOAL.x, middle_of_goal(ball));
     let mut front = ball;
     let nearness = view.nearness_of(game, id);
-    let mut share = UP_SHARE * formation::share(nearness, 1.0, 1.5);
+    let mut share = UP_SHARE * share(nearness, 1.0, 1.5);
     let theirs = view.owner.filter(|owner| owner.team() != view.team);
     if let Some(rival) = view.rival(game).filter(|_| nearness < 1.0) {
         let other = game.player(rival);
@@ -122,8 +123,8 @@ fn second_danger(game: &Match, view: &View, id: PlayerId, rival: PlayerId, left_
     open * nearer * 0.7
 }
 
-/// Whether a free ball is his: passed to him, or he is surely there before the others. How surely depends on where it
-/// is: out of his box his hands are no help, and his goal is empty; who has no mates has only himself.
+/// Whether a free ball is the keeper's: passed to them, or they are surely there before the others. How surely depends on
+/// where it is: out of the box hands are no help, and the goal is empty; who has no mates has nobody else.
 fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
     if touch::controller(game).is_some() {
         return false;

@@ -1,14 +1,12 @@
 //! Defending without the ball: the most dangerous opponents are marked, and the back line keeps to its line. (All
 //! figures are GRF's.)
 
-use crate::control::bot::formation::share;
 use crate::control::bot::{GOAL, View};
+use crate::math::share;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::HALF_LENGTH_M;
 use setpiece_scenario::vocabulary::Role;
 
-const HALF_X: f32 = HALF_LENGTH_M as f32;
 /// How many opponents are marked.
 const MARKED: usize = 3;
 /// From how far the opponent who has the ball, and another, could shoot, metres.
@@ -36,11 +34,11 @@ const LINE_ZONE_M: f32 = 2.0;
 pub fn assign(game: &mut Match, view: &View) {
     game.each(game.squad.of(view.team), |player| player.body.mind.mark = None);
     let carrier = view.rival(game);
-    let aim = Vec2::new(2.0 - HALF_X, 0.0) * 0.8 + view.ball * 0.2;
+    let aim = Vec2::new(2.0 - GOAL.x, 0.0) * 0.8 + view.ball * 0.2;
     let mut marked = 0u32;
     for _ in 0..MARKED {
         let danger = |id: PlayerId| {
-            let far = (game.player(id).pos * view.side).distance(aim) / (2.0 * HALF_X);
+            let far = (game.player(id).pos * view.side).distance(aim) / (2.0 * GOAL.x);
             0.95 * (1.0 - far.min(1.0)) + if carrier == Some(id) { 0.05 } else { 0.0 }
         };
         let open = game.team(view.team.other()).map(|(id, _)| id).filter(|id| marked & (1 << id.0) == 0);
@@ -73,7 +71,7 @@ fn worth(game: &Match, view: &View, id: PlayerId, rival: PlayerId) -> f32 {
     if before_m <= 0.0 {
         worth *= 0.6;
     }
-    worth * 0.8 + 0.2 * (1.0 - share(own.distance(other), 0.0, 2.0 * HALF_X))
+    worth * 0.8 + 0.2 * (1.0 - share(own.distance(other), 0.0, 2.0 * GOAL.x))
 }
 
 /// Where a player with a place to be at, own frame, goes to mark their opponent instead.
@@ -84,7 +82,7 @@ pub fn post(game: &Match, view: &View, id: PlayerId, place: Vec2) -> Vec2 {
     let at = (other.pos + other.vel * RIVAL_AHEAD_S) * view.side;
     let from_m = if view.action == Some(rival) { CARRIER_SHOOTS_M } else { OTHER_SHOOTS_M };
     let to_goal = -GOAL - at;
-    let mut left_m = (to_goal.length() - from_m).clamp(CLOSE_M, HALF_X);
+    let mut left_m = (to_goal.length() - from_m).clamp(CLOSE_M, GOAL.x);
     let mut shoots_at = at + to_goal.normalize_or_zero() * left_m;
     if shoots_at.x < view.trap_x && to_goal.x < -1e-3 {
         // The opponent is met no further back than at the line.
@@ -109,8 +107,8 @@ pub fn trap_x(game: &Match, view: &View) -> f32 {
     let from_m = LINE_M + LINE_DARING_M * view.daring;
     let yields_m = 20.0 + 10.0 * (1.0 - view.daring);
     let ball = -view.ball.x;
-    let forced = share(ball, HALF_X - from_m - yields_m, HALF_X - LAST_LINE_M);
-    let mut depth = (HALF_X - from_m).max(ball + yields_m * (1.0 - forced));
+    let forced = share(ball, GOAL.x - from_m - yields_m, GOAL.x - LAST_LINE_M);
+    let mut depth = (GOAL.x - from_m).max(ball + yields_m * (1.0 - forced));
     depth = depth.max(-game.play.forecast.at(game.tick + 70).x * side);
     if let Some(rival) = view.rival(game) {
         let other = game.player(rival);
@@ -128,7 +126,7 @@ pub fn trap_x(game: &Match, view: &View) -> f32 {
             second = x;
         }
     }
-    -depth.max(second.max(ball).clamp(0.0, HALF_X) - CAUTION_M)
+    -depth.max(second.max(ball).clamp(0.0, GOAL.x) - CAUTION_M)
 }
 
 /// Draws a place up to the line.

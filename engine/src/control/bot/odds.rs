@@ -2,12 +2,11 @@
 
 use crate::control::bot::View;
 use crate::football::body::KickKind;
+use crate::football::movement::SPRINT_MPS;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};
 
-/// The speed at which everybody is reckoned to run, m/s.
-const RUN_MPS: f32 = 8.0;
 /// A lofted ball to anybody nearer can't be played, metres.
 const LOFTED_M: f32 = 10.0;
 /// How much further than the mate a ball into space goes, a share of the way.
@@ -23,7 +22,7 @@ const CROWD: f32 = 2.5;
 
 /// How much room a team has at a world point in so many seconds, 0..1.
 pub fn free_space(game: &Match, team: Team, point: Vec2, seconds: f32) -> f32 {
-    let runs_m = RUN_MPS * (seconds - 0.2).max(0.0);
+    let runs_m = SPRINT_MPS * (seconds - 0.2).max(0.0);
     let rivals = game.team(team.other()).filter(|(_, rival)| rival.role != Role::GK);
     let crowd = rivals.fold(0.0, |sum, (_, rival)| {
         let away = ((rival.pos + rival.vel * 0.2).distance(point) - runs_m).max(0.0);
@@ -60,7 +59,7 @@ pub fn of_way(game: &Match, view: &View, id: PlayerId, to: Vec2, kind: KickKind,
         if !(0.0..=1.2).contains(&along) || lofted && OVERHEAD.contains(&along) {
             continue;
         }
-        let rival_s = (place.perp_dot(way).abs() / length + 1.0) / RUN_MPS;
+        let rival_s = (place.perp_dot(way).abs() / length + 1.0) / SPRINT_MPS;
         let taken_s = if lofted && along > 0.5 { TAKES_DOWN_S } else { 0.0 };
         let ball_s = (0.7 + length * along.min(1.0) * along * 0.03 + taken_s) / speed;
         danger += (ball_s - rival_s + 0.5).clamp(0.0, 1.0);

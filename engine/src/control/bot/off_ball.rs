@@ -1,19 +1,16 @@
 //! Playing without the ball: a place in the block, drawn to where it helps and to the opponent it marks. (GRF's
 //! figures.)
 
-use crate::control::bot::formation::{mindset, share};
+use crate::control::bot::formation::mindset;
 use crate::control::bot::{View, formation, mark, send, support};
-use crate::football::block::ease;
 use crate::football::body::Intent;
 use crate::football::movement::SPRINT_MPS;
-use crate::math;
+use crate::math::{self, ease, share};
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Role, Stat};
 
 /// How fast a player goes to a place that is so far away, 1/s.
 const HASTE: f32 = 2.6;
-/// The speed that all others are measured by, m/s.
-const TOP_MPS: f32 = 8.0;
 /// The speeds at which players run, and up to where each is taken, m/s.
 const PACES: [(f32, f32); 3] = [(1.8, 0.0), (4.2, 3.5), (6.0, 5.0)];
 
@@ -87,12 +84,12 @@ fn lazily(game: &Match, view: &View, id: PlayerId, wanted_mps: f32) -> f32 {
     let mind = mindset(game.player(player.body.mind.fills).role);
     let ours = (view.nearness_of(game, id) - 0.5).clamp(0.0, 1.0);
     let lazy = far * (0.5 + 0.5 * (mind + ours * (1.0 - 2.0 * mind)));
-    let wants = if wanted_mps > TOP_MPS { TOP_MPS + 0.1 * (wanted_mps - TOP_MPS) } else { wanted_mps };
+    let wants = if wanted_mps > SPRINT_MPS { SPRINT_MPS + 0.1 * (wanted_mps - SPRINT_MPS) } else { wanted_mps };
     let mut runs = wants * (1.0 - lazy);
     if wanted_mps >= 3.5 {
         runs = runs.max(3.5);
     }
-    let rested = 1.0 - share(player.body.mean_mps, 0.0, TOP_MPS);
+    let rested = 1.0 - share(player.body.mean_mps, 0.0, SPRINT_MPS);
     let breath = math::pow(rested, 0.8 - 0.2 * player.body.stats[Stat::Workrate.index()]) * 1.2;
-    runs.min(TOP_MPS * (breath.min(1.0) * lazy + 1.0 - lazy))
+    runs.min(SPRINT_MPS * (breath.min(1.0) * lazy + 1.0 - lazy))
 }

@@ -1,12 +1,11 @@
 //! With the ball: pass, shoot, clear or run on. (Its figures are GRF's but where they say otherwise.)
 
-use crate::control::bot::formation::{mindset, share};
+use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, dribbling, odds};
-use crate::football::block::ease;
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::SPRINT_MPS;
 use crate::football::{kick, noise};
-use crate::math;
+use crate::math::{self, ease, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};
@@ -59,7 +58,7 @@ pub fn decide(game: &mut Match, view: &View, id: PlayerId) {
         return;
     }
     game.players[id.index()].body.intent = Intent::Ball(SPRINT_MPS);
-    if swings(game, id) {
+    if is_decided(game, id) {
         return;
     }
     game.players[id.index()].body.dribble = dribbling::way(game, view, id, 1.0 - DARES * long(game, id));
@@ -69,14 +68,15 @@ pub fn decide(game: &mut Match, view: &View, id: PlayerId) {
     }
 }
 
-/// Whether a player's leg swings already: until then a kick can be thought over.
-fn swings(game: &Match, id: PlayerId) -> bool {
-    game.player(id).body.kick.is_some_and(|plan| plan.swing.is_some())
+/// Whether a player sticks to the kick they have in mind: a clearance is thought over until the leg swings, as the danger
+/// may be past.
+fn is_decided(game: &Match, id: PlayerId) -> bool {
+    game.player(id).body.kick.is_some_and(|plan| plan.kind != KickKind::Clear || plan.swing.is_some())
 }
 
 /// Decides for the player who will have the ball soon.
 pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
-    if swings(game, id) || game.play.led[view.team.index()] || game.player(id).body.meet_s > AHEAD_S {
+    if is_decided(game, id) || game.play.led[view.team.index()] || game.player(id).body.meet_s > AHEAD_S {
         return;
     }
     match choose(game, view, id) {
@@ -101,7 +101,7 @@ fn choose(game: &mut Match, view: &View, id: PlayerId) -> Option<Act> {
 /// How well a player is placed for the ball, for one who weighs the goal's nearness so much.
 fn placed(game: &Match, view: &View, id: PlayerId, nearness: f32) -> f32 {
     let player = game.player(id);
-    let ahead = player.pos + Vec2::new(0.5 * SPRINT_TOP_MPS * view.side, 0.0);
+    let ahead = player.pos + Vec2::new(0.5 * SPRINT_MPS * view.side, 0.0);
     let away = (GOAL - player.pos * view.side).length() / (2.0 * GOAL.x);
     let near = 1.0 - away.min(1.0);
     let sum = odds::free_space(game, view.team, ahead, 0.5) * SPACE_AHEAD
@@ -109,9 +109,6 @@ fn placed(game: &Match, view: &View, id: PlayerId, nearness: f32) -> f32 {
         + near * near.sqrt() * nearness;
     sum / (SPACE_AHEAD + SPACE_AROUND + nearness)
 }
-
-/// The speed that all others are measured by, m/s.
-const SPRINT_TOP_MPS: f32 = 8.0;
 
 /// How long a player has had the ball, 0..1: 1 from five seconds on.
 fn long(game: &Match, id: PlayerId) -> f32 {

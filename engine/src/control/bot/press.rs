@@ -1,6 +1,7 @@
 //! Going for the ball: a free one, or one that an opponent has.
 
 use crate::control::bot::formation::mindset;
+use crate::control::bot::support::nearest;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
 use crate::event::Events;
 use crate::football::body::{Intent, Pose};
@@ -46,6 +47,45 @@ const SLIDES: f32 = 0.15;
 /// How far from a carrier's middle a player goes round them, metres.
 const ROUND_M: f32 = 0.9;
 
+/// Whether somebody goes for the ball.
+pub enum Pursuit {
+    /// Not they.
+    None,
+    /// For one that is the team's to have.
+    Fetch,
+    /// For one that an opponent has.
+    Hunt(PlayerId),
+}
+
+/// Whether a player goes for the ball: the first of their team for one that is the team's to have; for an opponent's, the
+/// two who are nearest, if they are near enough and mark nobody. (GRF's.)
+pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
+    if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
+        return Pursuit::Fetch;
+    }
+    let first = game.play.chaser[view.team.index()];
+    let held = game.play.hands.is_some();
+    if held || view.action.is_none_or(|action| action.team() == view.team) {
+        return if first == Some(id) && !held { Pursuit::Fetch } else { Pursuit::None };
+    }
+    let Some(rival) = view.rival(game) else { return Pursuit::None };
+    if game.play.team_pressure[view.team.index()] {
+        let [second, third] = game.play.behind[view.team.index()];
+        let mut queue = [first, second, third].into_iter().flatten();
+        if queue.find(|id| game.play.driven & (1 << id.0) == 0) == Some(id) {
+            return Pursuit::Hunt(rival);
+        }
+    }
+    let (player, other) = (game.player(id), game.player(rival));
+    let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
+    let may = !view.best && player.body.mind.mark.is_none() && player.role != Role::GK;
+    let near = |to: Vec2| nearest::<2>(game, view.team, to, None).any(|near| near == id);
+    if may && gap < hunt_m(game, player) && near(other.pos + other.vel * 0.1) {
+        return Pursuit::Hunt(rival);
+    }
+    Pursuit::None
+}
+
 /// Goes for a ball that is the team's to have.
 pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
     let player = *game.player(id);
@@ -76,7 +116,7 @@ pub fn hunt(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, ri
         return;
     }
     let near = between.length() < CHALLENGE_M;
-    let past = if near { alongside(view, own, &carrier).or_else(|| around_him(view, own, &carrier)) } else { None };
+    let past = if near { alongside(view, own, &carrier).or_else(|| around(view, own, &carrier)) } else { None };
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
     body.intent = match past {
@@ -86,7 +126,7 @@ pub fn hunt(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, ri
 }
 
 /// Whether the ball that an opponent has is about to come to a player: they plant their feet and go for it.
-pub fn stands_in(game: &Match, view: &View, id: PlayerId) -> bool {
+pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
     let Some(rival) = view.owner.filter(|owner| owner.team() != view.team) else { return false };
     let (player, carrier) = (game.player(id), game.player(rival));
     let ball = game.play.forecast.at(game.tick + MEETS_TICKS);
@@ -113,7 +153,7 @@ pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
 }
 
 /// From how far a player hunts a carrier, metres. (GRF's.)
-pub fn hunt_m(game: &Match, player: &Player) -> f32 {
+fn hunt_m(game: &Match, player: &Player) -> f32 {
     let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.body.mean_mps / 8.0).min(1.0));
     // Who works hard hunts from further away: chosen, as much as GRF's for the average.
     let works = 0.7 + 0.4 * player.body.stats[Stat::Workrate.index()];
@@ -139,7 +179,7 @@ fn stands(carrier: &Player) -> bool {
 }
 
 /// Where a player runs who has a standing carrier between themselves and the ball, in their own frame: round them.
-fn around_him(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
+fn around(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let middle = carrier.pos * view.side;
     let from = own - middle;
     let way = (view.ball - middle).try_normalize()?;

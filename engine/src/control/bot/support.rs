@@ -2,16 +2,14 @@
 //! mates. (GRF's figures.)
 
 use crate::control::bot::View;
-use crate::control::bot::formation::{mindset, share};
-use crate::football::block::ease;
-use crate::math;
+use crate::control::bot::formation::mindset;
+use crate::football::block::HALF;
+use crate::football::movement::SPRINT_MPS;
+use crate::math::{self, ease, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{Role, Stat, Team};
 
-/// Half the pitch, metres.
-const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
 /// How far ahead everyone is reckoned to be, seconds.
 const AHEAD_S: f32 = 0.1;
 /// Nearer than this to what draws a player it draws less, metres.
@@ -135,13 +133,10 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
         forces.draw_near(main, 0.45, 21.0);
         forces.push(main, 0.45, 12.0, 1.0);
     }
-    let mut to = at + forces.mean() * SPRINT_TOP_MPS;
+    let mut to = at + forces.mean() * SPRINT_MPS;
     to.x = to.x.min(view.line_x - ONSIDE_M);
     to.clamp(-HALF, HALF)
 }
-
-/// The speed that forces are measured in, m/s.
-const SPRINT_TOP_MPS: f32 = 8.0;
 
 /// Whether a role runs forward when its team is so near to the ball.
 fn may_run(role: Role, nearness: f32) -> bool {

@@ -68,7 +68,8 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
         plan.held = kind == Some(plan.kind);
         plan.dir = direction;
     }
-    let waits = body.kick.is_some() && game.play.set_piece.is_none();
+    let turns = (game.tick as i32) < body.turned_at;
+    let waits = body.kick.is_some() && game.play.set_piece.is_none() && !turns;
     let wish = if waits && has_ball { braked(&player, direction) } else { direction.unwrap_or(Vec2::ZERO) * gait };
     if takes {
         // Whoever takes a set piece stands until the run-up.

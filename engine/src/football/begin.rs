@@ -10,8 +10,8 @@ use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
 use setpiece_scenario::vocabulary::{GameMode, Rule, StartKind, Stat, Team};
 
-/// Ticks before which nobody touches the ball of a start. Measured.
-const FIRST_TICKS: i32 = 12;
+/// Ticks before which nobody touches the ball of a start, as chance will have it. Measured.
+const FIRST_TICKS: std::ops::Range<f32> = 18.0..42.0;
 
 /// The match that a drawn start begins with.
 pub fn begin(drawn: &Drawn) -> Match {
@@ -23,7 +23,6 @@ pub fn begin(drawn: &Drawn) -> Match {
         let mut body = Body::blank();
         body.stats = stats::stats_of(index, start);
         body.level = 0.3 + 0.7 * start.difficulty.clamp(0.0, 1.0);
-        body.ready_at = FIRST_TICKS;
         body.speed_top_mps = stats::speed_top(body.stats[Stat::Speed.index()]);
         body.height_m = stats::height_of(index);
         body.kickoff = [start.pos; 2];
@@ -31,6 +30,10 @@ pub fn begin(drawn: &Drawn) -> Match {
         body.facing = start.heading_rad.map_or(to_ball, crate::math::unit);
         player.body = body;
         player.heading_rad = start.heading_rad.unwrap_or_else(|| crate::math::heading(to_ball));
+    }
+    let first = FIRST_TICKS.start + (FIRST_TICKS.end - FIRST_TICKS.start) * noise::roll(&mut game);
+    for player in &mut game.players {
+        player.body.ready_at = first as i32;
     }
     formation::assign_slots(&mut game);
     game.play.others = drawn.others;

@@ -41,6 +41,8 @@ pub struct Body {
     pub touched_at: i32,
     /// Tick before which he may not try the ball.
     pub ready_at: i32,
+    /// Tick before which they begin no kick: they are still turning with the ball.
+    pub turned_at: i32,
     /// Where he can first meet the ball.
     pub meet: Vec2,
     /// In how many seconds.
@@ -109,6 +111,8 @@ pub struct KickPlan {
     pub gauge_ticks: u8,
     /// Whether the key is held in this step.
     pub held: bool,
+    /// Whether a ball that comes fast is taken before the kick, rather than struck as it comes.
+    pub taken: bool,
     /// In how many seconds the player meets the ball, as last seen: a ball that gets away ends the plan.
     pub meet_s: f32,
     /// The swing, once it has begun.
@@ -162,6 +166,7 @@ impl Body {
             lag_ticks: 0,
             touched_at: NEVER,
             ready_at: NEVER,
+            turned_at: NEVER,
             meet: Vec2::ZERO,
             meet_s: 9.0,
             mean_mps: 0.0,

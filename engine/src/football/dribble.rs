@@ -40,6 +40,10 @@ pub(super) const LAID_M: f32 = 0.4;
 const TURN_MPS2: f32 = 14.0;
 /// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
 const SHARP: f32 = 0.6;
+/// A turn with a smaller cosine than this is about; chosen.
+const ABOUT: f32 = -0.5;
+/// Ticks after such a touch before which nobody begins a kick; fitted to how soon kicks leave after it.
+const TURNING_TICKS: i32 = 28;
 /// A ball rolls the way somebody runs from this cosine on.
 const ALONG: f32 = 0.94;
 /// How a player brakes and a slow ball rolls out, m/s².
@@ -74,7 +78,7 @@ pub(super) fn minds_lines(game: &Match, id: PlayerId) -> bool {
 pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let player = *game.player(id);
     let ball_vel = game.ball.vel.truncate();
-    let armed = player.body.kick.is_some();
+    let armed = player.body.kick.is_some() && game.tick as i32 >= player.body.turned_at;
     let wish = if armed { player.body.dribble.clamp_length_max(2.5) } else { player.body.dribble };
     let speed = wish.length();
     let to_ball = game.ball.pos.truncate() - player.pos;
@@ -101,6 +105,9 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     let wild = wild * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
     let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
     touch::push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
+    if player.body.kick.is_none() {
+        note_turn(game, id, ahead);
+    }
     true
 }
 
@@ -128,6 +135,20 @@ pub(super) struct Care {
     pub(super) lies: bool,
 }
 
+/// Whether a touch along `ahead` turns a player's run.
+fn turns(player: &Player, ahead: Vec2) -> bool {
+    player.vel.dot(ahead) < SHARP * player.vel.length()
+}
+
+/// Notes that a player has touched the ball along `ahead`: whoever turns with it must play that out before a kick, unless
+/// they turn about, which the kick cuts short.
+pub(super) fn note_turn(game: &mut Match, id: PlayerId, ahead: Vec2) {
+    let player = &mut game.players[id.index()];
+    if turns(player, ahead) && player.vel.dot(ahead) > ABOUT * player.vel.length() {
+        player.body.turned_at = game.tick as i32 + TURNING_TICKS;
+    }
+}
+
 /// The ball's velocity with which they meet it again a moment later, running at `speed` along `ahead`.
 pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &Care) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
@@ -137,7 +158,7 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let gait = (speed + 0.3 * (pace - speed) * under_way) / 8.0;
     let shy = if care.pressed { 0.8 } else { 1.0 };
     // Whoever turns carries the rest of their run on until they have braked it.
-    let turns = player.vel.dot(ahead) < SHARP * pace;
+    let turns = turns(player, ahead);
     let rest = if turns { player.vel - ahead * own } else { Vec2::ZERO };
     let brakes = rest.length() / TURN_MPS2;
     let time = ((0.12 + 0.6 * gait * gait * gait * gait) * shy).max(brakes);

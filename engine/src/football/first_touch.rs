@@ -20,7 +20,7 @@ const FOLLOWED_MPS: f32 = 3.6;
 /// A ball met faster than this hops off the body that takes it, m/s; chosen.
 const HOPS_MPS: f32 = 8.0;
 /// What pace a player keeps who takes up a ball that lies before them. Fitted to the starts of the Academy.
-const TAKEN_UP: f32 = 0.5;
+const TAKEN_UP: f32 = 0.75;
 /// Ticks until whoever has taken such a ball plays it again; fitted.
 const TAKING_TICKS: i32 = 33;
 
@@ -80,6 +80,9 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let left_over = ball.vel.truncate() * keep;
     let velocity = soft * (1.0 - keep) + left_over + Vec2::new(-left_over.y, left_over.x) * aside;
     touch::push(game, events, id, velocity, if hard { hop_mps(meeting) } else { 0.0 });
+    if wish.length_squared() > 0.25 {
+        dribble::note_turn(game, id, ahead);
+    }
     let taker = &mut game.players[id.index()];
     if hard {
         taker.body.ready_at = game.tick as i32 + TAKING_TICKS;

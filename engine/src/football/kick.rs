@@ -33,6 +33,11 @@ const BEGIN_PACE: f32 = 0.7;
 /// leave from many points of the stride.
 const QUICK_TICKS: i32 = 22;
 const REACH_M: f32 = 0.8;
+/// How soon a ball that comes fast can be struck without being taken, ticks. Fitted to how late that can be asked for.
+const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;
+/// The highest ball that is, metres, and how often that comes off: short, long and high passes, shots. Measured.
+const FIRST_TIME_M: f32 = 0.9;
+const FIRST_TIME: [f32; 4] = [0.75, 0.5, 0.2, 0.85];
 /// The angle by which a pass may still be turned at the contact, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
 /// A ball that comes faster than this is taken before it is kicked, m/s; chosen.
@@ -74,6 +79,7 @@ fn asked(kind: KickKind) -> KickPlan {
         power: 0.0,
         gauge_ticks: 0,
         held: false,
+        taken: false,
         meet_s: f32::MAX,
         swing: None,
         until: 0,
@@ -115,7 +121,7 @@ pub fn kick_ball(game: &mut Match, events: &mut Events) {
             }
             Some(swing) if now > swing.ready_at + MISSED_TICKS && swing.way.is_some() => plan.swing = None,
             Some(_) => {}
-            None => plan.swing = begin(game, id, &plan),
+            None => plan.swing = first_time(game, id, &mut plan).or_else(|| begin(game, id, &plan)),
         }
         game.players[i].body.kick = Some(plan);
     }
@@ -138,7 +144,7 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
             soonest(game, id, plan, longest).unwrap_or(longest)
         }
     };
-    if !at_hand && must_take(game, id) {
+    if !at_hand && (must_take(game, id) || (game.tick as i32) < player.body.turned_at) {
         return None;
     }
     let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
@@ -154,6 +160,32 @@ fn must_take(game: &Match, id: PlayerId) -> bool {
     }
     let meeting = game.ball.vel.truncate() - player.vel;
     meeting.length_squared() > TAKES_MPS * TAKES_MPS
+}
+
+/// Begins the swing at a ball that comes fast, if it will be struck without being taken before: how often that comes off
+/// depends on the kick.
+fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swing> {
+    let free = game.play.set_piece.is_none() && game.play.hands.is_none();
+    if plan.held || plan.taken || !free || game.last_touch == Some(id) || !must_take(game, id) {
+        return None;
+    }
+    let player = game.player(id);
+    let meets = |ticks: &i32| {
+        let there = game.play.forecast.at(game.tick + *ticks as u32);
+        let place = player.pos + player.vel * (*ticks as f32 * 0.01);
+        there.z <= FIRST_TIME_M && place.distance_squared(there.truncate()) < REACH_M * REACH_M
+    };
+    let ticks = FIRST_TIME_TICKS.step_by(2).find(meets)?;
+    let [short, long, high, shot] = FIRST_TIME;
+    let often = match plan.kind {
+        KickKind::Short => short,
+        KickKind::Long => long,
+        KickKind::High => high,
+        KickKind::Shot | KickKind::Clear => shot,
+    };
+    plan.taken = !noise::happens(game, often);
+    let (way, mate) = meant(game, id, plan);
+    (!plan.taken).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
 }
 
 /// How far a player will be from the ball so many ticks from now, metres; `pace`: what share of their own is left to them
@@ -215,18 +247,18 @@ fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     let sprints = ((speed - RUN_MPS) / (SPRINT_MPS - RUN_MPS)).clamp(0.0, 1.0) * (1.0 - braked).clamp(0.0, 1.0);
     // [standing, walking, sprinting, less for a leg that is back already]
     let [stand, walk, sprint, back] = match plan.kind {
-        KickKind::Short | KickKind::Long => [34.0, 24.0, 38.0, 0.0],
+        KickKind::Short | KickKind::Long => [34.0, 28.0, 38.0, 0.0],
         KickKind::High => [24.0, 22.0, 26.0, 5.0],
-        KickKind::Shot | KickKind::Clear => [25.0, 29.0, 42.0, 10.0],
+        KickKind::Shot | KickKind::Clear => [25.0, 24.0, 42.0, 10.0],
     };
     let straight =
         stand + (walk - stand) * walks + (sprint - walk) * sprints - if plan.held { back * walks } else { 0.0 };
+    let degrees = pass::off_run(player, way);
     let turn = match plan.kind {
-        KickKind::Shot | KickKind::Clear => 0.0,
+        KickKind::Shot | KickKind::Clear => 15.0 * walks * ((degrees - 30.0) / 60.0).clamp(0.0, 1.0),
         _ => {
-            let degrees = pass::off_run(player, way);
             (15.0 * walks + 6.0 * sprints) * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0)
-                + 10.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
+                + 2.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
         }
     };
     (straight + turn) as i32
@@ -359,9 +391,9 @@ fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
         .count()
         .saturating_sub(1);
     let pushed = 3.0 * player.body.push_m;
-    let moving = ((relative - 4.0) / 25.0).clamp(0.0, 0.7) + high * 0.4;
-    // Both about 1 for the average player of the table.
-    let volley = if kind == KickKind::Shot { 1.22 - 0.4 * player.skill(Stat::Volley) } else { 1.0 };
+    // What a moving ball makes of a shot is reckoned with the shot.
+    let moving = if kind == KickKind::Shot { 0.0 } else { ((relative - 4.0) / 25.0).clamp(0.0, 0.7) + high * 0.4 };
+    // About 1 for the average player of the table.
     let hurry = 1.3 - 0.4 * player.skill(Stat::Calmness);
-    (moving * volley + far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
+    (moving + far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
 }

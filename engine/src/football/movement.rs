@@ -27,10 +27,13 @@ pub const RUN_WITH_BALL_MPS: f32 = 5.12;
 pub const WITH_BALL: f32 = 0.955;
 
 /// How fast somebody speeds up with the ball against that without. Fitted to the starts of the Academy.
-const BURST_WITH_BALL: f32 = 0.9;
+const BURST_WITH_BALL: f32 = 0.95;
 
 /// Who wants to stand stops for a ball this near, metres: it is laid where the stop ends.
 const STOPPING_M: f32 = 1.1;
+
+/// How near somebody has come to the ball who waits there for a start, metres; chosen.
+const AT_M: f32 = 0.75;
 
 /// Length of a tick, seconds.
 pub const DT: f32 = 0.01;
@@ -42,6 +45,9 @@ pub fn advance(game: &mut Match) {
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
     let owner = game.owner;
+    // Until the ball of a start can be touched, whoever has come to it stands there.
+    let starts = game.last_touch.is_none();
+    let now = game.tick as i32;
     let frozen = game.play.set_piece.map(|set_piece| set_piece.taker);
     let mut runners: ArrayVec<PlayerId, PLAYERS_MAX> = ArrayVec::new();
     let mut fours: ArrayVec<Four, ROWS> = ArrayVec::new();
@@ -71,6 +77,11 @@ pub fn advance(game: &mut Match) {
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),
+            Intent::Ball(_)
+                if starts && now < player.body.ready_at && player.pos.distance_squared(ball) < AT_M * AT_M =>
+            {
+                (Vec2::ZERO, NO_POINT)
+            }
             Intent::Ball(speed) => (go_for_ball(player, ball, ball_vel, has_ball, speed), NO_POINT),
         };
         let (row, at) = (runners.len() / WIDTH, runners.len() % WIDTH);

@@ -26,10 +26,13 @@ const STEP_MPS: f32 = 1.6;
 const BRAKED_MPS: f32 = 4.5;
 /// What share of the hardest shot is left without a run-up. Measured.
 const STANDING: f32 = 0.765;
-/// How much of GRF's lift of a hard shot is ours. Fitted to the measured heights.
-const LIFT: f32 = 0.3;
-/// How much more a standing player's foot gets under the ball.
-const UNDER: f32 = 0.2;
+/// How much a hard shot is lifted (GRF's), and how much the hardest more than the others. Fitted to the measured heights.
+const LIFT: f32 = 0.7;
+const LIFTS: f32 = 1.25;
+/// The pace at which a shot is easiest (GRF's), and what a runner has left of theirs at most as they strike, m/s; fitted to
+/// the measured heights.
+const EASIEST_MPS: f32 = 3.5;
+const LEFT_MPS: f32 = 3.8;
 /// How hard the easiest shot is. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
 /// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.
@@ -113,7 +116,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let power = foot.min(most) * (1.0 + 0.2 * meeting);
 
     let ease = (0.4 + 0.6 * across)
-        * (1.0 - 0.3 * ((pace - 3.5).abs() / 4.0).clamp(0.0, 1.0))
+        * (1.0 - 0.3 * ((pace.min(LEFT_MPS) - EASIEST_MPS).abs() / 4.0).clamp(0.0, 1.0))
         * (1.0 - 0.7 * pushed)
         * (1.0 - 0.4 * meeting * (0.5 - 0.3 * player.skill(Stat::Volley)))
         * (0.6 + 0.4 * eased(1.0 - ((power - 30.0) / 70.0).clamp(0.0, 1.0), 1.0))
@@ -126,8 +129,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let (on, aside, up) = (noise::spread(game), noise::spread(game), noise::spread(game));
     let shaken = (way * on + way.perp() * aside).extend(up) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
-    let worst = (worst + Vec3::Z * ((LIFT + UNDER * (1.0 - strides)) * eased(harder, 0.7))).normalize()
-        * (power * (1.0 - 0.5 * harder));
+    let worst =
+        (worst + Vec3::Z * (LIFT * libm::powf(eased(harder, 0.7), LIFTS))).normalize() * (power * (1.0 - 0.5 * harder));
     let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
     let ball = best + (worst - best) * luck;
 

@@ -7,7 +7,7 @@ use crate::event::Events;
 use crate::football::body::Intent;
 use crate::football::play::ticks_since;
 use crate::football::{dribble, duel, first_touch, flight, forecast, kick};
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::{EventKind, Rule};
@@ -18,6 +18,8 @@ pub(super) const CHEST_M: f32 = 1.25;
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
 /// A dribbler's ball is no higher than this, metres; chosen: how high a trapped one hops.
 const HIGH_M: f32 = 1.5;
+/// The ticks in which the ball of a start is pushed straight on by who stands there. Measured.
+const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 
@@ -76,7 +78,7 @@ pub(super) fn is_driven(game: &Match, id: PlayerId) -> bool {
 /// Whether a player would play the ball that is near him.
 fn wants_ball(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
-    if (game.tick as i32) < player.body.ready_at {
+    if (game.tick as i32) < player.body.ready_at && !pushes_off(game, player) {
         return false;
     }
     if player.ai == Ai::Lazy && !is_driven(game, id) {
@@ -98,6 +100,16 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
         Some(to) if to != id => game.play.chaser[id.team().index()] == Some(id),
         _ => game.play.shot.is_none() || matches!(player.body.intent, Intent::Ball(_)),
     }
+}
+
+/// Whether a player stands at the ball of a start and only has to push it straight on: they do so at once.
+fn pushes_off(game: &Match, player: &Player) -> bool {
+    let to_ball = game.ball.pos.truncate() - player.pos;
+    let wish = player.body.dribble;
+    game.last_touch.is_none()
+        && PUSH_OFF_TICKS.contains(&game.tick)
+        && wish.dot(to_ball) > 0.9 * wish.length() * to_ball.length()
+        && wish != Vec2::ZERO
 }
 
 /// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as his kick.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::environment::{EnvironmentError, EnvironmentOptions, Scratch, StepError};
-use crate::snapshot::match_bytes;
+use crate::snapshot::{SNAPSHOT_VERSION, match_bytes};
 use crate::state::PlayerId;
 use crate::testing::{scenario, scoring};
 use setpiece_scenario::vocabulary::{Action, Role, Team};
@@ -123,7 +123,7 @@ fn what_is_no_snapshot_of_this_version_is_told() {
     changed[40] ^= 1;
     for (bytes, words) in [
         (b"{}".as_slice(), "not a snapshot: it doesn't begin as one"),
-        (&newer, "the snapshot has version 99; this build reads version 6: take it again"),
+        (&newer, &format!("the snapshot has version 99; this build reads version {SNAPSHOT_VERSION}: take it again")),
         (&changed, "the snapshot was changed after it was taken: its checksum differs"),
         (&snapshot[..100], "the snapshot is cut off: its end is missing"),
     ] {

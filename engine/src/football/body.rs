@@ -141,6 +141,8 @@ pub struct Mind {
     pub fills: PlayerId,
     /// The opponent he marks.
     pub mark: Option<PlayerId>,
+    /// Until which step they stand with planted feet, to meet a ball that an opponent brings.
+    pub planted_until_step: u32,
     /// Until which step he makes a run forward.
     pub run_until_step: u32,
     /// Step of his next decision with the ball.
@@ -170,7 +172,7 @@ impl Body {
             meet: Vec2::ZERO,
             meet_s: 9.0,
             mean_mps: 0.0,
-            mind: Mind { slot: Vec2::ZERO, fills: PlayerId(0), mark: None, run_until_step: 0, decide_at_step: 0 },
+            mind: Mind { slot: Vec2::ZERO, fills: PlayerId(0), mark: None, planted_until_step: 0, run_until_step: 0, decide_at_step: 0 },
         }
     }
 

@@ -19,6 +19,9 @@ pub(super) const SPRINTS_MPS: f32 = 6.0;
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
 const CARRIED_M: [f32; 2] = [0.42, 0.64];
+/// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far away, metres. Measured.
+const SLOW: f32 = 0.5;
+const EARLY_M: f32 = 0.8;
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
 /// A player with an agent minds a line until they are as near to it, metres; chosen.
@@ -58,7 +61,11 @@ pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
         return SOLE_M;
     }
     let along = ball.dot(own) > ALONG * ball.length() * own.length() && wish.dot(own) > 0.0;
-    if along { carried_m(own.length()) } else { FOOT_M }
+    if !along {
+        return FOOT_M;
+    }
+    // A ball that is slow for where the run is to lead is pushed on early.
+    if ball.length() < SLOW * wish.length() { EARLY_M } else { carried_m(own.length()) }
 }
 
 /// How far ahead of a runner at so many m/s the ball is when it is touched, metres. Measured.

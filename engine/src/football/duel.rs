@@ -10,37 +10,41 @@ use setpiece_scenario::vocabulary::{EventKind, Role, Stat};
 /// How near the ball the tackler's foot must come, metres.
 const TACKLE_M: f32 = 0.65;
 /// How often a try meets the ball between players of like skill; fitted to how soon a runner loses it to one at their side.
-const TRIES: f32 = 0.27;
+const TRIES: f32 = 0.35;
 /// How often at least; chosen.
 const LEAST: f32 = 0.025;
 /// How much more often against somebody who stands still with the ball; chosen.
 const STANDS: f32 = 0.06;
 /// How much more often against a carrier who runs into the tackler; fitted to how soon a runner loses it head-on.
-const INTO: f32 = 0.4;
+const INTO: f32 = 0.6;
 /// How far behind a carrier that begins to count, a cosine; chosen.
 const BESIDE: f32 = 0.5;
-/// The tackling for which these hold: a centre back's of the middle difficulty; less skill meets the ball less often.
+/// The tackling for which these hold: a centre back's of the middle difficulty. Somebody with none meets the ball by this
+/// share less often: GRF's weak players are only later to see it.
 const AVERAGE: f32 = 0.5;
+const UNABLE: f32 = 0.25;
+/// How much a lead in skill counts; chosen.
+const SKILL: f32 = 0.1;
 /// Between these speeds past the tackler, m/s, a ball is met the less often, at the faster by this share less; fitted to
 /// how many get through at a sprint.
 const PASSING_MPS: std::ops::Range<f32> = 3.0..7.0;
-const SURPRISED: f32 = 0.9;
+const SURPRISED: f32 = 0.6;
 /// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
-const POKED_MPS: f32 = 3.5;
+const POKED_MPS: f32 = 5.0;
 /// How much of the tackler's velocity the ball takes over, and how softly it may be poked; fitted to how near it stays.
-const FOLLOWS: f32 = 0.9;
-const SOFTEST: f32 = 0.3;
+const FOLLOWS: f32 = 0.5;
+const SOFTEST: f32 = 1.0;
 /// What a ball that is only brushed keeps of its speed past the tackler. Measured.
 const LEFT: f32 = 0.85;
 /// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
 /// how often the runner has it again soon.
-const BRUSHED: f32 = 0.5;
+const BRUSHED: f32 = 0.7;
 /// The same of keepers; fitted to where the ball goes from those who come out.
 const KEEPER_MPS: f32 = 7.5;
 const KEEPER_BRUSHED: f32 = 1.5;
 /// Ticks for which whoever has lost the ball can't try it, and for which who has poked it can't play on; chosen.
-const BEATEN_TICKS: f32 = 12.0;
-const POKED_TICKS: i32 = 30;
+const BEATEN_TICKS: f32 = 6.0;
+const POKED_TICKS: i32 = 45;
 /// Ticks between two tries of one player, and what share of their pace a failed one leaves them; chosen.
 const RETRY_TICKS: i32 = 24;
 const FAILED: f32 = 0.9;
@@ -61,7 +65,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let keep =
         0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
     let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
-    let chance = (TRIES + exposed + 0.20 * (tackle - keep)) * open;
+    let chance = (TRIES + exposed + SKILL * (tackle - keep)) * open;
     // Who stands with it is there to be tried from any side.
     let still = (1.0 - victim.vel.length() / 1.5).max(0.0);
     // Whoever runs into a defender with the ball runs it onto their feet.
@@ -72,7 +76,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let passing = (game.ball.vel.truncate() - tackler.vel).length();
     let pushed = (passing - PASSING_MPS.start) / (PASSING_MPS.end - PASSING_MPS.start);
     let meets = 1.0 - SURPRISED * pushed.clamp(0.0, 1.0);
-    let able = (tackle / AVERAGE).min(1.3);
+    let able = 1.0 - UNABLE * (1.0 - tackle / AVERAGE).clamp(-1.0, 1.0);
     let chance = ((chance + INTO * into) * meets * able + STANDS * still).clamp(LEAST, 0.9);
     let now = game.tick as i32;
     if noise::happens(game, chance) {

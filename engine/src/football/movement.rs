@@ -32,8 +32,9 @@ const BURST_WITH_BALL: f32 = 0.95;
 /// Who wants to stand stops for a ball this near, metres: it is laid where the stop ends.
 const STOPPING_M: f32 = 1.1;
 
-/// How near somebody has come to the ball who waits there for a start, metres; chosen.
+/// How near somebody has come to the ball who waits there for a start, metres: to play it elsewhere, and straight on; chosen.
 const AT_M: f32 = 0.75;
+const RIGHT_AT_M: f32 = 0.4;
 
 /// Length of a tick, seconds.
 pub const DT: f32 = 0.01;
@@ -77,11 +78,7 @@ pub fn advance(game: &mut Match) {
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),
-            Intent::Ball(_)
-                if starts && now < player.body.ready_at && player.pos.distance_squared(ball) < AT_M * AT_M =>
-            {
-                (Vec2::ZERO, NO_POINT)
-            }
+            Intent::Ball(_) if starts && now < player.body.ready_at && is_at(player, ball) => (Vec2::ZERO, NO_POINT),
             Intent::Ball(speed) => (go_for_ball(player, ball, ball_vel, has_ball, speed), NO_POINT),
         };
         let (row, at) = (runners.len() / WIDTH, runners.len() % WIDTH);
@@ -97,6 +94,14 @@ pub fn advance(game: &mut Match) {
     for (i, id) in runners.into_iter().enumerate() {
         give(&fours[i / WIDTH], i % WIDTH, &mut game.players[id.index()]);
     }
+}
+
+/// Whether a player has come to the ball of a start; whoever plays it straight on goes right up to it.
+fn is_at(player: &Player, ball: Vec2) -> bool {
+    let to_ball = ball - player.pos;
+    let wish = player.body.dribble;
+    let straight = wish != Vec2::ZERO && wish.dot(to_ball) > 0.9 * wish.length() * to_ball.length();
+    to_ball.length() < if straight { RIGHT_AT_M } else { AT_M }
 }
 
 /// Puts a player into his lane.

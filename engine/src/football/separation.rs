@@ -38,7 +38,7 @@ const TAKEN_OVER: f32 = 0.03;
 
 /// What share of their closing speed a touch of two ticks takes from those who run into an opponent; fitted to how fast
 /// runners get past a keeper.
-const BLOCKED: f32 = 0.1;
+const BLOCKED: f32 = 0.04;
 
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;

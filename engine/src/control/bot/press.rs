@@ -4,7 +4,7 @@ use crate::control::bot::formation::mindset;
 use crate::control::bot::support::nearest;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
 use crate::event::Events;
-use crate::football::body::{Intent, Pose};
+use crate::football::body::{Body, Intent, Pose};
 use crate::football::movement::SPRINT_MPS;
 use crate::football::{noise, slide};
 use crate::state::{Match, Player, PlayerId};
@@ -28,6 +28,8 @@ const MEETS_M: f32 = 0.7;
 const MEETS_TICKS: u32 = 38;
 const MEETS_AHEAD_S: f32 = 0.1;
 const OPEN_TO: f32 = 0.6;
+/// For how many steps they stand so then. Measured.
+const PLANTED_STEPS: u32 = 6;
 /// From how near a hunter goes for the ball itself, metres; chosen.
 const CHALLENGE_M: f32 = 2.0;
 /// How far beside a carrier a defender runs past them, and how far ahead of them they are beside the ball, metres; chosen.
@@ -127,6 +129,9 @@ pub fn hunt(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, ri
 
 /// Whether the ball that an opponent has is about to come to a player: they plant their feet and go for it.
 pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
+    if game.owner != Some(id) && is_planted(&game.player(id).body, game.step) {
+        return true;
+    }
     let Some(rival) = view.owner.filter(|owner| owner.team() != view.team) else { return false };
     let (player, carrier) = (game.player(id), game.player(rival));
     let ball = game.play.forecast.at(game.tick + MEETS_TICKS);
@@ -138,18 +143,26 @@ pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
         && player.role != Role::GK
 }
 
-/// Meets a ball that comes with an opponent.
+/// Meets a ball that comes with an opponent: they plant their feet, and stand so for a while, whatever becomes of it.
 pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if let Some(rival) = view.owner {
         maybe_slide(game, events, view, id, rival);
     }
-    let comes = game.ball.vel.truncate().dot(game.player(id).pos - game.ball.pos.truncate()) > 0.0;
+    let step = game.step;
     let body = &mut game.players[id.index()].body;
     body.kick = None;
     if body.pose != Pose::Sliding {
+        if !is_planted(body, step) {
+            body.mind.planted_until_step = step + PLANTED_STEPS;
+        }
         body.dribble = Vec2::new(2.0 * view.side, 0.0);
-        body.intent = if comes { Intent::Stand } else { Intent::Ball(SPRINT_MPS) };
+        body.intent = Intent::Stand;
     }
+}
+
+/// Whether a player still stands with planted feet.
+fn is_planted(body: &Body, step: u32) -> bool {
+    step < body.mind.planted_until_step
 }
 
 /// From how far a player hunts a carrier, metres. (GRF's.)

@@ -31,7 +31,7 @@ const BEGIN_M: f32 = 1.3;
 const BEGIN_PACE: f32 = 0.7;
 /// How soon a sprinter shoots whose ball comes to their foot, ticks, and how near that is, metres; fitted to how soon shots
 /// leave from many points of the stride.
-const QUICK_TICKS: i32 = 22;
+const QUICK_TICKS: i32 = 32;
 const REACH_M: f32 = 0.8;
 /// How soon a ball that comes fast can be struck without being taken, ticks. Fitted to how late that can be asked for.
 const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;

@@ -33,6 +33,8 @@ const LIFTS: f32 = 1.25;
 /// the measured heights.
 const EASIEST_MPS: f32 = 3.5;
 const LEFT_MPS: f32 = 3.8;
+/// The pace beyond which a run makes aiming no harder, m/s; fitted to how far shots on the run go astray.
+const RUN_MPS: f32 = 6.0;
 /// How hard the easiest shot is. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
 /// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.
@@ -116,13 +118,17 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let power = foot.min(most) * (1.0 + 0.2 * meeting);
 
     let ease = (0.4 + 0.6 * across)
-        * (1.0 - 0.3 * ((pace.min(LEFT_MPS) - EASIEST_MPS).abs() / 4.0).clamp(0.0, 1.0))
         * (1.0 - 0.7 * pushed)
         * (1.0 - 0.4 * meeting * (0.5 - 0.3 * player.skill(Stat::Volley)))
         * (0.6 + 0.4 * eased(1.0 - ((power - 30.0) / 70.0).clamp(0.0, 1.0), 1.0))
         * (1.0 - 0.5 * rough);
-    let hard = (1.0 - ease).clamp(LEAST_HARD, 1.0);
+    let hard_at = |pace: f32| {
+        let easy = 1.0 - 0.3 * ((pace - EASIEST_MPS).abs() / 4.0).clamp(0.0, 1.0);
+        (1.0 - ease * easy).clamp(LEAST_HARD, 1.0)
+    };
+    let hard = hard_at(player.vel.length().clamp(STEP_MPS, RUN_MPS));
     let harder = libm::powf(hard, 0.7);
+    let lifts = libm::powf(hard_at(pace.min(LEFT_MPS)), 0.7);
 
     let best = way.extend(0.05).normalize() * power;
     let pulled = (way + (run - way) * (0.8 * hard)).normalize_or(way);
@@ -130,7 +136,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let shaken = (way * on + way.perp() * aside).extend(up) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
     let worst =
-        (worst + Vec3::Z * (LIFT * libm::powf(eased(harder, 0.7), LIFTS))).normalize() * (power * (1.0 - 0.5 * harder));
+        (worst + Vec3::Z * (LIFT * libm::powf(eased(lifts, 0.7), LIFTS))).normalize() * (power * (1.0 - 0.5 * harder));
     let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
     let ball = best + (worst - best) * luck;
 

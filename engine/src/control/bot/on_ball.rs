@@ -38,6 +38,8 @@ const PASS_LEAST: f32 = 0.1;
 const LONG_S: f32 = 5.0;
 /// How much less they mind opponents then, so that nobody waits for the other for ever; chosen.
 const DARES: f32 = 0.6;
+/// After how many seconds with the ball they pass to whomever it is best; chosen.
+const MUST_S: f32 = 8.0;
 /// How near to goal defenders are in a hurry to clear, metres.
 const PANIC_M: std::ops::Range<f32> = 2.0..16.0;
 /// A keeper clears a ball that a rival is less than this many times as far from, in time.
@@ -110,11 +112,16 @@ fn placed(game: &Match, view: &View, id: PlayerId, nearness: f32) -> f32 {
     sum / (SPACE_AHEAD + SPACE_AROUND + nearness)
 }
 
-/// How long a player has had the ball, 0..1: 1 from five seconds on.
+/// How long a player has had the ball, 0..1: 1 from [`LONG_S`] on.
 fn long(game: &Match, id: PlayerId) -> f32 {
-    let ticks = if game.owner == Some(id) { game.tick.saturating_sub(game.play.owned_since) } else { 0 };
-    let long = (ticks as f32 * 0.01 / LONG_S).min(1.0);
+    let long = (had_s(game, id) / LONG_S).min(1.0);
     long * long
+}
+
+/// How long a player has had the ball, seconds.
+fn had_s(game: &Match, id: PlayerId) -> f32 {
+    let ticks = if game.owner == Some(id) { game.tick.saturating_sub(game.play.owned_since) } else { 0 };
+    ticks as f32 * 0.01
 }
 
 /// The best pass: its odds, the mate, its kind; none if running on is better.
@@ -129,15 +136,16 @@ fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, 
     let hard = (apart / 10.0).min(1.0) * (1.0 - 0.8 * player.skill(Stat::ShortPass));
     // Whoever has had it for long lets it go for less.
     let long = long(game, id);
+    let must = had_s(game, id) > MUST_S;
     let mut best = None;
-    let mut most = PASS_LEAST * (1.0 - 0.5 * long);
+    let mut most = if must { f32::MIN } else { PASS_LEAST * (1.0 - 0.5 * long) };
     for (mate, other) in game.team(view.team) {
         if mate == id {
             continue;
         }
         let keeper = if other.role == Role::GK { TO_KEEPER } else { 1.0 };
         let gains = placed(game, view, mate, nearness) * keeper;
-        if gains <= better {
+        if gains <= better && !must {
             continue;
         }
         let mut odds = (0.0, KickKind::High);
@@ -148,7 +156,7 @@ fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, 
             }
         }
         let worth = ((gains - own) * tactics + odds.0 - hard) / (tactics + 1.0);
-        if worth > most && odds.0 > 0.2 * (1.0 - mind) - 0.1 * long {
+        if worth > most && (must || odds.0 > 0.2 * (1.0 - mind) - 0.1 * long) {
             most = worth;
             best = Some((odds.0, mate, odds.1));
         }

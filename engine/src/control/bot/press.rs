@@ -28,7 +28,8 @@ const MEETS_M: f32 = 0.7;
 const MEETS_TICKS: u32 = 38;
 const MEETS_AHEAD_S: f32 = 0.1;
 const OPEN_TO: f32 = 0.6;
-/// For how many steps they stand so then. Measured.
+/// How fast a ball comes for which they do, m/s; chosen. For how many steps they stand so then. Measured.
+const COMES_MPS: f32 = 1.0;
 const PLANTED_STEPS: u32 = 6;
 /// From how near a hunter goes for the ball itself, metres; chosen.
 const CHALLENGE_M: f32 = 2.0;
@@ -148,16 +149,19 @@ pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if let Some(rival) = view.owner {
         maybe_slide(game, events, view, id, rival);
     }
-    let step = game.step;
+    let (step, player) = (game.step, game.player(id));
+    let way = (player.pos - game.ball.pos.truncate()).normalize_or_zero();
+    let comes = (game.ball.vel.truncate() - player.vel).dot(way) > COMES_MPS;
     let body = &mut game.players[id.index()].body;
     body.kick = None;
-    if body.pose != Pose::Sliding {
-        if !is_planted(body, step) {
-            body.mind.planted_until_step = step + PLANTED_STEPS;
-        }
-        body.dribble = Vec2::new(2.0 * view.side, 0.0);
-        body.intent = Intent::Stand;
+    if body.pose == Pose::Sliding {
+        return;
     }
+    if comes && !is_planted(body, step) {
+        body.mind.planted_until_step = step + PLANTED_STEPS;
+    }
+    body.dribble = Vec2::new(2.0 * view.side, 0.0);
+    body.intent = if is_planted(body, step) { Intent::Stand } else { Intent::Ball(SPRINT_MPS) };
 }
 
 /// Whether a player still stands with planted feet.

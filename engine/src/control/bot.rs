@@ -32,10 +32,12 @@ use setpiece_scenario::{Ai, Others};
 const GOAL: Vec2 = Vec2::new(HALF_LENGTH_M as f32, 0.0);
 /// How near a ball must come to one who is to hold their place, metres; chosen.
 const HOLD_M: f32 = 6.0;
-/// Steps between two decisions of a player far from the ball.
-const STAGGER: u32 = 2;
+/// Steps between two decisions of a player who is not near what happens, and of one who is far from it.
+const STAGGER: [u32; 2] = [2, 4];
 /// How near to what happens everyone decides in every step, metres; chosen.
 const NEAR_M: f32 = 15.0;
+/// From how far off they are far from it, metres; chosen.
+const FAR_M: f32 = 30.0;
 /// Steps between two times that slots and opponents are given out. (GRF's.)
 const ASSIGN_EVERY: u32 = 4;
 
@@ -113,8 +115,10 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         press::Pursuit::None => {}
     }
     let player = game.player(id);
-    let due = (game.step + id.in_team() as u32).is_multiple_of(STAGGER);
-    let near = (player.pos * view.side).distance_squared(view.action_at(game)) < NEAR_M * NEAR_M;
+    let away = (player.pos * view.side).distance_squared(view.action_at(game));
+    let near = away < NEAR_M * NEAR_M;
+    let every = STAGGER[usize::from(away > FAR_M * FAR_M)];
+    let due = (game.step + id.in_team() as u32).is_multiple_of(every);
     if !due && !near && matches!(player.body.intent, Intent::Go(..)) {
         return;
     }

@@ -42,7 +42,7 @@ impl Block {
         let plain = Vec2::new(back + (0.5 * moved + 0.5) * (front - back), self.middle_y + slot.y * self.half_width);
         let (x, keen) = self.towards_x;
         let near = 1.0 - ((x - plain.x) / (front - back)).abs().min(1.0);
-        let place_x = math::mix(plain.x, x, math::pow(math::ease(near), 0.8) * keen);
+        let place_x = math::mix(plain.x, x, math::eighths::<6>(math::ease(near)) * keen);
         let (y, keen) = self.towards_y;
         let near = 1.0 - ((y - plain.y) / (2.0 * self.half_width)).abs().min(1.0);
         let place_y = math::mix(plain.y, y, near * (0.2 + 0.8 * y.abs() / HALF.y) * keen);

@@ -6,6 +6,7 @@ use crate::football::body::Pose;
 use crate::football::movement::{DT, SPRINT_MPS};
 use crate::football::rows::{ROWS, WIDTH};
 use crate::football::{foul, frame, reach};
+use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -125,7 +126,7 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     // The share of each displacement that is the first's.
     let dragged = 0.5 - 0.45 * (stands + FIRST_DRAGGED * is_first).clamp(-1.0, 1.0);
     let close = 1.0 - ((distance - CONTACT_M) / (SHELL_M - CONTACT_M)).clamp(0.0, 1.0);
-    let carried = (b.vel - a.vel) * (2.0 * DT * DRAG * libm::powf(close, 0.2));
+    let carried = (b.vel - a.vel) * (2.0 * DT * DRAG * math::eighths::<2>(close));
     let (mut of_a, mut of_b) = (carried * dragged, carried * (dragged - 1.0));
     if touching {
         let pushed = 0.5 - 0.25 * (stands + FIRST_PUSHED * is_first).clamp(-1.0, 1.0);

@@ -14,10 +14,10 @@ const AHEAD_S: f32 = 0.25;
 /// How many opponents push, how strongly, and from how far, metres.
 const RIVALS: usize = 5;
 const RIVAL: (f32, f32) = (2.0, 10.0);
-/// How strongly lines push, from how far, how far out they are reckoned, metres, and how that fades.
+/// How strongly lines push, from how far, how far out they are reckoned, metres, and how that fades, eighths.
 const LINE: (f32, f32) = (4.0, 20.0);
 const LINE_OUT_M: f32 = 5.0;
-const LINE_FADES: f32 = 0.7;
+const LINE_FADES: u32 = 6;
 /// How much of the player's place across the pitch the goal's has.
 const TO_MIDDLE: f32 = 0.28;
 /// How fast a player runs for a force of one, m/s.
@@ -30,12 +30,12 @@ pub fn way(game: &Match, view: &View, id: PlayerId, shy: f32) -> Vec2 {
     let mut forces = Forces::at(own + player.vel * view.side * AHEAD_S);
     for rival in nearest::<RIVALS>(game, view.team.other(), player.pos, None) {
         let rival = game.player(rival);
-        forces.push((rival.pos + rival.vel * AHEAD_S) * view.side, RIVAL.0 * shy, RIVAL.1, 1.0);
+        forces.push::<8>((rival.pos + rival.vel * AHEAD_S) * view.side, RIVAL.0 * shy, RIVAL.1);
     }
     let side_line = Vec2::new(own.x, math::sign_or(own.y, 1.0) * (HALF_WIDTH_M as f32 + LINE_OUT_M));
     let goal_line = Vec2::new(math::sign_or(own.x, 1.0) * (HALF_LENGTH_M as f32 + LINE_OUT_M), own.y);
-    forces.push(side_line, LINE.0, LINE.1, LINE_FADES);
-    forces.push(goal_line, LINE.0, LINE.1, LINE_FADES);
+    forces.push::<LINE_FADES>(side_line, LINE.0, LINE.1);
+    forces.push::<LINE_FADES>(goal_line, LINE.0, LINE.1);
     let near = (own.x.abs() / GOAL.x).min(1.0);
     let goal = Vec2::new(GOAL.x, own.y * TO_MIDDLE * 0.5 * (1.0 - near * near));
     let mind = mindset(game.player(player.body.mind.fills).role);

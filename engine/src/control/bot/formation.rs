@@ -159,7 +159,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, fills: PlayerId) -> Vec2 {
     let ahead = Vec2::new((focus.x + 1.0).min(HALF.x), 0.9 * focus.y);
     let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
     let low = 0.3 + 0.7 * up;
-    let draws = both(math::pow(low, 0.8), math::pow(1.0 - low, 0.6));
+    let draws = both(math::eighths::<6>(low), math::eighths::<5>(1.0 - low));
     let follows = share(ball_x / HALF.x, -0.8, 0.8);
     let midfield = 0.7 * both(attack.midfield, defence.midfield) + 0.3 * follows;
     let block = Block {

@@ -52,7 +52,7 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
         to += (support::place(game, view, id, to) - to) * helps;
     }
     let mind = mindset(game.player(fills).role);
-    let marks = math::pow((manner.marks - mind - nearness).clamp(0.0, 1.0), 0.7);
+    let marks = math::eighths::<6>((manner.marks - mind - nearness).clamp(0.0, 1.0));
     if marks > 0.0 {
         to += (mark::post(game, view, id, to) - to) * marks;
     }
@@ -90,6 +90,7 @@ fn lazily(game: &Match, view: &View, id: PlayerId, wanted_mps: f32) -> f32 {
         runs = runs.max(3.5);
     }
     let rested = 1.0 - share(player.body.mean_mps, 0.0, SPRINT_MPS);
-    let breath = math::pow(rested, 0.8 - 0.2 * player.body.stats[Stat::Workrate.index()]) * 1.2;
+    let works = player.body.stats[Stat::Workrate.index()];
+    let breath = math::mix(math::eighths::<6>(rested), math::eighths::<5>(rested), works) * 1.2;
     runs.min(SPRINT_MPS * (breath.min(1.0) * lazy + 1.0 - lazy))
 }

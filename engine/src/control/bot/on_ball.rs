@@ -78,7 +78,9 @@ fn is_decided(game: &Match, id: PlayerId) -> bool {
 
 /// Decides for the player who will have the ball soon.
 pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
-    if is_decided(game, id) || game.play.led[view.team.index()] || game.player(id).body.meet_s > AHEAD_S {
+    let body = &game.player(id).body;
+    let rests = (game.tick as i32) < body.ready_at;
+    if is_decided(game, id) || game.play.led[view.team.index()] || body.meet_s > AHEAD_S || rests {
         return;
     }
     match choose(game, view, id) {

@@ -62,12 +62,12 @@ impl Forces {
         self.draw(to, power * (1.0 - to.distance(self.at) / scale).max(0.0), DAMPED_M);
     }
 
-    /// A point pushes, the more the nearer it is; not at all from `scale` metres on.
-    pub fn push(&mut self, from: Vec2, power: f32, scale: f32, exponent: f32) {
+    /// A point pushes, the more the nearer it is, by a power of so many eighths; not at all from `scale` metres on.
+    pub fn push<const EIGHTHS: u32>(&mut self, from: Vec2, power: f32, scale: f32) {
         let way = self.at - from;
         let near = 1.0 - way.length() / scale;
         if near > 0.0 {
-            let power = power * if exponent == 1.0 { near } else { math::pow(near, exponent) };
+            let power = power * if EIGHTHS == 8 { near } else { math::eighths::<EIGHTHS>(near) };
             self.sum += way.normalize_or_zero() * power;
             self.strength += power;
         }
@@ -113,13 +113,13 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     for rival in nearest::<RIVALS>(game, view.team.other(), (at * 0.7 + main * 0.3) * view.side, None) {
         // Pushed off a point behind the opponent, so that the ball's way is free.
         let place = soon(rival);
-        forces.push(place + (place - main).normalize_or_zero() * 2.0, power, scale, 0.7);
+        forces.push::<6>(place + (place - main).normalize_or_zero() * 2.0, power, scale);
     }
     let nearness = game.play.recent.nearness[view.team.index()];
     if nearness >= SPREADS {
         for mate in nearest::<MATES>(game, view.team, at * view.side, None) {
             if mate != id {
-                forces.push(soon(mate), 0.4, 10.5, 1.0);
+                forces.push::<8>(soon(mate), 0.4, 10.5);
             }
         }
     }
@@ -127,11 +127,11 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
         if nearness >= MAKES_WAY {
             for ticks in [20, 35, 50, 65] {
                 let ball = game.play.forecast.at(game.tick + ticks).truncate() * view.side;
-                forces.push(ball, 1.0, 2.0, 0.5);
+                forces.push::<4>(ball, 1.0, 2.0);
             }
         }
         forces.draw_near(main, 0.45, 21.0);
-        forces.push(main, 0.45, 12.0, 1.0);
+        forces.push::<8>(main, 0.45, 12.0);
     }
     let mut to = at + forces.mean() * SPRINT_MPS;
     to.x = to.x.min(view.line_x - ONSIDE_M);

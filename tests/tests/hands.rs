@@ -1,0 +1,137 @@
+//! The game under an agent's keys: what decides how a kick, a touch or a duel comes out when a key is pressed every step.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use glam::Vec2;
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::state::Match;
+use setpiece::scenario::vocabulary::Action;
+
+/// A ball that is faster has been kicked, m/s.
+const KICKED_MPS: f32 = 11.0;
+
+fn library(name: &str) -> Environment {
+    let scenario = setpiece::load(name).unwrap().scenario;
+    Environment::new(scenario, EnvironmentOptions::default()).unwrap()
+}
+
+fn written(body: &str) -> Environment {
+    let text = format!("scenario hands {{ rules {{ offside: off }} {body} end limit 60 steps }}");
+    let scenario = setpiece::compile_text(&text, "<hands>").unwrap_or_else(|error| panic!("{error}")).scenario;
+    Environment::new(scenario, EnvironmentOptions::default()).unwrap()
+}
+
+/// The matches at the ends of an episode's steps; `key` names the action of a step.
+fn played(environment: &mut Environment, episode: u64, key: impl Fn(usize) -> Action) -> Vec<Match> {
+    let mut scratch = Scratch::default();
+    environment.reset(Some(1), Some(episode)).unwrap();
+    let mut matches = Vec::new();
+    while environment.is_running() && matches.len() < 40 {
+        environment.step(&[key(matches.len())], &mut scratch).unwrap();
+        matches.push(environment.state().clone());
+    }
+    matches
+}
+
+/// The first step from one on after which the ball is as fast as a kicked one.
+fn kicked_at(matches: &[Match], from: usize) -> Option<usize> {
+    (from..matches.len()).find(|&step| matches[step].ball.vel.truncate().length() > KICKED_MPS)
+}
+
+#[test]
+fn the_ball_of_a_start_is_touched_when_chance_will_have_it_or_pushed_straight_on_at_once() {
+    let first_touch = |key: Action| -> Vec<usize> {
+        let mut environment = library("academy_3_vs_1_with_keeper");
+        let step = |episode| {
+            let matches = played(&mut environment, episode, |_| key);
+            matches.iter().position(|game| game.last_touch.is_some()).unwrap()
+        };
+        (0..40).map(step).collect()
+    };
+    let aside = first_touch(Action::BottomRight);
+    assert!(aside.contains(&1) && aside.contains(&2) && aside.contains(&3), "{aside:?}");
+    assert!(aside.iter().all(|step| (1..=4).contains(step)), "{aside:?}");
+    assert!(first_touch(Action::Right).iter().all(|&step| step == 0));
+}
+
+#[test]
+fn a_kick_waits_until_the_turn_with_the_ball_is_played_out() {
+    let mut environment = library("academy_pass_and_shoot_with_keeper");
+    let mut leaves = |press: usize| -> Vec<usize> {
+        let key = |step| if step == press { Action::HighPass } else { Action::Right };
+        (0..12).filter_map(|episode| kicked_at(&played(&mut environment, episode, key), press)).collect()
+    };
+    // Before the player is at the ball the kick is their first touch; after a touch that turns their run it comes later.
+    let (before, after) = (leaves(2), leaves(4));
+    assert!(before.iter().all(|step| (5..=7).contains(step)) && before.len() == 12, "{before:?}");
+    assert!(after.iter().all(|step| *step >= 10) && after.len() >= 6, "{after:?}");
+}
+
+const PASSED: &str = "ball at (0.7, 0.26)
+    team left { GK at (-1, 0)  passer: CM at (0.7, 0.28)  CM at (0.67, 0) }
+    agents { left: 1 }
+    team right { GK at (1, 0) { ai: lazy } }";
+
+#[test]
+fn a_shot_asked_for_in_time_is_struck_first_time() {
+    let mut environment = written(PASSED);
+    let mut steps_to_shot = |press: usize| -> Vec<usize> {
+        let key = |step| match step {
+            0..3 => Action::Top,
+            3 => Action::ShortPass,
+            _ if step == press => Action::Shot,
+            _ => Action::Idle,
+        };
+        let shot = |episode| {
+            let matches = played(&mut environment, episode, key);
+            let ahead = |game: &Match| game.ball.vel.x > KICKED_MPS;
+            let near = |game: &Match| game.players[2].pos.distance(game.ball.pos.truncate()) < 1.2;
+            let arrives = matches.iter().position(near)?;
+            Some((arrives..matches.len()).find(|&step| ahead(&matches[step]))? - arrives)
+        };
+        (0..40).filter_map(shot).collect()
+    };
+    let first_time = |steps: &[usize]| steps.iter().filter(|&&step| step <= 2).count();
+    let (early, late) = (steps_to_shot(11), steps_to_shot(18));
+    assert!(first_time(&early) >= 15, "{early:?}");
+    assert!(first_time(&late) == 0 && late.len() > 30, "{late:?}");
+}
+
+/// A runner and a defender in their way; `difficulty` is the defender's.
+fn met(difficulty: f32) -> Environment {
+    written(&format!(
+        "ball at (0.64, 0)
+        team left {{ GK at (-1, 0)  CM at (0.62, 0) }}
+        agents {{ left: 1 }}
+        team right {{ difficulty: {difficulty}  GK at (1, 0)  CB at (0.75, uniform(-0.03, 0.03)) }}"
+    ))
+}
+
+/// In how many of so many episodes a runner loses the ball to the defender within 20 steps.
+fn lost(environment: &mut Environment, episodes: u64) -> usize {
+    let loses = |episode: &u64| {
+        let matches = played(environment, *episode, |_| Action::Right);
+        matches.iter().take(20).any(|game| game.owner.is_some_and(|owner| owner.0 >= 11))
+    };
+    (0..episodes).filter(loses).count()
+}
+
+#[test]
+fn weak_defenders_reach_the_ball_nearly_as_often() {
+    let (strong, weak) = (lost(&mut met(0.6), 40), lost(&mut met(0.05), 40));
+    assert!(strong >= 26 && weak >= 22, "{strong} and {weak} of 40");
+}
+
+#[test]
+fn a_defender_plants_their_feet_for_a_dribbler() {
+    let mut environment = met(0.6);
+    let mut speeds = Vec::new();
+    for episode in 0..20 {
+        let matches = played(&mut environment, episode, |_| Action::Right);
+        let gap = |game: &Match| game.players[12].pos.distance(game.ball.pos.truncate());
+        let Some(meets) = matches.iter().position(|game| gap(game) < 1.0) else { continue };
+        let defender = &matches[meets].players[12];
+        speeds.push(defender.vel.dot((matches[meets].ball.pos.truncate() - defender.pos).normalize_or(Vec2::X)).abs());
+    }
+    speeds.sort_by(f32::total_cmp);
+    assert!(speeds.len() > 15 && speeds[speeds.len() / 2] < 1.5, "{speeds:?}");
+}

@@ -117,6 +117,11 @@ impl Match {
         self.rules[rule.index()] != 0.0
     }
 
+    /// Whether a team has agents.
+    pub fn has_agents(&self, team: Team) -> bool {
+        self.agents.iter().any(|slot| slot.team == team)
+    }
+
     /// The players on the pitch of a team, by id.
     pub fn team(&self, team: Team) -> impl Iterator<Item = (PlayerId, &Player)> {
         let squad = self.squad.of(team).ids();

@@ -10,6 +10,7 @@ pub mod dribbling;
 pub mod formation;
 pub mod keeper;
 pub mod mark;
+mod matching;
 pub mod odds;
 pub mod off_ball;
 pub mod on_ball;
@@ -50,7 +51,7 @@ pub fn think(game: &mut Match, events: &mut Events) {
     let views = [View::of(game, Team::Left), View::of(game, Team::Right)];
     for team in game.teams() {
         let view = &views[team.index()];
-        let turn = (game.step + 2 * u32::from(team == game.play.first_kickoff)) % ASSIGN_EVERY;
+        let turn = (game.step + 2 * u32::from(team != game.play.early)) % ASSIGN_EVERY;
         if turn == 0 {
             formation::swap_slots(game, view);
         } else if turn == ASSIGN_EVERY - 1 {

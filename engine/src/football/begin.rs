@@ -41,6 +41,8 @@ pub fn begin(drawn: &Drawn) -> Match {
     game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
     place_kickoffs(&mut game, drawn);
     game.play.lead = drawn.owner.map_or(game.play.first_kickoff, PlayerId::team);
+    let lead_is_early = noise::roll(&mut game) < 0.5;
+    game.play.early = if lead_is_early { game.play.lead } else { game.play.lead.other() };
     let half_time = game.rules[Rule::HalfTime.index()];
     game.play.second_half = half_time > 0.0 && f64::from(drawn.elapsed_steps) >= half_time;
     game.possession = drawn.owner.map(PlayerId::team);

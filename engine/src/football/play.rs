@@ -51,6 +51,8 @@ pub struct Play {
     pub kick_off_tick: u32,
     /// The team that kicked off first.
     pub first_kickoff: Team,
+    /// The team whose slots are given out first, and whose marks last. (GRF's teams take turns; which begins is drawn.)
+    pub early: Team,
     /// Whether half-time has been.
     pub second_half: bool,
     /// Which teams are led by an agent in this step (not handed to the bot).
@@ -159,6 +161,7 @@ impl Play {
             kick_off: None,
             kick_off_tick: 0,
             first_kickoff: Team::Left,
+            early: Team::Left,
             second_half: false,
             led: [false; 2],
             rush: [false; 2],

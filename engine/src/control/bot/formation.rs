@@ -4,6 +4,7 @@
 //! swap slots where that brings the team to its places sooner. (All figures are GRF's.)
 
 use crate::control::bot::View;
+use crate::control::bot::matching::matching;
 use crate::football::block::{Block, HALF};
 use crate::football::lineup;
 use crate::math::{self, mix, share};
@@ -80,11 +81,10 @@ pub fn assign_slots(game: &mut Match) {
     }
 }
 
-/// Lets players fill each other's slots where both are nearer to the other's, the farther way counting most. (GRF finds
-/// the best of all ways; swaps by two come near it.)
+/// Gives the slots out again, so that everyone's way to theirs is short. (GRF's.)
 pub fn swap_slots(game: &mut Match, view: &View) {
     let mut field = [PlayerId(0); TEAM_MAX];
-    let mut ways = [[0.0f32; TEAM_MAX]; TEAM_MAX];
+    let mut ways = [[0i32; TEAM_MAX]; TEAM_MAX];
     let mut count = 0;
     for (id, player) in game.team(view.team) {
         if player.role != Role::GK {
@@ -97,33 +97,11 @@ pub fn swap_slots(game: &mut Match, view: &View) {
         let to = place(game, view, whose, whose);
         for (i, &id) in field.iter().enumerate() {
             let player = game.player(id);
-            let way = ((player.pos + player.vel * SWAP_AHEAD_S) * view.side).distance(to);
-            ways[i][slot] = way * way * way;
+            let way_m = ((player.pos + player.vel * SWAP_AHEAD_S) * view.side).distance(to);
+            ways[i][slot] = (10.0 * way_m).round() as i32;
         }
     }
-    let mut fills = [0usize; TEAM_MAX];
-    for (i, &id) in field.iter().enumerate() {
-        let slot = field.iter().position(|&whose| whose == game.player(id).body.mind.fills);
-        fills[i] = slot.unwrap_or(i);
-    }
-    // Who has left the pitch leaves a slot that two may claim.
-    let claimed = fills[..count].iter().fold(0u32, |claimed, slot| claimed | 1 << slot);
-    if claimed.count_ones() as usize != count {
-        (0..count).for_each(|i| fills[i] = i);
-    }
-    let mut swapped = true;
-    while swapped {
-        swapped = false;
-        for i in 0..count {
-            for j in i + 1..count {
-                let (a, b) = (fills[i], fills[j]);
-                if ways[i][b] + ways[j][a] + 0.01 < ways[i][a] + ways[j][b] {
-                    (fills[i], fills[j]) = (b, a);
-                    swapped = true;
-                }
-            }
-        }
-    }
+    let fills = matching(&ways, count);
     for (i, &id) in field.iter().enumerate() {
         game.players[id.index()].body.mind.fills = field[fills[i]];
     }
@@ -149,7 +127,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, fills: PlayerId) -> Vec2 {
     let width = WIDTH * both(attack.width, defence.width);
     let dares = 0.3 * view.daring;
     let by_side = both((attack.by_side - 0.3 + dares).clamp(0.0, 1.0), (defence.by_side - dares).clamp(0.0, 1.0));
-    let side_x = HALF.x * (0.2 * (2.0 * attacks - 1.0) + 0.8 * recent.side_of(view.team));
+    let side_x = HALF.x * (0.2 * (2.0 * attacks - 1.0) + 0.8 * view.lately);
     let middle_x = (mix(ball_x, side_x, by_side) - HALF.x * both(attack.back, defence.back)).clamp(-HALF.x, HALF.x);
     let middle_x = middle_x * (0.95 * (1.0 - depth) + 0.05);
     let middle_y = ball_y.clamp(-HALF.y, HALF.y) * (0.9 * (1.0 - width) + 0.1);

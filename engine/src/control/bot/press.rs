@@ -211,8 +211,7 @@ fn around(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
 /// Slides at a ball that the carrier has pushed far ahead, from where it can be reached; only players of a team without
 /// agents do. (GRF's.)
 fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, rival: PlayerId) {
-    let led = game.agents.iter().any(|slot| slot.team == view.team);
-    if led || game.player(id).role == Role::GK || game.ball.pos.z > 0.4 {
+    if game.has_agents(view.team) || game.player(id).role == Role::GK || game.ball.pos.z > 0.4 {
         return;
     }
     let (player, carrier) = (game.player(id), game.player(rival));

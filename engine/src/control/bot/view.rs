@@ -29,6 +29,8 @@ pub struct View {
     pub best: bool,
     /// How near the team was to the ball lately, compared with the other: 0.5 far to 1.5 near.
     pub nearness: f32,
+    /// Which way the block is drawn by the last six seconds, -1..1: forward by a team that had the ball.
+    pub lately: f32,
     /// How much the team dares, 0..1: more when behind, late, and with the ball.
     pub daring: f32,
     /// The line that the team does not fall back behind, own frame x, metres.
@@ -54,6 +56,7 @@ impl View {
                 None => soonest[0] < soonest[1],
             },
             nearness: game.play.recent.nearness[team.index()],
+            lately: lately(game, team),
             daring: daring(game, team),
             trap_x: 0.0,
             line_x: offside::line_in(game, team, LINE_AHEAD_S),
@@ -104,6 +107,14 @@ impl View {
             None => View::soonest(game, self.team) <= View::soonest(game, self.team.other()),
         }
     }
+}
+
+/// Which way the block is drawn by the last six seconds, -1..1. (GRF's right team, against which agents play, reckons with
+/// the wrong sign: its line comes forward when its opponents have the ball. So does a team without agents here.)
+fn lately(game: &Match, team: Team) -> f32 {
+    let lately = game.play.recent.side_of(team);
+    let is_wrong = !game.has_agents(team) && game.has_agents(team.other());
+    if is_wrong { -lately } else { lately }
 }
 
 /// How much a team dares, 0..1. (GRF's; a match of 3000 steps is 90 minutes.)

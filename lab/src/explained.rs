@@ -1,0 +1,53 @@
+//! Why figures may lie outside: by row, or by group of rows that share a cause.
+
+use crate::figure::Figure;
+use std::fmt::Write as _;
+
+/// A cause that puts figures outside, and the rows it puts there.
+pub(crate) struct Reason {
+    /// What the rows' names contain, all of it.
+    rows: &'static [&'static str],
+    /// The figures of these rows that it explains; with none named, all of them.
+    figures: &'static [&'static str],
+    /// The cause, and what shows it.
+    why: &'static str,
+}
+
+/// The reasons, in the order of their numbers.
+pub(crate) const REASONS: &[Reason] = &[];
+
+impl Reason {
+    /// Whether it explains a figure of a row.
+    fn explains(&self, row: &Figure, name: &str) -> bool {
+        self.rows.iter().all(|part| row.what.contains(part)) && (self.figures.is_empty() || self.figures.contains(&name))
+    }
+}
+
+/// The numbers of the reasons why a row is outside; none if some figure of it has no reason.
+pub(crate) fn explanation(row: &Figure) -> Option<Vec<usize>> {
+    let mut numbers = Vec::new();
+    for part in row.outside() {
+        let reason = REASONS.iter().position(|reason| reason.explains(row, &part.name))?;
+        if !numbers.contains(&(reason + 1)) {
+            numbers.push(reason + 1);
+        }
+    }
+    Some(numbers)
+}
+
+/// The reasons as Markdown, with how many of the rows outside each explains.
+pub(crate) fn markdown<'a>(outside: impl Iterator<Item = &'a Figure> + Clone) -> String {
+    let mut text = String::from("\n## Explained\n\n");
+    for (number, reason) in (1..).zip(REASONS) {
+        let rows = outside.clone().filter(|row| explanation(row).is_some_and(|numbers| numbers.contains(&number))).count();
+        let _ = writeln!(text, "{number}. {} ({rows} rows)", reason.why);
+    }
+    text
+}
+
+/// Reasons that explain nothing any more.
+pub(crate) fn idle<'a>(outside: impl Iterator<Item = &'a Figure> + Clone) -> impl Iterator<Item = String> {
+    let used: Vec<usize> = outside.filter_map(explanation).flatten().collect();
+    let idle = (1..).zip(REASONS).filter(move |(number, _)| !used.contains(number));
+    idle.map(|(number, reason)| format!("reason {number} explains no row: {}", reason.why))
+}

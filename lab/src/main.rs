@@ -1,7 +1,7 @@
 //! The bench on which the game is measured.
 //!
 //! `lab calibrate [--check] [--only SECTION] [--count N]` sets our figures beside those measured of Google Research
-//! Football and writes them to `docs/calibration.md`. `lab recorded FILE TRACES [--write]` makes figures of what
+//! Football and writes them to `docs/calibration.md`. `lab recorded FILE TRACES [--write | --add]` makes figures of what
 //! `lab/record` saw of that game: beside those in `lab/data/FILE`, or in their place. `lab soak [--steps N] [--seed S] [--from SCENARIO]` holds scenarios made up at random
 //! to what must be true of any match; a long run that held is a line of `lab/soak.csv`. `cargo xtask calibrate` and
 //! `cargo xtask soak` build and call it.
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
         Some("calibrate") => calibrate::calibrate(&args[1..]),
         Some("recorded") => hands::recorded(&args[1..]),
         Some("soak") => soak::soak(&args[1..]),
-        _ => Err("lab calibrate [--check] [--only SECTION] [--count N] | lab recorded FILE TRACES [--write] | \
+        _ => Err("lab calibrate [--check] [--only SECTION] [--count N] | lab recorded FILE TRACES [--write | --add] | \
                   lab soak [--steps N] [--seed S] [--from SCENARIO]"
             .to_owned()),
     };

@@ -2,6 +2,7 @@
 
 use super::topics;
 use super::keys::action;
+use super::limits::Measured;
 use super::recorded::{File, Row, Topic, Values};
 use super::trace::View;
 use crate::figure::{Figure, Section};
@@ -14,17 +15,22 @@ use std::io::BufRead;
 /// keys; the agents' players; score.
 type Step = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
 
-/// Runs `recorded FILE TRACES [--write]`: sets figures of traces beside the file's, or writes them into it.
+/// Runs `recorded FILE TRACES [--write | --add]`: sets figures of traces beside the file's, writes them in their place, or
+/// makes one of both.
 pub(crate) fn recorded(args: &[String]) -> Result<(), Failure> {
     let [file, traces, rest @ ..] = args else { return Err("recorded wants a file of lab/data and traces".to_owned()) };
     let topic = topics().find(|topic| topic.file == file).ok_or_else(|| format!("no topic has `{file}`"))?;
     let recorded = topic.recorded()?;
     let values = read(topic, &recorded, traces)?;
-    if rest.iter().any(|arg| arg == "--write") {
-        return write(topic, &values);
+    match rest.first().map(String::as_str) {
+        Some("--write") => write(topic, &values, |_| None),
+        Some("--add") => write(topic, &values, |number| recorded.rows.get(number)),
+        Some(other) => Err(format!("no option `{other}`; there is --write, --add")),
+        None => {
+            print!("{}", compared(topic, &recorded, &values));
+            Ok(())
+        }
     }
-    print!("{}", compared(topic, &recorded, &values));
-    Ok(())
 }
 
 /// The figures of every row that has traces.
@@ -83,8 +89,12 @@ fn compared(topic: &Topic, file: &File, values: &BTreeMap<usize, Values>) -> Str
     text
 }
 
-/// Puts the figures of the rows that have traces into the file.
-fn write(topic: &Topic, values: &BTreeMap<usize, Values>) -> Result<(), Failure> {
+/// Puts the figures of the rows that have traces into the file, with those of `before` where it has some.
+fn write<'a>(
+    topic: &Topic,
+    values: &BTreeMap<usize, Values>,
+    before: impl Fn(usize) -> Option<&'a Row>,
+) -> Result<(), Failure> {
     let text = std::fs::read_to_string(topic.path()).map_err(|why| topic.named(why))?;
     let (head, rows) = text.split_once("\"rows\": [\n").ok_or_else(|| topic.named("no rows, one a line"))?;
     let mut written = format!("{head}\"rows\": [\n");
@@ -92,7 +102,8 @@ fn write(topic: &Topic, values: &BTreeMap<usize, Values>) -> Result<(), Failure>
         match (values.get(&number), line.split_once("\"figures\": ")) {
             (Some(values), Some((row, _))) => {
                 let comma = if line.ends_with(',') { "," } else { "" };
-                let _ = writeln!(written, "{row}\"figures\": {}}}{comma}", figures(topic, values));
+                let figures = figures(topic, values, before(number));
+                let _ = writeln!(written, "{row}\"figures\": {figures}}}{comma}");
             }
             _ => written = written + line + "\n",
         }
@@ -101,11 +112,20 @@ fn write(topic: &Topic, values: &BTreeMap<usize, Values>) -> Result<(), Failure>
 }
 
 /// The figures of a row as the file has them.
-fn figures(topic: &Topic, values: &Values) -> String {
-    let of = topic.columns.iter().zip(values).filter(|(_, of)| !of.is_empty());
-    let parts = of.map(|((name, kind), of)| {
-        let (mean, sd) = (kind.mean(of), kind.deviation(of));
-        format!("\"{name}\": {{\"mean\": {mean:.3}, \"sd\": {sd:.3}, \"n\": {}}}", of.len())
-    });
-    format!("{{{}}}", parts.collect::<Vec<_>>().join(", "))
+fn figures(topic: &Topic, values: &Values, before: Option<&Row>) -> String {
+    let mut parts = Vec::new();
+    for ((name, kind), of) in topic.columns.iter().zip(values) {
+        let mut all = Measured::of(*kind, of);
+        if let Some(before) = before {
+            all = match before.figures.get(*name) {
+                Some(before) => all.with(*kind, before),
+                // A figure that a row leaves out on purpose stays out.
+                None => continue,
+            };
+        }
+        if let (Some(mean), Some(sd)) = (all.mean, all.sd) {
+            parts.push(format!("\"{name}\": {{\"mean\": {mean:.3}, \"sd\": {sd:.3}, \"n\": {}}}", all.n));
+        }
+    }
+    format!("{{{}}}", parts.join(", "))
 }

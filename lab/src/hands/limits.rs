@@ -39,6 +39,31 @@ pub(super) struct Measured {
     pub(super) n: u64,
 }
 
+impl Measured {
+    /// What episodes say.
+    pub(super) fn of(kind: Kind, values: &[f64]) -> Measured {
+        let some = !values.is_empty();
+        let [mean, sd] = [kind.mean(values), kind.deviation(values)].map(|it| Some(it).filter(|_| some));
+        Measured { mean, sd, n: values.len() as u64 }
+    }
+
+    /// What these episodes and others say together.
+    pub(super) fn with(self, kind: Kind, other: &Measured) -> Measured {
+        let (Some(mean), Some(theirs)) = (self.mean, other.mean) else {
+            return if self.mean.is_some() { self } else { Measured { ..*other } };
+        };
+        let apart = match kind {
+            Kind::Way => wrapped(theirs - mean),
+            _ => theirs - mean,
+        };
+        let (n, m) = (self.n as f64, other.n as f64);
+        let squares = |sd: Option<f64>, n: f64| sd.unwrap_or_default().powi(2) * (n - 1.0);
+        let sum = squares(self.sd, n) + squares(other.sd, m) + apart * apart * n * m / (n + m);
+        let sd = (sum / (n + m - 1.0)).sqrt();
+        Measured { mean: Some(mean + apart * m / (n + m)), sd: Some(sd), n: self.n + other.n }
+    }
+}
+
 /// A figure beside theirs.
 pub(super) fn part(name: &str, kind: Kind, theirs: &Measured, ours: &[f64]) -> Option<Part> {
     let middle = theirs.mean?;
@@ -92,4 +117,21 @@ pub(super) fn share_give(share: f64, theirs: u64, ours: u64) -> f64 {
     let n = theirs as f64;
     let p = (share * n + 2.0) / (n + 4.0);
     1.96 * (p * (1.0 - p) * (1.0 / (n + 4.0) + 1.0 / ours as f64)).sqrt() + 0.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, Measured};
+
+    #[test]
+    fn two_recordings_together_are_one_of_all_their_episodes() {
+        for kind in [Kind::Steps, Kind::Way] {
+            let all = [170.0, 178.0, 175.0, 179.0, 168.0, 176.0, 171.0];
+            let together = Measured::of(kind, &all[..3]).with(kind, &Measured::of(kind, &all[3..]));
+            let whole = Measured::of(kind, &all);
+            assert_eq!(together.n, whole.n);
+            assert!((together.mean.unwrap_or_default() - whole.mean.unwrap_or_default()).abs() < 0.1);
+            assert!((together.sd.unwrap_or_default() - whole.sd.unwrap_or_default()).abs() < 0.1);
+        }
+    }
 }

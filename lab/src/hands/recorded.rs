@@ -62,7 +62,8 @@ pub(super) struct Row {
     /// What the figures count from, where a topic has several.
     #[serde(default)]
     pub(super) event: String,
-    figures: BTreeMap<String, Measured>,
+    /// By column.
+    pub(super) figures: BTreeMap<String, Measured>,
 }
 
 fn one() -> f64 {

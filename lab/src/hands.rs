@@ -16,6 +16,7 @@ mod latency;
 mod limits;
 mod openings;
 mod recorded;
+mod runs;
 mod set_pieces;
 mod shots;
 mod stage;
@@ -73,9 +74,14 @@ pub(crate) fn standing_shots(section: &mut Section, count: Option<u64>) -> Resul
     recorded::measure(section, &standing::TOPIC, count)
 }
 
+/// Adds runs with the ball to the section of movement.
+pub(crate) fn runs_with_the_ball(section: &mut Section) -> Result<(), Failure> {
+    recorded::measure(section, &runs::TOPIC, None)
+}
+
 /// Every topic, wherever the report has it.
 fn topics() -> impl Iterator<Item = &'static recorded::Topic> {
-    TOPICS.iter().chain(std::iter::once(&standing::TOPIC))
+    TOPICS.iter().chain([&standing::TOPIC, &runs::TOPIC])
 }
 
 /// The action of a direction's name in the recorded files; none for a released one.

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 /// A cause that puts figures outside, and the rows it puts there.
 pub(crate) struct Reason {
-    /// What the rows' names contain, all of it.
-    rows: &'static [&'static str],
+    /// Rows: what a name contains, all the words of one of these.
+    rows: &'static [&'static [&'static str]],
     /// The figures of these rows that it explains; with none named, all of them.
     figures: &'static [&'static str],
     /// The cause, and what shows it.
@@ -19,7 +19,8 @@ pub(crate) const REASONS: &[Reason] = &[];
 impl Reason {
     /// Whether it explains a figure of a row.
     fn explains(&self, row: &Figure, name: &str) -> bool {
-        self.rows.iter().all(|part| row.what.contains(part)) && (self.figures.is_empty() || self.figures.contains(&name))
+        let named = self.rows.iter().any(|words| words.iter().all(|word| row.what.contains(word)));
+        named && (self.figures.is_empty() || self.figures.contains(&name))
     }
 }
 
@@ -39,7 +40,8 @@ pub(crate) fn explanation(row: &Figure) -> Option<Vec<usize>> {
 pub(crate) fn markdown<'a>(outside: impl Iterator<Item = &'a Figure> + Clone) -> String {
     let mut text = String::from("\n## Explained\n\n");
     for (number, reason) in (1..).zip(REASONS) {
-        let rows = outside.clone().filter(|row| explanation(row).is_some_and(|numbers| numbers.contains(&number))).count();
+        let rows =
+            outside.clone().filter(|row| explanation(row).is_some_and(|numbers| numbers.contains(&number))).count();
         let _ = writeln!(text, "{number}. {} ({rows} rows)", reason.why);
     }
     text

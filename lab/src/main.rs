@@ -26,9 +26,11 @@ fn main() -> ExitCode {
         Some("calibrate") => calibrate::calibrate(&args[1..]),
         Some("recorded") => hands::recorded(&args[1..]),
         Some("soak") => soak::soak(&args[1..]),
-        _ => Err("lab calibrate [--check] [--only SECTION] [--count N] | lab recorded FILE TRACES [--write | --add] | \
+        _ => {
+            Err("lab calibrate [--check] [--only SECTION] [--count N] | lab recorded FILE TRACES [--write | --add] | \
                   lab soak [--steps N] [--seed S] [--from SCENARIO]"
-            .to_owned()),
+                .to_owned())
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

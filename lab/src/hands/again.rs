@@ -1,9 +1,9 @@
 //! Figures of traces recorded of Google Research Football: beside those on file, or in their place.
 
-use super::topics;
 use super::keys::action;
 use super::limits::Measured;
 use super::recorded::{File, Row, Topic, Values};
+use super::topics;
 use super::trace::View;
 use crate::figure::{Figure, Section};
 use crate::pitch::Failure;

@@ -3,12 +3,8 @@
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, yes};
 
-const COLUMNS: [Column; 4] = [
-    ("furthest_x", Kind::Place),
-    ("steps_with_ball", Kind::Steps),
-    ("nearest_m", Kind::Metres),
-    ("lost", Kind::Share),
-];
+const COLUMNS: [Column; 4] =
+    [("furthest_x", Kind::Place), ("steps_with_ball", Kind::Steps), ("nearest_m", Kind::Metres), ("lost", Kind::Share)];
 
 const GROUPS: [Group; 1] = [("how far", &["furthest_x", "steps_with_ball", "nearest_m", "lost"])];
 

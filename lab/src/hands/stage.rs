@@ -46,7 +46,8 @@ impl Scene {
     /// The roles of both teams' players.
     pub(super) fn roles(&self) -> Result<[Vec<Role>; 2], Failure> {
         let of = |players: &[Placed]| {
-            let roles = players.iter().map(|(name, ..)| Role::from_name(name).ok_or_else(|| format!("no role `{name}`")));
+            let roles =
+                players.iter().map(|(name, ..)| Role::from_name(name).ok_or_else(|| format!("no role `{name}`")));
             roles.collect::<Result<Vec<_>, _>>()
         };
         Ok([of(&self.left)?, of(&self.right)?])

@@ -2,9 +2,7 @@
 
 use crate::figure::{Figure, Section};
 use crate::pitch::Failure;
-use crate::{agents, ball, explained, hands, matches, movement};
-use std::fmt::Write as _;
-use std::path::PathBuf;
+use crate::{agents, ball, explained, hands, matches, movement, page};
 
 /// What is asked for.
 #[derive(Default)]
@@ -12,9 +10,10 @@ struct Options {
     check: bool,
     only: Option<u16>,
     count: Option<u64>,
+    write: bool,
 }
 
-/// Runs `calibrate [--check] [--only SECTION] [--count N]`.
+/// Runs `calibrate [--check] [--write] [--only SECTION] [--count N]`.
 pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
     let options = options(args)?;
     let wanted = |number: u16| options.only.is_none_or(|only| only == number);
@@ -35,11 +34,10 @@ pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
         println!();
         sections.push(section);
     }
-    let whole = options.only.is_none() && options.count.is_none();
-    if whole {
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/calibration.md");
-        std::fs::write(&path, report(&sections)).map_err(|why| format!("{}: {why}", path.display()))?;
+    if options.write {
+        page::write(&sections)?;
     }
+    let whole = options.only.is_none() && options.count.is_none();
     verdict(&sections, whole, options.check)
 }
 
@@ -50,39 +48,14 @@ fn options(args: &[String]) -> Result<Options, Failure> {
         let mut number = || args.next().and_then(|n| n.parse::<u64>().ok()).ok_or(format!("`{arg}` wants a number"));
         match arg.as_str() {
             "--check" => options.check = true,
+            "--write" => options.write = true,
             "--only" => options.only = Some(number()? as u16),
             "--count" => options.count = Some(number()?.max(2)),
-            other => return Err(format!("no option `{other}`; there is --check, --only SECTION, --count N")),
+            other => return Err(format!("no option `{other}`; there is --check, --write, --only SECTION, --count N")),
         }
     }
+    options.write |= options.only.is_none() && options.count.is_none();
     Ok(options)
-}
-
-/// The whole report as Markdown.
-fn report(sections: &[Section]) -> String {
-    let mut text = String::from(
-        "# Calibration\n\nSetpiece's game beside Google Research Football's, as measured of version 2.10.3. `cargo xtask \
-         calibrate` writes this page; with `--check` it fails on a figure that is outside and not explained below.\n\n\
-         | section | figures | inside | outside, explained | outside, open |\n|---|---|---|---|---|\n",
-    );
-    for section in sections {
-        let all = section.figures.len();
-        let outside = section.outside().count();
-        let open = section.outside().filter(|(_, figure)| explained::explanation(figure).is_none()).count();
-        let _ = writeln!(
-            text,
-            "| {}. {} | {all} | {} | {} | {open} |",
-            section.number,
-            section.title,
-            all - outside,
-            outside - open
-        );
-    }
-    for section in sections {
-        let _ = write!(text, "\n{}", section.markdown());
-    }
-    text.push_str(&explained::markdown(outside(sections)));
-    text
 }
 
 /// Rows outside, of all sections.

@@ -1,7 +1,6 @@
 //! Why figures may lie outside: by row, or by group of rows that share a cause.
 
 use crate::figure::Figure;
-use std::fmt::Write as _;
 
 /// A cause that puts figures outside, and the rows it puts there.
 pub(crate) struct Reason {
@@ -10,7 +9,7 @@ pub(crate) struct Reason {
     /// The figures of these rows that it explains; with none named, all of them.
     figures: &'static [&'static str],
     /// The cause, and what shows it.
-    why: &'static str,
+    pub(crate) why: &'static str,
 }
 
 /// The reasons, in the order of their numbers.
@@ -34,17 +33,6 @@ pub(crate) fn explanation(row: &Figure) -> Option<Vec<usize>> {
         }
     }
     Some(numbers)
-}
-
-/// The reasons as Markdown, with how many of the rows outside each explains.
-pub(crate) fn markdown<'a>(outside: impl Iterator<Item = &'a Figure> + Clone) -> String {
-    let mut text = String::from("\n## Explained\n\n");
-    for (number, reason) in (1..).zip(REASONS) {
-        let rows =
-            outside.clone().filter(|row| explanation(row).is_some_and(|numbers| numbers.contains(&number))).count();
-        let _ = writeln!(text, "{number}. {} ({rows} rows)", reason.why);
-    }
-    text
 }
 
 /// Reasons that explain nothing any more.

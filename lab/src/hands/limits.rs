@@ -68,7 +68,9 @@ impl Measured {
 pub(super) fn part(name: &str, kind: Kind, theirs: &Measured, ours: &[f64]) -> Option<Part> {
     let middle = theirs.mean?;
     let n = ours.len().max(1) as u64;
-    let chance = 1.96 * theirs.sd.unwrap_or_default() * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
+    // Events that a few episodes happen not to show are not impossible: one more in all of them.
+    let least = if let Kind::Count = kind { (middle + 1.0 / theirs.n as f64).sqrt() } else { 0.0 };
+    let chance = 1.96 * theirs.sd.unwrap_or_default().max(least) * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
     let give = match kind {
         Kind::Share => share_give(middle, theirs.n, n),
         Kind::Part => 0.05 + chance,

@@ -21,6 +21,7 @@ class Game:
 
     def __init__(self, agents):
         """Starts an engine for so many agents of the left and the right team."""
+        self.left_agents = agents[0]
         self.stage = EMPTY
         module = types.ModuleType(STAGE)
         module.build_scenario = self._build
@@ -55,8 +56,9 @@ class Game:
         return self._view([], None)
 
     def step(self, actions, before):
-        """Plays a step of actions' names; returns the view after it."""
-        self.core.step([NUMBERS[action] for action in actions])
+        """Plays a step of actions' names, each in its team's frame; returns the view after it."""
+        turned = [TURNED.get(action, action) for action in actions[self.left_agents :]]
+        self.core.step([NUMBERS[action] for action in actions[: self.left_agents] + turned])
         return self._view(actions, before)
 
     def _view(self, actions, before):
@@ -89,3 +91,7 @@ NAMES = (
     "release_direction release_sprint sliding dribble release_dribble builtin_ai"
 ).split()
 NUMBERS = {name: number for number, name in enumerate(NAMES)}
+
+WAYS = ["right", "top_right", "top", "top_left", "left", "bottom_left", "bottom", "bottom_right"]
+TURNED = {way: WAYS[(number + 4) % 8] for number, way in enumerate(WAYS)}
+"""The engine takes the right team's directions in the frame of the pitch."""

@@ -18,7 +18,7 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     let nearest = trace.iter().skip(1).map(|view| apart(view.player(0, 0), view.teams[1][1]));
     vec![
         Some(furthest),
-        Some(owned().last().map_or(0.0, |(step, _)| step as f64)),
+        Some(owned().next_back().map_or(0.0, |(step, _)| step as f64)),
         Some(nearest.fold(f64::INFINITY, f64::min)),
         Some(yes(trace[trace.len() - 1].owner == 1)),
     ]

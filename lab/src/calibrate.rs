@@ -1,18 +1,8 @@
 //! The report: every figure with its limits and verdict.
 
-use crate::figure::Section;
+use crate::figure::{Figure, Section};
 use crate::pitch::Failure;
-use crate::{agents, ball, hands, matches, movement};
-use std::fmt::Write as _;
-use std::path::PathBuf;
-
-/// Figures that lie outside and why that is right.
-const EXPLAINED: &[(u32, &str)] = &[
-    (234, "their runner breaks stride at his second touch of the ball; ours runs on"),
-    (257, "he follows the ball round the turn, and the ball comes round at its own next touch"),
-    (421, "our teams build up a little longer; the thirds beside it are inside"),
-    (447, "as C-421"),
-];
+use crate::{agents, ball, explained, hands, matches, movement, page};
 
 /// What is asked for.
 #[derive(Default)]
@@ -20,9 +10,10 @@ struct Options {
     check: bool,
     only: Option<u16>,
     count: Option<u64>,
+    write: bool,
 }
 
-/// Runs `calibrate [--check] [--only SECTION] [--count N]`.
+/// Runs `calibrate [--check] [--write] [--only SECTION] [--count N]`.
 pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
     let options = options(args)?;
     let wanted = |number: u16| options.only.is_none_or(|only| only == number);
@@ -39,15 +30,15 @@ pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
             6 => hands::measure(options.count),
             _ => matches::ladder(options.count),
         }?;
-        print!("{}", section.markdown(explanation));
+        print!("{}", section.markdown());
         println!();
         sections.push(section);
     }
-    if options.only.is_none() && options.count.is_none() {
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/calibration.md");
-        std::fs::write(&path, report(&sections)).map_err(|why| format!("{}: {why}", path.display()))?;
+    if options.write {
+        page::write(&sections)?;
     }
-    verdict(&sections, options.check)
+    let whole = options.only.is_none() && options.count.is_none();
+    verdict(&sections, whole, options.check)
 }
 
 fn options(args: &[String]) -> Result<Options, Failure> {
@@ -57,56 +48,37 @@ fn options(args: &[String]) -> Result<Options, Failure> {
         let mut number = || args.next().and_then(|n| n.parse::<u64>().ok()).ok_or(format!("`{arg}` wants a number"));
         match arg.as_str() {
             "--check" => options.check = true,
+            "--write" => options.write = true,
             "--only" => options.only = Some(number()? as u16),
             "--count" => options.count = Some(number()?.max(2)),
-            other => return Err(format!("no option `{other}`; there is --check, --only SECTION, --count N")),
+            other => return Err(format!("no option `{other}`; there is --check, --write, --only SECTION, --count N")),
         }
     }
+    options.write |= options.only.is_none() && options.count.is_none();
     Ok(options)
 }
 
-/// Why a figure may lie outside.
-fn explanation(id: u32) -> Option<&'static str> {
-    EXPLAINED.iter().find(|(known, _)| *known == id).map(|(_, why)| *why)
+/// Rows outside, of all sections.
+fn outside(sections: &[Section]) -> impl Iterator<Item = &Figure> + Clone {
+    sections.iter().flat_map(|section| section.figures.iter().filter(|figure| !figure.is_inside()))
 }
 
-/// The whole report as Markdown.
-fn report(sections: &[Section]) -> String {
-    let mut text = String::from(
-        "# Calibration\n\nSetpiece's game beside Google Research Football's, as measured of version 2.10.3. `cargo xtask \
-         calibrate` writes this page; with `--check` it fails on a figure that is outside and not explained below.\n\n\
-         | section | figures | inside |\n|---|---|---|\n",
-    );
-    for section in sections {
-        let all = section.figures.len();
-        let _ =
-            writeln!(text, "| {}. {} | {all} | {} |", section.number, section.title, all - section.outside().count());
-    }
-    for section in sections {
-        let _ = write!(text, "\n{}", section.markdown(explanation));
-    }
-    text.push_str("\n## Explained\n\n");
-    for (id, why) in EXPLAINED {
-        let _ = writeln!(text, "- C-{id}: {why}");
-    }
-    text
-}
-
-/// Tells what is outside; fails on it if that is asked for.
-fn verdict(sections: &[Section], check: bool) -> Result<(), Failure> {
+/// Prints what is outside and has no reason, and with `whole` the reasons that explain nothing; fails on it if asked to.
+fn verdict(sections: &[Section], whole: bool, check: bool) -> Result<(), Failure> {
     let mut bad = Vec::new();
     for section in sections {
         let (all, outside) = (section.figures.len(), section.outside().count());
-        println!("section {}: {outside} of {all} outside", section.number);
-        if outside * 5 > all {
-            bad.push(format!("section {} has more than a fifth outside", section.number));
-        }
-        for (id, figure) in section.outside().filter(|(id, _)| explanation(*id).is_none()) {
+        let open: Vec<_> = section.outside().filter(|(_, figure)| explained::explanation(figure).is_none()).collect();
+        println!("section {}: {outside} of {all} outside, {} of them explained", section.number, outside - open.len());
+        for (id, figure) in open {
             bad.push(format!("C-{id} {}: {}, wanted {}", figure.what, figure.ours(), figure.wanted()));
         }
+    }
+    if whole {
+        bad.extend(explained::idle(outside(sections)));
     }
     for line in &bad {
         println!("  {line}");
     }
-    if check && !bad.is_empty() { Err(format!("{} figures to mend", bad.len())) } else { Ok(()) }
+    if check && !bad.is_empty() { Err(format!("{} figures outside without a reason", bad.len())) } else { Ok(()) }
 }

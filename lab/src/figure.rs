@@ -1,5 +1,6 @@
 //! A figure: ours beside the measured one, what it may be, and whether it is.
 
+use crate::explained::explanation;
 use std::fmt::Write as _;
 
 /// A row of the report: one figure of ours beside theirs, or several of one scene. It is inside where all of them are.
@@ -14,6 +15,8 @@ pub(crate) struct Figure {
 /// One figure of a row.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
+    /// Its name, where a row has several.
+    pub(crate) name: String,
     /// Theirs, as measured.
     pub(crate) theirs: String,
     /// Lowest and highest that ours may be.
@@ -23,9 +26,9 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// A figure that must be theirs, give or take so much.
-    pub(crate) fn around(theirs: f64, give: f64, ours: f64) -> Part {
-        Part { theirs: short(theirs), range: [theirs - give, theirs + give], ours }
+    /// A named figure that must be theirs, give or take so much.
+    pub(crate) fn around(name: &str, theirs: f64, give: f64, ours: f64) -> Part {
+        Part { name: name.to_owned(), theirs: short(theirs), range: [theirs - give, theirs + give], ours }
     }
 }
 
@@ -52,7 +55,7 @@ impl Section {
 
     /// Adds a figure that must lie within a range.
     pub(crate) fn within(&mut self, what: impl Into<String>, theirs: impl Into<String>, range: [f64; 2], ours: f64) {
-        self.row(what, vec![Part { theirs: theirs.into(), range, ours }]);
+        self.row(what, vec![Part { name: String::new(), theirs: theirs.into(), range, ours }]);
     }
 
     /// Adds a row of several figures.
@@ -77,16 +80,19 @@ impl Section {
         self.figures.iter().enumerate().filter(|(_, figure)| !figure.is_inside()).map(|(i, f)| (self.id(i), f))
     }
 
-    /// The section as Markdown; `explained`: why a figure may lie outside.
-    pub(crate) fn markdown(&self, explained: impl Fn(u32) -> Option<&'static str>) -> String {
+    /// The section as Markdown.
+    pub(crate) fn markdown(&self) -> String {
         let mut text = format!("## {}. {}\n\n{}\n\n", self.number, self.title, self.how);
         text.push_str("| | figure | theirs | wanted | ours | |\n|---|---|---|---|---|---|\n");
         for (i, figure) in self.figures.iter().enumerate() {
             let id = self.id(i);
-            let verdict = match (figure.is_inside(), explained(id)) {
-                (true, _) => "✓".to_owned(),
-                (false, None) => "**outside**".to_owned(),
-                (false, Some(_)) => "outside [*](#explained)".to_owned(),
+            let verdict = match explanation(figure) {
+                _ if figure.is_inside() => "✓".to_owned(),
+                None => "**outside**".to_owned(),
+                Some(reasons) => {
+                    let numbers: Vec<String> = reasons.iter().map(usize::to_string).collect();
+                    format!("outside [{}](#explained)", numbers.join(", "))
+                }
             };
             let _ = writeln!(
                 text,
@@ -108,6 +114,11 @@ impl Figure {
     /// Whether everything is what it may be.
     pub(crate) fn is_inside(&self) -> bool {
         self.parts.iter().all(Part::is_inside)
+    }
+
+    /// The figures of the row that are not what they may be.
+    pub(crate) fn outside(&self) -> impl Iterator<Item = &Part> {
+        self.parts.iter().filter(|part| !part.is_inside())
     }
 
     /// What ours may be, in words.

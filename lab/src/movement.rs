@@ -41,21 +41,19 @@ const SPRINT: [f64; 20] = [
     0.36, 2.19, 3.11, 3.93, 4.69, 5.07, 5.34, 5.86, 6.31, 6.69, 6.97, 7.19, 7.36, 7.48, 7.57, 7.64, 7.69, 7.73, 7.75,
     7.77,
 ];
-/// The same with the ball.
-const SPRINT_WITH_BALL: [f64; 17] =
-    [0.56, 2.14, 3.15, 3.98, 4.22, 4.20, 5.54, 5.79, 6.19, 6.56, 6.88, 7.12, 7.20, 7.20, 7.28, 7.42, 7.53];
-
 /// Measures everything of the section.
 pub(crate) fn measure() -> Result<Section, Failure> {
     let mut section = Section::new(
         2,
         "Movement",
         "One player (index 1 of his team), nobody against him; speeds from the places at the steps' ends, 100 ms a step. \
-         Limits: ±5 % on speeds, ±1 step on times, 10 % or 0.4 m/s on the points of a curve, ±0.03 on tiredness.",
+         Limits: ±5 % on speeds, ±1 step on times, 10 % or 0.4 m/s on the points of a curve, ±0.03 on tiredness. Rows \
+         with the ball are means over many starts, with the limits of section 6.",
     );
     top_speeds(&mut section)?;
     curves(&mut section)?;
     turns(&mut section)?;
+    crate::hands::runs_with_the_ball(&mut section)?;
     tiredness(&mut section)?;
     Ok(section)
 }
@@ -97,14 +95,13 @@ fn top_speeds(section: &mut Section) -> Result<(), Failure> {
 fn curves(section: &mut Section) -> Result<(), Failure> {
     let cut = |top: f64| SPRINT.map(|speed| speed.min(top)).to_vec();
     let cases = [
-        ("sprint without the ball", false, Gait::Sprint, SPRINT.to_vec()),
-        ("walk without the ball", false, Gait::Walk, cut(5.0)),
-        ("dribble without the ball", false, Gait::Dribble, cut(3.5)),
-        ("sprint with the ball", true, Gait::Sprint, SPRINT_WITH_BALL.to_vec()),
+        ("sprint without the ball", Gait::Sprint, SPRINT.to_vec()),
+        ("walk without the ball", Gait::Walk, cut(5.0)),
+        ("dribble without the ball", Gait::Dribble, cut(3.5)),
     ];
-    for (name, with_ball, gait, theirs) in cases {
+    for (name, gait, theirs) in cases {
         let give = |theirs: f64| (theirs * 0.1).max(0.4);
-        let run = speeds(&mut start(with_ball)?, &[Action::Right, gait.action()], theirs.len())?;
+        let run = speeds(&mut start(false)?, &[Action::Right, gait.action()], theirs.len())?;
         if matches!(gait, Gait::Walk | Gait::Dribble) {
             // The same curve, cut: one figure.
             let off = run.iter().zip(&theirs).filter(|(ours, theirs)| (*ours - *theirs).abs() > give(**theirs)).count();
@@ -128,14 +125,12 @@ fn curves(section: &mut Section) -> Result<(), Failure> {
 fn turns(section: &mut Section) -> Result<(), Failure> {
     let cases = [
         // Steps until the direction is new, until the speed is back; for 45° and 90°; steps to a stop, its way.
-        ("walk without the ball", Gait::Walk, false, [[2, 5], [2, 5]], [[3, 5], [5, 8]], [3, 5], 1.1),
-        ("sprint without the ball", Gait::Sprint, false, [[3, 5], [6, 8]], [[5, 7], [12, 14]], [5, 6], 2.4),
-        ("walk with the ball", Gait::Walk, true, [[4, 5], [5, 8]], [[6, 6], [10, 10]], [4, 5], 0.9),
-        ("sprint with the ball", Gait::Sprint, true, [[10, 17], [10, 17]], [[29, 99], [29, 99]], [7, 12], 3.9),
+        ("walk without the ball", Gait::Walk, [[2, 5], [2, 5]], [[3, 5], [5, 8]], [3, 5], 1.1),
+        ("sprint without the ball", Gait::Sprint, [[3, 5], [6, 8]], [[5, 7], [12, 14]], [5, 6], 2.4),
     ];
-    for (name, gait, with_ball, half, full, stop, way) in cases {
+    for (name, gait, half, full, stop, way) in cases {
         for (turn, degrees, [direction, speed]) in [(Action::BottomRight, 45, half), (Action::Bottom, 90, full)] {
-            let [turned, fast] = turn_steps(gait, with_ball, turn)?;
+            let [turned, fast] = turn_steps(gait, turn)?;
             section.within(format!("steps to turn by {degrees}°, {name}"), told(direction), wide(direction), turned);
             section.within(
                 format!("steps until 90 % of the speed is back after {degrees}°, {name}"),
@@ -144,7 +139,7 @@ fn turns(section: &mut Section) -> Result<(), Failure> {
                 fast,
             );
         }
-        let [steps, metres] = stop_of(gait, with_ball)?;
+        let [steps, metres] = stop_of(gait)?;
         section.within(format!("steps to a stop, {name}"), told(stop), wide(stop), steps);
         section.told.push(format!("Way of a stop, {name}: {metres:.1} m; theirs {way} m (no limit stated)."));
     }
@@ -153,21 +148,17 @@ fn turns(section: &mut Section) -> Result<(), Failure> {
 
 /// Limits as told.
 fn told([low, high]: [u32; 2]) -> String {
-    match (low == high, high) {
-        (_, 99) => format!("{low} or more"),
-        (true, _) => low.to_string(),
-        _ => format!("{low}–{high}"),
-    }
+    if low == high { low.to_string() } else { format!("{low}–{high}") }
 }
 
 /// Limits of steps and one more on either side.
 fn wide([low, high]: [u32; 2]) -> [f64; 2] {
-    [f64::from(low) - 1.0, if high == 99 { f64::INFINITY } else { f64::from(high) + 1.0 }]
+    [f64::from(low) - 1.0, f64::from(high) + 1.0]
 }
 
 /// Steps until the velocity points within 12° of a new direction, and until it also has 90 % of the old speed.
-fn turn_steps(gait: Gait, with_ball: bool, turn: Action) -> Result<[f64; 2], Failure> {
-    let mut trial = start(with_ball)?;
+fn turn_steps(gait: Gait, turn: Action) -> Result<[f64; 2], Failure> {
+    let mut trial = start(false)?;
     speeds(&mut trial, &[Action::Right, gait.action()], 35)?;
     let old = mean(&speeds(&mut trial, &[], 5)?);
     let (x, y) = turn.direction().unwrap_or_default();
@@ -190,8 +181,8 @@ fn turn_steps(gait: Gait, with_ball: bool, turn: Action) -> Result<[f64; 2], Fai
 }
 
 /// Steps until he stands, and the metres they take.
-fn stop_of(gait: Gait, with_ball: bool) -> Result<[f64; 2], Failure> {
-    let mut trial = start(with_ball)?;
+fn stop_of(gait: Gait) -> Result<[f64; 2], Failure> {
+    let mut trial = start(false)?;
     speeds(&mut trial, &[Action::Right, gait.action()], 40)?;
     let from = trial.place()?;
     for step in 1..=40 {

@@ -45,7 +45,23 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
         return none;
     };
     let me = trace[0].active[1];
-    let arrives = first(trace, left, |view| view.ball_from(view.teams[0][me]) < ARRIVED_M);
+    let (arrives, kick) = struck(trace, left, me);
+    vec![
+        Some(1.0),
+        Some(yes(trace[left..].iter().any(|view| view.owned_by(0, me)))),
+        Some(yes(kick.is_some())),
+        kick.map(|step| step as f64 - key as f64 + 1.0),
+        kick.zip(arrives).map(|(step, arrives)| (step - arrives) as f64),
+        kick.map(|step| trace[step].velocity()),
+        kick.map(|step| trace[step].degrees().abs()),
+        kick.map(|step| peak(trace, step)),
+        Some(yes(trace[trace.len() - 1].score[0] > 0)),
+    ]
+}
+
+/// When a pass that left in a step arrives at the receiver, and when it is kicked on.
+pub(super) fn struck(trace: &[View], left: usize, receiver: usize) -> (Option<usize>, Option<usize>) {
+    let arrives = first(trace, left, |view| view.ball_from(view.teams[0][receiver]) < ARRIVED_M);
     let kick = arrives.and_then(|arrives| {
         let before = &trace[left.max(arrives - 1)];
         let kicked = first(trace, arrives, |view| {
@@ -56,17 +72,10 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
         });
         kicked.filter(|step| trace[*step].score == trace[0].score && trace[*step].mode == 0)
     });
-    vec![
-        Some(1.0),
-        Some(yes(trace[left..].iter().any(|view| view.owned_by(0, me)))),
-        Some(yes(kick.is_some())),
-        kick.map(|step| step as f64 - key as f64 + 1.0),
-        kick.zip(arrives).map(|(step, arrives)| (step - arrives) as f64),
-        kick.map(|step| trace[step].velocity()),
-        kick.map(|step| trace[step].degrees().abs()),
-        kick.map(|step| {
-            trace[step..trace.len().min(step + PEAK_STEPS)].iter().map(|view| view.ball[2]).fold(0.0, f64::max)
-        }),
-        Some(yes(trace[trace.len() - 1].score[0] > 0)),
-    ]
+    (arrives, kick)
+}
+
+/// The largest height of a kicked ball.
+pub(super) fn peak(trace: &[View], step: usize) -> f64 {
+    trace[step..trace.len().min(step + PEAK_STEPS)].iter().map(|view| view.ball[2]).fold(0.0, f64::max)
 }

@@ -1,5 +1,7 @@
 //! A recorded scene's start: who stands where in each episode, as a scenario's text.
 
+use crate::pitch::Failure;
+use setpiece::scenario::vocabulary::Role;
 use std::fmt::Write as _;
 
 /// A player as recorded: role, x, y in the frame of the pitch, flags.
@@ -39,6 +41,16 @@ impl Scene {
     /// Whether an episode is mirrored top to bottom.
     pub(super) fn mirrored(&self, episode: u64) -> bool {
         self.mirror && episode % 2 == 1
+    }
+
+    /// The roles of both teams' players.
+    pub(super) fn roles(&self) -> Result<[Vec<Role>; 2], Failure> {
+        let of = |players: &[Placed]| {
+            let roles =
+                players.iter().map(|(name, ..)| Role::from_name(name).ok_or_else(|| format!("no role `{name}`")));
+            roles.collect::<Result<Vec<_>, _>>()
+        };
+        Ok([of(&self.left)?, of(&self.right)?])
     }
 
     /// The scenario of an episode between teams of these difficulties.

@@ -1,0 +1,56 @@
+//! Kicks asked for before a pass arrives, with one agent that goes over to the receiver: first time or after a trap.
+
+use super::early_kicks::{peak, struck};
+use super::kicks::is_kick;
+use super::recorded::{Column, Group, Kind, Row, Topic};
+use super::trace::{View, first, leaves, yes};
+
+/// A ball kicked within so many steps of its arrival was not trapped.
+const AT_ONCE_STEPS: usize = 3;
+/// The receiver's place in the team.
+const RECEIVER: usize = 2;
+
+const COLUMNS: [Column; 10] = [
+    ("passed", Kind::Share),
+    ("arrived", Kind::Share),
+    ("arrive_step", Kind::Steps),
+    ("struck", Kind::Share),
+    ("first_time", Kind::Share),
+    ("after", Kind::Steps),
+    ("speed", Kind::Speed),
+    ("degrees", Kind::Way),
+    ("peak", Kind::Height),
+    ("goal", Kind::Share),
+];
+
+const GROUPS: [Group; 3] = [
+    ("the pass", &["passed", "arrived", "arrive_step"]),
+    ("whether and when it is struck", &["struck", "first_time", "after"]),
+    ("where to and how fast", &["speed", "degrees", "peak", "goal"]),
+];
+
+/// The topic.
+pub(super) const TOPIC: Topic =
+    Topic { name: "first time", file: "grf_first_time.json", columns: &COLUMNS, groups: &GROUPS, read };
+
+fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+    let key = first(trace, 1, |view| is_kick(view.pressed[0]));
+    let left = key.and_then(|key| leaves(&trace[key - 1..]).map(|left| left + key - 1));
+    let (arrives, kick) = left.map_or((None, None), |left| struck(trace, left, RECEIVER));
+    let taken = arrives.zip(kick).map(|(arrives, kick)| kick - arrives);
+    let mut figures = vec![
+        Some(yes(left.is_some())),
+        left.map(|_| yes(arrives.is_some())),
+        arrives.zip(key).map(|(arrives, key)| (arrives - key + 1) as f64),
+        arrives.map(|_| yes(kick.is_some())),
+        arrives.map(|_| yes(taken.is_some_and(|taken| taken <= AT_ONCE_STEPS))),
+        taken.map(|taken| taken as f64),
+    ];
+    figures.extend([
+        kick.map(|step| trace[step].velocity()),
+        kick.map(|step| trace[step].degrees()),
+        kick.map(|step| peak(trace, step)),
+        Some(yes(trace[trace.len() - 1].score[0] > 0)),
+    ]);
+    figures
+}

@@ -1,0 +1,139 @@
+//! How far our figures may lie from recorded ones.
+
+use crate::figure::Part;
+use crate::pitch::{deviation, mean};
+
+/// Rows of theirs in which fewer episodes have a value say too little.
+pub(super) const FEWEST: u64 = 5;
+
+/// What a figure measures, which says how far ours may be off beside what chance does to the two means.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    /// A share of the episodes.
+    Share,
+    /// A share of an episode's steps: ±0.05.
+    Part,
+    /// A count in an episode: ±0.25.
+    Count,
+    /// Steps: ±1.
+    Steps,
+    /// m/s: ±8 %.
+    Speed,
+    /// Degrees: ±3.
+    Degrees,
+    /// Degrees round the circle: ±3, by the shorter way.
+    Way,
+    /// Metres of height: ±25 %, at least 0.3.
+    Height,
+    /// Metres: ±8 %, at least 0.5.
+    Metres,
+    /// A place in Google Research Football's coordinates: ±0.03.
+    Place,
+}
+
+/// A figure as recorded; without a mean where no episode has a value.
+#[derive(serde::Deserialize)]
+pub(super) struct Measured {
+    pub(super) mean: Option<f64>,
+    pub(super) sd: Option<f64>,
+    pub(super) n: u64,
+}
+
+impl Measured {
+    /// What episodes say.
+    pub(super) fn of(kind: Kind, values: &[f64]) -> Measured {
+        let some = !values.is_empty();
+        let [mean, sd] = [kind.mean(values), kind.deviation(values)].map(|it| Some(it).filter(|_| some));
+        Measured { mean, sd, n: values.len() as u64 }
+    }
+
+    /// What these episodes and others say together.
+    pub(super) fn with(self, kind: Kind, other: &Measured) -> Measured {
+        let (Some(mean), Some(theirs)) = (self.mean, other.mean) else {
+            return if self.mean.is_some() { self } else { Measured { ..*other } };
+        };
+        let apart = match kind {
+            Kind::Way => wrapped(theirs - mean),
+            _ => theirs - mean,
+        };
+        let (n, m) = (self.n as f64, other.n as f64);
+        let squares = |sd: Option<f64>, n: f64| sd.unwrap_or_default().powi(2) * (n - 1.0);
+        let sum = squares(self.sd, n) + squares(other.sd, m) + apart * apart * n * m / (n + m);
+        let sd = (sum / (n + m - 1.0)).sqrt();
+        Measured { mean: Some(mean + apart * m / (n + m)), sd: Some(sd), n: self.n + other.n }
+    }
+}
+
+/// A figure beside theirs.
+pub(super) fn part(name: &str, kind: Kind, theirs: &Measured, ours: &[f64]) -> Option<Part> {
+    let middle = theirs.mean?;
+    let n = ours.len().max(1) as u64;
+    // Events that a few episodes happen not to show are not impossible: one more in all of them.
+    let least = if let Kind::Count = kind { (middle + 1.0 / theirs.n as f64).sqrt() } else { 0.0 };
+    let chance = 1.96 * theirs.sd.unwrap_or_default().max(least) * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
+    let give = match kind {
+        Kind::Share => share_give(middle, theirs.n, n),
+        Kind::Part => 0.05 + chance,
+        Kind::Count => 0.25 + chance,
+        Kind::Steps => 1.0 + chance,
+        Kind::Speed => 0.08 * middle + chance,
+        Kind::Degrees | Kind::Way => 3.0 + chance,
+        Kind::Height => (0.25 * middle).max(0.3) + chance,
+        Kind::Metres => (0.08 * middle).max(0.5) + chance,
+        Kind::Place => 0.03 + chance,
+    };
+    let ours = match kind {
+        Kind::Way => middle + wrapped(kind.mean(ours) - middle),
+        _ => mean(ours),
+    };
+    Some(Part::around(name, middle, give, ours))
+}
+
+impl Kind {
+    /// The mean of some values.
+    pub(super) fn mean(self, of: &[f64]) -> f64 {
+        let Kind::Way = self else { return mean(of) };
+        let along = |part: fn(f64) -> f64| of.iter().map(|way| part(way.to_radians())).sum::<f64>();
+        along(f64::sin).atan2(along(f64::cos)).to_degrees()
+    }
+
+    /// Their standard deviation.
+    pub(super) fn deviation(self, of: &[f64]) -> f64 {
+        let Kind::Way = self else { return deviation(of) };
+        let middle = self.mean(of);
+        // Around a middle of 0 the deviations are what they are round the circle.
+        let off: Vec<f64> = of.iter().map(|way| wrapped(way - middle)).collect();
+        deviation(&off)
+    }
+}
+
+/// An angle in -180 to 180 degrees.
+fn wrapped(degrees: f64) -> f64 {
+    (degrees + 180.0).rem_euclid(360.0) - 180.0
+}
+
+/// How far two shares may be apart: what chance does to samples of `theirs` and `ours` in nineteen cases of twenty, and a
+/// tenth more.
+pub(super) fn share_give(share: f64, theirs: u64, ours: u64) -> f64 {
+    // Agresti and Coull's two successes and two failures keep shares of 0 and 1 from looking certain.
+    let n = theirs as f64;
+    let p = (share * n + 2.0) / (n + 4.0);
+    1.96 * (p * (1.0 - p) * (1.0 / (n + 4.0) + 1.0 / ours as f64)).sqrt() + 0.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, Measured};
+
+    #[test]
+    fn two_recordings_together_are_one_of_all_their_episodes() {
+        for kind in [Kind::Steps, Kind::Way] {
+            let all = [170.0, 178.0, 175.0, 179.0, 168.0, 176.0, 171.0];
+            let together = Measured::of(kind, &all[..3]).with(kind, &Measured::of(kind, &all[3..]));
+            let whole = Measured::of(kind, &all);
+            assert_eq!(together.n, whole.n);
+            assert!((together.mean.unwrap_or_default() - whole.mean.unwrap_or_default()).abs() < 0.1);
+            assert!((together.sd.unwrap_or_default() - whole.sd.unwrap_or_default()).abs() < 0.1);
+        }
+    }
+}

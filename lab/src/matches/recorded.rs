@@ -1,0 +1,49 @@
+//! Matches of Google Research Football's bots as `lab/record/matches.py` counted them.
+
+use crate::figure::{Part, short};
+use crate::pitch::{Failure, deviation, mean};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// A match: its difficulties and everything that was counted, by name.
+type Match = BTreeMap<String, f64>;
+
+/// Reads the matches between these difficulties.
+pub(super) fn matches(left: f64, right: f64) -> Result<Vec<Match>, Failure> {
+    const FILE: &str = "grf_bot_matches.jsonl";
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(FILE);
+    let text = std::fs::read_to_string(path).map_err(|why| format!("lab/data/{FILE}: {why}"))?;
+    let all = text.lines().map(|line| serde_json::from_str(line).map_err(|why| format!("lab/data/{FILE}: {why}")));
+    let mut of = all.collect::<Result<Vec<Match>, Failure>>()?;
+    of.retain(|one| one.get("left") == Some(&left) && one.get("right") == Some(&right));
+    Ok(of)
+}
+
+/// How far ours may be off beside what chance does to the two means.
+#[derive(Clone, Copy)]
+pub(super) enum Give {
+    /// A number of events in a match: ±25 %, at least 0.25.
+    Count,
+    /// A share: ±0.05.
+    Share,
+    /// Anything else that is measured: ±15 %.
+    Measure,
+}
+
+/// A count of ours, the mean of so many matches, beside theirs.
+pub(super) fn part(theirs: &[Match], name: &str, give: Give, ours: f64, matches: usize) -> Part {
+    let of: Vec<f64> = theirs.iter().filter_map(|one| one.get(name).copied()).collect();
+    let (middle, n) = (mean(&of), of.len() as f64);
+    // Events that a few matches happen not to show are not impossible: one more in all of them.
+    let least = if let Give::Count = give { ((middle * n + 1.0) / n).sqrt() } else { 0.0 };
+    let chance = 1.96 * deviation(&of).max(least) * (1.0 / n + 1.0 / matches as f64).sqrt();
+    let tolerance = match give {
+        Give::Count => (0.25 * middle).max(0.25),
+        Give::Share => 0.05,
+        Give::Measure => 0.15 * middle,
+    };
+    let mut part = Part::around(name, middle, tolerance + chance, ours);
+    part.range[0] = part.range[0].max(0.0);
+    part.theirs = format!("{} ± {}", short(middle), short(deviation(&of) / n.sqrt()));
+    part
+}

@@ -133,9 +133,12 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     if plan.held && (plan.gauge_ticks <= CHARGE_TICKS || stays(game, plan.kind)) {
         return None;
     }
-    let (way, mate) = meant(game, id, plan);
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
+    if !at_hand && (must_take(game, id) || (game.tick as i32) < player.body.turned_at) {
+        return None;
+    }
+    let (way, mate) = meant(game, id, plan);
     let ticks = match game.play.set_piece {
         Some(set_piece) => run_up_ticks(set_piece.mode),
         None if at_hand => at_hand_ticks(plan.kind),
@@ -144,9 +147,6 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
             soonest(game, id, plan, longest).unwrap_or(longest)
         }
     };
-    if !at_hand && (must_take(game, id) || (game.tick as i32) < player.body.turned_at) {
-        return None;
-    }
     let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
     (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
 }

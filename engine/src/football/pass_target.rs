@@ -63,6 +63,10 @@ fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
         }
         let target = lead(other, other.pos.distance(player.pos));
         let far = libm::powf((target.distance(look) / 70.0).clamp(0.0, 1.0), 0.8);
+        if best.is_some_and(|(least, _)| 0.8 * far >= least) {
+            // No angle makes that less.
+            continue;
+        }
         let way = (target - from).normalize_or_zero();
         let angle = math::acos(way.dot(input).clamp(-1.0, 1.0));
         let rating = 0.8 * far + angle / std::f32::consts::PI;

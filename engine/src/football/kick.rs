@@ -7,7 +7,7 @@ use crate::football::body::{KickKind, KickPlan, NEVER, Swing};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch};
 use crate::math;
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
@@ -94,11 +94,11 @@ impl KickPlan {
 }
 
 /// Goes on with every kick that is asked for: gauges fill, swings begin, and whoever has the ball in reach at the end of
-/// their swing kicks it; at most one kick a tick.
-pub fn kick_ball(game: &mut Match, events: &mut Events) {
+/// their swing kicks it; at most one kick a tick. `kicks`: who may have asked for one.
+pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
     let now = game.tick as i32;
     let mut kicked = false;
-    for id in game.order() {
+    for id in game.order_of(kicks) {
         let i = id.index();
         let Some(mut plan) = game.players[i].body.kick else { continue };
         if plan.held {

@@ -55,7 +55,7 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     let (at_x, at_y, speeds) = (is(at.x), is(at.y), is(speed));
     let Range { start, end } = way.points;
     // So much nearer to each other the ball and he come from a point to the next, at most.
-    let closing_m = way.forecast.stride_m() + speed * SPACING_S;
+    let per_closing_m = 1.0 / (way.forecast.stride_m() + speed * SPACING_S);
     let mut row = start / WIDTH;
     while row * WIDTH < end {
         let [x, y, z] = way.forecast.row(row);
@@ -74,7 +74,7 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
         let [.., dy] = dy.to_array();
         let [.., radius] = radius.to_array();
         let missing_m = (dx * dx + dy * dy).sqrt() - radius - ROUNDING_M;
-        row += 1 + (missing_m / closing_m).clamp(0.0, POINTS as f32) as usize / WIDTH;
+        row += 1 + (missing_m * per_closing_m).clamp(0.0, POINTS as f32) as usize / WIDTH;
     }
     if way.points.is_empty() {
         return (player.pos, (player.pos.distance(at) / speed).max(0.0));

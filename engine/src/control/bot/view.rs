@@ -1,6 +1,7 @@
 //! What a team's bots know of the game in a step.
 
 use crate::control::bot::mark;
+use crate::football::recent::BallMeans;
 use crate::football::{offside, reach, touch};
 use crate::math::share;
 use crate::state::{Match, PlayerId};
@@ -37,6 +38,8 @@ pub struct View {
     pub trap_x: f32,
     /// The offside line for us a moment from now, own frame x, metres.
     pub line_x: f32,
+    /// Where the ball was lately.
+    pub means: BallMeans,
 }
 
 impl View {
@@ -60,6 +63,7 @@ impl View {
             daring: daring(game, team),
             trap_x: 0.0,
             line_x: offside::line_in(game, team, LINE_AHEAD_S),
+            means: game.play.recent.ball_means(game.ball.pos.truncate()),
         };
         view.trap_x = mark::trap_x(game, &view);
         view

@@ -6,6 +6,7 @@
 //!
 //! Figures of its files are GRF's, measured, fitted or chosen, as each says.
 
+mod board;
 pub mod dribbling;
 pub mod formation;
 pub mod keeper;

@@ -1,5 +1,6 @@
 //! What a team's bots know of the game in a step.
 
+use crate::control::bot::board::Board;
 use crate::control::bot::mark;
 use crate::football::recent::BallMeans;
 use crate::football::{offside, reach, touch};
@@ -40,6 +41,8 @@ pub struct View {
     pub line_x: f32,
     /// Where the ball was lately.
     pub means: BallMeans,
+    /// Where everyone stands.
+    pub board: Board,
 }
 
 impl View {
@@ -64,6 +67,7 @@ impl View {
             trap_x: 0.0,
             line_x: offside::line_in(game, team, LINE_AHEAD_S),
             means: game.play.recent.ball_means(game.ball.pos.truncate()),
+            board: Board::of(game),
         };
         view.trap_x = mark::trap_x(game, &view);
         view

@@ -144,28 +144,34 @@ impl Four {
         let pushed = (speed + push * is(DT)).fast_min(wish);
         let waits = lag.simd_lt(is(LAG_TICKS));
         let (off_x, off_y) = (waits.select(vx, aim_x * pushed), waits.select(vy, aim_y * pushed));
-        // Where he runs: he leans into an arc and loses speed; about turns brake first.
+        // Where he runs: straight on, or round a bend.
+        let (rests, stands) = (wish.simd_lt(is(WISH_MPS)), speed.simd_lt(is(STANDS_MPS)));
         let (ahead_x, ahead_y) = (vx / speed, vy / speed);
         let cos = (ahead_x * aim_x + ahead_y * aim_y).fast_max(-one).fast_min(one);
-        let sin = ahead_x * aim_y - ahead_y * aim_x;
         let next = speed.simd_lt(wish).select(pushed, braked.fast_max(wish));
-        let about = cos.simd_lt(is(-0.5)) & speed.simd_gt(is(2.0));
-        let angle = is(TURN_MPS2) * f32x4::new(self.turn) / speed.fast_max(is(1.2)) * is(DT);
-        let angle = angle.fast_min(is(0.35));
-        let back = cos.simd_lt(none);
-        let turned = sin.abs().fast_max(back.select(one, none));
-        let left = sin.simd_lt(none).select(-angle, angle);
-        let (arc_x, arc_y) = unit(ahead_x - ahead_y * left, ahead_y + ahead_x * left);
-        let leans = turned.simd_gt(angle);
-        let (lean_x, lean_y) = (leans.select(arc_x, aim_x), leans.select(arc_y, aim_y));
-        let sharp = cos.simd_gt(none).select((is(1.05) * sin.abs()).fast_min(one), one);
-        let slowed = speed - is(BRAKE_MPS2 * 0.9) * sharp * is(DT);
-        let leaning = slowed.fast_max(next.fast_min(is(1.5))).fast_min(next);
-        let bends = cos.simd_lt(is(STRAIGHT));
-        let way_x = bends.select(about.select(ahead_x, lean_x), aim_x);
-        let way_y = bends.select(about.select(ahead_y, lean_y), aim_y);
-        let pace = bends.select(about.select(braked, leaning), next).fast_max(none);
-        let (rests, stands) = (wish.simd_lt(is(WISH_MPS)), speed.simd_lt(is(STANDS_MPS)));
+        let bends = cos.simd_lt(is(STRAIGHT)) & !(rests | stands);
+        let (mut way_x, mut way_y, mut pace) = (aim_x, aim_y, next);
+        // A bend costs as much as all the rest: fours of whom nobody runs one are spared it.
+        if bends.to_bitmask() != 0 {
+            // He leans into an arc and loses speed; about turns brake first.
+            let sin = ahead_x * aim_y - ahead_y * aim_x;
+            let about = cos.simd_lt(is(-0.5)) & speed.simd_gt(is(2.0));
+            let angle = is(TURN_MPS2) * f32x4::new(self.turn) / speed.fast_max(is(1.2)) * is(DT);
+            let angle = angle.fast_min(is(0.35));
+            let back = cos.simd_lt(none);
+            let turned = sin.abs().fast_max(back.select(one, none));
+            let left = sin.simd_lt(none).select(-angle, angle);
+            let (arc_x, arc_y) = unit(ahead_x - ahead_y * left, ahead_y + ahead_x * left);
+            let leans = turned.simd_gt(angle);
+            let (lean_x, lean_y) = (leans.select(arc_x, aim_x), leans.select(arc_y, aim_y));
+            let sharp = cos.simd_gt(none).select((is(1.05) * sin.abs()).fast_min(one), one);
+            let slowed = speed - is(BRAKE_MPS2 * 0.9) * sharp * is(DT);
+            let leaning = slowed.fast_max(next.fast_min(is(1.5))).fast_min(next);
+            way_x = bends.select(about.select(ahead_x, lean_x), aim_x);
+            way_y = bends.select(about.select(ahead_y, lean_y), aim_y);
+            pace = bends.select(about.select(braked, leaning), next);
+        }
+        let pace = pace.fast_max(none);
         let got_off = stands.select((lag + one).fast_min(is(LAG_TICKS)), is(LAG_TICKS));
         self.vx = rests.select(brake_x, stands.select(off_x, way_x * pace)).to_array();
         self.vy = rests.select(brake_y, stands.select(off_y, way_y * pace)).to_array();

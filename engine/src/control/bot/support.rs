@@ -125,8 +125,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     }
     if ahead.is_some() {
         if nearness >= MAKES_WAY {
-            for ticks in [20, 35, 50, 65] {
-                let ball = game.play.forecast.at(game.tick + ticks).truncate() * view.side;
+            for ball in view.ways {
                 forces.push::<4>(ball, 1.0, 2.0);
             }
         }

@@ -113,11 +113,15 @@ impl Four {
         let (runs, is_there) = (pace.simd_ge(none), distance.simd_lt(there));
         let want_x = runs.select(is_there.select(none, x * scale), x);
         let want_y = runs.select(is_there.select(none, y * scale), y);
+        (self.want_x, self.want_y) = (want_x.to_array(), want_y.to_array());
         let (x, y) = (f32x4::new(self.x), f32x4::new(self.y));
-        let out_x = x.abs().simd_gt(rim_x) & (want_x * x).simd_gt(none);
-        let out_y = y.abs().simd_gt(rim_y) & (want_y * y).simd_gt(none);
-        self.want_x = out_x.select(none, want_x).to_array();
-        self.want_y = out_y.select(none, want_y).to_array();
+        let (far_x, far_y) = (x.abs().simd_gt(rim_x), y.abs().simd_gt(rim_y));
+        if (far_x | far_y).to_bitmask() != 0 {
+            let out_x = far_x & (want_x * x).simd_gt(none);
+            let out_y = far_y & (want_y * y).simd_gt(none);
+            self.want_x = out_x.select(none, want_x).to_array();
+            self.want_y = out_y.select(none, want_y).to_array();
+        }
     }
 
     /// Brings every velocity nearer to its wish, as a body can in a tick.
@@ -192,14 +196,19 @@ impl Four {
     fn turn(&mut self, ball_x: f32, ball_y: f32) {
         let little = f32x4::splat(0.12);
         let (vx, vy) = (f32x4::new(self.vx), f32x4::new(self.vy));
-        let (ball_x, ball_y) = (f32x4::splat(ball_x) - f32x4::new(self.x), f32x4::splat(ball_y) - f32x4::new(self.y));
         let runs = (vx * vx + vy * vy).simd_gt(f32x4::ONE);
-        let (towards_x, towards_y) = unit(runs.select(vx, ball_x), runs.select(vy, ball_y));
+        let (mut towards_x, mut towards_y, mut at_feet) = (vx, vy, f32x4::ZERO);
+        if !runs.all() {
+            let (ball_x, ball_y) =
+                (f32x4::splat(ball_x) - f32x4::new(self.x), f32x4::splat(ball_y) - f32x4::new(self.y));
+            (towards_x, towards_y) = (runs.select(vx, ball_x), runs.select(vy, ball_y));
+            // With the ball at their feet players keep facing the way they went.
+            at_feet = !runs & (ball_x * ball_x + ball_y * ball_y).simd_lt(f32x4::splat(AT_FEET_M * AT_FEET_M));
+        }
+        let (towards_x, towards_y) = unit(towards_x, towards_y);
         let (facing_x, facing_y) = (f32x4::new(self.facing_x), f32x4::new(self.facing_y));
         let (mixed_x, mixed_y) = (facing_x + towards_x * little, facing_y + towards_y * little);
         let length = (mixed_x * mixed_x + mixed_y * mixed_y).sqrt();
-        // With the ball at their feet players keep facing the way they went.
-        let at_feet = !runs & (ball_x * ball_x + ball_y * ball_y).simd_lt(f32x4::splat(AT_FEET_M * AT_FEET_M));
         let turns = length.simd_gt(f32x4::splat(0.05)) & !at_feet;
         self.facing_x = turns.select(mixed_x / length, facing_x).to_array();
         self.facing_y = turns.select(mixed_y / length, facing_y).to_array();

@@ -31,6 +31,9 @@ const READS: f32 = 0.2;
 /// How often the helper of whoever has the ball is chosen, steps.
 const HELPER_EVERY: u32 = 15;
 
+/// So many times the square of a distance is surely further, however roots are rounded.
+const SURELY: f32 = 1.001;
+
 /// Forces on a point: their sum, and how strong they are together.
 pub struct Forces {
     at: Vec2,
@@ -65,6 +68,9 @@ impl Forces {
     /// A point pushes, the more the nearer it is, by a power of so many eighths; not at all from `scale` metres on.
     pub fn push<const EIGHTHS: u32>(&mut self, from: Vec2, power: f32, scale: f32) {
         let way = self.at - from;
+        if way.length_squared() > SURELY * scale * scale {
+            return;
+        }
         let near = 1.0 - way.length() / scale;
         if near > 0.0 {
             let power = power * if EIGHTHS == 8 { near } else { math::eighths::<EIGHTHS>(near) };

@@ -148,16 +148,16 @@ impl Four {
         let pushed = (speed + push * is(DT)).fast_min(wish);
         let waits = lag.simd_lt(is(LAG_TICKS));
         let (off_x, off_y) = (waits.select(vx, aim_x * pushed), waits.select(vy, aim_y * pushed));
-        // Where he runs: straight on, or round a bend.
+        // Where they run: straight on, or round a bend.
         let (rests, stands) = (wish.simd_lt(is(WISH_MPS)), speed.simd_lt(is(STANDS_MPS)));
         let (ahead_x, ahead_y) = (vx / speed, vy / speed);
         let cos = (ahead_x * aim_x + ahead_y * aim_y).fast_max(-one).fast_min(one);
         let next = speed.simd_lt(wish).select(pushed, braked.fast_max(wish));
         let bends = cos.simd_lt(is(STRAIGHT)) & !(rests | stands);
         let (mut way_x, mut way_y, mut pace) = (aim_x, aim_y, next);
-        // A bend costs as much as all the rest: fours of whom nobody runs one are spared it.
+        // A bend costs as much as all the rest, and most fours run straight on.
         if bends.to_bitmask() != 0 {
-            // He leans into an arc and loses speed; about turns brake first.
+            // They lean into an arc and lose speed; about turns brake first.
             let sin = ahead_x * aim_y - ahead_y * aim_x;
             let about = cos.simd_lt(is(-0.5)) & speed.simd_gt(is(2.0));
             let angle = is(TURN_MPS2) * f32x4::new(self.turn) / speed.fast_max(is(1.2)) * is(DT);

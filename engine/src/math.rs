@@ -91,5 +91,21 @@ pub fn share(value: f32, low: f32, high: f32) -> f32 {
 
 /// A share 0..1, slow at both ends: a cosine's.
 pub fn ease(share: f32) -> f32 {
+    // The ends are frequent, and exact.
+    if share == 0.0 || share == 1.0 {
+        return share;
+    }
     0.5 - 0.5 * cos(share * std::f32::consts::PI)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ends_of_an_ease_are_those_of_the_cosine() {
+        for share in [0.0, 1.0] {
+            assert_eq!(ease(share), 0.5 - 0.5 * cos(share * std::f32::consts::PI));
+        }
+    }
 }

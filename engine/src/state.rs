@@ -135,6 +135,11 @@ impl Match {
         self.squad.ids_from(self.play.lead)
     }
 
+    /// Some of the squad in the order of play.
+    pub fn order_of(&self, some: Squad) -> Ids {
+        some.ids_from(self.play.lead)
+    }
+
     /// Does something with everyone on the pitch of some players, by id.
     pub fn each(&mut self, of: Squad, mut act: impl FnMut(&mut Player)) {
         for id in of.ids() {

@@ -6,6 +6,7 @@
 //!
 //! Figures of its files are GRF's, measured, fitted or chosen, as each says.
 
+mod board;
 pub mod dribbling;
 pub mod formation;
 pub mod keeper;
@@ -26,7 +27,7 @@ use crate::football::body::Intent;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::HALF_LENGTH_M;
-use setpiece_scenario::vocabulary::{Role, Team};
+use setpiece_scenario::vocabulary::Role;
 use setpiece_scenario::{Ai, Others};
 
 /// The middle of their goal in the own frame, metres; of the own one, its negative.
@@ -48,7 +49,7 @@ pub fn think(game: &mut Match, events: &mut Events) {
         taker::think(game);
         return;
     }
-    let views = [View::of(game, Team::Left), View::of(game, Team::Right)];
+    let views = View::of_both(game);
     for team in game.teams() {
         let view = &views[team.index()];
         let turn = (game.step + 2 * u32::from(team != game.play.early)) % ASSIGN_EVERY;

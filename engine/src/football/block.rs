@@ -41,8 +41,12 @@ impl Block {
         let moved = math::mix(slot.x, self.midfield.0, math::ease(middle) * self.midfield.1);
         let plain = Vec2::new(back + (0.5 * moved + 0.5) * (front - back), self.middle_y + slot.y * self.half_width);
         let (x, keen) = self.towards_x;
-        let near = 1.0 - ((x - plain.x) / (front - back)).abs().min(1.0);
-        let place_x = math::mix(plain.x, x, math::eighths::<6>(math::ease(near)) * keen);
+        let place_x = if keen > 0.0 {
+            let near = 1.0 - ((x - plain.x) / (front - back)).abs().min(1.0);
+            math::mix(plain.x, x, math::eighths::<6>(math::ease(near)) * keen)
+        } else {
+            plain.x
+        };
         let (y, keen) = self.towards_y;
         let near = 1.0 - ((y - plain.y) / (2.0 * self.half_width)).abs().min(1.0);
         let place_y = math::mix(plain.y, y, near * (0.2 + 0.8 * y.abs() / HALF.y) * keen);

@@ -60,9 +60,15 @@ impl Forecast {
         Vec3::new(self.x[i], self.y[i], self.z[i])
     }
 
-    /// Four points of it, their places along each axis.
-    pub(super) fn row(&self, row: usize) -> [f32x4; 3] {
-        [&self.x, &self.y, &self.z].map(|lane| f32x4::new(lane.as_chunks::<WIDTH>().0[row]))
+    /// Four points of it: their places on the pitch along each axis.
+    #[inline]
+    pub(super) fn row(&self, row: usize) -> [f32x4; 2] {
+        [four(&self.x, row), four(&self.y, row)]
+    }
+
+    /// The heights of four points of it.
+    pub(super) fn heights(&self, row: usize) -> f32x4 {
+        four(&self.z, row)
     }
 
     /// The last point at a tick or before it, and the seconds from the forecast's first point to that tick.
@@ -103,6 +109,12 @@ impl Forecast {
     pub fn holds(&self, ball: &Ball, tick: u32) -> bool {
         tick >= self.from_tick && tick - self.from_tick < 100 && self.at(tick).distance_squared(ball.pos) < 0.15 * 0.15
     }
+}
+
+/// A row of a column.
+#[inline]
+fn four(column: &[f32; POINTS], row: usize) -> f32x4 {
+    f32x4::new(column.as_chunks::<WIDTH>().0[row])
 }
 
 /// The time of a point from a moment on that is so many seconds after the first.

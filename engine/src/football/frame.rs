@@ -16,11 +16,16 @@ const WALLS: [[Vec2; 2]; 3] = {
 };
 
 /// Keeps a player's place and velocity out of the frame and nets of both goals.
+#[inline]
 pub fn keep_out(pos: &mut Vec2, vel: &mut Vec2) {
     let reach = HALF_LENGTH_M as f32 - KEEP_M;
-    if pos.x.abs() < reach || pos.y.abs() > GOAL_HALF_WIDTH_M as f32 + KEEP_M {
-        return;
+    if pos.x.abs() >= reach && pos.y.abs() <= GOAL_HALF_WIDTH_M as f32 + KEEP_M {
+        keep_off_walls(pos, vel);
     }
+}
+
+/// Keeps someone at a goal out of its frame and net.
+fn keep_off_walls(pos: &mut Vec2, vel: &mut Vec2) {
     // Both ends alike: the one at -x is turned by 180°.
     let side = if pos.x < 0.0 { -1.0 } else { 1.0 };
     for [from, to] in WALLS {

@@ -7,7 +7,7 @@ use crate::football::body::{KickKind, KickPlan, NEVER, Swing};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch};
 use crate::math;
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
@@ -94,11 +94,11 @@ impl KickPlan {
 }
 
 /// Goes on with every kick that is asked for: gauges fill, swings begin, and whoever has the ball in reach at the end of
-/// their swing kicks it; at most one kick a tick.
-pub fn kick_ball(game: &mut Match, events: &mut Events) {
+/// their swing kicks it; at most one kick a tick. `kicks`: who may have asked for one.
+pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
     let now = game.tick as i32;
     let mut kicked = false;
-    for id in game.order() {
+    for id in game.order_of(kicks) {
         let i = id.index();
         let Some(mut plan) = game.players[i].body.kick else { continue };
         if plan.held {
@@ -133,9 +133,12 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     if plan.held && (plan.gauge_ticks <= CHARGE_TICKS || stays(game, plan.kind)) {
         return None;
     }
-    let (way, mate) = meant(game, id, plan);
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
+    if !at_hand && (must_take(game, id) || (game.tick as i32) < player.body.turned_at) {
+        return None;
+    }
+    let (way, mate) = meant(game, id, plan);
     let ticks = match game.play.set_piece {
         Some(set_piece) => run_up_ticks(set_piece.mode),
         None if at_hand => at_hand_ticks(plan.kind),
@@ -144,9 +147,6 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
             soonest(game, id, plan, longest).unwrap_or(longest)
         }
     };
-    if !at_hand && (must_take(game, id) || (game.tick as i32) < player.body.turned_at) {
-        return None;
-    }
     let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
     (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
 }

@@ -7,7 +7,7 @@ use crate::football::body::{Intent, Pose};
 use crate::football::dribble::{LIES_MPS, SOLE_M, SPRINTS_MPS};
 use crate::football::rows::{ROWS, WIDTH};
 use crate::football::stride::{self, Four, NO_POINT};
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, Player, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
@@ -41,8 +41,18 @@ pub const DT: f32 = 0.01;
 /// Metres of distance to m/s of speed wanted.
 pub const ARRIVAL_PER_S: f32 = 2.6;
 
-/// Moves every player on by a tick.
-pub fn advance(game: &mut Match) {
+/// Who does more in a tick than run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Busy {
+    /// Who slides.
+    pub slides: Squad,
+    /// Who has a kick in mind, on the pitch or not.
+    pub kicks: Squad,
+}
+
+/// Moves every player on by a tick; says who has more to do in it, so that nobody else is asked.
+pub fn advance(game: &mut Match) -> Busy {
+    let mut busy = Busy::default();
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
     let owner = game.owner;
@@ -54,12 +64,16 @@ pub fn advance(game: &mut Match) {
     let mut fours: ArrayVec<Four, ROWS> = ArrayVec::new();
     for id in game.squad.ids() {
         let player = &mut game.players[id.index()];
+        if player.body.kick.is_some() {
+            busy.kicks.add(id);
+        }
         if !player.active {
             continue;
         }
         match player.body.pose {
             Pose::Up => {}
             Pose::Sliding => {
+                busy.slides.add(id);
                 slow_down(player, 7.0);
                 pass_time(player, Pose::Down, 35);
                 go(player);
@@ -94,6 +108,7 @@ pub fn advance(game: &mut Match) {
     for (i, id) in runners.into_iter().enumerate() {
         give(&fours[i / WIDTH], i % WIDTH, &mut game.players[id.index()]);
     }
+    busy
 }
 
 /// Whether a player has come to the ball of a start; whoever plays it straight on goes right up to it.

@@ -62,7 +62,15 @@ fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
             continue;
         }
         let target = lead(other, other.pos.distance(player.pos));
-        let far = libm::powf((target.distance(look) / 70.0).clamp(0.0, 1.0), 0.8);
+        let share = (target.distance(look) / 70.0).clamp(0.0, 1.0);
+        // Neither the power nor an angle makes that less.
+        if best.is_some_and(|(least, _)| 0.8 * share >= least) {
+            continue;
+        }
+        let far = libm::powf(share, 0.8);
+        if best.is_some_and(|(least, _)| 0.8 * far >= least) {
+            continue;
+        }
         let way = (target - from).normalize_or_zero();
         let angle = math::acos(way.dot(input).clamp(-1.0, 1.0));
         let rating = 0.8 * far + angle / std::f32::consts::PI;

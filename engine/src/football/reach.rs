@@ -29,6 +29,8 @@ pub struct Way<'a> {
     forecast: &'a Forecast,
     /// The points of the forecast that belong to it.
     points: Range<usize>,
+    /// Those of them at which the ball is low enough to be played, a bit each.
+    playable: u64,
     /// The moment, in seconds after the forecast's first point.
     offset_s: f32,
 }
@@ -37,13 +39,17 @@ impl Way<'_> {
     /// The way of a forecast from a tick on.
     pub fn of(forecast: &Forecast, tick: u32) -> Way<'_> {
         let (first, offset_s) = forecast.first(tick);
-        Way { forecast, points: forecast.on_pitch(first), offset_s }
+        let points = forecast.on_pitch(first);
+        let low = f32x4::splat(PLAYABLE_M);
+        let playable = (points.start / WIDTH..points.end.div_ceil(WIDTH))
+            .fold(0, |bits, row| bits | u64::from(forecast.heights(row).simd_le(low).to_bitmask()) << (row * WIDTH));
+        Way { forecast, playable: playable & from(points.start) & !from(points.end), points, offset_s }
     }
 }
 
-/// The places of a row that lie at a point or behind it, a bit each.
-fn from(point: usize, row: usize) -> u32 {
-    u32::MAX << point.saturating_sub(row * WIDTH).min(WIDTH)
+/// A point of a forecast and those behind it, a bit each.
+fn from(point: usize) -> u64 {
+    u64::MAX.checked_shl(point as u32).unwrap_or_default()
 }
 
 /// Where and when a player can first meet the ball.
@@ -55,16 +61,16 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     let (at_x, at_y, speeds) = (is(at.x), is(at.y), is(speed));
     let Range { start, end } = way.points;
     // So much nearer to each other the ball and he come from a point to the next, at most.
-    let closing_m = way.forecast.stride_m() + speed * SPACING_S;
+    let per_closing_m = 1.0 / (way.forecast.stride_m() + speed * SPACING_S);
     let mut row = start / WIDTH;
     while row * WIDTH < end {
-        let [x, y, z] = way.forecast.row(row);
+        let [x, y] = way.forecast.row(row);
         let ticks = (is((row * WIDTH) as f32) + f32x4::new(PLACES)) * is(SPACING_TICKS as f32);
         let time_s = (ticks * is(0.01) - is(way.offset_s)).fast_max(f32x4::ZERO);
         let radius = is(REACH_M) + speeds * (time_s - is(0.12)).fast_max(f32x4::ZERO);
         let (dx, dy) = (x - at_x, y - at_y);
-        let reached = (dx * dx + dy * dy).simd_le(radius * radius) & z.simd_le(is(PLAYABLE_M));
-        let reached = reached.to_bitmask() & from(start, row) & !from(end, row);
+        let reached = (dx * dx + dy * dy).simd_le(radius * radius).to_bitmask();
+        let reached = reached & (way.playable >> (row * WIDTH)) as u32;
         if reached != 0 {
             let first = row * WIDTH + reached.trailing_zeros() as usize;
             return (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
@@ -74,7 +80,7 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
         let [.., dy] = dy.to_array();
         let [.., radius] = radius.to_array();
         let missing_m = (dx * dx + dy * dy).sqrt() - radius - ROUNDING_M;
-        row += 1 + (missing_m / closing_m).clamp(0.0, POINTS as f32) as usize / WIDTH;
+        row += 1 + (missing_m * per_closing_m).clamp(0.0, POINTS as f32) as usize / WIDTH;
     }
     if way.points.is_empty() {
         return (player.pos, (player.pos.distance(at) / speed).max(0.0));

@@ -56,17 +56,38 @@ impl Recent {
         }
     }
 
-    /// Where the ball was on average for so many seconds, at most four.
-    pub fn ball_mean(&self, ball: Vec2, seconds: f32) -> Vec2 {
-        let wanted = ((seconds / APART_S) as usize).min(usize::from(self.count)).min(PLACES);
-        let last = usize::from(self.next) + PLACES;
-        let sum = (1..=wanted).fold(ball, |sum, back| sum + self.places[(last - back) % PLACES]);
-        sum / (wanted + 1) as f32
+    /// Where the ball, which is at `ball` now, was on average over each of the last moments.
+    pub fn ball_means(&self, ball: Vec2) -> BallMeans {
+        let count = usize::from(self.count).min(PLACES);
+        let mut means = BallMeans { means: [ball; PLACES + 1], count };
+        let (mut sum, mut at) = (ball, usize::from(self.next) % PLACES);
+        for (places, mean) in means.means.iter_mut().enumerate().skip(1).take(count) {
+            at = if at == 0 { PLACES - 1 } else { at - 1 };
+            sum += self.places[at];
+            *mean = sum / (places + 1) as f32;
+        }
+        means
     }
 
     /// How much nearer a team was to the ball over the last six seconds, -1..1.
     pub fn side_of(&self, team: Team) -> f32 {
         self.side * team.side() as f32
+    }
+}
+
+/// Where the ball was on average over spells of every length up to four seconds: summed once for all who ask.
+#[derive(Clone, Copy, Debug)]
+pub struct BallMeans {
+    /// Over so many places before the present one.
+    means: [Vec2; PLACES + 1],
+    /// How many places are known.
+    count: usize,
+}
+
+impl BallMeans {
+    /// Over so many seconds, at most four, world metres.
+    pub fn over(&self, seconds: f32) -> Vec2 {
+        self.means[((seconds / APART_S) as usize).min(self.count)]
     }
 }
 

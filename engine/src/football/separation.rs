@@ -66,18 +66,20 @@ pub fn separate(game: &mut Match, events: &mut Events) {
     }
     let near = f32x4::splat(SHELL_M * SHELL_M);
     let first = game.owner.or_else(|| reach::first(game));
+    let rows = ids.len().div_ceil(WIDTH);
     for i in 0..ids.len() {
         let (x, y) = (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
-        for row in i / WIDTH..ids.len().div_ceil(WIDTH) {
+        let mut meets = 0u32;
+        for row in i / WIDTH..rows {
             let (dx, dy) = (f32x4::new(xs[row]) - x, f32x4::new(ys[row]) - y);
-            let mut meets = (dx * dx + dy * dy).simd_lt(near).to_bitmask();
-            while meets != 0 {
-                let j = row * WIDTH + meets.trailing_zeros() as usize;
-                meets &= meets - 1;
-                if j > i {
-                    meet(game, events, [ids[i], ids[j]], first);
-                }
-            }
+            meets |= (dx * dx + dy * dy).simd_lt(near).to_bitmask() << (row * WIDTH);
+        }
+        // Whoever comes before has met this one already.
+        meets &= u32::MAX << i << 1;
+        while meets != 0 {
+            let j = meets.trailing_zeros() as usize;
+            meets &= meets - 1;
+            meet(game, events, [ids[i], ids[j]], first);
         }
     }
     let (x, y) = (RIM_X_M as f32, RIM_Y_M as f32);

@@ -4,7 +4,7 @@ use crate::event::Events;
 use crate::football::body::Pose;
 use crate::football::play::ticks_since;
 use crate::football::{foul, noise, report, touch};
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, PlayerId, Squad};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, Stat};
 use std::ops::Range;
@@ -48,9 +48,9 @@ pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Ve
     report::did(game, events, EventKind::Slide, id, None);
 }
 
-/// Lets every sliding player meet the ball or a rival.
-pub fn resolve(game: &mut Match, events: &mut Events) {
-    for id in game.order() {
+/// Lets every sliding player meet the ball or a rival; `slides`: who may be one.
+pub fn resolve(game: &mut Match, events: &mut Events, slides: Squad) {
+    for id in game.order_of(slides) {
         let player = game.player(id);
         if !player.active || player.body.pose != Pose::Sliding || player.body.pose_ticks < SLIDE_TICKS - FORCE_TICKS {
             continue;

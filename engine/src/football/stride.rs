@@ -113,11 +113,15 @@ impl Four {
         let (runs, is_there) = (pace.simd_ge(none), distance.simd_lt(there));
         let want_x = runs.select(is_there.select(none, x * scale), x);
         let want_y = runs.select(is_there.select(none, y * scale), y);
+        (self.want_x, self.want_y) = (want_x.to_array(), want_y.to_array());
         let (x, y) = (f32x4::new(self.x), f32x4::new(self.y));
-        let out_x = x.abs().simd_gt(rim_x) & (want_x * x).simd_gt(none);
-        let out_y = y.abs().simd_gt(rim_y) & (want_y * y).simd_gt(none);
-        self.want_x = out_x.select(none, want_x).to_array();
-        self.want_y = out_y.select(none, want_y).to_array();
+        let (far_x, far_y) = (x.abs().simd_gt(rim_x), y.abs().simd_gt(rim_y));
+        if (far_x | far_y).to_bitmask() != 0 {
+            let out_x = far_x & (want_x * x).simd_gt(none);
+            let out_y = far_y & (want_y * y).simd_gt(none);
+            self.want_x = out_x.select(none, want_x).to_array();
+            self.want_y = out_y.select(none, want_y).to_array();
+        }
     }
 
     /// Brings every velocity nearer to its wish, as a body can in a tick.
@@ -144,28 +148,34 @@ impl Four {
         let pushed = (speed + push * is(DT)).fast_min(wish);
         let waits = lag.simd_lt(is(LAG_TICKS));
         let (off_x, off_y) = (waits.select(vx, aim_x * pushed), waits.select(vy, aim_y * pushed));
-        // Where he runs: he leans into an arc and loses speed; about turns brake first.
+        // Where they run: straight on, or round a bend.
+        let (rests, stands) = (wish.simd_lt(is(WISH_MPS)), speed.simd_lt(is(STANDS_MPS)));
         let (ahead_x, ahead_y) = (vx / speed, vy / speed);
         let cos = (ahead_x * aim_x + ahead_y * aim_y).fast_max(-one).fast_min(one);
-        let sin = ahead_x * aim_y - ahead_y * aim_x;
         let next = speed.simd_lt(wish).select(pushed, braked.fast_max(wish));
-        let about = cos.simd_lt(is(-0.5)) & speed.simd_gt(is(2.0));
-        let angle = is(TURN_MPS2) * f32x4::new(self.turn) / speed.fast_max(is(1.2)) * is(DT);
-        let angle = angle.fast_min(is(0.35));
-        let back = cos.simd_lt(none);
-        let turned = sin.abs().fast_max(back.select(one, none));
-        let left = sin.simd_lt(none).select(-angle, angle);
-        let (arc_x, arc_y) = unit(ahead_x - ahead_y * left, ahead_y + ahead_x * left);
-        let leans = turned.simd_gt(angle);
-        let (lean_x, lean_y) = (leans.select(arc_x, aim_x), leans.select(arc_y, aim_y));
-        let sharp = cos.simd_gt(none).select((is(1.05) * sin.abs()).fast_min(one), one);
-        let slowed = speed - is(BRAKE_MPS2 * 0.9) * sharp * is(DT);
-        let leaning = slowed.fast_max(next.fast_min(is(1.5))).fast_min(next);
-        let bends = cos.simd_lt(is(STRAIGHT));
-        let way_x = bends.select(about.select(ahead_x, lean_x), aim_x);
-        let way_y = bends.select(about.select(ahead_y, lean_y), aim_y);
-        let pace = bends.select(about.select(braked, leaning), next).fast_max(none);
-        let (rests, stands) = (wish.simd_lt(is(WISH_MPS)), speed.simd_lt(is(STANDS_MPS)));
+        let bends = cos.simd_lt(is(STRAIGHT)) & !(rests | stands);
+        let (mut way_x, mut way_y, mut pace) = (aim_x, aim_y, next);
+        // A bend costs as much as all the rest, and most fours run straight on.
+        if bends.to_bitmask() != 0 {
+            // They lean into an arc and lose speed; about turns brake first.
+            let sin = ahead_x * aim_y - ahead_y * aim_x;
+            let about = cos.simd_lt(is(-0.5)) & speed.simd_gt(is(2.0));
+            let angle = is(TURN_MPS2) * f32x4::new(self.turn) / speed.fast_max(is(1.2)) * is(DT);
+            let angle = angle.fast_min(is(0.35));
+            let back = cos.simd_lt(none);
+            let turned = sin.abs().fast_max(back.select(one, none));
+            let left = sin.simd_lt(none).select(-angle, angle);
+            let (arc_x, arc_y) = unit(ahead_x - ahead_y * left, ahead_y + ahead_x * left);
+            let leans = turned.simd_gt(angle);
+            let (lean_x, lean_y) = (leans.select(arc_x, aim_x), leans.select(arc_y, aim_y));
+            let sharp = cos.simd_gt(none).select((is(1.05) * sin.abs()).fast_min(one), one);
+            let slowed = speed - is(BRAKE_MPS2 * 0.9) * sharp * is(DT);
+            let leaning = slowed.fast_max(next.fast_min(is(1.5))).fast_min(next);
+            way_x = bends.select(about.select(ahead_x, lean_x), aim_x);
+            way_y = bends.select(about.select(ahead_y, lean_y), aim_y);
+            pace = bends.select(about.select(braked, leaning), next);
+        }
+        let pace = pace.fast_max(none);
         let got_off = stands.select((lag + one).fast_min(is(LAG_TICKS)), is(LAG_TICKS));
         self.vx = rests.select(brake_x, stands.select(off_x, way_x * pace)).to_array();
         self.vy = rests.select(brake_y, stands.select(off_y, way_y * pace)).to_array();
@@ -186,14 +196,19 @@ impl Four {
     fn turn(&mut self, ball_x: f32, ball_y: f32) {
         let little = f32x4::splat(0.12);
         let (vx, vy) = (f32x4::new(self.vx), f32x4::new(self.vy));
-        let (ball_x, ball_y) = (f32x4::splat(ball_x) - f32x4::new(self.x), f32x4::splat(ball_y) - f32x4::new(self.y));
         let runs = (vx * vx + vy * vy).simd_gt(f32x4::ONE);
-        let (towards_x, towards_y) = unit(runs.select(vx, ball_x), runs.select(vy, ball_y));
+        let (mut towards_x, mut towards_y, mut at_feet) = (vx, vy, f32x4::ZERO);
+        if !runs.all() {
+            let (ball_x, ball_y) =
+                (f32x4::splat(ball_x) - f32x4::new(self.x), f32x4::splat(ball_y) - f32x4::new(self.y));
+            (towards_x, towards_y) = (runs.select(vx, ball_x), runs.select(vy, ball_y));
+            // With the ball at their feet players keep facing the way they went.
+            at_feet = !runs & (ball_x * ball_x + ball_y * ball_y).simd_lt(f32x4::splat(AT_FEET_M * AT_FEET_M));
+        }
+        let (towards_x, towards_y) = unit(towards_x, towards_y);
         let (facing_x, facing_y) = (f32x4::new(self.facing_x), f32x4::new(self.facing_y));
         let (mixed_x, mixed_y) = (facing_x + towards_x * little, facing_y + towards_y * little);
         let length = (mixed_x * mixed_x + mixed_y * mixed_y).sqrt();
-        // With the ball at their feet players keep facing the way they went.
-        let at_feet = !runs & (ball_x * ball_x + ball_y * ball_y).simd_lt(f32x4::splat(AT_FEET_M * AT_FEET_M));
         let turns = length.simd_gt(f32x4::splat(0.05)) & !at_feet;
         self.facing_x = turns.select(mixed_x / length, facing_x).to_array();
         self.facing_y = turns.select(mixed_y / length, facing_y).to_array();

@@ -8,7 +8,7 @@ use crate::football::{
 };
 use crate::laps::Phase;
 use crate::physics::{self, Body, Contact, Scratch};
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, PLAYERS_MAX};
@@ -30,17 +30,18 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     if even {
         separation::separate(game, events);
     }
-    movement::advance(game);
+    let busy = movement::advance(game);
     keep_circle(game);
     scratch.laps().end(Phase::Movement);
     keeper::use_hands(game, events);
-    slide::resolve(game, events);
-    kick::kick_ball(game, events);
-    touch::play_ball(game, events);
+    slide::resolve(game, events, busy.slides);
+    kick::kick_ball(game, events, busy.kicks);
+    let near = touch::near(game);
+    touch::play_ball(game, events, near);
     scratch.laps().end(Phase::Play);
     if !game.dead {
         let before = game.ball.pos;
-        move_ball(game, events, scratch);
+        move_ball(game, events, scratch, near);
         scratch.laps().end(Phase::Physics);
         possession::update(game, events);
         referee::judge(game, events, before);
@@ -53,7 +54,7 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
 }
 
 /// Moves a ball that nobody holds.
-fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
+fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near: Squad) {
     if game.play.hands.is_some() {
         return;
     }
@@ -62,7 +63,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
         game.ball.vel = Vec3::ZERO;
         return;
     }
-    let bodies = near_bodies(game);
+    let bodies = near_bodies(game, near);
     let full = game.rule(Rule::Physics);
     match physics::advance_ball(&mut game.ball, &bodies, full, scratch) {
         Some(Contact::Woodwork) => {
@@ -84,17 +85,17 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     }
 }
 
-/// The bodies that a free, fast ball may meet in this tick.
-fn near_bodies(game: &Match) -> ArrayVec<Body, BODIES_MAX> {
+/// The bodies that a free, fast ball may meet in this tick, of those near it.
+fn near_bodies(game: &Match, near: Squad) -> ArrayVec<Body, BODIES_MAX> {
     let mut bodies = ArrayVec::new();
     let ball = game.ball;
     if ball.vel.length_squared() < 25.0 || ball.pos.z > 2.3 || touch::controller(game).is_some() {
         return bodies;
     }
     let flat = ball.pos.truncate();
-    for id in game.order() {
+    for id in game.order_of(near) {
         let player = game.player(id);
-        if !player.active || player.pos.distance_squared(flat) > 1.3 * 1.3 || bodies.is_full() {
+        if !player.active || bodies.is_full() {
             continue;
         }
         let lately = ticks_since(game.tick, player.body.touched_at) < 30;

@@ -7,7 +7,7 @@ use crate::event::Events;
 use crate::football::body::Intent;
 use crate::football::play::ticks_since;
 use crate::football::{dribble, duel, first_touch, flight, forecast, kick};
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::{EventKind, Rule};
@@ -20,11 +20,26 @@ pub(super) const FOOT_HIGH_M: f32 = 0.5;
 const HIGH_M: f32 = 1.5;
 /// The ticks in which the ball of a start is pushed straight on by who stands there. Measured.
 const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
+/// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast ball that meets a body less
+/// than 1.3.
+pub(super) const NEAR_M: f32 = 1.3;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 
-/// Lets whoever can and will play the ball do so; at most one touch a tick.
-pub fn play_ball(game: &mut Match, events: &mut Events) {
+/// Who is so near to the ball that they may meet it in this tick.
+pub(super) fn near(game: &Match) -> Squad {
+    let ball = game.ball.pos.truncate();
+    let mut near = Squad::default();
+    for id in game.squad.ids() {
+        if game.player(id).pos.distance_squared(ball) <= NEAR_M * NEAR_M {
+            near.add(id);
+        }
+    }
+    near
+}
+
+/// Lets whoever can and will play the ball do so; at most one touch a tick. `near`: who may be in reach.
+pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     if game.dead || game.play.hands.is_some() || game.play.set_piece.is_some() {
         return;
     }
@@ -32,7 +47,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events) {
     let flat = ball.truncate();
     let owner = game.owner.or_else(|| controller(game));
     let mut nearest: Option<(f32, PlayerId)> = None;
-    for id in game.order() {
+    for id in game.order_of(near) {
         let player = game.player(id);
         let distance = player.pos.distance_squared(flat);
         if distance > 1.1 * 1.1 || !player.is_up() || ball.z > player.body.height_m + 0.35 {

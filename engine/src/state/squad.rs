@@ -32,6 +32,11 @@ impl Squad {
         self.0 & (1 << id.0) != 0
     }
 
+    /// Takes a player in.
+    pub const fn add(&mut self, id: PlayerId) {
+        self.0 |= 1 << id.0;
+    }
+
     /// Those of a team.
     #[must_use]
     pub const fn of(self, team: Team) -> Squad {

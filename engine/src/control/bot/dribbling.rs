@@ -2,7 +2,7 @@
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::off_ball;
-use crate::control::bot::support::{Forces, nearest};
+use crate::control::bot::support::Forces;
 use crate::control::bot::{GOAL, View};
 use crate::math;
 use crate::state::{Match, PlayerId};
@@ -28,7 +28,7 @@ pub fn way(game: &Match, view: &View, id: PlayerId, shy: f32) -> Vec2 {
     let player = game.player(id);
     let own = player.pos * view.side;
     let mut forces = Forces::at(own + player.vel * view.side * AHEAD_S);
-    for rival in nearest::<RIVALS>(game, view.team.other(), player.pos, None) {
+    for rival in view.board.nearest::<RIVALS>(view.team.other(), player.pos, None) {
         let rival = game.player(rival);
         forces.push::<8>((rival.pos + rival.vel * AHEAD_S) * view.side, RIVAL.0 * shy, RIVAL.1);
     }

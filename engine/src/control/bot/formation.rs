@@ -93,12 +93,15 @@ pub fn swap_slots(game: &mut Match, view: &View) {
         }
     }
     let field = &field[..count];
+    let soon = |id: PlayerId| (game.player(id).pos + game.player(id).vel * SWAP_AHEAD_S) * view.side;
+    let mut places = [Vec2::ZERO; TEAM_MAX];
+    for (place, &id) in places.iter_mut().zip(field) {
+        *place = soon(id);
+    }
     for (slot, &whose) in field.iter().enumerate() {
-        let to = place(game, view, whose, whose);
-        for (i, &id) in field.iter().enumerate() {
-            let player = game.player(id);
-            let way_m = ((player.pos + player.vel * SWAP_AHEAD_S) * view.side).distance(to);
-            ways[i][slot] = (10.0 * way_m).round() as i32;
+        let to = Outlook::of(game, view, whose).place(game, view, whose);
+        for (place, ways) in places.iter().zip(&mut ways).take(count) {
+            ways[slot] = (10.0 * place.distance(to)).round() as i32;
         }
     }
     let fills = matching(&ways, count);
@@ -107,47 +110,68 @@ pub fn swap_slots(game: &mut Match, view: &View) {
     }
 }
 
-/// A player's place in the block, own frame, metres, in the slot and role of somebody.
-pub fn place(game: &Match, view: &View, id: PlayerId, fills: PlayerId) -> Vec2 {
-    let recent = &game.play.recent;
-    let role = game.player(fills).role;
-    let [attack, defence] = wishes(role);
-    let action = view.action_at(game);
-    let urgent = 1.0 - share(action.distance(game.player(id).pos * view.side), 2.0, 30.0);
-    let mean = |seconds: f32| recent.ball_mean(game.ball.pos.truncate(), seconds) * view.side;
-    let ball_x = mean(3.5 * (1.0 - 0.7 * urgent)).x;
-    let ball_y = mean(4.0 * (1.0 - 0.5 * urgent)).y;
-    // How much the team attacks: by its nearness to the ball, and by the ball's place where that is unclear.
-    let near = share(view.nearness - 0.5, 0.3, 0.7);
-    let unclear = 0.6 * (1.0 - (2.0 * near - 1.0).abs());
-    let up = share(ball_x / HALF.x, -0.7, 0.7);
-    let attacks = (mix(near, up, unclear) + 0.3 * (view.daring - 0.5)).clamp(0.0, 1.0);
-    let both = |with: f32, without: f32| mix(without, with, attacks);
-    let depth = DEPTH * both(attack.depth, defence.depth);
-    let width = WIDTH * both(attack.width, defence.width);
-    let dares = 0.3 * view.daring;
-    let by_side = both((attack.by_side - 0.3 + dares).clamp(0.0, 1.0), (defence.by_side - dares).clamp(0.0, 1.0));
-    let side_x = HALF.x * (0.2 * (2.0 * attacks - 1.0) + 0.8 * view.lately);
-    let middle_x = (mix(ball_x, side_x, by_side) - HALF.x * both(attack.back, defence.back)).clamp(-HALF.x, HALF.x);
-    let middle_x = middle_x * (0.95 * (1.0 - depth) + 0.05);
-    let middle_y = ball_y.clamp(-HALF.y, HALF.y) * (0.9 * (1.0 - width) + 0.1);
-    let (back, front) = ((middle_x - depth * HALF.x).max(view.trap_x), middle_x + depth * HALF.x);
-    // What happens, for those who attack and for those who defend.
-    let focus = (mean(2.0) * 0.5 + action * 0.5).lerp(mean(3.0), attacks);
-    let ahead = Vec2::new((focus.x + 1.0).min(HALF.x), 0.9 * focus.y);
-    let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
-    let low = 0.3 + 0.7 * up;
-    let draws = both(math::eighths::<6>(low), math::eighths::<5>(1.0 - low));
-    let follows = share(ball_x / HALF.x, -0.8, 0.8);
-    let midfield = 0.7 * both(attack.midfield, defence.midfield) + 0.3 * follows;
-    let block = Block {
-        depth: [back, front],
-        half_width: width * HALF.y,
-        middle_y,
-        towards_x: (0.0, 0.0),
-        towards_y: (ball_y, both(0.5, 0.2)),
-        towards: (behind.lerp(ahead, attacks), both(attack.drawn, defence.drawn) * (0.2 + 0.8 * draws)),
-        midfield: (2.0 * midfield - 1.0, MIDFIELD_KEEN),
-    };
-    block.place(game.player(fills).body.mind.slot).clamp(-HALF, HALF)
+/// What a player's place in the block depends on, whatever slot they fill; own frame, metres.
+pub struct Outlook {
+    /// Where the ball was lately: the nearer the player to what happens, the more lately.
+    ball: Vec2,
+    /// How much the team attacks, 0..1.
+    attacks: f32,
+    /// The x of the block that goes by who has the ball lately.
+    side_x: f32,
+    /// What happens.
+    focus: Vec2,
+    /// How much it draws players, 0..1.
+    draws: f32,
+}
+
+impl Outlook {
+    /// How a player sees the game.
+    pub fn of(game: &Match, view: &View, id: PlayerId) -> Outlook {
+        let action = view.action_at(game);
+        let urgent = 1.0 - share(action.distance(game.player(id).pos * view.side), 2.0, 30.0);
+        let mean = |seconds: f32| view.means.over(seconds) * view.side;
+        let ball_x = mean(3.5 * (1.0 - 0.7 * urgent)).x;
+        let ball_y = mean(4.0 * (1.0 - 0.5 * urgent)).y;
+        // How much the team attacks: by its nearness to the ball, and by the ball's place where that is unclear.
+        let near = share(view.nearness - 0.5, 0.3, 0.7);
+        let unclear = 0.6 * (1.0 - (2.0 * near - 1.0).abs());
+        let up = share(ball_x / HALF.x, -0.7, 0.7);
+        let attacks = (mix(near, up, unclear) + 0.3 * (view.daring - 0.5)).clamp(0.0, 1.0);
+        let side_x = HALF.x * (0.2 * (2.0 * attacks - 1.0) + 0.8 * view.lately);
+        let focus = (mean(2.0) * 0.5 + action * 0.5).lerp(mean(3.0), attacks);
+        let low = 0.3 + 0.7 * up;
+        let draws = mix(math::eighths::<5>(1.0 - low), math::eighths::<6>(low), attacks);
+        Outlook { ball: Vec2::new(ball_x, ball_y), attacks, side_x, focus, draws }
+    }
+
+    /// The player's place in the block in the slot and role of somebody.
+    pub fn place(&self, game: &Match, view: &View, fills: PlayerId) -> Vec2 {
+        let Outlook { ball, attacks, side_x, focus, draws } = *self;
+        let filled = game.player(fills);
+        let [attack, defence] = wishes(filled.role);
+        let both = |with: f32, without: f32| mix(without, with, attacks);
+        let depth = DEPTH * both(attack.depth, defence.depth);
+        let width = WIDTH * both(attack.width, defence.width);
+        let dares = 0.3 * view.daring;
+        let by_side = both((attack.by_side - 0.3 + dares).clamp(0.0, 1.0), (defence.by_side - dares).clamp(0.0, 1.0));
+        let middle_x = (mix(ball.x, side_x, by_side) - HALF.x * both(attack.back, defence.back)).clamp(-HALF.x, HALF.x);
+        let middle_x = middle_x * (0.95 * (1.0 - depth) + 0.05);
+        let middle_y = ball.y.clamp(-HALF.y, HALF.y) * (0.9 * (1.0 - width) + 0.1);
+        let (back, front) = ((middle_x - depth * HALF.x).max(view.trap_x), middle_x + depth * HALF.x);
+        // What happens, for those who attack and for those who defend.
+        let ahead = Vec2::new((focus.x + 1.0).min(HALF.x), 0.9 * focus.y);
+        let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
+        let follows = share(ball.x / HALF.x, -0.8, 0.8);
+        let midfield = 0.7 * both(attack.midfield, defence.midfield) + 0.3 * follows;
+        let block = Block {
+            depth: [back, front],
+            half_width: width * HALF.y,
+            middle_y,
+            towards_x: (0.0, 0.0),
+            towards_y: (ball.y, both(0.5, 0.2)),
+            towards: (behind.lerp(ahead, attacks), both(attack.drawn, defence.drawn) * (0.2 + 0.8 * draws)),
+            midfield: (2.0 * midfield - 1.0, MIDFIELD_KEEN),
+        };
+        block.place(filled.body.mind.slot).clamp(-HALF, HALF)
+    }
 }

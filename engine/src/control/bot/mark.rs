@@ -42,15 +42,20 @@ pub fn assign(game: &mut Match, view: &View) {
             0.95 * (1.0 - far.min(1.0)) + if carrier == Some(id) { 0.05 } else { 0.0 }
         };
         let open = game.team(view.team.other()).map(|(id, _)| id).filter(|id| marked & (1 << id.0) == 0);
-        let Some(rival) = open.max_by(|&a, &b| danger(a).total_cmp(&danger(b)).then(b.cmp(&a))) else { return };
+        let Some(rival) = best(open, danger) else { return };
         marked |= 1 << rival.0;
         let free =
             game.team(view.team).filter(|(_, player)| player.role != Role::GK && player.body.mind.mark.is_none());
         let worth = |id: PlayerId| worth(game, view, id, rival);
-        let best = free.map(|(id, _)| id).max_by(|&a, &b| worth(a).total_cmp(&worth(b)).then(b.cmp(&a)));
-        let Some(best) = best else { return };
-        game.players[best.index()].body.mind.mark = Some(rival);
+        let Some(marker) = best(free.map(|(id, _)| id), worth) else { return };
+        game.players[marker.index()].body.mind.mark = Some(rival);
     }
+}
+
+/// The first of those who come to the most.
+fn best(of: impl Iterator<Item = PlayerId>, worth: impl Fn(PlayerId) -> f32) -> Option<PlayerId> {
+    let rated = of.map(|id| (worth(id), id));
+    rated.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|(_, id)| id)
 }
 
 /// How well a player would mark an opponent, 0..1: best those who have them before them, not far to the side.

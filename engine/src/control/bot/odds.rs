@@ -19,14 +19,18 @@ const LOFTED: f32 = 0.4;
 /// Within how many metres opponents take space away, and how many take all of it.
 const SAFE_M: f32 = 5.0;
 const CROWD: f32 = 2.5;
+/// What a distance is off by at most, generously, metres.
+const ROUNDING_M: f32 = 0.01;
 
 /// How much room a team has at a world point in so many seconds, 0..1.
 pub fn free_space(game: &Match, team: Team, point: Vec2, seconds: f32) -> f32 {
     let runs_m = SPRINT_MPS * (seconds - 0.2).max(0.0);
     let rivals = game.team(team.other()).filter(|(_, rival)| rival.role != Role::GK);
+    let safe_m = runs_m + SAFE_M + ROUNDING_M;
     let crowd = rivals.fold(0.0, |sum, (_, rival)| {
-        let away = ((rival.pos + rival.vel * 0.2).distance(point) - runs_m).max(0.0);
-        sum + 1.0 - (away / SAFE_M).min(1.0)
+        let way = rival.pos + rival.vel * 0.2 - point;
+        let far = way.length_squared() > safe_m * safe_m;
+        sum + 1.0 - if far { 1.0 } else { ((way.length() - runs_m).max(0.0) / SAFE_M).min(1.0) }
     });
     1.0 - (crowd / CROWD).min(1.0)
 }

@@ -1,8 +1,8 @@
 //! Playing without the ball: a place in the block, drawn to where it helps and to the opponent it marks. (GRF's
 //! figures.)
 
-use crate::control::bot::formation::mindset;
-use crate::control::bot::{View, formation, mark, send, support};
+use crate::control::bot::formation::{Outlook, mindset};
+use crate::control::bot::{View, mark, send, support};
 use crate::football::body::Intent;
 use crate::football::movement::SPRINT_MPS;
 use crate::math::{self, ease, share};
@@ -41,10 +41,13 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
     let manner = manner(player.role);
     let fills = player.body.mind.fills;
     let far = share(own.distance(view.action_at(game)), 15.0, 20.0);
-    let firm = ease(manner.own_slot * far);
-    let mut to = formation::place(game, view, id, id);
-    if firm < 1.0 && fills != id {
-        to += (formation::place(game, view, id, fills) - to) * (1.0 - firm);
+    let outlook = Outlook::of(game, view, id);
+    let mut to = outlook.place(game, view, id);
+    if fills != id {
+        let firm = ease(manner.own_slot * far);
+        if firm < 1.0 {
+            to += (outlook.place(game, view, fills) - to) * (1.0 - firm);
+        }
     }
     let nearness = view.nearness_of(game, id);
     let helps = share(nearness - 0.5, manner.helps.0, manner.helps.1);

@@ -1,7 +1,6 @@
 //! Going for the ball: a free one, or one that an opponent has.
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::support::nearest;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
 use crate::event::Events;
 use crate::football::body::{Body, Intent, Pose};
@@ -82,7 +81,7 @@ pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
     let (player, other) = (game.player(id), game.player(rival));
     let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
     let may = !view.best && player.body.mind.mark.is_none() && player.role != Role::GK;
-    let near = |to: Vec2| nearest::<2>(game, view.team, to, None).any(|near| near == id);
+    let near = |to: Vec2| view.board.nearest::<2>(view.team, to, None).any(|near| near == id);
     if may && gap < hunt_m(game, player) && near(other.pos + other.vel * 0.1) {
         return Pursuit::Hunt(rival);
     }
@@ -137,11 +136,12 @@ pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
     let (player, carrier) = (game.player(id), game.player(rival));
     let ball = game.play.forecast.at(game.tick + MEETS_TICKS);
     let at = player.pos + player.vel * MEETS_AHEAD_S;
-    let free = (carrier.pos - player.pos).normalize_or_zero().dot((ball.truncate() - carrier.pos).normalize_or_zero());
+    let free =
+        || (carrier.pos - player.pos).normalize_or_zero().dot((ball.truncate() - carrier.pos).normalize_or_zero());
     ball.z < 0.5
         && ball.truncate().distance_squared(at) < MEETS_M * MEETS_M
-        && free < OPEN_TO
         && player.role != Role::GK
+        && free() < OPEN_TO
 }
 
 /// Meets a ball that comes with an opponent: they plant their feet, and stand so for a while, whatever becomes of it.

@@ -8,7 +8,7 @@ use crate::football::movement::SPRINT_MPS;
 use crate::math::{self, ease, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Role, Stat, Team};
+use setpiece_scenario::vocabulary::{Role, Stat};
 
 /// How far ahead everyone is reckoned to be, seconds.
 const AHEAD_S: f32 = 0.1;
@@ -30,6 +30,9 @@ const RUNS_FROM: f32 = 0.65;
 const READS: f32 = 0.2;
 /// How often the helper of whoever has the ball is chosen, steps.
 const HELPER_EVERY: u32 = 15;
+
+/// So many times the square of a distance is surely further, however roots are rounded.
+const SURELY: f32 = 1.001;
 
 /// Forces on a point: their sum, and how strong they are together.
 pub struct Forces {
@@ -65,6 +68,9 @@ impl Forces {
     /// A point pushes, the more the nearer it is, by a power of so many eighths; not at all from `scale` metres on.
     pub fn push<const EIGHTHS: u32>(&mut self, from: Vec2, power: f32, scale: f32) {
         let way = self.at - from;
+        if way.length_squared() > SURELY * scale * scale {
+            return;
+        }
         let near = 1.0 - way.length() / scale;
         if near > 0.0 {
             let power = power * if EIGHTHS == 8 { near } else { math::eighths::<EIGHTHS>(near) };
@@ -110,14 +116,14 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
         _ => 1.0,
     };
     let (power, scale) = if runs { (0.15 * caution, 2.0) } else { (0.3 * caution, 5.0) };
-    for rival in nearest::<RIVALS>(game, view.team.other(), (at * 0.7 + main * 0.3) * view.side, None) {
+    for rival in view.board.nearest::<RIVALS>(view.team.other(), (at * 0.7 + main * 0.3) * view.side, None) {
         // Pushed off a point behind the opponent, so that the ball's way is free.
         let place = soon(rival);
         forces.push::<6>(place + (place - main).normalize_or_zero() * 2.0, power, scale);
     }
     let nearness = game.play.recent.nearness[view.team.index()];
     if nearness >= SPREADS {
-        for mate in nearest::<MATES>(game, view.team, at * view.side, None) {
+        for mate in view.board.nearest::<MATES>(view.team, at * view.side, None) {
             if mate != id {
                 forces.push::<8>(soon(mate), 0.4, 10.5);
             }
@@ -125,8 +131,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     }
     if ahead.is_some() {
         if nearness >= MAKES_WAY {
-            for ticks in [20, 35, 50, 65] {
-                let ball = game.play.forecast.at(game.tick + ticks).truncate() * view.side;
+            for ball in view.ways {
                 forces.push::<4>(ball, 1.0, 2.0);
             }
         }
@@ -153,7 +158,7 @@ pub fn assign(game: &mut Match, view: &View) {
     let place = game.player(main).pos;
     if game.step.is_multiple_of(HELPER_EVERY) {
         let to = place + Vec2::new(1.5 * view.side, 0.0);
-        game.play.recent.helper[view.team.index()] = nearest::<1>(game, view.team, to, Some(main)).next();
+        game.play.recent.helper[view.team.index()] = view.board.nearest::<1>(view.team, to, Some(main)).next();
     }
     let agents = game.agents.iter().filter(|slot| slot.team == view.team).count();
     if !game.step.is_multiple_of(RUN_EVERY) || agents > 1 || !view.best {
@@ -171,34 +176,13 @@ pub fn assign(game: &mut Match, view: &View) {
     let Some((runner, player)) = runner else { return };
     let near = (1.0 - share(player.pos.distance(place), 0.0, 40.0)).sqrt();
     let spot = Vec2::new(player.pos.x - 10.0 * view.side, 0.8 * player.pos.y);
-    let crowd = nearest::<4>(game, view.team.other(), spot, None)
+    let crowd = view
+        .board
+        .nearest::<4>(view.team.other(), spot, None)
         .map(|rival| ease(1.0 - share(game.player(rival).pos.distance(spot), 0.0, 15.0)).sqrt())
         .sum::<f32>();
     let reads = player.body.stats[Stat::OffensivePositioning.index()];
     if near * (1.0 - 0.3 * crowd) >= RUNS_FROM - READS * reads {
         game.players[runner.index()].body.mind.run_until_step = game.step + RUN_STEPS;
     }
-}
-
-/// The players of a team who are nearest to a place, world, the nearest first.
-pub fn nearest<const N: usize>(
-    game: &Match,
-    team: Team,
-    to: Vec2,
-    but: Option<PlayerId>,
-) -> impl Iterator<Item = PlayerId> + use<N> {
-    let mut best = [(f32::MAX, PlayerId(0)); N];
-    let mut count = 0;
-    for (id, player) in game.team(team) {
-        let away = player.pos.distance_squared(to);
-        if Some(id) == but {
-            continue;
-        }
-        if let Some(at) = best.iter().position(|(least, _)| away < *least) {
-            best[at..].rotate_right(1);
-            best[at] = (away, id);
-            count = (count + 1).min(N);
-        }
-    }
-    best.into_iter().take(count).map(|(_, id)| id)
 }

@@ -1,6 +1,8 @@
 //! What a team's bots know of the game in a step.
 
+use crate::control::bot::board::Board;
 use crate::control::bot::mark;
+use crate::football::recent::BallMeans;
 use crate::football::{offside, reach, touch};
 use crate::math::share;
 use crate::state::{Match, PlayerId};
@@ -9,6 +11,8 @@ use setpiece_scenario::vocabulary::Team;
 
 /// How far ahead the offside line is reckoned, seconds. (GRF's.)
 const LINE_AHEAD_S: f32 = 0.24;
+/// The moments of the ball's way that mates keep out of, ticks from now. (GRF's.)
+const WAY_TICKS: [u32; 4] = [20, 35, 50, 65];
 /// Steps of a match of 90 minutes.
 const WHOLE_MATCH_STEPS: f32 = 3000.0;
 
@@ -37,11 +41,23 @@ pub struct View {
     pub trap_x: f32,
     /// The offside line for us a moment from now, own frame x, metres.
     pub line_x: f32,
+    /// Where the ball will be on its way, own frame, metres.
+    pub ways: [Vec2; 4],
+    /// Where the ball was lately.
+    pub means: BallMeans,
+    /// Where everyone stands.
+    pub board: Board,
 }
 
 impl View {
+    /// What both teams know now.
+    pub fn of_both(game: &Match) -> [View; 2] {
+        let (board, means) = (Board::of(game), game.play.recent.ball_means(game.ball.pos.truncate()));
+        [Team::Left, Team::Right].map(|team| View::of(game, team, board, means))
+    }
+
     /// What a team knows now.
-    pub fn of(game: &Match, team: Team) -> View {
+    fn of(game: &Match, team: Team, board: Board, means: BallMeans) -> View {
         let side = team.side() as f32;
         let owner = game.owner.or_else(|| touch::controller(game));
         let soonest = [team, team.other()].map(|team| View::soonest(game, team));
@@ -60,6 +76,9 @@ impl View {
             daring: daring(game, team),
             trap_x: 0.0,
             line_x: offside::line_in(game, team, LINE_AHEAD_S),
+            ways: WAY_TICKS.map(|ticks| game.play.forecast.at(game.tick + ticks).truncate() * side),
+            means,
+            board,
         };
         view.trap_x = mark::trap_x(game, &view);
         view

@@ -50,7 +50,8 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
     let power = held.steer.map_or(0.0, |steer| steer.power);
-    let kind = kick_of(action);
+    // In the first step of a start nobody hears a kick yet. (Measured: it goes to the keeper there.)
+    let kind = kick_of(action).filter(|_| game.step > 0 || game.play.set_piece.is_some());
     let key = match kind {
         Some(kind) if held.key == Some(kind) => held.key,
         Some(kind) => press(game, id, kind, direction, power).then_some(kind),

@@ -46,7 +46,7 @@ const SHARP: f32 = 0.6;
 /// A turn with a smaller cosine than this is about; chosen.
 const ABOUT: f32 = -0.5;
 /// Ticks after such a touch before which nobody begins a kick; fitted to how soon kicks leave after it.
-const TURNING_TICKS: i32 = 28;
+const TURNING_TICKS: i32 = 40;
 /// A ball rolls the way somebody runs from this cosine on.
 const ALONG: f32 = 0.94;
 /// How a player brakes and a slow ball rolls out, m/s².

@@ -5,6 +5,7 @@
 use crate::event::Events;
 use crate::football::body::{KickKind, KickPlan, NEVER, Swing};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
+use crate::football::shot::Struck;
 use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch};
 use crate::math;
 use crate::state::{Match, Player, PlayerId, Squad};
@@ -31,7 +32,7 @@ const BEGIN_M: f32 = 1.3;
 const BEGIN_PACE: f32 = 0.7;
 /// How soon a sprinter shoots whose ball comes to their foot, ticks, and how near that is, metres; fitted to how soon shots
 /// leave from many points of the stride.
-const QUICK_TICKS: i32 = 32;
+const QUICK_TICKS: i32 = 40;
 const REACH_M: f32 = 0.8;
 /// How soon a ball that comes fast can be struck without being taken, ticks. Fitted to how late that can be asked for.
 const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;
@@ -311,12 +312,12 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             } else {
                 shot::struck(game, id, &plan, rough)
             };
-            send(game, shot.velocity, shot.spin);
+            send(game, id, shot);
         }
         KickKind::Clear => {
             let way = plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0));
             let way = way + Vec2::new(-way.y, way.x) * (noise::bell(game) * 0.25);
-            send(game, (way * 21.0).extend(10.0), Vec3::ZERO);
+            send(game, id, Struck { velocity: (way * 21.0).extend(10.0), spin: Vec3::ZERO });
         }
         _ => {
             let (way, mate) = refined(game, id, &plan);
@@ -326,7 +327,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             } else {
                 pass::struck(game, id, &plan, way, rough, from_hands)
             };
-            send(game, ball.velocity, ball.spin);
+            send(game, id, ball);
         }
     }
     flight::note(game, id, if exempt { flight::Touch::Exempt } else { flight::Touch::Played });
@@ -369,10 +370,14 @@ fn refined(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerI
 }
 
 /// Gives the ball a velocity and spin.
-fn send(game: &mut Match, velocity: Vec3, spin: Vec3) {
+///
+/// Who plays for the team that is not the early one turns it the wrong way: their passes float and their lofted balls and
+/// shots dip. (GRF's: the team whose turn is second is played in a turned frame, which the spin is not turned back from.)
+fn send(game: &mut Match, id: PlayerId, struck: Struck) {
+    let turned = if id.team() == game.play.early { 1.0 } else { -1.0 };
     game.ball.pos.z = game.ball.pos.z.max(0.13);
-    game.ball.vel = velocity;
-    game.ball.spin = spin;
+    game.ball.vel = struck.velocity;
+    game.ball.spin = (struck.spin.truncate() * turned).extend(struck.spin.z);
 }
 
 /// How awkward the kick is, 0..1: a fast, high or far ball (less for who volleys well), an opponent near (less for a

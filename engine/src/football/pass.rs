@@ -6,7 +6,7 @@ use crate::football::body::{KickKind, KickPlan};
 use crate::football::noise;
 use crate::football::shot::Struck;
 use crate::math;
-use crate::physics::constants::{GRAVITY, MAGNUS};
+use crate::physics::constants::MAGNUS;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
@@ -14,7 +14,7 @@ use setpiece_scenario::vocabulary::Stat;
 /// The hardest pass along the ground at a resting ball, m/s. Measured.
 const GROUND_MPS: f32 = 25.2;
 /// How much harder it is struck in stride at most, m/s. Measured.
-const STRIDE_MPS: f32 = 3.2;
+const STRIDE_MPS: f32 = 1.4;
 /// The hardest pass behind one's back, m/s. Measured.
 const HEEL_MPS: f32 = 16.8;
 /// The hardest lofted pass behind one's back, m/s. Measured.
@@ -22,20 +22,18 @@ const HIGH_HEEL_MPS: f32 = 33.0;
 /// How much harder a charged pass is struck in stride, m/s, and the gauge from which on. Measured.
 const CHARGE_MPS: f32 = 2.5;
 const CHARGED: f32 = 0.35;
-/// How much faster a ball rises that is played straight ahead, m/s for every metre of its way. Measured.
-const AHEAD_UP_PER_S: f32 = 0.012;
+/// How much less hard a pass to the side is struck at most, m/s. Measured.
+const ASIDE_LESS_MPS: f32 = 2.0;
 /// How much faster a ball rises that is played to the side, and behind one's back, m/s. Measured.
-const ASIDE_UP_MPS: f32 = 1.0;
+const ASIDE_UP_MPS: f32 = 0.3;
 const HEEL_UP_MPS: f32 = 0.4;
 /// From which angle to the run on a pass is played with the heel, degrees; chosen.
 const HEEL_DEG: f32 = 135.0;
-/// Backspin of a pass along the ground, rad/s: a fast one floats, as measured.
-const PASS_BACKSPIN: f32 = 45.0;
-/// The fall for which the rises above are reckoned, m/s²; a pass falls less the faster it is, but so much at least, at
-/// the speed that it keeps on average, as a share of its first. Fitted to the measured heights.
-const REFERENCE_FALL_MPS2: f32 = 7.4;
-const LEAST_FALL_MPS2: f32 = 2.0;
-const KEPT_SPEED: f32 = 0.87;
+/// Topspin of a pass along the ground and backspin of a lofted one, rad/s for each m/s, and up to which speed they grow.
+/// (GRF's shares of each other; fitted to the measured heights.)
+const TOPSPIN_PER_MPS: f32 = 4.0;
+const BACKSPIN_PER_MPS: f32 = 1.5;
+const SPUN_MPS: f32 = 15.0;
 /// How fast a throw-in is, however far the mate is, m/s. Measured.
 const THROW_MPS: f32 = 17.4;
 /// How much faster a throw-in rises for every metre of its way, 1/s. Measured.
@@ -60,8 +58,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
     let heel = degrees > HEEL_DEG;
     let charge = (plan.gauge() / CHARGED).min(1.0);
     let (level, up) = if kind == KickKind::High {
-        // Struck to the side it is flatter, and so a little harder.
-        let rise = (0.39 - 0.07 * distance / 60.0) * (1.0 - 0.2 * aside);
+        // Struck to the side it is a little harder.
+        let rise = 0.45 - 0.15 * distance / 60.0;
         let speed =
             (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
         let level = speed / libm::sqrtf(1.0 + rise * rise);
@@ -71,15 +69,11 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
         let most = match (by_hand, heel) {
             (true, _) => 15.0,
             (_, true) => HEEL_MPS,
-            _ => GROUND_MPS + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
+            _ => GROUND_MPS - ASIDE_LESS_MPS * aside + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
         };
         let level = wanted.min(most);
-        let lifted =
-            AHEAD_UP_PER_S * distance * (1.0 - aside) + ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
-        let mean = KEPT_SPEED * level;
-        let fall = (GRAVITY - MAGNUS * PASS_BACKSPIN * mean * mean).max(LEAST_FALL_MPS2);
-        let rise = level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted;
-        (level, rise * libm::sqrtf(fall / REFERENCE_FALL_MPS2))
+        let lifted = ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
+        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
     };
     // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
     let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
@@ -90,7 +84,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
     let ahead = math::unit(lag).rotate(ahead);
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
     let velocity = flat.extend(up * power * (1.0 + noise::bell(game) * wild));
-    let spin = if kind == KickKind::High { backspin(velocity) } else { across(velocity) * PASS_BACKSPIN };
+    let per_mps = if kind == KickKind::High { BACKSPIN_PER_MPS } else { -TOPSPIN_PER_MPS };
+    let spin = across(velocity) * (per_mps * velocity.length().min(SPUN_MPS));
     Struck { velocity, spin: spin.with_z(-2.0 * lag / (distance * MAGNUS)) }
 }
 
@@ -119,10 +114,4 @@ fn across(velocity: Vec3) -> Vec3 {
 pub fn off_run(player: &Player, way: Vec2) -> f32 {
     let ahead = player.vel.normalize_or(player.body.facing);
     math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees()
-}
-
-/// The backspin that lifts a lofted pass, rad/s.
-fn backspin(velocity: Vec3) -> Vec3 {
-    let slow = 22.0 / velocity.length().max(8.0);
-    across(velocity) * (5.0 * (slow * slow).clamp(0.5, 3.0))
 }

@@ -8,14 +8,14 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::Stat;
 
-/// Backspin of a shot, rad/s: in flight it falls with 7.4 m/s², as measured.
-const SHOT_BACKSPIN: f32 = 19.0;
+/// Backspin of a shot, rad/s: at 25 m/s it falls with 8 m/s², and with 11.5 where the spin is turned. Measured.
+const SHOT_BACKSPIN: f32 = 11.0;
 /// Side spin of a shot across the body that bends it back, rad/s a radian; chosen.
 const CURL: f32 = 420.0;
 /// Side spin that a shot gets by chance at most, rad/s; chosen.
 const STRAY_SPIN: f32 = 8.0;
-/// With how much a shot falls, its backspin reckoned in, m/s². Measured.
-const FALL_MPS2: f32 = 7.4;
+/// With how much a shot falls, whichever way it spins, m/s².
+const FALL_MPS2: f32 = 9.81;
 /// How far ahead a player's own movement counts in the aim, seconds. (GRF's.)
 const AHEAD_S: f32 = 0.12;
 /// The angle to the run at which a shot is easiest, radians: across the body. (GRF's.)

@@ -4,9 +4,9 @@
 use setpiece_scenario::pitch::TEAM_MAX;
 
 /// Ways in decimetres: from each player (row) to each place.
-pub type Ways = [[i32; TEAM_MAX]; TEAM_MAX];
+pub(super) type Ways = [[i32; TEAM_MAX]; TEAM_MAX];
 /// The place of each player.
-pub type Places = [usize; TEAM_MAX];
+pub(super) type Places = [usize; TEAM_MAX];
 
 /// A way that is too long to count.
 const TOO_LONG: i32 = 1 << 20;
@@ -14,7 +14,7 @@ const TOO_LONG: i32 = 1 << 20;
 const LEAP: usize = 5;
 
 /// The matching for the first `count` players and places.
-pub fn matching(ways: &Ways, count: usize) -> Places {
+pub(super) fn matching(ways: &Ways, count: usize) -> Places {
     let limit = limit(ways, count);
     let mut allowed = *ways;
     for way in allowed[..count].iter_mut().flat_map(|row| &mut row[..count]) {
@@ -36,7 +36,7 @@ fn limit(ways: &Ways, count: usize) -> i32 {
     let leaps = all.saturating_sub(count).div_ceil(LEAP);
     let (mut low, mut high) = (0, leaps);
     while low < high {
-        let middle = (low + high) / 2;
+        let middle = usize::midpoint(low, high);
         if is_possible(ways, count, sorted[count + middle * LEAP]) {
             high = middle;
         } else {

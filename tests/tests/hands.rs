@@ -74,24 +74,27 @@ const PASSED: &str = "ball at (0.7, 0.26)
 #[test]
 fn a_shot_asked_for_in_time_is_struck_first_time() {
     let mut environment = written(PASSED);
-    let mut steps_to_shot = |press: usize| -> Vec<usize> {
-        let key = |step| match step {
+    let key = |press: usize| {
+        move |step| match step {
             0..3 => Action::Top,
             3 => Action::ShortPass,
             _ if step == press => Action::Shot,
             _ => Action::Idle,
-        };
+        }
+    };
+    let near = |game: &Match| game.players[2].pos.distance(game.ball.pos.truncate()) < 1.2;
+    let ahead = |game: &Match| game.ball.vel.x > KICKED_MPS;
+    let mut steps_to_shot = |before: usize, after: usize| -> Vec<usize> {
         let shot = |episode| {
-            let matches = played(&mut environment, episode, key);
-            let ahead = |game: &Match| game.ball.vel.x > KICKED_MPS;
-            let near = |game: &Match| game.players[2].pos.distance(game.ball.pos.truncate()) < 1.2;
+            let comes = played(&mut environment, episode, key(usize::MAX)).iter().position(near)?;
+            let matches = played(&mut environment, episode, key(comes + after - before));
             let arrives = matches.iter().position(near)?;
             Some((arrives..matches.len()).find(|&step| ahead(&matches[step]))? - arrives)
         };
         (0..40).filter_map(shot).collect()
     };
     let first_time = |steps: &[usize]| steps.iter().filter(|&&step| step <= 2).count();
-    let (early, late) = (steps_to_shot(11), steps_to_shot(18));
+    let (early, late) = (steps_to_shot(4, 0), steps_to_shot(0, 2));
     assert!(first_time(&early) >= 15, "{early:?}");
     assert!(first_time(&late) == 0 && late.len() > 30, "{late:?}");
 }

@@ -152,6 +152,7 @@ fn the_power_of_a_steered_pass_is_how_far_it_goes() {
         let mut environment = environment(body);
         let (steer, action) = continuous::decode([0.02, 0.99, -0.5, power]).unwrap();
         assert_eq!(action, Action::ShortPass);
+        environment.step(&[Action::Idle], scratch).unwrap();
         environment.steer(0, Some(steer));
         environment.step(&[action], scratch).unwrap();
         for _ in 0..30 {

@@ -155,12 +155,26 @@ fn a_pass_hands_control_to_its_receiver_and_a_fixed_slot_keeps_its_player() {
 }
 
 #[test]
+fn a_kick_pressed_in_the_first_step_is_not_heard() {
+    let mut bench = Bench::new(Layout::RunToScore, 0);
+    for step in 0..20 {
+        bench.step(if step == 0 { Action::Shot } else { Action::Idle });
+        assert_eq!(bench.seen(EventKind::Shot), None);
+    }
+    bench.step(Action::Shot);
+    assert!((0..20).any(|_| {
+        bench.step(Action::Idle);
+        bench.seen(EventKind::Shot).is_some()
+    }));
+}
+
+#[test]
 fn a_kick_pressed_before_the_ball_comes_is_the_first_touch() {
     for (action, kind) in [(Action::Shot, EventKind::Shot), (Action::ShortPass, EventKind::Pass)] {
         let mut bench = Bench::new(Layout::RunToScore, 0);
         let mut touches = 0;
         let kicked = (0..20).any(|step| {
-            bench.step(if step == 0 { action } else { Action::Idle });
+            bench.step(if step == 1 { action } else { Action::Idle });
             touches += bench.events.as_slice().iter().filter(|event| event.kind == EventKind::Touch).count();
             bench.seen(kind).is_some()
         });

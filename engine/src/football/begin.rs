@@ -12,6 +12,8 @@ use setpiece_scenario::vocabulary::{GameMode, Rule, StartKind, Stat, Team};
 
 /// Ticks before which nobody touches the ball of a start, as chance will have it. Measured.
 const FIRST_TICKS: std::ops::Range<f32> = 18.0..42.0;
+/// How many ticks later than they could somebody who does not go for the ball sets off, at most. Measured.
+const SET_OFF_TICKS: f32 = 18.0;
 
 /// The match that a drawn start begins with.
 pub fn begin(drawn: &Drawn) -> Match {
@@ -50,9 +52,20 @@ pub fn begin(drawn: &Drawn) -> Match {
     reach::assess(&mut game);
     start_of(&mut game, drawn, nearest);
     recent::begin(&mut game);
+    set_off(&mut game);
     crate::control::switching::open(&mut game);
     crate::control::prepare(&mut game);
     game
+}
+
+/// Lets everybody who does not go for the ball set off when chance will have it.
+fn set_off(game: &mut Match) {
+    for id in game.order() {
+        let waits = (noise::roll(game) * SET_OFF_TICKS) as i8;
+        if game.play.chaser[id.team().index()] != Some(id) {
+            game.players[id.index()].body.lag_ticks = -waits;
+        }
+    }
 }
 
 /// Where everybody stands at later kick-offs: where the scenario says, else at the start's places.

@@ -128,6 +128,40 @@ fn weak_defenders_reach_the_ball_nearly_as_often() {
 fn a_defender_plants_their_feet_for_a_dribbler() {
     let mut environment = met(0.6);
     let mut speeds = Vec::new();
+    for episode in 0..20 {
+        let matches = played(&mut environment, episode, |_| Action::Right);
+        let gap = |game: &Match| game.players[12].pos.distance(game.ball.pos.truncate());
+        let Some(meets) = matches.iter().position(|game| gap(game) < 1.0) else { continue };
+        let defender = &matches[meets].players[12];
+        speeds.push(defender.vel.dot((matches[meets].ball.pos.truncate() - defender.pos).normalize_or(Vec2::X)).abs());
+    }
+    speeds.sort_by(f32::total_cmp);
+    assert!(speeds.len() > 15 && speeds[speeds.len() / 2] < 1.5, "{speeds:?}");
+}
+
+const PASSER: &str = "ball at (-0.44, 0)
+    team left { GK at (-1, 0) { ai: lazy, controllable: false }  CB at (-0.45, 0)  CM at (0.05, 0.02) { ai: lazy } }
+    agents { left: 1 }
+    team right { GK at (1, 0) { ai: lazy } }";
+
+#[test]
+fn passes_roll_in_one_half_of_the_episodes_and_float_in_the_other() {
+    let mut environment = written(PASSER);
+    let key = |step| if step == 7 { Action::ShortPass } else { Action::Idle };
+    let mut peak = |episode: u64| {
+        let matches = played(&mut environment, episode, key);
+        matches.iter().take(30).fold(0.0f32, |peak, game| peak.max(game.ball.pos.z))
+    };
+    let peaks: Vec<f32> = (0..40).map(&mut peak).collect();
+    let rolls = peaks.iter().filter(|peak| **peak < 0.9).count();
+    let floats = peaks.iter().filter(|peak| **peak > 2.0).count();
+    assert_eq!(rolls + floats, 40, "{peaks:?}");
+    assert!(rolls.min(floats) >= 10, "{rolls} roll, {floats} float");
+}
+
+#[test]
+fn the_nearest_defender_comes_forward_to_the_ball_of_a_start() {
+    let mut environment = library("academy_counterattack_easy");
     let mut forward = |episode: u64| {
         let matches = played(&mut environment, episode, |_| Action::Right);
         let start = matches[0].players[14].pos.x;
@@ -135,4 +169,16 @@ fn a_defender_plants_their_feet_for_a_dribbler() {
     };
     let forward: Vec<f32> = (0..20).map(&mut forward).collect();
     assert!(forward.iter().all(|metres| *metres > 0.8), "{forward:?}");
+}
+
+#[test]
+fn players_set_off_from_a_start_when_chance_will_have_it() {
+    let mut environment = library("academy_counterattack_easy");
+    let mut way = |episode: u64| {
+        let matches = played(&mut environment, episode, |_| Action::Right);
+        matches[4].players[1].pos.distance(matches[0].players[1].pos)
+    };
+    let ways: Vec<f32> = (0..40).map(&mut way).collect();
+    let (least, most) = ways.iter().fold((f32::MAX, 0.0f32), |(least, most), way| (least.min(*way), most.max(*way)));
+    assert!(least < 0.7 && most > 1.0, "{least} to {most}");
 }

@@ -82,9 +82,13 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     // Whoever asks for nothing else lets a pass come; whoever holds its direction goes to meet it.
     let meets = direction.is_some_and(|ahead| ahead.dot(game.ball.pos.truncate() - player.pos) > 0.0);
     let stands = !has_ball && !meets && player.body.kick.is_none() && reach::comes_to(game, &player);
+    let spare = fetch && !has_ball && player.body.kick.is_none();
+    let meeting = if spare { assist::meeting(game, id, wish) } else { None };
     let body = &mut game.players[id.index()].body;
     body.dribble = wish;
-    body.intent = if waits && has_ball {
+    body.intent = if let Some((place, pace)) = meeting {
+        Intent::Go(place, pace)
+    } else if waits && has_ball {
         // However fast the ball rolls on, they stay with it.
         Intent::Ball(SPRINT_MPS)
     } else if fetch && stands {

@@ -12,8 +12,10 @@ use setpiece_scenario::vocabulary::{GameMode, Rule, StartKind, Stat, Team};
 
 /// Ticks before which nobody touches the ball of a start, as chance will have it. Measured.
 const FIRST_TICKS: std::ops::Range<f32> = 18.0..42.0;
-/// How many ticks later than they could somebody who does not go for the ball sets off, at most. Measured.
+/// How many ticks later than they could somebody sets off, at most. Measured.
 const SET_OFF_TICKS: f32 = 18.0;
+/// Who has the ball of a start so near does so at once, metres; chosen.
+const AT_BALL_M: f32 = 0.75;
 
 /// The match that a drawn start begins with.
 pub fn begin(drawn: &Drawn) -> Match {
@@ -58,11 +60,15 @@ pub fn begin(drawn: &Drawn) -> Match {
     game
 }
 
-/// Lets everybody who does not go for the ball set off when chance will have it.
+/// Lets everybody set off when chance will have it. Who has the ball at their feet does so at once, and so does whoever goes
+/// for it of the team that is later at it. (Measured.)
 fn set_off(game: &mut Match) {
+    let first = reach::first(game);
     for id in game.order() {
         let waits = (noise::roll(game) * SET_OFF_TICKS) as i8;
-        if game.play.chaser[id.team().index()] != Some(id) {
+        let far = game.player(id).pos.distance_squared(game.ball.pos.truncate()) > AT_BALL_M * AT_BALL_M;
+        let goes = game.play.chaser[id.team().index()] == Some(id);
+        if far && (!goes || first == Some(id)) {
             game.players[id.index()].body.lag_ticks = -waits;
         }
     }

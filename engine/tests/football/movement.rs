@@ -7,6 +7,8 @@ use setpiece_scenario::vocabulary::Action;
 /// Speeds at each step, m/s: from the way covered in it.
 fn speeds(layout: Layout, keys: &[Action], steps: usize) -> Vec<f32> {
     let mut bench = Bench::new(layout, 0);
+    // Whoever has stood for a step sets off at once.
+    bench.step(Action::Idle);
     let id = bench.game.agents[0].player.unwrap();
     let mut before = bench.game.player(id).pos;
     (0..steps)

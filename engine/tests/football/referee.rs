@@ -263,10 +263,10 @@ fn nobody_who_stands_is_tripped() {
     let tripped = |speed_mps: f32| {
         let mut bench = alone(&[], 0);
         bench.game.players[LEFT_MAN.index()].vel = Vec2::new(speed_mps, 0.0);
-        (0..4000).filter(|_| foul::trips(&mut bench.game, RIGHT_MAN, LEFT_MAN)).count()
+        (0..8000).filter(|_| foul::trips(&mut bench.game, RIGHT_MAN, LEFT_MAN)).count()
     };
     assert_eq!(tripped(0.0), 0);
-    assert!(tripped(6.0) > tripped(3.0) && tripped(3.0) > 20, "{} of 4000", tripped(3.0));
+    assert!(tripped(6.0) > tripped(3.0) && tripped(3.0) > 20, "{} of 8000", tripped(3.0));
 }
 
 /// Shots at a man's chest: how often each seed's was a handball, and what was given.

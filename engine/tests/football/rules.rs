@@ -381,7 +381,7 @@ fn the_last_man_of_a_team_is_shown_no_red_card() {
 fn without_a_seed_the_game_is_the_same_game() {
     let mut bench = bench(&[(Rule::Stochastic, 0.0)], 0);
     let (mut seen, mut wide) = ([0; 2], 0);
-    for _ in 0..12_000 {
+    for _ in 0..24_000 {
         bench.step(Action::BuiltinAi);
         for event in bench.events.as_slice() {
             let kinds = [EventKind::Tackle, EventKind::Save];

@@ -1,6 +1,6 @@
 """Plays whole matches of bots in Google Research Football and writes what is counted of each, one match a line.
 
-    python matches.py LEFT RIGHT COUNT [--first I] > LINES
+python matches.py LEFT RIGHT COUNT [--first I] > LINES
 """
 
 import argparse
@@ -79,6 +79,7 @@ def tally(game, left, right, number, seed):
 
 
 def main():
+    """Plays matches of bots and writes what was counted."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("left", type=float)
     parser.add_argument("right", type=float)

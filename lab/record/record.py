@@ -112,6 +112,7 @@ def record(name, games, args):
 
 
 def main():
+    """Plays the files that the command line names."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="+")
     parser.add_argument("--into", required=True)

@@ -7,7 +7,7 @@ use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN
 use crate::football::{kick, reach, slide, touch};
 use crate::state::{Match, Player, PlayerId, Steer};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Action, GameMode};
+use setpiece_scenario::vocabulary::{Action, GameMode, Role};
 
 /// A slower pace than this is standing, share of a sprint; chosen.
 const STILL: f32 = 0.1;
@@ -50,8 +50,9 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
     let power = held.steer.map_or(0.0, |steer| steer.power);
-    // In the first step of a start nobody hears a kick yet. (Measured: it goes to the keeper there.)
-    let kind = kick_of(action).filter(|_| game.step > 0 || game.play.set_piece.is_some());
+    // In the first step of a start only a keeper hears a kick. (Measured: whoever is played then, it goes to the keeper.)
+    let starts = game.step == 0 && game.play.set_piece.is_none() && game.player(id).role != Role::GK;
+    let kind = kick_of(action).filter(|_| !starts);
     let key = match kind {
         Some(kind) if held.key == Some(kind) => held.key,
         Some(kind) => press(game, id, kind, direction, power).then_some(kind),

@@ -86,10 +86,28 @@ class Game:
 MANY = [("GK", -1, 0, ""), ("CB", -0.5, 0.1, ""), ("CB", -0.5, -0.1, "")]
 EMPTY = {"ball": (0, 0), "left": MANY, "right": MANY, "difficulty": (1.0, 0.6)}
 
-NAMES = """
-idle left top_left top top_right right bottom_right bottom bottom_left long_pass high_pass
-short_pass shot sprint release_direction release_sprint sliding dribble release_dribble builtin_ai
-""".split()
+NAMES = [
+    "idle",
+    "left",
+    "top_left",
+    "top",
+    "top_right",
+    "right",
+    "bottom_right",
+    "bottom",
+    "bottom_left",
+    "long_pass",
+    "high_pass",
+    "short_pass",
+    "shot",
+    "sprint",
+    "release_direction",
+    "release_sprint",
+    "sliding",
+    "dribble",
+    "release_dribble",
+    "builtin_ai",
+]
 NUMBERS = {name: number for number, name in enumerate(NAMES)}
 
 WAYS = ["right", "top_right", "top", "top_left", "left", "bottom_left", "bottom", "bottom_right"]

@@ -149,6 +149,13 @@ pub struct Mind {
     pub decide_at_step: u32,
 }
 
+impl Mind {
+    /// Whether a player stands with planted feet in a step.
+    pub fn is_planted(&self, step: u32) -> bool {
+        step < self.planted_until_step
+    }
+}
+
 impl Body {
     /// A body before `begin` has filled it in.
     pub const fn blank() -> Body {

@@ -10,7 +10,7 @@ use setpiece_scenario::vocabulary::{EventKind, Role, Stat};
 /// How near the ball the tackler's foot must come, metres.
 const TACKLE_M: f32 = 0.65;
 /// How often a try meets the ball between players of like skill; fitted to how soon a runner loses it to one at their side.
-const TRIES: f32 = 0.35;
+const TRIES: f32 = 0.6;
 /// How often at least; chosen.
 const LEAST: f32 = 0.025;
 /// How much more often against somebody who stands still with the ball; chosen.
@@ -28,7 +28,7 @@ const SKILL: f32 = 0.1;
 /// Between these speeds past the tackler, m/s, a ball is met the less often, at the faster by this share less; fitted to
 /// how many get through at a sprint.
 const PASSING_MPS: std::ops::Range<f32> = 3.0..7.0;
-const SURPRISED: f32 = 0.6;
+const SURPRISED: f32 = 0.3;
 /// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
 const POKED_MPS: f32 = 5.0;
 /// How much of the tackler's velocity the ball takes over, and how softly it may be poked; fitted to how near it stays.
@@ -44,7 +44,13 @@ const KEEPER_MPS: f32 = 7.5;
 const KEEPER_BRUSHED: f32 = 1.5;
 /// Ticks for which whoever has lost the ball can't try it, and for which who has poked it can't play on; chosen.
 const BEATEN_TICKS: f32 = 6.0;
-const POKED_TICKS: i32 = 45;
+const POKED_TICKS: i32 = 110;
+/// Whoever is nearer to the ball by this share takes it along; how much of its own way at most is left then, how much faster
+/// than they it runs, m/s, and for how many ticks whoever has lost it can't try it; chosen.
+const SOONER: f32 = 0.85;
+const BUMPY: f32 = 0.7;
+const TAKEN_ON_MPS: f32 = 1.0;
+const LOST_TICKS: i32 = 20;
 /// Ticks between two tries of one player, and what share of their pace a failed one leaves them; chosen.
 const RETRY_TICKS: i32 = 24;
 const FAILED: f32 = 0.9;
@@ -80,6 +86,10 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let chance = ((chance + INTO * into) * meets * able + STANDS * still).clamp(LEAST, 0.9);
     let now = game.tick as i32;
     if noise::happens(game, chance) {
+        if near < SOONER * victim_m && !tackler.body.mind.is_planted(game.step) && tackler.role != Role::GK {
+            take_over(game, events, id, rival);
+            return;
+        }
         let brushed = win(game, events, id, rival, ball);
         let loser = &mut game.players[rival.index()].body;
         loser.ready_at = loser.ready_at.max(now + victim.shaken((1.0 - brushed) * BEATEN_TICKS) as i32);
@@ -94,6 +104,26 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
         game.players[rival.index()].fall(foul::FALL_TICKS);
         foul::call_or_let_run(game, events, id, rival, severity_of(behind));
     }
+}
+
+/// Somebody who runs beside the ball, nearer to it than whoever had it, takes it along: what is left of its own way is by
+/// chance.
+fn take_over(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
+    let tackler = *game.player(id);
+    let left = noise::roll(game) * BUMPY;
+    let on = tackler.vel + tackler.vel.normalize_or(tackler.body.facing) * TAKEN_ON_MPS;
+    let velocity = on.lerp(game.ball.vel.truncate(), left);
+    let hop = hop_mps(game);
+    report::did(game, events, EventKind::Tackle, id, Some(rival));
+    touch::push(game, events, id, velocity, hop);
+    game.play.kicked_by = None;
+    let loser = &mut game.players[rival.index()].body;
+    loser.ready_at = loser.ready_at.max(game.tick as i32 + LOST_TICKS);
+}
+
+/// How fast a ball hops off a tackle, m/s. Measured.
+fn hop_mps(game: &mut Match) -> f32 {
+    1.5 + 2.5 * noise::roll(game)
 }
 
 /// How bad a standing foul is: from behind is worse.
@@ -112,7 +142,7 @@ fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, bal
     let passing = game.ball.vel.truncate() - tackler.vel;
     let brushed = math::smooth(math::smooth(libm::powf(noise::roll(game), brush)));
     let velocity = met.lerp(tackler.vel + passing * LEFT, brushed);
-    let hop = (0.5 + noise::roll(game)) * (1.0 - brushed);
+    let hop = hop_mps(game);
     report::did(game, events, EventKind::Tackle, id, Some(rival));
     touch::push(game, events, id, velocity, hop);
     // A poke is no deliberate kick: the keeper may pick it up.

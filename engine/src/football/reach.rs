@@ -17,8 +17,16 @@ pub const PLAYABLE_M: f32 = 1.25;
 const ROUNDING_M: f32 = 0.01;
 /// Seconds between two points of a forecast.
 const SPACING_S: f32 = SPACING_TICKS as f32 * 0.01;
-/// How near the ball must come to be played, metres.
-pub const REACH_M: f32 = 0.45;
+/// How near the ball must come to be played, metres, how far before a runner it is best, and what share of their top speed
+/// somebody reaches. (GRF's.)
+const REACH_M: f32 = 0.28;
+const FOOT_M: f32 = 0.1;
+const TOP_SHARE: f32 = 0.94;
+/// How long it takes to run another way, seconds. (GRF's.)
+const CHANGES_S: f32 = 0.7;
+/// Whoever can be at the ball sooner is at it: seconds; from how near, metres. (GRF's.)
+const AT_ONCE_S: f32 = 0.08;
+const AT_ONCE_M: f32 = 0.6;
 
 /// A ball faster than this that passes within so many metres is waited for, m/s; chosen.
 const COMES_MPS: f32 = 10.0;
@@ -52,41 +60,54 @@ fn from(point: usize) -> u64 {
     u64::MAX.checked_shl(point as u32).unwrap_or_default()
 }
 
-/// Where and when a player can first meet the ball.
+/// Where and when a player can first meet the ball: what they run now fades within [`CHANGES_S`], while they come to run
+/// wherever they want. (GRF's.)
 pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     const PLACES: [f32; WIDTH] = [0.0, 1.0, 2.0, 3.0];
-    let speed = 0.94 * player.body.speed_top_mps;
-    let at = player.pos + player.vel * 0.12;
+    let speed = TOP_SHARE * player.body.speed_top_mps;
+    let foot = player.pos + player.vel * 0.01 + player.vel.clamp_length_max(FOOT_M);
     let is = f32x4::splat;
-    let (at_x, at_y, speeds) = (is(at.x), is(at.y), is(speed));
+    let (at_x, at_y, vel_x, vel_y) = (is(foot.x), is(foot.y), is(player.vel.x), is(player.vel.y));
     let Range { start, end } = way.points;
-    // So much nearer to each other the ball and he come from a point to the next, at most.
-    let per_closing_m = 1.0 / (way.forecast.stride_m() + speed * SPACING_S);
+    // So much nearer to each other the ball and they come from a point to the next, at most.
+    let per_closing_m = 1.0 / (way.forecast.stride_m() + speed.max(player.vel.length()) * SPACING_S);
     let mut row = start / WIDTH;
     while row * WIDTH < end {
         let [x, y] = way.forecast.row(row);
         let ticks = (is((row * WIDTH) as f32) + f32x4::new(PLACES)) * is(SPACING_TICKS as f32);
         let time_s = (ticks * is(0.01) - is(way.offset_s)).fast_max(f32x4::ZERO);
-        let radius = is(REACH_M) + speeds * (time_s - is(0.12)).fast_max(f32x4::ZERO);
-        let (dx, dy) = (x - at_x, y - at_y);
+        let changing_s = time_s.fast_min(is(CHANGES_S));
+        let changed_s = changing_s * changing_s * is(0.5 / CHANGES_S);
+        let run_s = changing_s - changed_s;
+        let radius = is(REACH_M) + is(speed) * (changed_s + time_s - changing_s);
+        let (dx, dy) = (x - at_x - vel_x * run_s, y - at_y - vel_y * run_s);
         let reached = (dx * dx + dy * dy).simd_le(radius * radius).to_bitmask();
         let reached = reached & (way.playable >> (row * WIDTH)) as u32;
         if reached != 0 {
             let first = row * WIDTH + reached.trailing_zeros() as usize;
-            return (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
+            let (point, time_s) = (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
+            return (point, if time_s < AT_ONCE_S { at_once_s(player, point) } else { time_s });
         }
-        // The rows that he can't have come near enough in are passed over.
+        // The rows that they can't have come near enough in are passed over.
         let [.., dx] = dx.to_array();
         let [.., dy] = dy.to_array();
         let [.., radius] = radius.to_array();
         let missing_m = (dx * dx + dy * dy).sqrt() - radius - ROUNDING_M;
         row += 1 + (missing_m * per_closing_m).clamp(0.0, POINTS as f32) as usize / WIDTH;
     }
+    let at = player.pos + player.vel * (0.5 * CHANGES_S);
     if way.points.is_empty() {
         return (player.pos, (player.pos.distance(at) / speed).max(0.0));
     }
     let (last, time_s) = (way.forecast.point(end - 1).truncate(), time_s(end - 1, way.offset_s));
-    (last, time_s + ((last.distance(at) - speed * time_s) / speed).max(0.0))
+    let lacks_m = last.distance(at) - speed * (time_s - 0.5 * CHANGES_S);
+    (last, time_s + (lacks_m / speed).max(0.0))
+}
+
+/// The time of whoever is at the ball already: the nearer they are, the less. (GRF's.)
+fn at_once_s(player: &Player, point: Vec2) -> f32 {
+    let apart_m = (player.pos + player.vel * AT_ONCE_S).distance(point);
+    AT_ONCE_S * (apart_m / AT_ONCE_M).min(1.0)
 }
 
 /// Whether a fast ball comes to a player, low enough to be taken: they need not go to meet it.

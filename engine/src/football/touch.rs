@@ -45,7 +45,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     }
     let ball = game.ball.pos;
     let flat = ball.truncate();
-    let owner = game.owner.or_else(|| controller(game));
+    let owner = game.owner.or_else(|| controller(game)).filter(|&id| plays_on(game, id));
     let mut nearest: Option<(f32, PlayerId)> = None;
     for id in game.order_of(near) {
         let player = game.player(id);
@@ -74,6 +74,11 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     } else if near <= first_touch::reach_m(game, id) && !about_to_kick(game, id) {
         first_touch::take(game, events, id);
     }
+}
+
+/// Whether whoever had the ball last can play it on: not at once after a poke at a rival's ball, so that it is anybody's.
+fn plays_on(game: &Match, id: PlayerId) -> bool {
+    game.tick as i32 >= game.player(id).body.ready_at
 }
 
 /// Whoever is dribbling the ball though it rolls free between two touches.

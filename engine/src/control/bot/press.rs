@@ -3,7 +3,7 @@
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
 use crate::event::Events;
-use crate::football::body::{Body, Intent, Pose};
+use crate::football::body::{Intent, Pose};
 use crate::football::movement::SPRINT_MPS;
 use crate::football::{noise, slide};
 use crate::state::{Match, Player, PlayerId};
@@ -46,6 +46,8 @@ const LONG_TOUCH_M: f32 = 0.62;
 const OPEN: f32 = 0.4;
 /// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
 const SLIDES: f32 = 0.15;
+/// By what share of the other's time to the ball somebody must be there sooner. (GRF's.)
+const SOONER: f32 = 0.85;
 /// How far from a carrier's middle a player goes round them, metres.
 const ROUND_M: f32 = 0.9;
 
@@ -71,6 +73,9 @@ pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
         return if first == Some(id) && !held { Pursuit::Fetch } else { Pursuit::None };
     }
     let Some(rival) = view.rival(game) else { return Pursuit::None };
+    if first == Some(id) && is_sooner(game, id, rival) {
+        return Pursuit::Fetch;
+    }
     if game.play.team_pressure[view.team.index()] {
         let [second, third] = game.play.behind[view.team.index()];
         let mut queue = [first, second, third].into_iter().flatten();
@@ -86,6 +91,12 @@ pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
         return Pursuit::Hunt(rival);
     }
     Pursuit::None
+}
+
+/// Whether a player will be at the ball so much sooner than the opponent who has it that it is theirs to have. (GRF's.)
+fn is_sooner(game: &Match, id: PlayerId, rival: PlayerId) -> bool {
+    let time_s = |id: PlayerId| game.player(id).body.meet_s + 0.01;
+    time_s(id) < SOONER * time_s(rival)
 }
 
 /// Goes for a ball that is the team's to have.
@@ -129,7 +140,7 @@ pub fn hunt(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, ri
 
 /// Whether the ball that an opponent has is about to come to a player: they plant their feet and go for it.
 pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
-    if game.owner != Some(id) && is_planted(&game.player(id).body, game.step) {
+    if game.owner != Some(id) && game.player(id).body.mind.is_planted(game.step) {
         return true;
     }
     let Some(rival) = view.owner.filter(|owner| owner.team() != view.team) else { return false };
@@ -157,16 +168,11 @@ pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if body.pose == Pose::Sliding {
         return;
     }
-    if comes && !is_planted(body, step) {
+    if comes && !body.mind.is_planted(step) {
         body.mind.planted_until_step = step + PLANTED_STEPS;
     }
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
-    body.intent = if is_planted(body, step) { Intent::Stand } else { Intent::Ball(SPRINT_MPS) };
-}
-
-/// Whether a player still stands with planted feet.
-fn is_planted(body: &Body, step: u32) -> bool {
-    step < body.mind.planted_until_step
+    body.intent = if body.mind.is_planted(step) { Intent::Stand } else { Intent::Ball(SPRINT_MPS) };
 }
 
 /// From how far a player hunts a carrier, metres. (GRF's.)

@@ -24,12 +24,12 @@ const STRAIGHT: f32 = 0.8;
 /// A ball is met that comes so near in so many ticks, metres, where the player is so many seconds from now, if the carrier
 /// does not stand between: a smaller cosine than this. Measured: defenders plant their feet about that long before.
 const MEETS_M: f32 = 0.7;
-const MEETS_TICKS: u32 = 38;
+const MEETS_TICKS: u32 = 25;
 const MEETS_AHEAD_S: f32 = 0.1;
 const OPEN_TO: f32 = 0.6;
 /// How fast a ball comes for which they do, m/s; chosen. For how many steps they stand so then. Measured.
 const COMES_MPS: f32 = 1.0;
-const PLANTED_STEPS: u32 = 6;
+const PLANTED_STEPS: u32 = 0;
 /// From how near a hunter goes for the ball itself, metres; chosen.
 const CHALLENGE_M: f32 = 2.0;
 /// How far beside a carrier a defender runs past them, and how far ahead of them they are beside the ball, metres; chosen.

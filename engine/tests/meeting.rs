@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use setpiece_engine::football::body::Body;
 use setpiece_engine::football::forecast::Forecast;
-use setpiece_engine::football::reach::{PLAYABLE_M, REACH_M, Way, meeting};
+use setpiece_engine::football::reach::{PLAYABLE_M, Way, meeting};
 use setpiece_engine::physics::left_pitch;
 use setpiece_engine::state::{Ball, Player};
 use setpiece_scenario::Ai;
@@ -26,16 +26,24 @@ fn player(pos: [f32; 2], vel: [f32; 2], speed_top_mps: f32) -> Player {
     }
 }
 
-/// The meeting as a look at point after point finds it; `None` where he can't be there in time.
+/// The meeting as a look at point after point finds it; `None` where they can't be there in time: what they run now fades
+/// over 0.7 s, while they come to run the other way.
 fn met(player: &Player, forecast: &Forecast, tick: u32) -> Option<(Vec2, f32)> {
     let speed = 0.94 * player.body.speed_top_mps;
-    let at = player.pos + player.vel * 0.12;
+    let foot = player.pos + player.vel * 0.01 + player.vel.clamp_length_max(0.1);
     let near = |(time_s, point): &(f32, Vec3)| {
-        let radius = REACH_M + speed * (time_s - 0.12).max(0.0);
+        let changing_s = time_s.min(0.7);
+        let changed_s = changing_s * changing_s * (0.5 / 0.7);
+        let radius = 0.28 + speed * (changed_s + time_s - changing_s);
+        let at = foot + player.vel * (changing_s - changed_s);
         point.z <= PLAYABLE_M && point.truncate().distance_squared(at) <= radius * radius
     };
     let mut on_pitch = forecast.from(tick).take_while(|(_, point)| left_pitch(*point).is_none());
-    on_pitch.find(near).map(|(time_s, point)| (point.truncate(), time_s))
+    let (time_s, point) = on_pitch.find(near)?;
+    let point = point.truncate();
+    // Whoever is there within a moment is there the sooner, the nearer they are.
+    let apart = (player.pos + player.vel * 0.08).distance(point);
+    Some((point, if time_s < 0.08 { 0.08 * (apart / 0.6).min(1.0) } else { time_s }))
 }
 
 proptest! {

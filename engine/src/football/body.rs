@@ -141,19 +141,10 @@ pub struct Mind {
     pub fills: PlayerId,
     /// The opponent he marks.
     pub mark: Option<PlayerId>,
-    /// Until which step they stand with planted feet, to meet a ball that an opponent brings.
-    pub planted_until_step: u32,
     /// Until which step he makes a run forward.
     pub run_until_step: u32,
     /// Step of his next decision with the ball.
     pub decide_at_step: u32,
-}
-
-impl Mind {
-    /// Whether a player stands with planted feet in a step.
-    pub fn is_planted(&self, step: u32) -> bool {
-        step < self.planted_until_step
-    }
 }
 
 impl Body {
@@ -183,7 +174,6 @@ impl Body {
                 slot: Vec2::ZERO,
                 fills: PlayerId(0),
                 mark: None,
-                planted_until_step: 0,
                 run_until_step: 0,
                 decide_at_step: 0,
             },

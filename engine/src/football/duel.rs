@@ -86,7 +86,7 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
     let chance = ((chance + INTO * into) * meets * able + STANDS * still).clamp(LEAST, 0.9);
     let now = game.tick as i32;
     if noise::happens(game, chance) {
-        if near < SOONER * victim_m && !tackler.body.mind.is_planted(game.step) && tackler.role != Role::GK {
+        if near < SOONER * victim_m && tackler.role != Role::GK {
             take_over(game, events, id, rival);
             return;
         }

@@ -22,14 +22,11 @@ const AHEAD_M: f32 = 0.1 * SPRINT_MPS;
 const WAITS_M: f32 = 0.5;
 const STRAIGHT: f32 = 0.8;
 /// A ball is met that comes so near in so many ticks, metres, where the player is so many seconds from now, if the carrier
-/// does not stand between: a smaller cosine than this. Measured: defenders plant their feet about that long before.
-const MEETS_M: f32 = 0.7;
+/// does not stand between: a smaller cosine than this. Measured: defenders begin about that long before.
+const MEETS_M: f32 = 1.0;
 const MEETS_TICKS: u32 = 25;
 const MEETS_AHEAD_S: f32 = 0.1;
 const OPEN_TO: f32 = 0.6;
-/// How fast a ball comes for which they do, m/s; chosen. For how many steps they stand so then. Measured.
-const COMES_MPS: f32 = 1.0;
-const PLANTED_STEPS: u32 = 0;
 /// From how near a hunter goes for the ball itself, metres; chosen.
 const CHALLENGE_M: f32 = 2.0;
 /// How far beside a carrier a defender runs past them, and how far ahead of them they are beside the ball, metres; chosen.
@@ -138,11 +135,8 @@ pub fn hunt(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, ri
     };
 }
 
-/// Whether the ball that an opponent has is about to come to a player: they plant their feet and go for it.
+/// Whether the ball that an opponent has is about to come to a player.
 pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
-    if game.owner != Some(id) && game.player(id).body.mind.is_planted(game.step) {
-        return true;
-    }
     let Some(rival) = view.owner.filter(|owner| owner.team() != view.team) else { return false };
     let (player, carrier) = (game.player(id), game.player(rival));
     let ball = game.play.forecast.at(game.tick + MEETS_TICKS);
@@ -155,24 +149,18 @@ pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
         && free() < OPEN_TO
 }
 
-/// Meets a ball that comes with an opponent: they plant their feet, and stand so for a while, whatever becomes of it.
+/// Meets a ball that comes with an opponent.
 pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
     if let Some(rival) = view.owner {
         maybe_slide(game, events, view, id, rival);
     }
-    let (step, player) = (game.step, game.player(id));
-    let way = (player.pos - game.ball.pos.truncate()).normalize_or_zero();
-    let comes = (game.ball.vel.truncate() - player.vel).dot(way) > COMES_MPS;
     let body = &mut game.players[id.index()].body;
     body.kick = None;
     if body.pose == Pose::Sliding {
         return;
     }
-    if comes && !body.mind.is_planted(step) {
-        body.mind.planted_until_step = step + PLANTED_STEPS;
-    }
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
-    body.intent = if body.mind.is_planted(step) { Intent::Stand } else { Intent::Ball(SPRINT_MPS) };
+    body.intent = Intent::Ball(SPRINT_MPS);
 }
 
 /// From how far a player hunts a carrier, metres. (GRF's.)

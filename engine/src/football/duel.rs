@@ -49,8 +49,13 @@ const POKED_TICKS: i32 = 110;
 /// than they it runs, m/s, and for how many ticks whoever has lost it can't try it; chosen.
 const SOONER: f32 = 0.85;
 const BUMPY: f32 = 0.7;
-const TAKEN_ON_MPS: f32 = 1.0;
-const LOST_TICKS: i32 = 20;
+const TAKEN_ON_MPS: [f32; 2] = [1.0, 5.0];
+const STUMBLES: f32 = 0.6;
+const TAKEN_TICKS: i32 = 100;
+const LOST_TICKS: i32 = 30;
+/// Ticks for which whoever has taken the ball along gathers it before they begin a kick; fitted to how often whoever lost it has it
+/// again soon.
+const GATHERS_TICKS: i32 = 100;
 /// Ticks between two tries of one player, and what share of their pace a failed one leaves them; chosen.
 const RETRY_TICKS: i32 = 24;
 const FAILED: f32 = 0.9;
@@ -111,14 +116,21 @@ pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: Pla
 fn take_over(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let tackler = *game.player(id);
     let left = noise::roll(game) * BUMPY;
-    let on = tackler.vel + tackler.vel.normalize_or(tackler.body.facing) * TAKEN_ON_MPS;
+    let faster = TAKEN_ON_MPS[0] + (TAKEN_ON_MPS[1] - TAKEN_ON_MPS[0]) * noise::roll(game);
+    let on = tackler.vel * STUMBLES + tackler.vel.normalize_or(tackler.body.facing) * faster;
     let velocity = on.lerp(game.ball.vel.truncate(), left);
     let hop = hop_mps(game);
     report::did(game, events, EventKind::Tackle, id, Some(rival));
     touch::push(game, events, id, velocity, hop);
     game.play.kicked_by = None;
+    let now = game.tick as i32;
     let loser = &mut game.players[rival.index()].body;
-    loser.ready_at = loser.ready_at.max(game.tick as i32 + LOST_TICKS);
+    loser.ready_at = loser.ready_at.max(now + LOST_TICKS);
+    let winner = &mut game.players[id.index()];
+    winner.vel *= STUMBLES;
+    let winner = &mut winner.body;
+    winner.ready_at = winner.ready_at.max(now + TAKEN_TICKS);
+    (winner.kick, winner.turned_at) = (None, now + GATHERS_TICKS);
 }
 
 /// How fast a ball hops off a tackle, m/s. Measured.

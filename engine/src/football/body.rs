@@ -170,13 +170,7 @@ impl Body {
             meet: Vec2::ZERO,
             meet_s: 9.0,
             mean_mps: 0.0,
-            mind: Mind {
-                slot: Vec2::ZERO,
-                fills: PlayerId(0),
-                mark: None,
-                run_until_step: 0,
-                decide_at_step: 0,
-            },
+            mind: Mind { slot: Vec2::ZERO, fills: PlayerId(0), mark: None, run_until_step: 0, decide_at_step: 0 },
         }
     }
 

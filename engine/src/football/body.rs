@@ -1,5 +1,6 @@
 //! What the game keeps of a player beside what everyone may see: his statistics, what he wants, what his body does.
 
+use crate::football::duel::Lunge;
 use crate::state::{Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Stat;
@@ -43,6 +44,8 @@ pub struct Body {
     pub ready_at: i32,
     /// Tick before which they begin no kick: they are still turning with the ball.
     pub turned_at: i32,
+    /// A leg that is out for the ball.
+    pub lunge: Option<Lunge>,
     /// Where he can first meet the ball.
     pub meet: Vec2,
     /// In how many seconds.
@@ -167,6 +170,7 @@ impl Body {
             touched_at: NEVER,
             ready_at: NEVER,
             turned_at: NEVER,
+            lunge: None,
             meet: Vec2::ZERO,
             meet_s: 9.0,
             mean_mps: 0.0,

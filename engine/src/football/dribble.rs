@@ -1,7 +1,8 @@
 //! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
 
 use crate::event::Events;
-use crate::football::{noise, touch};
+use crate::football::touch;
+use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
@@ -33,10 +34,15 @@ const RUN_INTO: f32 = 0.4;
 const BESIDE: f32 = 0.8;
 /// A slower ball lies still, m/s; chosen.
 pub(super) const LIES_MPS: f32 = 1.0;
-/// How far a dribbling touch strays: next to nothing while nobody is near (measured: the same keys lead to the same place
-/// within centimetres), more with an opponent about.
-const FREE_WILD: f32 = 0.004;
-const PRESSED_WILD: f32 = 0.09;
+/// With what power of the way to where it is to be met again a touch's pace goes. (GRF's.)
+const WAY_TO_PACE: f32 = 0.7;
+/// How close the ball is kept: the divisor of a touch's way without any skill, what all of it adds (GRF's), and the divisor
+/// for which the paces here hold.
+const CLOSEST: [f32; 2] = [0.38, 0.02];
+const CLOSE: f32 = 0.394;
+/// From how near opponents annoy a dribbler, and how much further the most annoyed sends the ball, metres. (GRF's.)
+const ANNOYS_M: std::ops::Range<f32> = 0.5..1.5;
+const ANNOYED_M: f32 = 3.0;
 /// How far ahead of a standing player the ball is laid, metres. Measured.
 pub(super) const LAID_M: f32 = 0.4;
 /// How whoever turns with the ball brakes, m/s²; chosen.
@@ -85,8 +91,7 @@ pub(super) fn minds_lines(game: &Match, id: PlayerId) -> bool {
 pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let player = *game.player(id);
     let ball_vel = game.ball.vel.truncate();
-    let armed = player.body.kick.is_some() && game.tick as i32 >= player.body.turned_at;
-    let wish = if armed { player.body.dribble.clamp_length_max(2.5) } else { player.body.dribble };
+    let wish = player.body.dribble;
     let speed = wish.length();
     let to_ball = game.ball.pos.truncate() - player.pos;
     if speed < STOPS_MPS {
@@ -106,12 +111,10 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
             ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
         }
     }
-    let care = Care { pressed: pressed(game, id), lines: minds_lines(game, id), lies: rolling < LIES_MPS };
+    let care = Care { lines: minds_lines(game, id), lies: rolling < LIES_MPS };
     let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
-    let wild = if care.pressed { PRESSED_WILD } else { FREE_WILD };
-    let wild = wild * (0.9 - 0.6 * player.skill(Stat::Dribble)) * (0.4 + player.vel.length() / 8.0);
-    let (aside, power) = (noise::bell(game) * wild, 1.0 + noise::bell(game) * wild);
-    touch::push(game, events, id, (velocity + Vec2::new(-velocity.y, velocity.x) * aside) * power, 0.0);
+    let closer = libm::powf(CLOSE / (CLOSEST[0] + CLOSEST[1] * player.skill(Stat::Dribble)), WAY_TO_PACE);
+    touch::push(game, events, id, longer(velocity, annoyance_m(game, id, speed)) * closer, 0.0);
     if player.body.kick.is_none() {
         note_turn(game, id, ahead);
     }
@@ -134,8 +137,6 @@ fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
 
 /// What a dribbler minds.
 pub(super) struct Care {
-    /// An opponent who is about to get at them.
-    pub(super) pressed: bool,
     /// The lines: the ball is not pushed over them.
     pub(super) lines: bool,
     /// Whether the ball lies still.
@@ -163,12 +164,11 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let pace = player.vel.length();
     let under_way = (pace / WALKS_MPS).min(1.0);
     let gait = (speed + 0.3 * (pace - speed) * under_way) / 8.0;
-    let shy = if care.pressed { 0.8 } else { 1.0 };
     // Whoever turns carries the rest of their run on until they have braked it.
     let turns = turns(player, ahead);
     let rest = if turns { player.vel - ahead * own } else { Vec2::ZERO };
     let brakes = rest.length() / TURN_MPS2;
-    let time = ((0.12 + 0.6 * gait * gait * gait * gait) * shy).max(brakes);
+    let time = (0.12 + 0.6 * gait * gait * gait * gait).max(brakes);
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
     let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
     let cut = if care.lines { within_lines(player.pos, free) } else { None };
@@ -191,6 +191,29 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
 }
 
+/// The velocity of a touch that is to send the ball so much further, metres. (GRF's: a touch's pace goes with this power of
+/// the way to where it is to be met again.)
+pub(super) fn longer(velocity: Vec2, further_m: f32) -> Vec2 {
+    let speed = velocity.length();
+    if further_m <= 0.0 || speed < STOPS_MPS {
+        return velocity;
+    }
+    let until_s = 0.45 + 0.6 * (speed / 8.0).min(1.0) * (speed / 8.0).min(1.0);
+    let way_m = 0.41 * until_s * libm::powf(speed, 1.0 / WAY_TO_PACE);
+    velocity * libm::powf((way_m + further_m) / way_m, WAY_TO_PACE)
+}
+
+/// How much further a player who runs at so many m/s sends the ball with an opponent close by, metres: the less, the calmer
+/// and the better balanced they are. (GRF's.)
+fn annoyance_m(game: &Match, id: PlayerId, speed: f32) -> f32 {
+    let player = game.player(id);
+    let rivals = game.team(id.team().other());
+    let near = rivals.fold(f32::MAX, |near, (_, rival)| near.min(rival.pos.distance_squared(player.pos))).sqrt();
+    let close = 1.0 - ((near - ANNOYS_M.start) / (ANNOYS_M.end - ANNOYS_M.start)).clamp(0.0, 1.0);
+    let nervous = 1.0 - (0.5 * player.skill(Stat::Calmness) + 0.3 * player.skill(Stat::Balance));
+    ANNOYED_M * close * nervous * math::smooth((speed / 8.0).min(1.0))
+}
+
 /// The way of a touch, cut; none where it doesn't take the ball off the pitch, or only into a goal.
 fn within_lines(pos: Vec2, way: Vec2) -> Option<Vec2> {
     let (x, y) = (HALF_LENGTH_M as f32 - LINE_CARE_M, HALF_WIDTH_M as f32 - LINE_CARE_M);
@@ -198,10 +221,4 @@ fn within_lines(pos: Vec2, way: Vec2) -> Option<Vec2> {
     let x = if to.y.abs() < GOAL_HALF_WIDTH_M as f32 { x + 3.0 } else { x };
     let cut = to.clamp(Vec2::new(-x, -y), Vec2::new(x, y));
     (cut != to).then(|| cut - pos)
-}
-
-/// Whether an opponent is about to get at a player.
-fn pressed(game: &Match, id: PlayerId) -> bool {
-    let pos = game.player(id).pos;
-    game.team(id.team().other()).any(|(_, rival)| rival.pos.distance_squared(pos) < 2.0 * 2.0)
 }

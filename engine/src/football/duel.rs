@@ -1,163 +1,247 @@
-//! Challenging the player on the ball: automatic standing tackles, and what a lost one costs.
+//! Challenging the player on the ball: a leg goes out to where the ball will be, and what it meets there.
+//!
+//! A lunge is settled on some ticks before its foot meets the ball, at the place where the ball will be if nobody touches
+//! it. A touch in between leaves the foot beside the ball, or in the air.
 
 use crate::event::Events;
-use crate::football::{foul, noise, report, touch};
+use crate::football::play::ticks_since;
+use crate::football::{first_touch, flight, forecast, foul, noise, reach, report, touch};
 use crate::math;
-use crate::state::{Match, PlayerId};
-use glam::Vec2;
-use setpiece_scenario::vocabulary::{EventKind, Role, Stat};
+use crate::state::{Match, Player, PlayerId, Squad};
+use glam::{Vec2, Vec3};
+use setpiece_scenario::vocabulary::{EventKind, Role};
 
-/// How near the ball the tackler's foot must come, metres.
-const TACKLE_M: f32 = 0.65;
-/// How often a try meets the ball between players of like skill; fitted to how soon a runner loses it to one at their side.
-const TRIES: f32 = 0.6;
-/// How often at least; chosen.
-const LEAST: f32 = 0.025;
-/// How much more often against somebody who stands still with the ball; chosen.
-const STANDS: f32 = 0.06;
-/// How much more often against a carrier who runs into the tackler; fitted to how soon a runner loses it head-on.
-const INTO: f32 = 0.6;
-/// How far behind a carrier that begins to count, a cosine; chosen.
-const BESIDE: f32 = 0.5;
-/// The tackling for which these hold: a centre back's of the middle difficulty. Somebody with none meets the ball by this
-/// share less often: GRF's weak players are only later to see it.
-const AVERAGE: f32 = 0.5;
-const UNABLE: f32 = 0.25;
-/// How much a lead in skill counts; chosen.
-const SKILL: f32 = 0.1;
-/// Between these speeds past the tackler, m/s, a ball is met the less often, at the faster by this share less; fitted to
-/// how many get through at a sprint.
-const PASSING_MPS: std::ops::Range<f32> = 3.0..7.0;
-const SURPRISED: f32 = 0.3;
-/// How fast a tackle that meets the ball fully pokes it away, m/s. (GRF's: 4.)
-const POKED_MPS: f32 = 5.0;
-/// How much of the tackler's velocity the ball takes over, and how softly it may be poked; fitted to how near it stays.
-const FOLLOWS: f32 = 0.5;
-const SOFTEST: f32 = 1.0;
-/// What a ball that is only brushed keeps of its speed past the tackler. Measured.
-const LEFT: f32 = 0.85;
-/// How seldom a tackle that meets the ball meets it fully: above 1 fully more often, below 1 brushed more often; fitted to
-/// how often the runner has it again soon.
-const BRUSHED: f32 = 0.7;
-/// The same of keepers; fitted to where the ball goes from those who come out.
+/// A leg on its way to the ball.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Lunge {
+    /// The tick at which the foot is there.
+    pub at: i32,
+    /// Where the ball will be then, world metres.
+    pub place: Vec2,
+    /// Whether the ball is to be taken along, rather than poked away.
+    pub takes: bool,
+}
+
+/// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where.)
+struct Reach {
+    /// The slowest pace at which it is done, m/s.
+    from_mps: f32,
+    /// Ticks until the foot is there, and until the player can do something else.
+    ticks: i32,
+    lasts: i32,
+    /// Where the foot is then, seen from the player: ahead and aside, metres.
+    ahead_m: f32,
+    aside_m: f32,
+    /// How far off the ball may be, along the run and across it, metres.
+    along_m: f32,
+    across_m: f32,
+}
+
+const fn reach(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32; 2], off: [f32; 2]) -> Reach {
+    Reach { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1] }
+}
+
+/// Pokes, the fastest first.
+const POKES: [Reach; 5] = [
+    reach(6.0, [12, 39], [0.77, 0.0], [0.36, 0.11]),
+    reach(1.8, [9, 26], [0.61, 0.0], [0.43, 0.17]),
+    reach(1.8, [24, 58], [-0.5, 0.7], [0.43, 0.17]),
+    reach(0.0, [11, 28], [0.9, 0.0], [0.45, 0.27]),
+    reach(0.0, [15, 35], [0.0, 1.05], [0.45, 0.27]),
+];
+/// Ways to take the ball along.
+const TAKES: [Reach; 3] = [
+    reach(6.0, [12, 24], [0.2, 0.0], [0.32, 0.1]),
+    reach(1.8, [12, 25], [0.2, 0.0], [0.34, 0.13]),
+    reach(0.0, [12, 37], [0.45, 0.0], [0.35, 0.21]),
+];
+/// A ball that meets a player faster than this is not taken along, m/s; fitted to how often a runner gets past a defender.
+const TAKES_MPS: f32 = 10.0;
+/// How far ahead, ticks, an unseen touch is judged, and how much it may have changed there, metres. (GRF's.)
+const AHEAD_TICKS: u32 = 100;
+const MISJUDGED_M: f32 = 2.0;
+/// How high a ball may be, metres.
+const LOW_M: f32 = 0.5;
+/// From how far off the other's cosine tells that they are between a player and the ball: too much so to poke it, and to
+/// take it. (GRF's.)
+const HIDDEN: [f32; 2] = [0.6, 0.5];
+/// How far off the ball may be when the foot is there, metres. (GRF's.)
+const MISSED_M: f32 = 0.4;
+/// How fast a poke sends the ball away beside half of what taking it would. (GRF's.)
+const POKED_MPS: f32 = 4.0;
+/// The same of a keeper, who wants it gone; fitted to where the ball goes from those who come out.
 const KEEPER_MPS: f32 = 7.5;
-const KEEPER_BRUSHED: f32 = 1.5;
-/// Ticks for which whoever has lost the ball can't try it, and for which who has poked it can't play on; chosen.
-const BEATEN_TICKS: f32 = 6.0;
-const POKED_TICKS: i32 = 110;
-/// Whoever is nearer to the ball by this share takes it along; how much of its own way at most is left then, how much faster
-/// than they it runs, m/s, and for how many ticks whoever has lost it can't try it; chosen.
-const SOONER: f32 = 0.85;
-const BUMPY: f32 = 0.7;
-const TAKEN_ON_MPS: [f32; 2] = [1.0, 5.0];
-const STUMBLES: f32 = 0.6;
-const TAKEN_TICKS: i32 = 100;
-const LOST_TICKS: i32 = 30;
-/// Ticks for which whoever has taken the ball along gathers it before they begin a kick; fitted to how often whoever lost it has it
-/// again soon.
-const GATHERS_TICKS: i32 = 100;
-/// Ticks between two tries of one player, and what share of their pace a failed one leaves them; chosen.
-const RETRY_TICKS: i32 = 24;
-const FAILED: f32 = 0.9;
 
-/// A player within reach of the ball that a rival controls tries to win it.
-pub fn challenge(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, near: f32) {
-    if near > TACKLE_M || game.ball.pos.z > 1.0 {
-        return;
-    }
-    let (tackler, victim) = (*game.player(id), *game.player(rival));
-    let ball = game.ball.pos.truncate();
-    // Who has less way to the ball, from which side, and who is the better.
-    let victim_m = victim.pos.distance(ball);
-    let exposed = ((victim_m - near) * 0.3).clamp(-0.15, 0.15);
-    // Close to his feet the ball is covered; a sprint pushes it away from them.
-    let open = (0.25 + victim_m).clamp(0.5, 1.0);
-    let tackle = tackler.skill(Stat::StandingTackle);
-    let keep =
-        0.5 * victim.skill(Stat::BallControl) + 0.3 * victim.skill(Stat::Dribble) + 0.2 * victim.skill(Stat::Balance);
-    let behind = (victim.pos - tackler.pos).normalize_or_zero().dot((ball - victim.pos).normalize_or_zero());
-    let chance = (TRIES + exposed + SKILL * (tackle - keep)) * open;
-    // Who stands with it is there to be tried from any side.
-    let still = (1.0 - victim.vel.length() / 1.5).max(0.0);
-    // Whoever runs into a defender with the ball runs it onto their feet.
-    let run = victim.vel.normalize_or_zero();
-    let into = (tackler.pos - victim.pos).normalize_or_zero().dot(run);
-    let into = ((into + BESIDE) / (1.0 + BESIDE)).max(0.0) * (1.0 - still);
-    // A ball that goes past the tackler fast is not where they thought.
-    let passing = (game.ball.vel.truncate() - tackler.vel).length();
-    let pushed = (passing - PASSING_MPS.start) / (PASSING_MPS.end - PASSING_MPS.start);
-    let meets = 1.0 - SURPRISED * pushed.clamp(0.0, 1.0);
-    let able = 1.0 - UNABLE * (1.0 - tackle / AVERAGE).clamp(-1.0, 1.0);
-    let chance = ((chance + INTO * into) * meets * able + STANDS * still).clamp(LEAST, 0.9);
+/// For how long nobody has seen what a rival's touch has made of the ball, ticks; how often at most it springs off a body; how
+/// high legs are, metres. (GRF's.)
+const UNSEEN_TICKS: i32 = 20;
+const BOUNCE_TICKS: i32 = 15;
+const LEGS_M: f32 = 1.0;
+/// How near a body's middle the ball meets its legs, metres; fitted to how often the ball changes sides at once.
+const BODY_M: f32 = 0.45;
+
+/// Lets legs that are there meet the ball, and those go out that can reach it; `near`: who may.
+pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
     let now = game.tick as i32;
-    if noise::happens(game, chance) {
-        if near < SOONER * victim_m && tackler.role != Role::GK {
-            take_over(game, events, id, rival);
-            return;
+    for id in game.order_of(near) {
+        if let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) {
+            game.players[id.index()].body.lunge = None;
+            meet(game, events, id, lunge);
+            if game.dead {
+                return;
+            }
         }
-        let brushed = win(game, events, id, rival, ball);
-        let loser = &mut game.players[rival.index()].body;
-        loser.ready_at = loser.ready_at.max(now + victim.shaken((1.0 - brushed) * BEATEN_TICKS) as i32);
-        let winner = &mut game.players[id.index()].body;
-        winner.ready_at = winner.ready_at.max(now + POKED_TICKS);
+    }
+    bounce(game, events, near);
+    let Some(rival) = game.owner.or_else(|| touch::controller(game)) else { return };
+    for id in game.order_of(near) {
+        if id.team() != rival.team() && game.tick.is_multiple_of(every(game, id, rival)) && may(game, id) {
+            begin(game, id, rival);
+        }
+    }
+}
+
+/// Whether a player is free to reach for the ball.
+fn may(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    player.is_up()
+        && player.body.lunge.is_none()
+        && game.tick as i32 >= player.body.ready_at
+        && touch::contests(game, id)
+}
+
+/// How often somebody thinks of reaching for the ball, ticks: whoever is sooner at it than who has it, their team's first,
+/// anybody else. (GRF's.)
+fn every(game: &Match, id: PlayerId, rival: PlayerId) -> u32 {
+    let first = game.play.chaser[id.team().index()] == Some(id);
+    match first {
+        true if game.player(id).body.meet_s < game.player(rival).body.meet_s => 2,
+        true => 4,
+        false => 5,
+    }
+}
+
+/// Reaches for the ball if one of the ways to do so will meet it.
+fn begin(game: &mut Match, id: PlayerId, rival: PlayerId) {
+    let (player, other) = (*game.player(id), *game.player(rival));
+    let seen = reach::has_seen(game, id);
+    // Whoever has not seen the last touch goes by the ball's way before it, if the touch has not changed much.
+    let ball_in = |ticks: u32| if seen { game.play.forecast.at(game.tick + ticks) } else { unseen(game, ticks) };
+    if ball_in(AHEAD_TICKS).distance(game.play.forecast.at(game.tick + AHEAD_TICKS)) > MISJUDGED_M {
         return;
     }
-    let beaten = &mut game.players[id.index()];
-    beaten.body.ready_at = now + RETRY_TICKS;
-    beaten.vel *= FAILED;
-    if near < 0.7 && foul::trips(game, id, rival) {
-        game.players[rival.index()].fall(foul::FALL_TICKS);
-        foul::call_or_let_run(game, events, id, rival, severity_of(behind));
+    let soon = |player: &Player| player.pos + player.vel * 0.1;
+    let to_ball = game.play.forecast.at(game.tick + 10).truncate() - soon(&other);
+    let hidden = (soon(&other) - soon(&player)).normalize_or_zero().dot(to_ball.normalize_or_zero());
+    let first = game.play.chaser[id.team().index()] == Some(id);
+    let sooner = player.body.meet_s < other.body.meet_s;
+    let pace = player.vel.length();
+    let slow = (game.ball.vel.truncate() - player.vel).length_squared() < TAKES_MPS * TAKES_MPS;
+    let takes = first && slow && (sooner || hidden <= HIDDEN[1]) && player.role != Role::GK;
+    let ways = if takes { &TAKES[..] } else { &[] };
+    let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { &POKES[..] };
+    for (ways, takes) in [(ways, true), (pokes, false)] {
+        let Some(gait) = ways.iter().find(|way| pace >= way.from_mps).map(|way| way.from_mps) else { continue };
+        for way in ways.iter().filter(|way| way.from_mps == gait) {
+            let ball = ball_in(way.ticks as u32);
+            if ball.z < LOW_M && reaches(&player, ball.truncate(), way) {
+                let now = game.tick as i32;
+                let body = &mut game.players[id.index()].body;
+                body.lunge = Some(Lunge { at: now + way.ticks, place: ball.truncate(), takes });
+                body.ready_at = now + way.lasts;
+                return;
+            }
+        }
     }
 }
 
-/// Somebody who runs beside the ball, nearer to it than whoever had it, takes it along: what is left of its own way is by
-/// chance.
-fn take_over(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
-    let tackler = *game.player(id);
-    let left = noise::roll(game) * BUMPY;
-    let faster = TAKEN_ON_MPS[0] + (TAKEN_ON_MPS[1] - TAKEN_ON_MPS[0]) * noise::roll(game);
-    let on = tackler.vel * STUMBLES + tackler.vel.normalize_or(tackler.body.facing) * faster;
-    let velocity = on.lerp(game.ball.vel.truncate(), left);
-    let hop = hop_mps(game);
-    report::did(game, events, EventKind::Tackle, id, Some(rival));
-    touch::push(game, events, id, velocity, hop);
-    game.play.kicked_by = None;
-    let now = game.tick as i32;
-    let loser = &mut game.players[rival.index()].body;
-    loser.ready_at = loser.ready_at.max(now + LOST_TICKS);
-    let winner = &mut game.players[id.index()];
-    winner.vel *= STUMBLES;
-    let winner = &mut winner.body;
-    winner.ready_at = winner.ready_at.max(now + TAKEN_TICKS);
-    (winner.kick, winner.turned_at) = (None, now + GATHERS_TICKS);
+/// Where the ball would be in so many ticks but for its last touch.
+fn unseen(game: &Match, ticks: u32) -> Vec3 {
+    let since_s = (game.tick + ticks).saturating_sub(game.play.unseen_at) as f32 * 0.01;
+    let ball = game.play.unseen;
+    (ball.pos.truncate() + ball.vel.truncate() * since_s).extend(ball.pos.z)
 }
 
-/// How fast a ball hops off a tackle, m/s. Measured.
-fn hop_mps(game: &mut Match) -> f32 {
-    1.5 + 2.5 * noise::roll(game)
+/// Whether a ball will be where a foot goes.
+fn reaches(player: &Player, ball: Vec2, way: &Reach) -> bool {
+    let run = if way.from_mps > 0.0 { player.vel.normalize_or(player.body.facing) } else { player.body.facing };
+    let to_ball = ball - player.pos - player.vel * (way.ticks as f32 * 0.01);
+    let (along, across) = (to_ball.dot(run) - way.ahead_m, to_ball.perp_dot(run).abs() - way.aside_m);
+    let (along, across) = (along / way.along_m, across / way.across_m);
+    along * along + across * across <= 1.0
+}
+
+/// The foot is where the ball was to be.
+fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
+    let ball = game.ball.pos;
+    let off = ball.truncate().distance(lunge.place) / MISSED_M;
+    let rival = game.owner.or_else(|| touch::controller(game)).filter(|rival| rival.team() != id.team());
+    if off >= 1.0 || ball.z > 1.0 || !game.player(id).is_up() || game.play.hands.is_some() {
+        if let Some(rival) = rival
+            && game.player(rival).pos.distance(game.player(id).pos) < 1.0
+            && foul::trips(game, id, rival)
+        {
+            let (tackler, victim) = (game.player(id).pos, game.player(rival).pos);
+            let behind = (victim - tackler).normalize_or_zero().dot((ball.truncate() - victim).normalize_or_zero());
+            game.players[rival.index()].fall(foul::FALL_TICKS);
+            foul::call_or_let_run(game, events, id, rival, severity_of(behind));
+        }
+        return;
+    }
+    let left = math::smooth(math::smooth(off));
+    let before = game.ball.vel;
+    let taken = first_touch::contested(game, id);
+    let velocity = if lunge.takes {
+        taken
+    } else {
+        let tackler = game.player(id);
+        let away = (ball.truncate() - tackler.pos).normalize_or_zero();
+        let poked = if tackler.role == Role::GK { KEEPER_MPS } else { POKED_MPS };
+        taken * 0.5 + (away * poked).extend(0.5 + noise::roll(game))
+    };
+    let velocity = velocity.lerp(before, left);
+    if let Some(rival) = rival {
+        report::did(game, events, EventKind::Tackle, id, Some(rival));
+    }
+    touch::push(game, events, id, velocity.truncate(), velocity.z);
+    if !lunge.takes {
+        // A poke is no deliberate kick: the keeper may pick it up.
+        game.play.kicked_by = None;
+    }
+}
+
+/// The ball springs off the body of somebody whose rival has just touched it: they could not have seen it coming. (GRF's.)
+fn bounce(game: &mut Match, events: &mut Events, near: Squad) {
+    let Some(last) = game.last_touch else { return };
+    let since = ticks_since(game.tick, game.player(last).body.touched_at);
+    let ball = game.ball.pos;
+    if since >= UNSEEN_TICKS || ball.z > LEGS_M || ticks_since(game.tick, game.play.bounced_at) <= BOUNCE_TICKS {
+        return;
+    }
+    let hit = game.order_of(near).find(|&id| {
+        let player = game.player(id);
+        id.team() != last.team()
+            && player.is_up()
+            && player.pos.distance_squared(ball.truncate()) < BODY_M * BODY_M
+            && ticks_since(game.tick, player.body.touched_at) >= UNSEEN_TICKS
+            && player.body.lunge.is_none()
+    });
+    let Some(id) = hit else { return };
+    let player = *game.player(id);
+    let from = ball.truncate() - player.pos;
+    let recent = 0.2 + 0.8 * (1.0 - since as f32 / UNSEEN_TICKS as f32);
+    let away = (from.normalize_or(player.body.facing) * recent + player.vel * (1.0 - recent)).normalize_or_zero();
+    let velocity = game.ball.vel;
+    let speed = velocity.length();
+    let full = away.extend(0.0) * (6.0 + 0.6 * speed) - velocity * 0.2;
+    let squarely = 1.0 - 0.25 * from.length() / BODY_M;
+    flight::sprang(game, events, id);
+    game.play.bounced_at = game.tick as i32;
+    game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * 0.7;
+    forecast::renew(game);
 }
 
 /// How bad a standing foul is: from behind is worse.
 fn severity_of(behind: f32) -> f32 {
     1.05 + 0.3 * behind.max(0.0)
-}
-
-/// The tackler's foot meets the ball, fully or in part: what is left of its way is returned, 0..1.
-fn win(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId, ball: Vec2) -> f32 {
-    let tackler = *game.player(id);
-    let away = (ball - tackler.pos).normalize_or_zero();
-    // A keeper who has come out wants it gone.
-    let keeper = tackler.role == Role::GK;
-    let (poked, brush) = if keeper { (KEEPER_MPS, KEEPER_BRUSHED) } else { (POKED_MPS, BRUSHED) };
-    let met = tackler.vel * FOLLOWS + away * (poked * (SOFTEST + (1.0 - SOFTEST) * noise::roll(game)));
-    let passing = game.ball.vel.truncate() - tackler.vel;
-    let brushed = math::smooth(math::smooth(libm::powf(noise::roll(game), brush)));
-    let velocity = met.lerp(tackler.vel + passing * LEFT, brushed);
-    let hop = hop_mps(game);
-    report::did(game, events, EventKind::Tackle, id, Some(rival));
-    touch::push(game, events, id, velocity, hop);
-    // A poke is no deliberate kick: the keeper may pick it up.
-    game.play.kicked_by = None;
-    brushed
 }

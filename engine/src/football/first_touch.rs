@@ -61,7 +61,7 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let wish = player.body.dribble;
     let to_ball = ball.pos.truncate() - player.pos;
     let lies = ball.vel.length_squared() < dribble::LIES_MPS * dribble::LIES_MPS;
-    let care = dribble::Care { pressed: false, lines: dribble::minds_lines(game, id), lies };
+    let care = dribble::Care { lines: dribble::minds_lines(game, id), lies };
     let ahead = wish.normalize_or_zero();
     let hard = meeting > HOPS_MPS;
     let soft = match (wish.length_squared() > 0.25, hard) {
@@ -90,6 +90,30 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     if lies && wish.dot(to_ball) > 0.0 {
         taker.vel *= TAKEN_UP;
     }
+}
+
+/// The velocity with which a player takes along a ball that a rival has just played: it springs off further, and keeps some
+/// of its own way. (GRF's.)
+pub(super) fn contested(game: &mut Match, id: PlayerId) -> Vec3 {
+    let player = *game.player(id);
+    let ball = game.ball;
+    let window = 100.0 - 50.0 * player.skill(Stat::Reaction);
+    let since = game.last_touch.map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let lately = libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6);
+    let skill = (1.0 - 0.5 * player.skill(Stat::BallControl)) * (0.5 + 0.5 * noise::roll(game));
+    let pushed = 2.0 * (player.body.push_m / 0.1).min(1.0);
+    let far = ((2.0 * pushed + 5.0 * lately) * skill).clamp(0.0, 1.0);
+    let high = ((0.5 * pushed + 5.0 * lately) * skill).clamp(0.0, 1.0);
+    let kept = (0.5 * lately * skill).clamp(0.0, 1.0);
+    let wish = player.body.dribble;
+    let speed = wish.length().max(player.vel.length());
+    let ahead = wish.normalize_or(player.vel.normalize_or(player.body.facing));
+    let to_ball = ball.pos.truncate() - player.pos;
+    let care = dribble::Care { lines: dribble::minds_lines(game, id), lies: false };
+    let on = dribble::ahead(&player, to_ball, ahead, speed.min(player.body.speed_top_mps), &care);
+    let on = dribble::longer(on, far);
+    let up = ball.vel.z * high + 4.0 * high;
+    on.extend(0.5 + up).lerp(ball.vel, kept)
 }
 
 /// How fast a ball rises from the body that takes it, m/s, by how fast they meet. Measured: taken at hip height it comes

@@ -42,13 +42,18 @@ pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
             events.push(of_shot(game, EventKind::Shot, shot).qualified(verdict));
         }
     }
+    sprang(game, events, by);
+    // He has not seen it coming.
+    let body = &mut game.players[by.index()].body;
+    body.ready_at = body.ready_at.max(game.tick as i32 + STUNNED_TICKS);
+}
+
+/// Records that a rolling ball sprang off a player's legs.
+pub fn sprang(game: &mut Match, events: &mut Events, by: PlayerId) {
     report::did(game, events, EventKind::Touch, by, None);
     // A pass that springs off somebody is nobody's any more.
     game.play.pass = game.play.pass.filter(|pass| pass.by == by);
     note(game, by, Touch::Sprang);
-    // He has not seen it coming.
-    let body = &mut game.players[by.index()].body;
-    body.ready_at = body.ready_at.max(game.tick as i32 + STUNNED_TICKS);
     game.play.kicked_by = None;
 }
 
@@ -100,6 +105,9 @@ pub enum Touch {
 
 /// Notes the last toucher and who is offside from now on.
 pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
+    if game.play.unseen_at != game.tick {
+        (game.play.unseen, game.play.unseen_at) = (game.ball, game.tick);
+    }
     game.last_touch = Some(by);
     game.play.lead = by.team();
     game.players[by.index()].body.touched_at = game.tick as i32;

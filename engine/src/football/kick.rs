@@ -13,7 +13,7 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
 /// Ticks from the beginning of a bot's swing to the contact: a pass on the ground, a lofted one, a shot.
-const SWING_TICKS: [i32; 3] = [23, 18, 15];
+const SWING_TICKS: [i32; 3] = [28, 25, 22];
 /// Ticks that a kick waits for the ball once its key is let go. (GRF's.)
 pub const PATIENCE_TICKS: i32 = 200;
 /// A key held for longer than this no longer keeps the swing from beginning, ticks. (GRF's.)

@@ -125,6 +125,12 @@ fn delay_ticks(player: &Player, driven: bool) -> i32 {
     (8.0 - 4.0 * player.body.stats[Stat::Reaction.index()] + slow) as i32
 }
 
+/// Whether a player has seen what the last touch has made of the ball.
+pub fn has_seen(game: &Match, id: PlayerId) -> bool {
+    let (since, toucher) = last_touch(game);
+    toucher == Some(id) || since >= delay_ticks(game.player(id), game.play.driven & (1 << id.0) != 0)
+}
+
 /// Ticks since the last touch, and whose it was.
 fn last_touch(game: &Match) -> (i32, Option<PlayerId>) {
     let since = |id: PlayerId| ticks_since(game.tick, game.player(id).body.touched_at);

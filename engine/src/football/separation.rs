@@ -32,6 +32,8 @@ const DRAG: f32 = 0.25;
 const BACK: f32 = 0.8;
 const PACE: f32 = 0.2;
 const BALL_M: f32 = 0.6;
+/// A leg that is out for the ball, without any skill, and what all of it adds. (GRF's.)
+const TACKLES: [f32; 2] = [0.1, 0.4];
 const FIRST_PUSHED: f32 = 0.4;
 const FIRST_DRAGGED: f32 = 0.6;
 /// Share of a displacement in two ticks that a runner's own velocity takes over; fitted to how dribblers are slowed.
@@ -119,6 +121,7 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     let pace = (a.vel.length() - b.vel.length()) / SPRINT_MPS;
     let mut stands = BACK * (back(&a, -away) - back(&b, away)) - PACE * pace.clamp(-1.0, 1.0) + a.skill(Stat::Balance)
         - b.skill(Stat::Balance);
+    stands += tackles(&a) - tackles(&b);
     if game.play.chaser[i.team().index()] == Some(i) && game.play.chaser[j.team().index()] == Some(j) {
         let ball = game.ball.pos.truncate();
         let off = |player: &Player| player.pos.distance(ball).min(2.0 * BALL_M);
@@ -149,6 +152,12 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
         let victim = if a.body.facing.dot(away) < b.body.facing.dot(-away) { i } else { j };
         foul::shove(game, events, if victim == i { j } else { i }, victim, -closing);
     }
+}
+
+/// How much better somebody stands whose leg is out for the ball. (GRF's.)
+fn tackles(player: &Player) -> f32 {
+    let pokes = player.body.lunge.is_some_and(|lunge| !lunge.takes);
+    if pokes { TACKLES[0] + TACKLES[1] * player.skill(Stat::StandingTackle) } else { 0.0 }
 }
 
 /// Moves a player in two ticks by so much, metres; their own velocity takes some of it over.

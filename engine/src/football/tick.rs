@@ -3,8 +3,8 @@
 use crate::event::Events;
 use crate::football::play::ticks_since;
 use crate::football::{
-    advantage, flight, forecast, foul, keeper, kick, movement, possession, reach, referee, report, restart, separation,
-    slide, touch,
+    advantage, duel, flight, forecast, foul, keeper, kick, movement, possession, reach, referee, report, restart,
+    separation, slide, touch,
 };
 use crate::laps::Phase;
 use crate::physics::{self, Body, Contact, Scratch};
@@ -37,6 +37,7 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     slide::resolve(game, events, busy.slides);
     kick::kick_ball(game, events, busy.kicks);
     let near = touch::near(game);
+    duel::contest(game, events, touch::about(game));
     touch::play_ball(game, events, near);
     scratch.laps().end(Phase::Play);
     if !game.dead {

@@ -6,7 +6,7 @@
 use crate::event::Events;
 use crate::football::body::Intent;
 use crate::football::play::ticks_since;
-use crate::football::{dribble, duel, first_touch, flight, forecast, kick};
+use crate::football::{dribble, first_touch, flight, forecast, kick};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
@@ -23,6 +23,10 @@ const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
 /// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast ball that meets a body less
 /// than 1.3.
 pub(super) const NEAR_M: f32 = 1.3;
+/// From how far somebody may reach for the ball, metres: as far as they run until their foot is there.
+const ABOUT_M: f32 = 3.5;
+/// For how many ticks before a bot's kick its leg is on the way. (Measured of GRF's motions.)
+const SWING_TICKS: i32 = 28;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 14;
 
@@ -36,6 +40,14 @@ pub(super) fn near(game: &Match) -> Squad {
         }
     }
     near
+}
+
+/// Who is so near to the ball that they may reach for it.
+pub(super) fn about(game: &Match) -> Squad {
+    let ball = game.ball.pos.truncate();
+    let free = !game.dead && game.play.hands.is_none() && game.play.set_piece.is_none();
+    let near = |id: &PlayerId| game.player(*id).pos.distance_squared(ball) <= ABOUT_M * ABOUT_M;
+    game.squad.ids().filter(|id| free && near(id)).collect()
 }
 
 /// Lets whoever can and will play the ball do so; at most one touch a tick. `near`: who may be in reach.
@@ -60,7 +72,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
             // His own touch comes first; where he lets the ball be, a rival may try it.
             let foot = dribble::foot_m(game, player);
             let reaches = distance <= foot * foot && ball.z < FOOT_HIGH_M;
-            if reaches && wants_ball(game, id) && dribble::touch(game, events, id) {
+            if reaches && wants_ball(game, id) && !swings(game, id) && dribble::touch(game, events, id) {
                 return;
             }
         } else if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
@@ -69,11 +81,15 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     }
     let Some((distance, id)) = nearest else { return };
     let near = libm::sqrtf(distance);
-    if let Some(rival) = owner.filter(|rival| rival.team() != id.team()) {
-        duel::challenge(game, events, id, rival, near);
-    } else if near <= first_touch::reach_m(game, id) && !about_to_kick(game, id) {
+    let contested = owner.is_some_and(|rival| rival.team() != id.team());
+    if !contested && near <= first_touch::reach_m(game, id) && !about_to_kick(game, id) {
         first_touch::take(game, events, id);
     }
+}
+
+/// Whether a player would reach for a ball that a rival has.
+pub(super) fn contests(game: &Match, id: PlayerId) -> bool {
+    (game.player(id).ai != Ai::Lazy || is_driven(game, id)) && game.last_touch != Some(id)
 }
 
 /// Whether whoever had the ball last can play it on: not at once after a poke at a rival's ball, so that it is anybody's.
@@ -120,6 +136,12 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
         Some(to) if to != id => game.play.chaser[id.team().index()] == Some(id),
         _ => game.play.shot.is_none() || matches!(player.body.intent, Intent::Ball(_)),
     }
+}
+
+/// Whether a bot's leg is on its way to a kick: it lets the ball roll until then.
+fn swings(game: &Match, id: PlayerId) -> bool {
+    let swing = game.player(id).body.kick.and_then(|plan| plan.swing);
+    !is_driven(game, id) && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
 }
 
 /// Whether a player stands at the ball of a start and only has to push it straight on: they do so at once.

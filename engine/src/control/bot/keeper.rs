@@ -8,6 +8,7 @@ use crate::math::share;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
+use setpiece_scenario::vocabulary::Stat;
 
 /// Further up than this, own frame x, metres, a keeper without mates plays as the only player they are; chosen.
 const STRAYED_M: f32 = -15.0;
@@ -25,6 +26,15 @@ const UP_SHARE: f32 = 0.3;
 /// From how far the opponent on the ball and a second one shoot, metres. (GRF's.)
 const RIVAL_SHOOTS_M: f32 = 20.0;
 const SECOND_SHOOTS_M: f32 = 24.0;
+/// Over how many ticks the course of a ball is read, within how many it must be over the line to be bound for goal, from how
+/// far that worries a keeper, and how far before the line they meet it, metres. (GRF's.)
+const COURSE_TICKS: u32 = 80;
+const BOUND_TICKS: u32 = 400;
+const BOUND_M: f32 = 32.0;
+const BEFORE_LINE_M: f32 = 0.4;
+/// How fast a keeper who keeps facing the ball sets off, and how much faster they get in a step, m/s. Measured.
+const SIDLES_MPS: f32 = 3.5;
+const GAINS_MPS: f32 = 0.5;
 /// Seconds by which it must be theirs there; chosen.
 const FAR_LEAD_S: f32 = 3.0;
 
@@ -46,7 +56,7 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
         return true;
     }
     let (spot, speed) = post(game, view, id);
-    send(game, view, id, spot, speed);
+    send(game, view, id, spot, speed.min((player.vel.length() + GAINS_MPS).max(SIDLES_MPS)));
     true
 }
 
@@ -56,6 +66,9 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
 /// ball; all the way out to an opponent that no mate can stop any more, unless a second one waits for that. (GRF's.)
 fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
     let keeper = game.player(id).pos * view.side;
+    if let Some(spot) = in_the_way(game, view, id) {
+        return (spot, SPRINT_MPS);
+    }
     let ball = game.play.forecast.at(game.tick + LOOK_TICKS).truncate() * view.side;
     if ball.x > 0.0 {
         return (Vec2::new(WAIT_M - GOAL.x, 0.0), SPRINT_MPS);
@@ -85,6 +98,31 @@ fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
     let on_line = way.normalize_or_zero().perp_dot(keeper - foot).abs() < 1.0;
     let back = spot.distance(-GOAL) < keeper.distance(-GOAL);
     (spot, if back && on_line { RUN_MPS } else { SPRINT_MPS })
+}
+
+/// The nearest point of the way of a ball that is bound for goal, own frame; none for any other ball. A ball that somebody
+/// dribbles towards the goal counts too. (GRF's.)
+fn in_the_way(game: &Match, view: &View, id: PlayerId) -> Option<Vec2> {
+    let player = game.player(id);
+    let at = |ticks: u32| game.play.forecast.at(game.tick + ticks).truncate() * view.side;
+    let (ball, soon) = (at(1), at(COURSE_TICKS));
+    let way = soon - ball;
+    let rolls_in = at(BOUND_TICKS).x < -GOAL.x && way.x < 0.0;
+    if !rolls_in || (player.pos * view.side).distance(at(25)) > BOUND_M {
+        return None;
+    }
+    let y = ball.y + way.y * (-GOAL.x - ball.x) / way.x;
+    let reads = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
+    if y.abs() > GOAL_HALF_WIDTH_M as f32 * (1.02 + 0.5 * (1.0 - reads)) {
+        return None;
+    }
+    let line = Vec2::new(-GOAL.x, y);
+    let end = line + (ball - line).normalize_or_zero() * BEFORE_LINE_M;
+    let course = end - ball;
+    let own = (player.pos + player.vel * 0.05) * view.side - ball;
+    let share = (own.dot(course) / course.length_squared().max(1e-3)).clamp(0.0, 1.0);
+    let spot = ball + course * share;
+    Some(Vec2::new(spot.x.max(0.2 - GOAL.x), spot.y))
 }
 
 /// Where the line from a place that halves the view of the goal meets the goal line, own frame y, metres.

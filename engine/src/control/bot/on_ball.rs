@@ -4,6 +4,7 @@ use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, dribbling, odds};
 use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::SPRINT_MPS;
+use crate::football::play::ticks_since;
 use crate::football::{kick, noise};
 use crate::math::{self, ease, share};
 use crate::state::{Match, PlayerId};
@@ -48,6 +49,9 @@ const KEEPER_CALM: f32 = 3.0;
 const AHEAD_S: f32 = 1.0;
 /// How far off in time a rival must be for a clearance to come off, seconds; chosen.
 const SWING_S: f32 = 0.1;
+/// Ticks from a touch of a dribble, and from taking the ball down, until a player can begin something else. (Measured of
+/// GRF's motions.)
+const REST_TICKS: [i32; 2] = [20, 26];
 /// Ticks after which a kick that did not come off is thought over; chosen.
 const MIND_TICKS: i32 = 80;
 
@@ -217,7 +221,8 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
         return;
     }
     let until = game.tick as i32 + MIND_TICKS;
-    let plan = |kind: KickKind| KickPlan { until, ..kick::planned(kind, game.tick) };
+    let from = game.tick + rest_ticks(game, id);
+    let plan = |kind: KickKind| KickPlan { until, ..kick::planned(kind, from) };
     let (shot, clearance) = (plan(KickKind::Shot), plan(KickKind::Clear));
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
@@ -230,7 +235,7 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
             game.players[id.index()].body.kick = Some(plan);
         }
         Act::Pass(mate, kind) => {
-            body.kick = Some(KickPlan { until, mate: Some(mate), ..kick::planned(kind, game.tick) });
+            body.kick = Some(KickPlan { until, mate: Some(mate), ..kick::planned(kind, from) });
         }
         Act::Clear => {
             let facing = body.facing * view.side;
@@ -240,6 +245,14 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
             body.kick = Some(KickPlan { dir: Some(dir), ..clearance });
         }
     }
+}
+
+/// Ticks until whoever has just touched the ball can do something else: longer where they have taken it down.
+fn rest_ticks(game: &Match, id: PlayerId) -> u32 {
+    let body = &game.player(id).body;
+    let taken = game.owner == Some(id) && (game.play.owned_since as i32 - body.touched_at).abs() < 5;
+    let rests = if taken { REST_TICKS[1] } else { REST_TICKS[0] };
+    (rests - ticks_since(game.tick, body.touched_at)).max(0) as u32
 }
 
 /// The keeper lets the ball go: soon if a mate is free, in any case after four seconds.

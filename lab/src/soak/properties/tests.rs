@@ -59,7 +59,11 @@ fn steps(episode: u64) -> Vec<Taken> {
 
 /// A step of open play, in which nothing has happened.
 fn open(steps: &[Taken]) -> Taken {
-    let quiet = |step: &&Taken| step.events.is_empty() && step.after.play.set_piece.is_none() && !step.judged.dead;
+    // What is spoilt is the third player's, whom no agent may have.
+    let quiet = |step: &&Taken| {
+        let free = step.after.agents.iter().all(|agent| agent.player != Some(PlayerId(3)));
+        step.events.is_empty() && step.after.play.set_piece.is_none() && !step.judged.dead && free
+    };
     steps.iter().filter(quiet).nth(40).unwrap().clone()
 }
 

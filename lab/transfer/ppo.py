@@ -26,8 +26,37 @@ RATE = 7e-4  # falls to 0
 ENTROPY = 0.01
 VALUE = 0.5
 NORM_MAX = 0.5
+HIDDEN_M = 0.6
+"""How far off a place may be for an episode of the training, metres: about half a cell."""
+FLICKER_M = 0.2
+"""How much it varies from step to step, standard deviation in metres."""
 RECENT = 1_000
 """Episodes of the score that is reported and that may end the training."""
+
+
+class Blur:
+    """Moves the places that a policy trains on: by as much as a cell hides, for an episode and from step to step.
+
+    A policy that has only seen exact courses takes another cell for another world.
+    """
+
+    def __init__(self, roster: Roster, envs: int, rng: np.random.Generator) -> None:
+        places = 2 * (2 + roster.players)
+        self.rng, self.envs, self.places = rng, envs, places
+        # The way to the ball and the flags lie between the places and the ways since the last maps.
+        self.ways = slice(places + 2 + roster.players, roster.features)
+        self.offsets = np.zeros((envs, places), np.float32)
+
+    def move(self, features: np.ndarray, first: np.ndarray) -> np.ndarray:
+        """Returns the features `(envs, features)` moved; `first` is `(envs,)` bool: an episode starts with them."""
+        drawn = self.rng.uniform(-HIDDEN_M, HIDDEN_M, self.offsets.shape).astype(np.float32)
+        self.offsets = np.where(first[:, None], drawn, self.offsets)
+        moved = features.copy()
+        moved[:, : self.places] += self.offsets
+        moved[:, self.places : self.places + 2] += self.offsets[:, 0:2] - self.offsets[:, 2:4]
+        for part in (slice(0, self.places + 2), self.ways):
+            moved[:, part] += self.rng.normal(0.0, FLICKER_M, moved[:, part].shape).astype(np.float32)
+        return moved
 
 
 @dataclass
@@ -124,7 +153,8 @@ def train(
     values = np.zeros((STEPS_OF_ENV + 1, ENVS), np.float32)
     terminated, over, idle = (np.zeros(shape, bool) for _ in range(3))
     first, ended = np.ones(ENVS, bool), np.zeros(ENVS, bool)
-    features = tracker.see(maps, first)
+    blur = Blur(roster, ENVS, rng)
+    features = blur.move(tracker.see(maps, first), first)
     recent: deque[int] = deque(maxlen=RECENT)
     size = STEPS_OF_ENV * ENVS
     updates, done = max(2, steps // size), 0
@@ -141,7 +171,7 @@ def train(
             ended = turn.terminated | turn.truncated
             paid[at], terminated[at], over[at] = turn.rewards, turn.terminated, ended
             recent.extend(turn.ahead[ended].tolist())
-            features = tracker.see(turn.maps, first)
+            features = blur.move(tracker.see(turn.maps, first), first)
         done += size
         scale.take(raw.reshape(size, -1))
         score = float(np.mean(recent)) if recent else float("nan")

@@ -44,6 +44,8 @@ pub struct Body {
     pub ready_at: i32,
     /// Tick before which they begin no kick: they are still turning with the ball.
     pub turned_at: i32,
+    /// Tick until which a leg that has kicked follows through.
+    pub follows_until: i32,
     /// A leg that is out for the ball.
     pub lunge: Option<Lunge>,
     /// Where he can first meet the ball.
@@ -133,6 +135,8 @@ pub struct Swing {
     pub way: Option<Vec2>,
     /// The mate meant as it began.
     pub mate: Option<PlayerId>,
+    /// How fast the player ran as it began, m/s.
+    pub from_mps: f32,
 }
 
 /// What the bot has in mind for a player.
@@ -170,6 +174,7 @@ impl Body {
             touched_at: NEVER,
             ready_at: NEVER,
             turned_at: NEVER,
+            follows_until: NEVER,
             lunge: None,
             meet: Vec2::ZERO,
             meet_s: 9.0,

@@ -32,7 +32,7 @@ const BEGIN_M: f32 = 1.3;
 const BEGIN_PACE: f32 = 0.7;
 /// How soon a sprinter shoots whose ball comes to their foot, ticks, and how near that is, metres; fitted to how soon shots
 /// leave from many points of the stride.
-const QUICK_TICKS: i32 = 40;
+const QUICK_TICKS: i32 = 48;
 const REACH_M: f32 = 0.8;
 /// How soon a ball that comes fast can be struck without being taken, ticks. Fitted to how late that can be asked for.
 const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;
@@ -45,6 +45,10 @@ const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
 const TAKES_MPS: f32 = 8.0;
 /// A swing begins for a ball that is no higher at the contact, metres; chosen.
 const LOW_M: f32 = 0.5;
+/// How near it must be to a leg that has been on its way to it, metres; chosen.
+const STRETCH_M: f32 = 1.2;
+/// For how many ticks a leg that has kicked follows through. Measured.
+const FOLLOW_TICKS: i32 = 20;
 /// Highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
@@ -56,7 +60,7 @@ pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
         KickKind::High => SWING_TICKS[1],
         KickKind::Shot | KickKind::Clear => SWING_TICKS[2],
     };
-    let swing = Swing { ready_at: now + ticks, way: None, mate: None };
+    let swing = Swing { ready_at: now + ticks, way: None, mate: None, from_mps: RUN_MPS };
     KickPlan { swing: Some(swing), until: now + PATIENCE_TICKS, ..asked(kind) }
 }
 
@@ -67,7 +71,7 @@ pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
 
 /// A set piece that a bot takes from now on.
 pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
-    let swing = Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None };
+    let swing = Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None, from_mps: RUN_MPS };
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
@@ -149,7 +153,8 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         }
     };
     let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
-    (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
+    let from_mps = if at_hand { RUN_MPS } else { player.vel.length() };
+    (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, from_mps })
 }
 
 /// Whether a player takes the ball before they kick it, or is still taking it: it comes fast, from somebody else.
@@ -186,7 +191,8 @@ fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swi
     };
     plan.taken = !noise::happens(game, often);
     let (way, mate) = meant(game, id, plan);
-    (!plan.taken).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate })
+    let from_mps = game.player(id).vel.length();
+    (!plan.taken).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, from_mps })
 }
 
 /// How far a player will be from the ball so many ticks from now, metres; `pace`: what share of their own is left to them
@@ -250,7 +256,7 @@ fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     let [stand, walk, sprint, back] = match plan.kind {
         KickKind::Short | KickKind::Long => [34.0, 28.0, 38.0, 0.0],
         KickKind::High => [24.0, 22.0, 26.0, 5.0],
-        KickKind::Shot | KickKind::Clear => [25.0, 24.0, 42.0, 10.0],
+        KickKind::Shot | KickKind::Clear => [25.0, 24.0, 54.0, 10.0],
     };
     let straight =
         stand + (walk - stand) * walks + (sprint - walk) * sprints - if plan.held { back * walks } else { 0.0 };
@@ -278,7 +284,9 @@ fn can_kick(game: &Match, id: PlayerId) -> bool {
     }
     let player = game.player(id);
     let ball = game.ball.pos;
-    if ball.z > VOLLEY_M || player.pos.distance_squared(ball.truncate()) > KICK_M * KICK_M {
+    let stretched = player.body.kick.is_some_and(|plan| plan.swing.is_some_and(|swing| swing.way.is_some()));
+    let reach_m = if stretched { STRETCH_M } else { KICK_M };
+    if ball.z > VOLLEY_M || player.pos.distance_squared(ball.truncate()) > reach_m * reach_m {
         return false;
     }
     if (game.tick as i32) < player.body.ready_at {
@@ -333,6 +341,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     flight::note(game, id, if exempt { flight::Touch::Exempt } else { flight::Touch::Played });
     // The kicker does not meet his own ball again at once.
     game.players[id.index()].body.ready_at = game.tick as i32 + 30;
+    game.players[id.index()].body.follows_until = game.tick as i32 + FOLLOW_TICKS;
     game.mode = GameMode::Normal;
     if let Some(mode) = mode {
         let kind = crate::football::restart::event_of(mode);

@@ -12,7 +12,7 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
 
 /// The hardest pass along the ground at a resting ball, m/s. Measured.
-const GROUND_MPS: f32 = 25.2;
+const GROUND_MPS: f32 = 27.6;
 /// How much harder it is struck in stride at most, m/s. Measured.
 const STRIDE_MPS: f32 = 1.4;
 /// The hardest pass behind one's back, m/s. Measured.

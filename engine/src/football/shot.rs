@@ -33,6 +33,8 @@ const LIFTS: f32 = 1.25;
 /// the measured heights.
 const EASIEST_MPS: f32 = 3.5;
 const LEFT_MPS: f32 = 3.8;
+/// Slower than this as the swing begins nobody runs yet, m/s. (GRF's.)
+const SLOW_MPS: f32 = 4.2;
 /// The pace beyond which a run makes aiming no harder, m/s; fitted to how far shots on the run go astray.
 const RUN_MPS: f32 = 6.0;
 /// How hard the easiest shot is. Fitted to the measured directions.
@@ -126,7 +128,10 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
         let easy = 1.0 - 0.3 * ((pace - EASIEST_MPS).abs() / 4.0).clamp(0.0, 1.0);
         (1.0 - ease * easy).clamp(LEAST_HARD, 1.0)
     };
-    let hard = hard_at(player.vel.length().clamp(STEP_MPS, RUN_MPS));
+    // Whoever has begun to swing before they were running strikes the ball from a step.
+    let steps = plan.swing.is_some_and(|swing| swing.from_mps < SLOW_MPS);
+    let pace = if steps { STEP_MPS } else { pace };
+    let hard = hard_at(if steps { pace } else { player.vel.length().clamp(STEP_MPS, RUN_MPS) });
     let harder = libm::powf(hard, 0.7);
     let lifts = libm::powf(hard_at(pace.min(LEFT_MPS)), 0.7);
 

@@ -16,6 +16,7 @@ pub mod switching;
 pub mod tell;
 
 use crate::event::Events;
+use crate::football::body::KickKind;
 use crate::football::play::Acting;
 use crate::football::{forecast, reach};
 use crate::state::{AgentSlot, Match, PlayerId};
@@ -97,9 +98,13 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
             let acting = &mut game.play.acting[id.index()];
             *acting = Acting { played: Some(action), key: None, sticky: agent.sticky, chosen: None };
             let held = driver::Held { sticky: agent.sticky, steer: agent.steer, key: agent.key };
-            game.agents[slot].key = driver::drive(game, events, id, held, hurry(game, id, action));
+            game.agents[slot].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         } else {
             game.agents[slot].key = None;
+            // Who is handed to the bot holds no key any more.
+            if let Some(plan) = agent.player.and_then(|id| game.players[id.index()].body.kick.as_mut()) {
+                plan.held = false;
+            }
         }
     }
     drive_scripted(game, events);
@@ -129,19 +134,20 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
             let held = acting.sticky;
             game.play.driven |= bit;
             let held = driver::Held { sticky: held, steer: None, key: game.play.acting[i].key };
-            game.play.acting[i].key = driver::drive(game, events, id, held, hurry(game, id, action));
+            game.play.acting[i].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         }
     }
 }
 
-/// A set piece that an agent doesn't take is taken for it: a short pass is pressed, once, and let go.
-fn hurry(game: &Match, id: PlayerId, action: Action) -> Action {
+/// A set piece that an agent doesn't take is taken for it: a short pass is pressed, once, and let go; a key that has been down
+/// since before is let go first. `key`: the kick whose key is down.
+fn hurry(game: &Match, id: PlayerId, action: Action, key: Option<KickKind>) -> Action {
     let asked = game.player(id).body.kick.is_some();
     let waiting = game.play.set_piece.filter(|set_piece| set_piece.taker == id && game.rule(Rule::AntiStalling));
     match waiting.map_or(0, |set_piece| set_piece.waited_steps) {
         ..STALLING_STEPS => action,
-        STALLING_STEPS => Action::ShortPass,
-        _ if asked => Action::Idle,
+        STALLING_STEPS if asked || key.is_none() => Action::ShortPass,
+        _ if asked || key == Some(KickKind::Short) => Action::Idle,
         _ => Action::ShortPass,
     }
 }

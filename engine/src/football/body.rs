@@ -135,8 +135,8 @@ pub struct Swing {
     pub way: Option<Vec2>,
     /// The mate meant as it began.
     pub mate: Option<PlayerId>,
-    /// How fast the player ran as it began, m/s.
-    pub from_mps: f32,
+    /// Whether the player was running as it began.
+    pub runs: bool,
 }
 
 /// What the bot has in mind for a player.

@@ -22,7 +22,8 @@ pub struct Lunge {
     pub takes: bool,
 }
 
-/// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where.)
+/// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where. How far off the
+/// ball may be is fitted to how often somebody who walks straight at a defender loses it.)
 struct Reach {
     /// The slowest pace at which it is done, m/s.
     from_mps: f32,
@@ -43,20 +44,20 @@ const fn reach(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32
 
 /// Pokes, the fastest first.
 const POKES: [Reach; 5] = [
-    reach(6.0, [12, 39], [0.77, 0.0], [0.36, 0.11]),
-    reach(1.8, [9, 26], [0.61, 0.0], [0.43, 0.17]),
-    reach(1.8, [24, 58], [-0.5, 0.7], [0.43, 0.17]),
-    reach(0.0, [11, 28], [0.9, 0.0], [0.45, 0.27]),
-    reach(0.0, [15, 35], [0.0, 1.05], [0.45, 0.27]),
+    reach(6.0, [12, 39], [0.77, 0.0], [0.47, 0.17]),
+    reach(1.8, [9, 26], [0.61, 0.0], [0.56, 0.26]),
+    reach(1.8, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
+    reach(0.0, [11, 28], [0.9, 0.0], [0.59, 0.41]),
+    reach(0.0, [15, 35], [0.0, 1.05], [0.59, 0.41]),
 ];
 /// Ways to take the ball along.
 const TAKES: [Reach; 3] = [
-    reach(6.0, [12, 24], [0.2, 0.0], [0.32, 0.1]),
-    reach(1.8, [12, 25], [0.2, 0.0], [0.34, 0.13]),
-    reach(0.0, [12, 37], [0.45, 0.0], [0.35, 0.21]),
+    reach(6.0, [12, 24], [0.2, 0.0], [0.42, 0.15]),
+    reach(1.8, [12, 25], [0.2, 0.0], [0.44, 0.2]),
+    reach(0.0, [12, 37], [0.45, 0.0], [0.45, 0.32]),
 ];
 /// A ball that meets a player faster than this is not taken along, m/s; fitted to how often a runner gets past a defender.
-const TAKES_MPS: f32 = 10.0;
+const TAKES_MPS: f32 = 9.0;
 /// How far ahead, ticks, an unseen touch is judged, and how much it may have changed there, metres. (GRF's.)
 const AHEAD_TICKS: u32 = 100;
 const MISJUDGED_M: f32 = 2.0;
@@ -157,9 +158,9 @@ fn begin(game: &mut Match, id: PlayerId, rival: PlayerId) {
 
 /// Where the ball would be in so many ticks but for its last touch.
 fn unseen(game: &Match, ticks: u32) -> Vec3 {
-    let since_s = (game.tick + ticks).saturating_sub(game.play.unseen_at) as f32 * 0.01;
-    let ball = game.play.unseen;
-    (ball.pos.truncate() + ball.vel.truncate() * since_s).extend(ball.pos.z)
+    let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let [place, velocity] = game.play.unseen;
+    (place + velocity * ((since as f32 + ticks as f32) * 0.01)).extend(game.ball.pos.z)
 }
 
 /// Whether a ball will be where a foot goes.

@@ -105,8 +105,9 @@ pub enum Touch {
 
 /// Notes the last toucher and who is offside from now on.
 pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
-    if game.play.unseen_at != game.tick {
-        (game.play.unseen, game.play.unseen_at) = (game.ball, game.tick);
+    // A kick is noted again once the ball has left.
+    if game.last_touch != Some(by) || game.player(by).body.touched_at != game.tick as i32 {
+        game.play.unseen = [game.ball.pos.truncate(), game.ball.vel.truncate()];
     }
     game.last_touch = Some(by);
     game.play.lead = by.team();

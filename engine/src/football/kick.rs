@@ -60,7 +60,7 @@ pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
         KickKind::High => SWING_TICKS[1],
         KickKind::Shot | KickKind::Clear => SWING_TICKS[2],
     };
-    let swing = Swing { ready_at: now + ticks, way: None, mate: None, from_mps: RUN_MPS };
+    let swing = Swing { ready_at: now + ticks, way: None, mate: None, runs: true };
     KickPlan { swing: Some(swing), until: now + PATIENCE_TICKS, ..asked(kind) }
 }
 
@@ -71,7 +71,7 @@ pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
 
 /// A set piece that a bot takes from now on.
 pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
-    let swing = Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None, from_mps: RUN_MPS };
+    let swing = Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None, runs: true };
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
@@ -153,8 +153,8 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         }
     };
     let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
-    let from_mps = if at_hand { RUN_MPS } else { player.vel.length() };
-    (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, from_mps })
+    let runs = at_hand || shot::runs(player);
+    (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs })
 }
 
 /// Whether a player takes the ball before they kick it, or is still taking it: it comes fast, from somebody else.
@@ -191,8 +191,8 @@ fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swi
     };
     plan.taken = !noise::happens(game, often);
     let (way, mate) = meant(game, id, plan);
-    let from_mps = game.player(id).vel.length();
-    (!plan.taken).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, from_mps })
+    let runs = shot::runs(game.player(id));
+    (!plan.taken).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs })
 }
 
 /// How far a player will be from the ball so many ticks from now, metres; `pace`: what share of their own is left to them

@@ -4,8 +4,8 @@ use crate::football::advantage::Advantage;
 use crate::football::body::{KickKind, NEVER};
 use crate::football::forecast::Forecast;
 use crate::football::recent::Recent;
-use crate::state::{Ball, PlayerId};
-use glam::{Vec2, Vec3};
+use crate::state::PlayerId;
+use glam::Vec2;
 use setpiece_scenario::Others;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, GameMode, Team};
@@ -33,10 +33,9 @@ pub struct Play {
     pub last_owner: Option<PlayerId>,
     /// Since which tick that player has had it.
     pub owned_since: u32,
-    /// The ball just before its last touch, and when that was: what somebody goes by who has not seen the touch yet.
-    pub unseen: Ball,
-    /// The tick of that touch.
-    pub unseen_at: u32,
+    /// Where the ball was just before its last touch and how it moved, world metres and m/s: what somebody goes by who has
+    /// not seen the touch yet.
+    pub unseen: [Vec2; 2],
     /// When the ball sprang off a body last, ticks.
     pub bounced_at: i32,
     /// Who kicked the ball on purpose last (the back-pass rule), by foot.
@@ -156,8 +155,7 @@ impl Play {
             pass: None,
             shot: None,
             hands: None,
-            unseen: Ball { pos: Vec3::ZERO, vel: Vec3::ZERO, spin: Vec3::ZERO },
-            unseen_at: 0,
+            unseen: [Vec2::ZERO; 2],
             bounced_at: NEVER,
             kicked_by: None,
             offside: 0,

@@ -3,7 +3,7 @@
 use crate::football::body::KickPlan;
 use crate::football::{noise, pass};
 use crate::math;
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::Stat;
@@ -33,7 +33,7 @@ const LIFTS: f32 = 1.25;
 /// the measured heights.
 const EASIEST_MPS: f32 = 3.5;
 const LEFT_MPS: f32 = 3.8;
-/// Slower than this as the swing begins nobody runs yet, m/s. (GRF's.)
+/// Slower than this nobody runs yet, m/s. (GRF's.)
 const SLOW_MPS: f32 = 4.2;
 /// The pace beyond which a run makes aiming no harder, m/s; fitted to how far shots on the run go astray.
 const RUN_MPS: f32 = 6.0;
@@ -62,6 +62,11 @@ pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
 fn aim(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
     let settled = plan.swing.and_then(|swing| swing.way).map(|way| game.ball.pos.truncate() + way);
     settled.unwrap_or_else(|| meant(game, id, plan))
+}
+
+/// Whether somebody runs, rather than sets off or stands.
+pub fn runs(player: &Player) -> bool {
+    player.vel.length_squared() >= SLOW_MPS * SLOW_MPS
 }
 
 /// The middle of the goal that a side attacks.
@@ -129,7 +134,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
         (1.0 - ease * easy).clamp(LEAST_HARD, 1.0)
     };
     // Whoever has begun to swing before they were running strikes the ball from a step.
-    let steps = plan.swing.is_some_and(|swing| swing.from_mps < SLOW_MPS);
+    let steps = plan.swing.is_some_and(|swing| !swing.runs);
     let pace = if steps { STEP_MPS } else { pace };
     let hard = hard_at(if steps { pace } else { player.vel.length().clamp(STEP_MPS, RUN_MPS) });
     let harder = libm::powf(hard, 0.7);

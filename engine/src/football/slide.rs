@@ -61,7 +61,7 @@ pub fn resolve(game: &mut Match, events: &mut Events, slides: Squad) {
         if ticks_since(game.tick, player.body.touched_at) <= 60 {
             continue;
         }
-        let gone = SLIDE_TICKS - player.body.pose_ticks;
+        let gone = SLIDE_TICKS.saturating_sub(player.body.pose_ticks);
         let foot = player.pos + player.body.facing * 0.5;
         let ball = game.ball.pos;
         let reaches = ball.z < 0.5 && foot.distance_squared(ball.truncate()) < REACH_M * REACH_M;

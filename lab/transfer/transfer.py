@@ -55,15 +55,26 @@ player with the values 0 and 255. Some differences still matter to a policy that
   the start and followed from map to map.
 - A place that never changes here can change by a cell there. Inputs are divided by at least 0.5 m.
 
-What was found by playing the same policy in both games, step by step, and built: the order of turns drawn for each
-episode, with passes that roll or float; players who set off when chance will have it; the nearest defender who comes
-forward; the block's slots; a magnet that heeds the direction held. The courses of the ball and of most players then
-agree within a metre for twenty steps and more.
+Policies train on places that are moved by up to 0.6 m for an episode and by 0.2 m from step to step. A policy that has
+only seen exact places presses other keys as soon as a mark lies one cell further.
 
-What remains: bots who win the ball keep it longer here, and agents lose it half as often; a sprinter who kicks just
-after a turn does so sooner here; a keeper who comes out takes fewer balls off a shooter's feet here. A policy that has
-learned one course of play to the key also meets courses there that it has never seen: the real game's episodes differ
-more from each other.
+What was found by playing the same keys in both games, step by step, and built:
+
+- A rival's ball is reached for where it will be, some ticks ahead. A touch in between leaves the foot beside it. Who has
+  not seen the last touch yet goes by the way before it.
+- A ball that a rival has just touched springs off the legs of whoever stands in its way.
+- An opponent close by makes a dribbler push the ball further, most a nervous one.
+- The swing of a shot brakes the runner, who follows through and only then speeds up again.
+- A shot struck while setting off scatters twice as much as one on the run.
+- A keeper who faces the ball sets off slowly.
+
+What remains:
+
+- A sprinter who runs straight at a lone defender loses the ball to them at once here; in the real game it mostly rolls
+  on and both run after it. That makes `academy_3_vs_1_with_keeper` harder here.
+- Bots pass more often and more safely here once they have won the ball. Agents have it for fewer steps and play fewer
+  passes.
+- Drawn actions keep less than likeliest ones: the real game's episodes differ more from each other.
 
 """
 RULES = """## Agents by rules

@@ -182,3 +182,78 @@ fn players_set_off_from_a_start_when_chance_will_have_it() {
     let (least, most) = ways.iter().fold((f32::MAX, 0.0f32), |(least, most), way| (least.min(*way), most.max(*way)));
     assert!(least < 0.7 && most > 1.0, "{least} to {most}");
 }
+
+#[test]
+fn a_ball_struck_at_a_body_springs_off_it() {
+    let mut environment = written(
+        "ball at (0.52, 0)
+        team left { GK at (-1, 0)  CM at (0.5, 0) }
+        agents { left: 1 }
+        team right { GK at (1, 0) { ai: lazy }  CB at (0.57, 0) { ai: lazy } }",
+    );
+    let springs = |episode: &u64| {
+        let matches = played(&mut environment, *episode, |step| if step == 3 { Action::Shot } else { Action::Idle });
+        matches.iter().any(|game| game.ball.vel.x < -2.0 && game.last_touch.is_some_and(|id| id.0 == 12))
+    };
+    let sprung = (0..20).filter(springs).count();
+    assert!(sprung > 12, "{sprung} of 20");
+}
+
+/// How far ahead of its runner the ball gets in a straight run that an opponents at `beside` line, metres.
+fn runs_ahead(beside: &str) -> f32 {
+    let mut environment = written(&format!(
+        "ball at (-0.18, 0)
+        team left {{ GK at (-1, 0)  CM at (-0.2, 0) }}
+        agents {{ left: 1 }}
+        team right {{ GK at (1, 0) {{ ai: lazy }}  CB at (0, {beside}) {{ ai: lazy }}  CB at (0.03, {beside}) {{ ai: lazy }}  CB at (0.06, {beside}) {{ ai: lazy }} }}",
+    ));
+    let matches = played(&mut environment, 1, |step| if step == 1 { Action::Sprint } else { Action::Right });
+    let ahead = |game: &Match| game.ball.pos.truncate().distance(game.players[1].pos);
+    matches.iter().skip(10).map(ahead).fold(0.0, f32::max)
+}
+
+#[test]
+fn an_opponent_close_by_makes_a_dribbler_push_the_ball_further() {
+    let (annoyed, alone) = (runs_ahead("0.011"), runs_ahead("0.3"));
+    assert!(annoyed > alone + 0.15, "{annoyed} and {alone} m");
+}
+
+#[test]
+fn the_swing_of_a_shot_brakes_the_runner() {
+    let mut environment = library("academy_empty_goal");
+    let matches = played(&mut environment, 1, |step| if step == 12 { Action::Shot } else { Action::Right });
+    let pace = |step: usize| matches[step].players[1].vel.length();
+    let leaves = kicked_at(&matches, 12).unwrap();
+    assert!(pace(11) > 4.8, "{}", pace(11));
+    assert!(pace(leaves + 1) < 4.3, "{} after the kick at {leaves}", pace(leaves + 1));
+    assert!(pace(leaves + 14) > 6.5, "{} later", pace(leaves + 14));
+}
+
+#[test]
+fn a_shot_scatters_more_for_whoever_only_sets_off() {
+    let mut environment = library("academy_empty_goal");
+    let mut scatter = |press: usize| {
+        let direction = |episode: u64| {
+            let matches =
+                played(&mut environment, episode, |step| if step == press { Action::Shot } else { Action::Right });
+            let velocity = matches[kicked_at(&matches, press)?].ball.vel;
+            Some((velocity.y / velocity.x).atan())
+        };
+        let found: Vec<f32> = (0..40).filter_map(direction).collect();
+        (found.iter().map(|angle| angle * angle).sum::<f32>() / found.len() as f32).sqrt()
+    };
+    let (setting_off, running) = (scatter(2), scatter(13));
+    assert!(setting_off > 1.3 * running, "{setting_off} and {running} rad");
+}
+
+#[test]
+fn who_is_handed_to_the_bot_holds_no_key() {
+    let mut environment = library("academy_empty_goal");
+    let matches = played(&mut environment, 1, |step| match step {
+        8..12 => Action::Shot,
+        12.. => Action::BuiltinAi,
+        _ => Action::Right,
+    });
+    let held = |step: usize| matches[step].players[1].body.kick.is_some_and(|plan| plan.held);
+    assert!(held(11) && !held(12));
+}

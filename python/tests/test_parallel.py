@@ -242,9 +242,7 @@ def test_an_agent_whose_player_is_sent_off_is_terminated(pitch_file: PitchFile) 
         env.reset(seed=seed)
         while "hothead" in env.agents and len(env.agents) == 3:
             agents = list(env.agents)
-            observations, rewards, terminations, truncations, infos = act(
-                env, hothead=Action.SLIDING, victim=Action.LEFT
-            )
+            observations, rewards, terminations, truncations, infos = act(env, hothead=Action.SLIDING)
         if env.agents == ["mate", "victim"]:
             break
     else:

@@ -3,8 +3,8 @@
 use crate::event::Events;
 use crate::football::play::ticks_since;
 use crate::football::{
-    advantage, duel, flight, forecast, foul, keeper, kick, movement, possession, reach, referee, report, restart,
-    separation, slide, touch,
+    advantage, duel, flight, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
+    restart, separation, slide, touch,
 };
 use crate::laps::Phase;
 use crate::physics::{self, Body, Contact, Scratch};
@@ -77,6 +77,10 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
         }
         Some(Contact::Body(i)) if (i as usize) < PLAYERS_MAX => {
             let by = PlayerId(i);
+            // Whom the ball hits has touched it.
+            if offside::caught(game, events, by) {
+                return;
+            }
             let shot = game.play.shot.is_some_and(|shot| shot.by.team() != by.team());
             flight::deflected(game, events, by);
             foul::handball(game, events, by, shot);

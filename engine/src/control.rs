@@ -101,7 +101,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
             game.agents[slot].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         } else {
             game.agents[slot].key = None;
-            // Who is handed to the bot holds no key any more.
+            // A player that is handed to the bot holds no key.
             if let Some(plan) = agent.player.and_then(|id| game.players[id.index()].body.kick.as_mut()) {
                 plan.held = false;
             }

@@ -4,7 +4,7 @@
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
 //! [`movement`] (with `rows` and `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
 //! ball first; [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`])
-//! and [`keeper`] play it; [`flight`] says what that means;
+//! and [`keeper`] play it, and it may [`bounce`] off a body; [`flight`] says what that means;
 //! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and
 //! [`lineup`] say who stands where.
 
@@ -12,6 +12,7 @@ pub mod advantage;
 pub mod begin;
 pub mod block;
 pub mod body;
+pub mod bounce;
 pub mod clock;
 mod dribble;
 pub mod duel;

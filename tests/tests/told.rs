@@ -165,8 +165,8 @@ fn a_bots_presses_are_a_stream() {
         }
     }
     let kicks: u32 = KICKS.iter().map(|kick| told[kick.index()]).sum();
-    // Only who has lost the ball in between and has it again presses anew at once.
-    assert!(again * 20 < kicks, "a kick is told once: {again} of {kicks} again");
+    // A key asks again at once only where its player has lost the ball and won it back.
+    assert!(again * 20 < kicks, "a kick is reported once: {again} of {kicks} again");
     assert!(kicks > 20 && told[Action::Sprint.index()] > 50 && told[Action::BuiltinAi.index()] == 0, "{told:?}");
     assert_eq!(told[Action::Idle.index()..].iter().sum::<u32>(), 22 * 1500, "everyone is told in every step");
 }

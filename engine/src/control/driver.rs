@@ -79,7 +79,8 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     let waits = body.kick.is_some() && game.play.set_piece.is_none() && !turns;
     let swings = body.kick.is_some_and(|plan| plan.swing.is_some()) && waits;
     let follows = (game.tick as i32) < body.follows_until;
-    let wish = if follows || swings && has_ball {
+    let kicks = follows || swings && has_ball;
+    let wish = if kicks {
         player.vel * if follows { FOLLOWING } else { SWINGING }
     } else if waits && has_ball {
         braked(&player, direction)
@@ -100,7 +101,7 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     let meeting = if spare { assist::meeting(game, id, wish) } else { None };
     let body = &mut game.players[id.index()].body;
     body.dribble = wish;
-    body.intent = if follows || swings && has_ball {
+    body.intent = if kicks {
         Intent::Run(wish)
     } else if let Some((place, pace)) = meeting {
         Intent::Go(place, pace)
@@ -184,7 +185,7 @@ pub fn may_slide(game: &Match, id: PlayerId) -> bool {
     slide::may_begin(game, id) && !may_play(game, id)
 }
 
-/// Whether the ball is his to play: he has it, or is nearer to it than every rival.
+/// Whether the ball is a player's to play: they have it, or are nearer to it than every rival.
 pub fn may_play(game: &Match, id: PlayerId) -> bool {
     if let Some(set_piece) = game.play.set_piece {
         return set_piece.taker == id;

@@ -5,7 +5,7 @@
 
 use crate::event::Events;
 use crate::football::play::ticks_since;
-use crate::football::{first_touch, flight, forecast, foul, noise, reach, report, touch};
+use crate::football::{bounce, first_touch, foul, noise, reach, report, touch};
 use crate::math;
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
@@ -24,7 +24,7 @@ pub struct Lunge {
 
 /// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where. How far off the
 /// ball may be is fitted to how often somebody who walks straight at a defender loses it.)
-struct Reach {
+struct Motion {
     /// The slowest pace at which it is done, m/s.
     from_mps: f32,
     /// Ticks until the foot is there, and until the player can do something else.
@@ -38,23 +38,23 @@ struct Reach {
     across_m: f32,
 }
 
-const fn reach(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32; 2], off: [f32; 2]) -> Reach {
-    Reach { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1] }
+const fn motion(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32; 2], off: [f32; 2]) -> Motion {
+    Motion { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1] }
 }
 
 /// Pokes, the fastest first.
-const POKES: [Reach; 5] = [
-    reach(6.0, [12, 39], [0.77, 0.0], [0.47, 0.17]),
-    reach(1.8, [9, 26], [0.61, 0.0], [0.56, 0.26]),
-    reach(1.8, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
-    reach(0.0, [11, 28], [0.9, 0.0], [0.59, 0.41]),
-    reach(0.0, [15, 35], [0.0, 1.05], [0.59, 0.41]),
+const POKES: [Motion; 5] = [
+    motion(6.0, [12, 39], [0.77, 0.0], [0.47, 0.17]),
+    motion(1.8, [9, 26], [0.61, 0.0], [0.56, 0.26]),
+    motion(1.8, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
+    motion(0.0, [11, 28], [0.9, 0.0], [0.59, 0.41]),
+    motion(0.0, [15, 35], [0.0, 1.05], [0.59, 0.41]),
 ];
 /// Ways to take the ball along.
-const TAKES: [Reach; 3] = [
-    reach(6.0, [12, 24], [0.2, 0.0], [0.42, 0.15]),
-    reach(1.8, [12, 25], [0.2, 0.0], [0.44, 0.2]),
-    reach(0.0, [12, 37], [0.45, 0.0], [0.45, 0.32]),
+const TAKES: [Motion; 3] = [
+    motion(6.0, [12, 24], [0.2, 0.0], [0.42, 0.15]),
+    motion(1.8, [12, 25], [0.2, 0.0], [0.44, 0.2]),
+    motion(0.0, [12, 37], [0.45, 0.0], [0.45, 0.32]),
 ];
 /// A ball that meets a player faster than this is not taken along, m/s; fitted to how often a runner gets past a defender.
 const TAKES_MPS: f32 = 9.0;
@@ -73,27 +73,21 @@ const POKED_MPS: f32 = 4.0;
 /// The same of a keeper, who wants it gone; fitted to where the ball goes from those who come out.
 const KEEPER_MPS: f32 = 7.5;
 
-/// For how long nobody has seen what a rival's touch has made of the ball, ticks; how often at most it springs off a body; how
-/// high legs are, metres. (GRF's.)
-const UNSEEN_TICKS: i32 = 20;
-const BOUNCE_TICKS: i32 = 15;
-const LEGS_M: f32 = 1.0;
-/// How near a body's middle the ball meets its legs, metres; fitted to how often the ball changes sides at once.
-const BODY_M: f32 = 0.45;
-
 /// Lets legs that are there meet the ball, and those go out that can reach it; `near`: who may.
 pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
     let now = game.tick as i32;
-    for id in game.order_of(near) {
-        if let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) {
-            game.players[id.index()].body.lunge = None;
+    for id in game.order() {
+        // A leg that comes too late, or where the ball no longer is, is drawn back all the same.
+        let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) else { continue };
+        game.players[id.index()].body.lunge = None;
+        if lunge.at == now && near.has(id) {
             meet(game, events, id, lunge);
-            if game.dead {
-                return;
-            }
+        }
+        if game.dead {
+            return;
         }
     }
-    bounce(game, events, near);
+    bounce::off_bodies(game, events, near);
     let Some(rival) = game.owner.or_else(|| touch::controller(game)) else { return };
     for id in game.order_of(near) {
         if id.team() != rival.team() && game.tick.is_multiple_of(every(game, id, rival)) && may(game, id) {
@@ -115,10 +109,12 @@ fn may(game: &Match, id: PlayerId) -> bool {
 /// anybody else. (GRF's.)
 fn every(game: &Match, id: PlayerId, rival: PlayerId) -> u32 {
     let first = game.play.chaser[id.team().index()] == Some(id);
-    match first {
-        true if game.player(id).body.meet_s < game.player(rival).body.meet_s => 2,
-        true => 4,
-        false => 5,
+    if !first {
+        5
+    } else if game.player(id).body.meet_s < game.player(rival).body.meet_s {
+        2
+    } else {
+        4
     }
 }
 
@@ -164,7 +160,7 @@ fn unseen(game: &Match, ticks: u32) -> Vec3 {
 }
 
 /// Whether a ball will be where a foot goes.
-fn reaches(player: &Player, ball: Vec2, way: &Reach) -> bool {
+fn reaches(player: &Player, ball: Vec2, way: &Motion) -> bool {
     let run = if way.from_mps > 0.0 { player.vel.normalize_or(player.body.facing) } else { player.body.facing };
     let to_ball = ball - player.pos - player.vel * (way.ticks as f32 * 0.01);
     let (along, across) = (to_ball.dot(run) - way.ahead_m, to_ball.perp_dot(run).abs() - way.aside_m);
@@ -209,37 +205,6 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
         // A poke is no deliberate kick: the keeper may pick it up.
         game.play.kicked_by = None;
     }
-}
-
-/// The ball springs off the body of somebody whose rival has just touched it: they could not have seen it coming. (GRF's.)
-fn bounce(game: &mut Match, events: &mut Events, near: Squad) {
-    let Some(last) = game.last_touch else { return };
-    let since = ticks_since(game.tick, game.player(last).body.touched_at);
-    let ball = game.ball.pos;
-    if since >= UNSEEN_TICKS || ball.z > LEGS_M || ticks_since(game.tick, game.play.bounced_at) <= BOUNCE_TICKS {
-        return;
-    }
-    let hit = game.order_of(near).find(|&id| {
-        let player = game.player(id);
-        id.team() != last.team()
-            && player.is_up()
-            && player.pos.distance_squared(ball.truncate()) < BODY_M * BODY_M
-            && ticks_since(game.tick, player.body.touched_at) >= UNSEEN_TICKS
-            && player.body.lunge.is_none()
-    });
-    let Some(id) = hit else { return };
-    let player = *game.player(id);
-    let from = ball.truncate() - player.pos;
-    let recent = 0.2 + 0.8 * (1.0 - since as f32 / UNSEEN_TICKS as f32);
-    let away = (from.normalize_or(player.body.facing) * recent + player.vel * (1.0 - recent)).normalize_or_zero();
-    let velocity = game.ball.vel;
-    let speed = velocity.length();
-    let full = away.extend(0.0) * (6.0 + 0.6 * speed) - velocity * 0.2;
-    let squarely = 1.0 - 0.25 * from.length() / BODY_M;
-    flight::sprang(game, events, id);
-    game.play.bounced_at = game.tick as i32;
-    game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * 0.7;
-    forecast::renew(game);
 }
 
 /// How bad a standing foul is: from behind is worse.

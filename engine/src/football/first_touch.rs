@@ -97,9 +97,7 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
 pub(super) fn contested(game: &mut Match, id: PlayerId) -> Vec3 {
     let player = *game.player(id);
     let ball = game.ball;
-    let window = 100.0 - 50.0 * player.skill(Stat::Reaction);
-    let since = game.last_touch.map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
-    let lately = libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6);
+    let lately = surprise(game, player.skill(Stat::Reaction));
     let skill = (1.0 - 0.5 * player.skill(Stat::BallControl)) * (0.5 + 0.5 * noise::roll(game));
     let pushed = 2.0 * (player.body.push_m / 0.1).min(1.0);
     let far = ((2.0 * pushed + 5.0 * lately) * skill).clamp(0.0, 1.0);

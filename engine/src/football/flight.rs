@@ -30,28 +30,24 @@ pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) 
     true
 }
 
-/// Records that the ball sprang off a player.
+/// Records that a ball sprang off a player who did not see it coming: it takes them a while to get at it.
 pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
-    if game.play.shot.is_some_and(|shot| shot.by.team() != by.team()) {
-        let role = game.player(by).role;
-        if let Some(shot) = game.play.shot.take() {
-            if role == Role::GK {
-                report::did(game, events, EventKind::Save, by, Some(shot.by));
-            }
-            let verdict = if role == Role::GK { Qualifier::OnTarget } else { Qualifier::Blocked };
-            events.push(of_shot(game, EventKind::Shot, shot).qualified(verdict));
-        }
-    }
     sprang(game, events, by);
-    // He has not seen it coming.
     let body = &mut game.players[by.index()].body;
     body.ready_at = body.ready_at.max(game.tick as i32 + STUNNED_TICKS);
 }
 
-/// Records that a rolling ball sprang off a player's legs.
+/// Records that a ball sprang off a player: a shot is saved or blocked, a pass is nobody's any more.
 pub fn sprang(game: &mut Match, events: &mut Events, by: PlayerId) {
+    if let Some(shot) = game.play.shot.take_if(|shot| shot.by.team() != by.team()) {
+        let saved = game.player(by).role == Role::GK;
+        if saved {
+            report::did(game, events, EventKind::Save, by, Some(shot.by));
+        }
+        let verdict = if saved { Qualifier::OnTarget } else { Qualifier::Blocked };
+        events.push(of_shot(game, EventKind::Shot, shot).qualified(verdict));
+    }
     report::did(game, events, EventKind::Touch, by, None);
-    // A pass that springs off somebody is nobody's any more.
     game.play.pass = game.play.pass.filter(|pass| pass.by == by);
     note(game, by, Touch::Sprang);
     game.play.kicked_by = None;
@@ -97,7 +93,7 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
 pub enum Touch {
     /// The ball was played: positions are judged anew.
     Played,
-    /// The ball sprang off him or off his hands: that plays no opponent onside.
+    /// The ball sprang off a player or off a keeper's hands: that plays no opponent onside.
     Sprang,
     /// A throw-in, corner or goal kick: nobody is offside.
     Exempt,

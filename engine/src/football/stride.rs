@@ -21,8 +21,8 @@ const WISH_MPS: f32 = 0.15;
 /// The cosine from which a change of way costs nothing.
 const STRAIGHT: f32 = 0.996;
 
-/// How much of their run takes somebody to their left: nothing that anybody would notice, but GRF's rounding does it too, and
-/// a place on the border between two pixels of a map lies in the same one then.
+/// How much of their run takes a player to their left. Nobody would notice it, but GRF's rounding does the same: a place on
+/// the border between two pixels of a map lies in the same pixel then.
 const ASIDE: f32 = 1.0e-6;
 
 /// The pace of who runs to no point.

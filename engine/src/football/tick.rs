@@ -77,7 +77,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
         }
         Some(Contact::Body(i)) if (i as usize) < PLAYERS_MAX => {
             let by = PlayerId(i);
-            // Whom the ball hits has touched it.
+            // A player whom the ball hits has touched it.
             if offside::caught(game, events, by) {
                 return;
             }

@@ -2,7 +2,10 @@
 
 use crate::Bench;
 use crate::layouts::{Layout, drawn, set_level};
-use setpiece_engine::state::Match;
+use glam::Vec2;
+use setpiece_engine::football::duel::Lunge;
+use setpiece_engine::football::flight;
+use setpiece_engine::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
 
 /// Everything that is seen of a match.
@@ -181,5 +184,31 @@ fn a_kick_pressed_before_the_ball_comes_is_the_first_touch() {
         assert!(kicked, "{action:?} is never struck");
         assert_eq!(touches, 1, "{action:?} is struck after {touches} touches");
         assert_eq!(bench.game.possession, None, "{action:?} leaves nobody an owner");
+    }
+}
+
+#[test]
+fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
+    let mut bench = Bench::new(Layout::Eleven, 3);
+    let far = PlayerId(0);
+    let lunge = Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, takes: false };
+    bench.game.players[far.index()].body.lunge = Some(lunge);
+    bench.step(Action::BuiltinAi);
+    assert_eq!(bench.game.player(far).body.lunge, None);
+}
+
+#[test]
+fn a_shot_that_springs_off_a_rival_is_blocked_and_off_a_keeper_saved() {
+    let mut bench = Bench::new(Layout::Eleven, 0);
+    let (striker, [keeper, defender]) = (PlayerId(9), [PlayerId(11), PlayerId(12)]);
+    for (by, verdict) in [(defender, Qualifier::Blocked), (keeper, Qualifier::OnTarget)] {
+        bench.events.clear();
+        flight::shot_struck(&mut bench.game, &mut bench.events, striker, Vec2::new(40.0, 0.0));
+        bench.events.clear();
+        flight::sprang(&mut bench.game, &mut bench.events, by);
+        let shot = bench.seen(EventKind::Shot).expect("the shot is settled");
+        assert_eq!((shot.qualifier, shot.by), (Some(verdict), Some(striker)));
+        assert_eq!(bench.seen(EventKind::Save).is_some(), by == keeper);
+        assert_eq!(bench.game.play.shot, None);
     }
 }

@@ -4,6 +4,7 @@ use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::Vec2;
 use setpiece_engine::control::switching;
+use setpiece_engine::football::body::KickKind;
 use setpiece_engine::football::play::Restart;
 use setpiece_engine::football::restart::place;
 use setpiece_engine::state::PlayerId;
@@ -310,4 +311,17 @@ fn after_a_restart_an_agent_plays_whoever_is_nearest_to_the_ball() {
     }
     switching::reassign(&mut bench.game);
     assert_eq!(bench.game.agents[0].player, Some(PlayerId(0)), "keepers too");
+}
+
+#[test]
+fn a_key_that_has_been_down_since_before_takes_no_set_piece_but_it_is_taken_in_time() {
+    for mode in [GameMode::ThrowIn, GameMode::FreeKick, GameMode::GoalKick] {
+        let mut bench = awarded(mode, Team::Left, Vec2::new(-20.0, 30.0));
+        bench.game.agents[0].key = Some(KickKind::Short);
+        let taken = (1..60).find(|_| {
+            bench.step(Action::ShortPass);
+            bench.game.mode == GameMode::Normal
+        });
+        assert!(taken.is_some_and(|step| (5..40).contains(&step)), "{mode}: {taken:?}");
+    }
 }

@@ -59,7 +59,7 @@ fn steps(episode: u64) -> Vec<Taken> {
 
 /// A step of open play, in which nothing has happened.
 fn open(steps: &[Taken]) -> Taken {
-    // What is spoilt is the third player's, whom no agent may have.
+    // The wrong value is the third player's, and no agent may have that player.
     let quiet = |step: &&Taken| {
         let free = step.after.agents.iter().all(|agent| agent.player != Some(PlayerId(3)));
         step.events.is_empty() && step.after.play.set_piece.is_none() && !step.judged.dead && free

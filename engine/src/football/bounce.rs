@@ -1,0 +1,45 @@
+//! A ball that springs off somebody who could not have seen it coming.
+
+use crate::event::Events;
+use crate::football::play::ticks_since;
+use crate::football::{flight, forecast};
+use crate::state::{Match, Squad};
+
+/// For how long nobody has seen what a rival's touch has made of the ball, ticks; how often at most it springs off a body; how
+/// high legs are, metres. (GRF's.)
+const UNSEEN_TICKS: i32 = 20;
+const BOUNCE_TICKS: i32 = 15;
+const LEGS_M: f32 = 1.0;
+/// How near a body's middle the ball meets its legs, metres; fitted to how often the ball changes sides at once.
+const BODY_M: f32 = 0.45;
+
+/// The ball springs off the body of somebody whose rival has just touched it. `near`: whose body it may be. (GRF's.)
+pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
+    let Some(last) = game.last_touch else { return };
+    let since = ticks_since(game.tick, game.player(last).body.touched_at);
+    let ball = game.ball.pos;
+    if since >= UNSEEN_TICKS || ball.z > LEGS_M || ticks_since(game.tick, game.play.bounced_at) <= BOUNCE_TICKS {
+        return;
+    }
+    let hit = game.order_of(near).find(|&id| {
+        let player = game.player(id);
+        id.team() != last.team()
+            && player.is_up()
+            && player.pos.distance_squared(ball.truncate()) < BODY_M * BODY_M
+            && ticks_since(game.tick, player.body.touched_at) >= UNSEEN_TICKS
+            && player.body.lunge.is_none()
+    });
+    let Some(id) = hit else { return };
+    let player = *game.player(id);
+    let from = ball.truncate() - player.pos;
+    let recent = 0.2 + 0.8 * (1.0 - since as f32 / UNSEEN_TICKS as f32);
+    let away = (from.normalize_or(player.body.facing) * recent + player.vel * (1.0 - recent)).normalize_or_zero();
+    let velocity = game.ball.vel;
+    let speed = velocity.length();
+    let full = away.extend(0.0) * (6.0 + 0.6 * speed) - velocity * 0.2;
+    let squarely = 1.0 - 0.25 * from.length() / BODY_M;
+    flight::sprang(game, events, id);
+    game.play.bounced_at = game.tick as i32;
+    game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * 0.7;
+    forecast::renew(game);
+}

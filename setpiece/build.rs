@@ -10,7 +10,8 @@ fn main() -> io::Result<()> {
 
 /// Writes a table of paths and texts, sorted by path.
 fn embed(folder: &str, endings: &[&str], table_name: &str) -> io::Result<()> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).canonicalize()?;
+    let package = env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default();
+    let root = Path::new(&package).join(folder).canonicalize()?;
     println!("cargo:rerun-if-changed={}", root.display());
     let mut files = Vec::new();
     collect(&root, endings, &mut files)?;

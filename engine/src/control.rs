@@ -109,7 +109,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     }
     drive_scripted(game, events);
     let before = Before::of(game);
-    bot::think(game, events);
+    bot::think(game);
     before
 }
 

@@ -44,6 +44,7 @@ pub mod shot;
 pub mod slide;
 pub mod stats;
 mod stride;
+pub mod stumble;
 pub mod tick;
 pub mod touch;
 

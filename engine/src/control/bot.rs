@@ -22,7 +22,6 @@ mod view;
 
 pub use view::View;
 
-use crate::event::Events;
 use crate::football::body::Intent;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -44,7 +43,7 @@ const FAR_M: f32 = 30.0;
 const ASSIGN_EVERY: u32 = 4;
 
 /// Lets the bot decide for everyone without an agent.
-pub fn think(game: &mut Match, events: &mut Events) {
+pub fn think(game: &mut Match) {
     if game.play.set_piece.is_some() {
         taker::think(game);
         return;
@@ -69,7 +68,7 @@ pub fn think(game: &mut Match, events: &mut Events) {
         match ai_of(game, id) {
             Ai::Lazy => game.players[i].body.intent = Intent::Stand,
             Ai::Hold => hold(game, &views[id.team().index()], id),
-            Ai::Bot | Ai::Behavior(_) => decide(game, events, &views[id.team().index()], id),
+            Ai::Bot | Ai::Behavior(_) => decide(game, &views[id.team().index()], id),
         }
     }
 }
@@ -95,7 +94,7 @@ fn hold(game: &mut Match, view: &View, id: PlayerId) {
 }
 
 /// One player's decision.
-fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
+fn decide(game: &mut Match, view: &View, id: PlayerId) {
     let has_ball = view.owner == Some(id);
     if game.player(id).role == Role::GK && !has_ball && keeper::stands(game, view, id) {
         return;
@@ -109,11 +108,11 @@ fn decide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
         return;
     }
     if press::is_met(game, view, id) {
-        return press::meet(game, events, view, id);
+        return press::meet(game, view, id);
     }
     match press::pursuit(game, view, id) {
         press::Pursuit::Fetch => return press::fetch(game, view, id),
-        press::Pursuit::Hunt(rival) => return press::hunt(game, events, view, id, rival),
+        press::Pursuit::Hunt(rival) => return press::hunt(game, view, id, rival),
         press::Pursuit::None => {}
     }
     let player = game.player(id);

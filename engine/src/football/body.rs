@@ -76,6 +76,11 @@ pub enum Intent {
 pub enum Pose {
     /// On his feet.
     Up,
+    /// Losing their balance, on the way to so many tenths of a m/s.
+    Stumbling {
+        /// 0.1 m/s.
+        to_dmps: u8,
+    },
     /// Sliding along the ground.
     Sliding,
     /// Lying after a fall, a slide or a dive.
@@ -207,8 +212,13 @@ impl Player {
         self.body.stats[stat.index()] * self.body.level * (1.0 - 0.3 * self.fatigue)
     }
 
-    /// Whether he stands on his feet on the pitch.
+    /// Whether he stands on his feet on the pitch and can do something.
     pub fn is_up(&self) -> bool {
         self.active && self.body.pose == Pose::Up
+    }
+
+    /// Whether they are on their feet on the pitch, if only just.
+    pub fn is_on_feet(&self) -> bool {
+        self.active && matches!(self.body.pose, Pose::Up | Pose::Stumbling { .. })
     }
 }

@@ -24,7 +24,7 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let hit = game.order_of(near).find(|&id| {
         let player = game.player(id);
         id.team() != last.team()
-            && player.is_up()
+            && player.is_on_feet()
             && player.pos.distance_squared(ball.truncate()) < BODY_M * BODY_M
             && ticks_since(game.tick, player.body.touched_at) >= UNSEEN_TICKS
             && player.body.lunge.is_none()

@@ -1,6 +1,7 @@
 //! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
 
 use crate::event::Events;
+use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::touch;
 use crate::math;
 use crate::state::{Match, Player, PlayerId};
@@ -19,10 +20,10 @@ pub(super) const SPRINTS_MPS: f32 = 6.0;
 /// How far ahead the ball is touched walking and sprinting, so fast, m/s; metres. Measured.
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
-const CARRIED_M: [f32; 2] = [0.42, 0.64];
+const CARRIED_M: [f32; 2] = [0.36, 0.62];
 /// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far away, metres. Measured.
 const SLOW: f32 = 0.5;
-const EARLY_M: f32 = 0.8;
+const EARLY_M: f32 = 0.62;
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
 /// A player with an agent minds a line until they are as near to it, metres; chosen.
@@ -45,6 +46,21 @@ const ANNOYS_M: std::ops::Range<f32> = 0.5..1.5;
 const ANNOYED_M: f32 = 3.0;
 /// How far ahead of a standing player the ball is laid, metres. Measured.
 pub(super) const LAID_M: f32 = 0.4;
+/// How far ahead of a runner's place the ball is to be met again, metres, and how much further for each m/s; in how many seconds at no pace, and how many more
+/// at a sprint (GRF's); how long the step of a touch lasts, and from it to the next touch, seconds.
+const FRONT_M: f32 = 0.34;
+const FRONT_S: f32 = 0.08;
+const AGAIN_S: [f32; 2] = [0.25, 0.6];
+const STEP_S: f32 = 0.12;
+const TOUCH_S: f32 = 0.2;
+/// By how much a runner speeds up in the step of a touch, m/s; how much faster than at its end a walker and a sprinter want
+/// to be (GRF's); and who is slower keeps the ball close, m/s.
+const SPEEDS_UP_MPS: f32 = 1.0;
+const HASTE_MPS: [f32; 2] = [0.6, 1.2];
+const CLOSE_MPS: f32 = 4.2;
+/// How much harder a ball is pushed at a sprint, and from which pace on wholly, m/s. (GRF's.)
+const HARDER: f32 = 0.18;
+const FASTEST_MPS: f32 = 7.2;
 /// How whoever turns with the ball brakes, m/s²; chosen.
 const TURN_MPS2: f32 = 14.0;
 /// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
@@ -178,6 +194,9 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     }
     // Whoever does not turn comes to the ball's line rather than the ball to theirs.
     let beside = if turns { Vec2::ZERO } else { (to_ball - ahead * to_ball.dot(ahead)) * BESIDE };
+    if !turns && cut.is_none() {
+        return straight_on(player, to_ball - beside, ahead, speed);
+    }
     let place = cut.unwrap_or(free + beside);
     let way = place - to_ball;
     let distance = way.length();
@@ -189,6 +208,27 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
         libm::sqrtf(2.0 * 1.7 * distance)
     };
     if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
+}
+
+/// The velocity with which a ball is pushed straight on: it is to be met again where the run leads in a while. (GRF's.)
+fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32) -> Vec2 {
+    let own = player.vel.dot(ahead).max(0.0);
+    let wanted = speed.min(player.body.speed_top_mps);
+    let end = (own + SPEEDS_UP_MPS).min(wanted);
+    let over = if speed > SPRINTS_MPS {
+        HASTE_MPS[1]
+    } else if speed > CLOSE_MPS {
+        HASTE_MPS[0]
+    } else {
+        0.0
+    };
+    let pace = wanted.clamp(end, end + over);
+    let share = (pace / SPRINT_MPS).min(1.0);
+    let until_s = AGAIN_S[0] + AGAIN_S[1] * share * share;
+    let way = ahead * (0.5 * (own + end) * STEP_S + pace * until_s + FRONT_M + FRONT_S * pace) - to_ball;
+    let closest = CLOSEST[0] + CLOSEST[1] * player.skill(Stat::Dribble);
+    let fast = 1.0 + HARDER * ((pace - RUN_MPS) / (FASTEST_MPS - RUN_MPS)).clamp(0.0, 1.0);
+    way.normalize_or_zero() * libm::powf(way.length() / ((until_s + TOUCH_S) * closest * 1.1), WAY_TO_PACE) * fast
 }
 
 /// The velocity of a touch that is to send the ball so much further, metres. (GRF's: a touch's pace goes with this power of

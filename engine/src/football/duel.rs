@@ -5,7 +5,7 @@
 
 use crate::event::Events;
 use crate::football::play::ticks_since;
-use crate::football::{bounce, first_touch, foul, noise, reach, report, touch};
+use crate::football::{bounce, first_touch, noise, reach, report, slide, touch};
 use crate::math;
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
@@ -20,6 +20,8 @@ pub struct Lunge {
     pub place: Vec2,
     /// Whether the ball is to be taken along, rather than poked away.
     pub takes: bool,
+    /// Whether the player stops for it.
+    pub stops: bool,
 }
 
 /// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where. How far off the
@@ -36,10 +38,12 @@ struct Motion {
     /// How far off the ball may be, along the run and across it, metres.
     along_m: f32,
     across_m: f32,
+    /// Whether the player stops for it.
+    stops: bool,
 }
 
 const fn motion(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32; 2], off: [f32; 2]) -> Motion {
-    Motion { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1] }
+    Motion { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1], stops: false }
 }
 
 /// Pokes, the fastest first.
@@ -56,8 +60,14 @@ const TAKES: [Motion; 3] = [
     motion(1.8, [12, 25], [0.2, 0.0], [0.44, 0.2]),
     motion(0.0, [12, 37], [0.45, 0.0], [0.45, 0.32]),
 ];
-/// A ball that meets a player faster than this is not taken along, m/s; fitted to how often a runner gets past a defender.
-const TAKES_MPS: f32 = 9.0;
+/// A ball that rolls up is stopped: long before it is there. (GRF's.)
+const TRAP: Motion = Motion { stops: true, ..motion(1.8, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
+/// Which share of their pace a player keeps until they have stopped for a ball.
+const STOPPING: f32 = 0.5;
+/// A slower ball is not stopped, m/s. (GRF's.)
+const TRAPPED_MPS: f32 = 2.0;
+/// A ball that meets a player faster than this is not taken along, m/s. (GRF's.)
+const TAKES_MPS: f32 = 15.0;
 /// How far ahead, ticks, an unseen touch is judged, and how much it may have changed there, metres. (GRF's.)
 const AHEAD_TICKS: u32 = 100;
 const MISJUDGED_M: f32 = 2.0;
@@ -66,6 +76,15 @@ const LOW_M: f32 = 0.5;
 /// From how far off the other's cosine tells that they are between a player and the ball: too much so to poke it, and to
 /// take it. (GRF's.)
 const HIDDEN: [f32; 2] = [0.6, 0.5];
+/// How far ahead a slide is thought of, ticks; how far from the tackler the ball must be then, and how high at most, metres;
+/// in how many seconds the carrier has it again at the soonest, and in what share of the tackler's time; up to which cosine
+/// the carrier is not too much between the tackler and the ball. (GRF's.)
+const SLIDE_TICKS: u32 = 20;
+const SLIDE_M: std::ops::Range<f32> = 0.7..1.6;
+const SLIDE_HIGH_M: f32 = 0.4;
+const LEFT_S: f32 = 0.26;
+const LATER: f32 = 0.6;
+const SLIDES_TO: f32 = -0.4;
 /// How far off the ball may be when the foot is there, metres. (GRF's.)
 const MISSED_M: f32 = 0.4;
 /// How fast a poke sends the ball away beside half of what taking it would. (GRF's.)
@@ -91,7 +110,7 @@ pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
     let Some(rival) = game.owner.or_else(|| touch::controller(game)) else { return };
     for id in game.order_of(near) {
         if id.team() != rival.team() && game.tick.is_multiple_of(every(game, id, rival)) && may(game, id) {
-            begin(game, id, rival);
+            begin(game, events, id, rival);
         }
     }
 }
@@ -119,12 +138,11 @@ fn every(game: &Match, id: PlayerId, rival: PlayerId) -> u32 {
 }
 
 /// Reaches for the ball if one of the ways to do so will meet it.
-fn begin(game: &mut Match, id: PlayerId, rival: PlayerId) {
+fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let (player, other) = (*game.player(id), *game.player(rival));
     let seen = reach::has_seen(game, id);
     // Whoever has not seen the last touch goes by the ball's way before it, if the touch has not changed much.
-    let ball_in = |ticks: u32| if seen { game.play.forecast.at(game.tick + ticks) } else { unseen(game, ticks) };
-    if ball_in(AHEAD_TICKS).distance(game.play.forecast.at(game.tick + AHEAD_TICKS)) > MISJUDGED_M {
+    if ball_in(game, seen, AHEAD_TICKS).distance(game.play.forecast.at(game.tick + AHEAD_TICKS)) > MISJUDGED_M {
         return;
     }
     let soon = |player: &Player| player.pos + player.vel * 0.1;
@@ -136,20 +154,62 @@ fn begin(game: &mut Match, id: PlayerId, rival: PlayerId) {
     let slow = (game.ball.vel.truncate() - player.vel).length_squared() < TAKES_MPS * TAKES_MPS;
     let takes = first && slow && (sooner || hidden <= HIDDEN[1]) && player.role != Role::GK;
     let ways = if takes { &TAKES[..] } else { &[] };
+    let rolls = game.ball.vel.truncate().length_squared() > TRAPPED_MPS * TRAPPED_MPS;
+    if first
+        && sooner
+        && player.role != Role::GK
+        && rolls
+        && pace >= TRAP.from_mps
+        && !touch::is_driven(game, id)
+        && seen
+        && lunges(game, id, &TRAP, true, seen)
+    {
+        return;
+    }
     let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { &POKES[..] };
     for (ways, takes) in [(ways, true), (pokes, false)] {
         let Some(gait) = ways.iter().find(|way| pace >= way.from_mps).map(|way| way.from_mps) else { continue };
         for way in ways.iter().filter(|way| way.from_mps == gait) {
-            let ball = ball_in(way.ticks as u32);
-            if ball.z < LOW_M && reaches(&player, ball.truncate(), way) {
-                let now = game.tick as i32;
-                let body = &mut game.players[id.index()].body;
-                body.lunge = Some(Lunge { at: now + way.ticks, place: ball.truncate(), takes });
-                body.ready_at = now + way.lasts;
+            if lunges(game, id, way, takes, seen) {
                 return;
             }
         }
     }
+    if hidden <= SLIDES_TO && comes_late(game, id, &player, &other) {
+        slide::begin(game, events, id, None);
+    }
+}
+
+/// Whether a ball gets past a player that its carrier will only have later: those whose team has no agents slide at it then.
+/// (GRF's.)
+fn comes_late(game: &Match, id: PlayerId, player: &Player, carrier: &Player) -> bool {
+    let ball = game.play.forecast.at(game.tick + SLIDE_TICKS);
+    let gap = (player.pos + player.vel * (SLIDE_TICKS as f32 * 0.01)).distance(ball.truncate());
+    let (own_s, other_s) = (player.body.meet_s, carrier.body.meet_s);
+    SLIDE_M.contains(&gap)
+        && other_s > LEFT_S
+        && other_s + 0.2 < LATER * (own_s + 0.2)
+        && ball.z < SLIDE_HIGH_M
+        && player.role != Role::GK
+        && !game.has_agents(id.team())
+}
+
+/// Reaches for the ball in a way, if that meets it where it will be.
+fn lunges(game: &mut Match, id: PlayerId, way: &Motion, takes: bool, seen: bool) -> bool {
+    let ball = ball_in(game, seen, way.ticks as u32);
+    let player = &mut game.players[id.index()];
+    if ball.z >= LOW_M || !reaches(player, ball.truncate(), way) {
+        return false;
+    }
+    let now = game.tick as i32;
+    player.body.lunge = Some(Lunge { at: now + way.ticks, place: ball.truncate(), takes, stops: way.stops });
+    player.body.ready_at = now + way.lasts;
+    true
+}
+
+/// Where the ball will be in so many ticks, for somebody who has seen its last touch or not.
+fn ball_in(game: &Match, seen: bool, ticks: u32) -> Vec3 {
+    if seen { game.play.forecast.at(game.tick + ticks) } else { unseen(game, ticks) }
 }
 
 /// Where the ball would be in so many ticks but for its last touch.
@@ -162,7 +222,8 @@ fn unseen(game: &Match, ticks: u32) -> Vec3 {
 /// Whether a ball will be where a foot goes.
 fn reaches(player: &Player, ball: Vec2, way: &Motion) -> bool {
     let run = if way.from_mps > 0.0 { player.vel.normalize_or(player.body.facing) } else { player.body.facing };
-    let to_ball = ball - player.pos - player.vel * (way.ticks as f32 * 0.01);
+    let kept = if way.stops { STOPPING } else { 1.0 };
+    let to_ball = ball - player.pos - player.vel * (kept * way.ticks as f32 * 0.01);
     let (along, across) = (to_ball.dot(run) - way.ahead_m, to_ball.perp_dot(run).abs() - way.aside_m);
     let (along, across) = (along / way.along_m, across / way.across_m);
     along * along + across * across <= 1.0
@@ -174,15 +235,6 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
     let off = ball.truncate().distance(lunge.place) / MISSED_M;
     let rival = game.owner.or_else(|| touch::controller(game)).filter(|rival| rival.team() != id.team());
     if off >= 1.0 || ball.z > 1.0 || !game.player(id).is_up() || game.play.hands.is_some() {
-        if let Some(rival) = rival
-            && game.player(rival).pos.distance(game.player(id).pos) < 1.0
-            && foul::trips(game, id, rival)
-        {
-            let (tackler, victim) = (game.player(id).pos, game.player(rival).pos);
-            let behind = (victim - tackler).normalize_or_zero().dot((ball.truncate() - victim).normalize_or_zero());
-            game.players[rival.index()].fall(foul::FALL_TICKS);
-            foul::call_or_let_run(game, events, id, rival, severity_of(behind));
-        }
         return;
     }
     let left = math::smooth(math::smooth(off));
@@ -205,9 +257,4 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
         // A poke is no deliberate kick: the keeper may pick it up.
         game.play.kicked_by = None;
     }
-}
-
-/// How bad a standing foul is: from behind is worse.
-fn severity_of(behind: f32) -> f32 {
-    1.05 + 0.3 * behind.max(0.0)
 }

@@ -6,7 +6,7 @@ use crate::football::{advantage, noise, referee, report};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{BOX_DEPTH_M, BOX_HALF_WIDTH_M, HALF_LENGTH_M, PENALTY_SPOT_M};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Stat, Team};
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Team};
 use std::ops::Range;
 
 /// Severity above which a foul earns a yellow card.
@@ -17,45 +17,6 @@ const RED: f32 = 1.87;
 const ARMS_M: Range<f32> = 0.6..1.5;
 /// How often it is one of them that the ball springs off there.
 const HANDBALL: f32 = 0.04;
-
-/// How long a tripped man lies, ticks.
-pub const FALL_TICKS: f32 = 45.0;
-/// How often a push from behind brings a man down who runs fast.
-const SHOVE: f32 = 0.003;
-/// How often a failed tackle of an average player brings an average one down.
-const TRIP: f32 = 0.01;
-
-/// At this speed a victim falls as often as the average one does, m/s; chosen.
-const FALLS_MPS: f32 = 4.0;
-
-/// Whether a failed tackle brings the victim down: the faster they run the more often, and never one who stands. (GRF needs
-/// two bodies that run into each other.)
-pub fn trips(game: &mut Match, id: PlayerId, rival: PlayerId) -> bool {
-    let clumsy = 1.25 - game.player(id).skill(Stat::StandingTackle);
-    let steady = 0.5 + 0.5 * game.player(rival).skill(Stat::Balance);
-    let pace = (game.player(rival).vel.length() / FALLS_MPS).min(2.0);
-    let chance = TRIP * clumsy / steady * pace;
-    noise::happens(game, chance)
-}
-
-/// A body runs into a rival on the ball from behind: rarely, he is brought down by it.
-///
-/// - `closing_mps`: how fast they came together.
-pub fn shove(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, closing_mps: f32) {
-    let player = *game.player(victim);
-    if game.owner != Some(victim) || !player.is_up() || game.play.hands.is_some() || game.play.set_piece.is_some() {
-        return;
-    }
-    let away = (player.pos - game.player(by).pos).normalize_or_zero();
-    let behind = player.body.facing.dot(away).max(0.0);
-    let unsteady = 1.5 - player.skill(Stat::Balance) + 5.0 * player.body.push_m;
-    let chance = SHOVE * behind * unsteady * (closing_mps - 1.0).min(4.0) * player.vel.length() / 8.0;
-    if !noise::happens(game, chance) {
-        return;
-    }
-    game.players[victim.index()].fall(FALL_TICKS);
-    call_or_let_run(game, events, by, victim, 1.0 + 0.3 * behind);
-}
 
 /// Calls a foul of a severity: below 1 nothing, then a free kick or penalty, cards by severity.
 pub fn call(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) {

@@ -79,6 +79,12 @@ pub fn advance(game: &mut Match) -> Busy {
                 go(player);
                 continue;
             }
+            Pose::Stumbling { to_dmps } => {
+                stumble(player, f32::from(to_dmps) * 0.1);
+                pass_time(player, Pose::Up, 0);
+                go(player);
+                continue;
+            }
             Pose::Down | Pose::Diving => {
                 slow_down(player, 12.0);
                 pass_time(player, Pose::Up, 0);
@@ -89,6 +95,7 @@ pub fn advance(game: &mut Match) -> Busy {
         let has_ball = owner == Some(id);
         let (want, pace) = match player.body.intent {
             _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
+            _ if player.body.lunge.is_some_and(|lunge| lunge.stops) => (Vec2::ZERO, NO_POINT),
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),
@@ -189,6 +196,12 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
 fn slow_down(player: &mut Player, brake: f32) {
     let speed = player.vel.length();
     player.vel = if speed > 0.05 { player.vel * ((speed - brake * DT).max(0.0) / speed) } else { Vec2::ZERO };
+}
+
+/// Brings a stumbling body, which runs on where it faces, nearer to the speed at which it will have its balance again.
+fn stumble(player: &mut Player, to_mps: f32) {
+    let end = player.body.facing * to_mps;
+    player.vel += (end - player.vel) / f32::from(player.body.pose_ticks.max(1));
 }
 
 /// Counts a pose down; the next one follows.

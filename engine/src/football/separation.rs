@@ -5,7 +5,7 @@ use crate::event::Events;
 use crate::football::body::Pose;
 use crate::football::movement::{DT, SPRINT_MPS};
 use crate::football::rows::{ROWS, WIDTH};
-use crate::football::{foul, frame, reach};
+use crate::football::{frame, reach, stumble};
 use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
@@ -20,9 +20,6 @@ pub const CONTACT_M: f32 = 0.72;
 const LYING_M: f32 = 0.5;
 /// Most that one meeting moves a body in two ticks, metres. (GRF's: 0.08 a tick.)
 const PUSH_MAX_M: f32 = 0.16;
-/// However hard others press, a meeting leaves two bodies no nearer than this, metres; chosen so that they never change
-/// sides before they meet again.
-const PRESSED_M: f32 = 0.2;
 /// Within this distance two players carry each other along, metres, and how much of the other's velocity they take over
 /// at most. (GRF's.)
 const SHELL_M: f32 = 1.872;
@@ -38,10 +35,6 @@ const FIRST_PUSHED: f32 = 0.4;
 const FIRST_DRAGGED: f32 = 0.6;
 /// Share of a displacement in two ticks that a runner's own velocity takes over; fitted to how dribblers are slowed.
 const TAKEN_OVER: f32 = 0.03;
-
-/// What share of their closing speed a touch of two ticks takes from those who run into an opponent; fitted to how fast
-/// runners get past a keeper.
-const BLOCKED: f32 = 0.04;
 
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;
@@ -135,29 +128,22 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     let (mut of_a, mut of_b) = (carried * dragged, carried * (dragged - 1.0));
     if touching {
         let pushed = 0.5 - 0.25 * (stands + FIRST_PUSHED * is_first).clamp(-1.0, 1.0);
-        let step = (CONTACT_M - distance).min(PUSH_MAX_M).max(PRESSED_M - distance);
-        of_a -= away * (step * pushed);
-        of_b += away * (step * (1.0 - pushed));
+        let step = CONTACT_M - distance;
+        of_a -= away * (step * pushed).min(PUSH_MAX_M);
+        of_b += away * (step * (1.0 - pushed)).min(PUSH_MAX_M);
     }
     displace(game, i, of_a);
     displace(game, j, of_b);
-    let closing = (b.vel - a.vel).dot(away);
-    if touching && closing < 0.0 && i.team() != j.team() {
-        // Whoever runs into an opponent is stopped by them.
-        let stop = away * (closing * BLOCKED);
-        game.players[i.index()].vel += stop * a.vel.dot(away).clamp(0.0, -closing) / -closing;
-        game.players[j.index()].vel -= stop * (-b.vel.dot(away)).clamp(0.0, -closing) / -closing;
-    }
-    if touching && i.team() != j.team() && closing < -1.0 {
-        let victim = if a.body.facing.dot(away) < b.body.facing.dot(-away) { i } else { j };
-        foul::shove(game, events, if victim == i { j } else { i }, victim, -closing);
+    if touching {
+        stumble::meet(game, events, [i, j], CONTACT_M);
     }
 }
 
 /// How much better somebody stands whose leg is out for the ball. (GRF's.)
 fn tackles(player: &Player) -> f32 {
     let pokes = player.body.lunge.is_some_and(|lunge| !lunge.takes);
-    if pokes { TACKLES[0] + TACKLES[1] * player.skill(Stat::StandingTackle) } else { 0.0 }
+    let stat = if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
+    if pokes || stat == Stat::SlidingTackle { TACKLES[0] + TACKLES[1] * player.skill(stat) } else { 0.0 }
 }
 
 /// Moves a player in two ticks by so much, metres; their own velocity takes some of it over.

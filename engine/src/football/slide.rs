@@ -100,8 +100,11 @@ fn meet_legs(game: &mut Match, events: &mut Events, id: PlayerId) {
     let ball = game.ball.pos.truncate();
     let foot = player.pos + player.body.facing * 0.35;
     let hit = game.team(id.team().other()).find_map(|(rival, other)| {
-        let up = other.body.pose == Pose::Up;
-        (up && other.pos.distance_squared(foot) < LEGS_M * LEGS_M).then_some((rival, other.pos, other.body.facing))
+        (other.is_on_feet() && other.pos.distance_squared(foot) < LEGS_M * LEGS_M).then_some((
+            rival,
+            other.pos,
+            other.body.facing,
+        ))
     });
     let Some((rival, pos, facing)) = hit else { return };
     game.players[rival.index()].fall(60.0);

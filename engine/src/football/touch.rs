@@ -4,7 +4,7 @@
 //! `duel`, hands to `keeper`, what a touch means (passes, offside) to `flight` and `offside`.
 
 use crate::event::Events;
-use crate::football::body::Intent;
+use crate::football::body::{Intent, Pose};
 use crate::football::play::ticks_since;
 use crate::football::{dribble, first_touch, flight, forecast, kick};
 use crate::state::{Match, Player, PlayerId, Squad};
@@ -27,8 +27,11 @@ pub(super) const NEAR_M: f32 = 1.3;
 const ABOUT_M: f32 = 3.5;
 /// For how many ticks before a bot's kick its leg is on the way. (Measured of GRF's motions.)
 const SWING_TICKS: i32 = 28;
+/// How near the ball must be to whoever stumbles and keeps it, metres, and how many ticks after their last touch. (GRF's.)
+const KEPT_M: f32 = 0.4;
+const KEPT_TICKS: i32 = 45;
 /// Ticks between two touches of one player.
-const PAUSE_TICKS: i32 = 14;
+const PAUSE_TICKS: i32 = 24;
 
 /// Who is so near to the ball that they may meet it in this tick.
 pub(super) fn near(game: &Match) -> Squad {
@@ -62,7 +65,10 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     for id in game.order_of(near) {
         let player = game.player(id);
         let distance = player.pos.distance_squared(flat);
-        if distance > 1.1 * 1.1 || !player.is_up() || ball.z > player.body.height_m + 0.35 {
+        if distance > 1.1 * 1.1
+            || !(player.is_up() || keeps(game, id, distance))
+            || ball.z > player.body.height_m + 0.35
+        {
             continue;
         }
         if ball.z > CHEST_M && !heads(game, id) {
@@ -136,6 +142,15 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
         Some(to) if to != id => game.play.chaser[id.team().index()] == Some(id),
         _ => game.play.shot.is_none() || matches!(player.body.intent, Intent::Ball(_)),
     }
+}
+
+/// Whether a player who stumbles keeps the ball at their feet nevertheless. (GRF's.)
+fn keeps(game: &Match, id: PlayerId, distance_squared: f32) -> bool {
+    let player = game.player(id);
+    matches!(player.body.pose, Pose::Stumbling { .. })
+        && game.last_touch == Some(id)
+        && distance_squared < KEPT_M * KEPT_M
+        && ticks_since(game.tick, player.body.touched_at) >= KEPT_TICKS
 }
 
 /// Whether a bot's leg is on its way to a kick: it lets the ball roll until then.

@@ -191,7 +191,7 @@ fn a_kick_pressed_before_the_ball_comes_is_the_first_touch() {
 fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
     let mut bench = Bench::new(Layout::Eleven, 3);
     let far = PlayerId(0);
-    let lunge = Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, takes: false };
+    let lunge = Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, takes: false, stops: false };
     bench.game.players[far.index()].body.lunge = Some(lunge);
     bench.step(Action::BuiltinAi);
     assert_eq!(bench.game.player(far).body.lunge, None);

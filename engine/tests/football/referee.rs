@@ -4,7 +4,9 @@ use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
 use setpiece_engine::event::Event;
-use setpiece_engine::football::{flight, foul, keeper};
+use setpiece_engine::football::body::Pose;
+use setpiece_engine::football::duel::Lunge;
+use setpiece_engine::football::{flight, foul, keeper, stumble};
 use setpiece_engine::state::{Ball, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Rule, Team};
 
@@ -258,15 +260,34 @@ fn a_card_or_a_penalty_is_not_let_run() {
     }
 }
 
+/// Whether a player who runs with the ball at so many m/s and another who comes at them lose their balance as they meet, and
+/// whether a foul was called; `lunges`: whether the other's leg is out.
+fn meeting(mps: f32, lunges: bool) -> ([Pose; 2], bool) {
+    let mut bench = alone(&[], 0);
+    let now = bench.game.tick as i32;
+    let [left, right] = [LEFT_MAN.index(), RIGHT_MAN.index()];
+    let spot = bench.game.players[left].pos;
+    (bench.game.players[left].vel, bench.game.players[left].body.facing) = (Vec2::new(mps, 0.0), Vec2::X);
+    bench.game.players[left].body.push_m = 0.1;
+    bench.game.players[right].pos = spot + Vec2::new(0.5, 0.0);
+    bench.game.players[right].body.facing = -Vec2::X;
+    bench.game.ball.pos = (spot + Vec2::new(0.3, 0.0)).extend(0.11);
+    (bench.game.owner, bench.game.last_touch, bench.game.possession) =
+        (Some(LEFT_MAN), Some(LEFT_MAN), Some(Team::Left));
+    bench.game.players[right].body.lunge =
+        lunges.then_some(Lunge { at: now + 10, place: spot, takes: false, stops: false });
+    stumble::meet(&mut bench.game, &mut bench.events, [LEFT_MAN, RIGHT_MAN], 0.72);
+    ([left, right].map(|i| bench.game.players[i].body.pose), bench.seen(EventKind::Foul).is_some())
+}
+
 #[test]
-fn nobody_who_stands_is_tripped() {
-    let tripped = |speed_mps: f32| {
-        let mut bench = alone(&[], 0);
-        bench.game.players[LEFT_MAN.index()].vel = Vec2::new(speed_mps, 0.0);
-        (0..8000).filter(|_| foul::trips(&mut bench.game, RIGHT_MAN, LEFT_MAN)).count()
-    };
-    assert_eq!(tripped(0.0), 0);
-    assert!(tripped(6.0) > tripped(3.0) && tripped(3.0) > 20, "{} of 8000", tripped(3.0));
+fn who_runs_into_a_rival_loses_their_balance_and_who_stands_does_not() {
+    let runs = |mps: f32| meeting(mps, false).0[0];
+    assert_eq!(runs(0.0), Pose::Up);
+    assert!(matches!(runs(7.0), Pose::Stumbling { .. }));
+    let foul = meeting(7.0, false).1;
+    assert!(!foul, "nobody had a leg out");
+    assert!(meeting(7.0, true).1, "a leg that is out brings a sprinter down");
 }
 
 /// Shots at a man's chest: how often each seed's was a handball, and what was given.

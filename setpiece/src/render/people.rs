@@ -72,7 +72,7 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &Scene) 
         canvas.line(&ends, radius * width, shirt.cloth);
     };
     match person.pose {
-        Pose::Up => {
+        Pose::Up | Pose::Stumbling { .. } => {
             canvas.polygon(&[along(0.2, 1.15), along(2.05, 0.0), along(0.2, -1.15)], shirt.edge);
             canvas.polygon(&[along(0.4, 0.8), along(1.62, 0.0), along(0.4, -0.8)], shirt.cloth);
         }

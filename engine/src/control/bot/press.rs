@@ -2,10 +2,8 @@
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
-use crate::event::Events;
-use crate::football::body::{Intent, Pose};
+use crate::football::body::Intent;
 use crate::football::movement::SPRINT_MPS;
-use crate::football::{noise, slide};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};
@@ -34,15 +32,6 @@ const SHOULDER_M: f32 = 0.85;
 const BESIDE_M: f32 = 0.2;
 /// To how far past them they run, so that they don't slow down beside them, metres; chosen.
 const PAST_M: f32 = 5.0;
-/// How far ahead a slide is thought of, ticks; how far the ball must be from the tackler then, metres (GRF's); how far the
-/// carrier must have pushed it, metres (what takes a sprinter as long as GRF asks for); and how far it must lie on the
-/// tackler's side, a cosine. (GRF's.)
-const SLIDE_AHEAD_TICKS: u32 = 20;
-const SLIDE_M: std::ops::Range<f32> = 0.7..1.6;
-const LONG_TOUCH_M: f32 = 0.62;
-const OPEN: f32 = 0.4;
-/// How often they slide then, in a step; fitted to the fouls on agents who sprint at a defender.
-const SLIDES: f32 = 0.15;
 /// By what share of the other's time to the ball somebody must be there sooner. (GRF's.)
 const SOONER: f32 = 0.85;
 /// How far from a carrier's middle a player goes round them, metres.
@@ -107,11 +96,7 @@ pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
 }
 
 /// Goes for the ball of an opponent: who has them straight before them waits in their place instead. (GRF's.)
-pub fn hunt(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, rival: PlayerId) {
-    maybe_slide(game, events, view, id, rival);
-    if game.player(id).body.pose == Pose::Sliding {
-        return;
-    }
+pub fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
     let carrier = *game.player(rival);
     let own = game.player(id).pos * view.side;
     let place = carrier.pos * view.side;
@@ -150,15 +135,9 @@ pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
 }
 
 /// Meets a ball that comes with an opponent.
-pub fn meet(game: &mut Match, events: &mut Events, view: &View, id: PlayerId) {
-    if let Some(rival) = view.owner {
-        maybe_slide(game, events, view, id, rival);
-    }
+pub fn meet(game: &mut Match, view: &View, id: PlayerId) {
     let body = &mut game.players[id.index()].body;
     body.kick = None;
-    if body.pose == Pose::Sliding {
-        return;
-    }
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
     body.intent = Intent::Ball(SPRINT_MPS);
 }
@@ -200,25 +179,4 @@ fn around(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     }
     let side = if way.perp_dot(from) < 0.0 { -way.perp() } else { way.perp() };
     Some(middle + side * ROUND_M + way * 0.3)
-}
-
-/// Slides at a ball that the carrier has pushed far ahead, from where it can be reached; only players of a team without
-/// agents do. (GRF's.)
-fn maybe_slide(game: &mut Match, events: &mut Events, view: &View, id: PlayerId, rival: PlayerId) {
-    if game.has_agents(view.team) || game.player(id).role == Role::GK || game.ball.pos.z > 0.4 {
-        return;
-    }
-    let (player, carrier) = (game.player(id), game.player(rival));
-    let ball = game.play.forecast.at(game.tick + SLIDE_AHEAD_TICKS).truncate();
-    let ahead_s = SLIDE_AHEAD_TICKS as f32 * 0.01;
-    let gap = (player.pos + player.vel * ahead_s).distance(ball);
-    let lead = carrier.pos.distance(game.ball.pos.truncate());
-    let between = (ball - carrier.pos).normalize_or_zero().dot((player.pos - carrier.pos).normalize_or_zero());
-    if !SLIDE_M.contains(&gap) || lead < LONG_TOUCH_M || between < OPEN {
-        return;
-    }
-    let tackler = player.skill(Stat::SlidingTackle);
-    if noise::chooses(game, SLIDES * (0.4 + tackler)) {
-        slide::begin(game, events, id, None);
-    }
 }

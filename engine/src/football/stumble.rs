@@ -1,0 +1,151 @@
+//! Who loses their balance when two bodies meet.
+//!
+//! Nothing is left to chance: a runner stumbles or falls where pace, the ball, their opponent's side and depth of the
+//! meeting outweigh their balance. (GRF's rule; its motions are measured.)
+
+use crate::event::Events;
+use crate::football::body::Pose;
+use crate::football::{foul, touch};
+use crate::math;
+use crate::state::{Match, Player, PlayerId};
+use setpiece_scenario::vocabulary::Stat;
+
+/// What counts beside what counts 1: a lack of balance, and how deep two bodies are in each other. (GRF's.)
+const BALANCE: f32 = 3.0;
+const DEPTH: f32 = 6.0;
+const DEPTH_POWER: f32 = 0.4;
+/// How far ahead in time depth is looked at, seconds, and how near the ball is in the way, metres. (GRF's.)
+const AHEAD_S: f32 = 0.03;
+const BALL_M: f32 = 0.7;
+/// Shares of all that counts from which on somebody stumbles, and falls. (GRF's.)
+const STUMBLES: f32 = 0.48;
+const FALLS: f32 = 0.58;
+/// Within this distance of the ball a fall may be a foul, metres. (GRF's.)
+const FOUL_M: f32 = 2.0;
+/// How fast somebody is who stands, and who sprints, m/s; how fast each gait counts as. (GRF's.)
+const STANDS_MPS: f32 = 1.8;
+const WALKS_MPS: f32 = 4.2;
+const SPRINTS_MPS: f32 = 6.0;
+const PACES: [f32; 4] = [0.0, 0.44, 0.63, 1.0];
+/// How a push goes: shares of both runs in it.
+const OWN_RUN: f32 = 0.1;
+const OTHER_RUN: f32 = 0.06;
+/// Cosines between a push and where somebody faces: pushed back, pushed back at a sprint, pushed on.
+const BACK: f32 = -0.4;
+const BACK_SPRINTING: f32 = -0.7;
+const ON: f32 = 0.7;
+
+/// A stumble, or a fall that is run out of: how long it lasts, ticks, and how fast it ends, m/s.
+struct Motion(u8, f32);
+
+const STANDING: Motion = Motion(30, 0.7);
+const HELD_UP: Motion = Motion(25, 3.3);
+const HELD_UP_SPRINTING: Motion = Motion(49, 3.4);
+const ASIDE: Motion = Motion(36, 4.2);
+const ASIDE_SPRINTING: Motion = Motion(91, 4.8);
+const PUSHED_ON: Motion = Motion(46, 6.6);
+const FALLEN: Motion = Motion(60, 4.2);
+const FALLEN_SPRINTING: Motion = Motion(96, 1.2);
+
+/// How a meeting ends for one of the two.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Outcome {
+    Stands,
+    Stumbles,
+    Falls,
+}
+
+/// Two bodies touch: both may lose their balance. `contact_m`: how near bodies are that touch.
+pub fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], contact_m: f32) {
+    if game.play.hands.is_some_and(|(keeper, _)| keeper == i || keeper == j) {
+        return;
+    }
+    let (a, b) = (*game.player(i), *game.player(j));
+    let apart = (b.pos - a.pos + (b.vel - a.vel) * AHEAD_S).length() / contact_m;
+    let depth = DEPTH * math::pow((1.0 - apart).clamp(0.0, 1.0), DEPTH_POWER);
+    let outcomes = [(i, &a, &b), (j, &b, &a)].map(|(id, player, other)| outcome(game, id, player, other, depth));
+    for ((id, by), outcome) in [(i, j), (j, i)].into_iter().zip(outcomes) {
+        lose_balance(game, events, id, by, outcome);
+    }
+}
+
+/// How a meeting ends for a player.
+fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f32) -> Outcome {
+    let from = (player.pos - other.pos).normalize_or_zero();
+    let turned = 0.5 - 0.5 * player.body.facing.dot(from);
+    let ball = game.play.forecast.at(game.tick + 1).truncate();
+    let has_ball = touch::controller(game) == Some(id) || game.owner == Some(id);
+    let rival = game.play.chaser[id.team().other().index()];
+    let ahead = rival.is_none_or(|rival| game.player(rival).body.meet_s > player.body.meet_s);
+    let counts = turned
+        + pace(player.vel.length())
+        + f32::from(u8::from(has_ball && ahead))
+        + BALANCE * (1.0 - player.skill(Stat::Balance))
+        + (player.body.push_m * 10.0).min(1.0)
+        + depth
+        + (1.0 - ball.distance(player.pos) / BALL_M).max(0.0);
+    let share = counts / (5.0 + BALANCE + DEPTH);
+    if share > FALLS {
+        Outcome::Falls
+    } else if share > STUMBLES {
+        Outcome::Stumbles
+    } else {
+        Outcome::Stands
+    }
+}
+
+/// What a gait counts.
+fn pace(mps: f32) -> f32 {
+    PACES[usize::from(mps >= STANDS_MPS) + usize::from(mps >= WALKS_MPS) + usize::from(mps >= SPRINTS_MPS)]
+}
+
+/// A player stumbles or falls over another.
+fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerId, outcome: Outcome) {
+    let (player, other) = (*game.player(id), *game.player(by));
+    let worse = match player.body.pose {
+        Pose::Up => outcome > Outcome::Stands,
+        Pose::Stumbling { .. } => outcome > Outcome::Stumbles && player.body.pose_ticks < FALLEN.0,
+        Pose::Sliding | Pose::Down | Pose::Diving => false,
+    };
+    if !worse {
+        return;
+    }
+    let push = (player.pos - other.pos).normalize_or_zero() + player.vel * OWN_RUN + other.vel * OTHER_RUN;
+    let cos = push.normalize_or_zero().dot(player.body.facing);
+    let (speed, falls) = (player.vel.length(), outcome == Outcome::Falls);
+    let tripped = &mut game.players[id.index()];
+    tripped.body.lunge = None;
+    if let Some(kick) = &mut tripped.body.kick {
+        kick.swing = None;
+    }
+    let Motion(ticks, mps) = match (falls, speed >= SPRINTS_MPS) {
+        (true, true) => FALLEN_SPRINTING,
+        (true, false) => FALLEN,
+        (false, _) => stumble(speed, cos),
+    };
+    tripped.body.strike_pose(Pose::Stumbling { to_dmps: (mps * 10.0) as u8 }, ticks);
+    let lunges = other.body.lunge.is_some_and(|lunge| !lunge.takes) || other.body.pose == Pose::Sliding;
+    let near = player.pos.distance_squared(game.ball.pos.truncate()) < FOUL_M * FOUL_M;
+    if falls && lunges && near && by.team() != id.team() && game.possession == Some(id.team()) {
+        let behind = player.body.facing.dot((player.pos - other.pos).normalize_or_zero()).max(0.0);
+        foul::call_or_let_run(game, events, by, id, 1.05 + 0.3 * behind);
+    }
+}
+
+/// How somebody stumbles who is pushed so far back or on.
+fn stumble(speed: f32, cos: f32) -> Motion {
+    let sprints = speed >= SPRINTS_MPS;
+    if speed < STANDS_MPS {
+        STANDING
+    } else if cos > ON {
+        PUSHED_ON
+    } else if cos < BACK_SPRINTING && sprints {
+        HELD_UP_SPRINTING
+    } else if sprints {
+        ASIDE_SPRINTING
+    } else if cos < BACK {
+        HELD_UP
+    } else {
+        ASIDE
+    }
+}

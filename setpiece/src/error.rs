@@ -76,6 +76,8 @@ pub enum FileFault {
     },
     /// It is a directory.
     Directory,
+    /// It is a pipe, a socket or a device.
+    NotRegular,
     /// It is not UTF-8.
     NotUtf8 {
         /// The first line with a wrong byte.
@@ -112,6 +114,7 @@ impl Error {
                 Code::FileMissing
             }
             Error::File { why: FileFault::Directory, .. } => Code::FileIsDirectory,
+            Error::File { why: FileFault::NotRegular, .. } => Code::FileNotRegular,
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Code::NotUtf8,
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
             Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, |problem| problem.code),
@@ -151,6 +154,9 @@ impl Error {
                 similar.as_ref().map(meant)
             }
             Error::File { why: FileFault::Directory, .. } => Some("name a file in it".to_owned()),
+            Error::File { why: FileFault::NotRegular, .. } => {
+                Some("save what it gives to a file, and name that file".to_owned())
+            }
             Error::File { why: FileFault::NotUtf8 { .. }, path } if path.extension().is_some_and(|e| e == "pitchc") => {
                 Some("it is damaged: build it again from its source".to_owned())
             }
@@ -196,6 +202,7 @@ impl std::fmt::Display for Error {
                 match why {
                     FileFault::Missing { .. } => write!(f, "no file `{path}`"),
                     FileFault::Directory => write!(f, "`{path}` is a directory"),
+                    FileFault::NotRegular => write!(f, "`{path}` is not a regular file"),
                     FileFault::NotUtf8 { line } => write!(f, "`{path}` is not UTF-8 text: line {line} has other bytes"),
                     FileFault::TooLarge { max } => {
                         write!(f, "`{path}` is larger than {} MiB", max / (1 << 20))

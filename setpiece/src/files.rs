@@ -3,8 +3,10 @@
 use crate::error::{Error, FileFault};
 use crate::stdlib;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
-use std::io::Read;
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Largest source file, bytes; a scenario is a few kilobytes.
 pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
@@ -12,6 +14,16 @@ pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
 pub const COMPILED_MAX_BYTES: u64 = 64 << 20;
 /// Largest snapshot, bytes; most take some kilobytes, records of long episodes more.
 pub const SNAPSHOT_MAX_BYTES: u64 = 64 << 20;
+
+/// The most bytes that a scenario's file may have, by its name.
+pub fn most_bytes(path: &Path) -> u64 {
+    if is_compiled(path) { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES }
+}
+
+/// Whether a file is called as compiled scenarios are.
+pub fn is_compiled(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "pitchc")
+}
 
 /// Reads a text file of at most `max` bytes.
 ///
@@ -21,22 +33,37 @@ pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
     into_text(read_file(path, max)?, path)
 }
 
-/// Reads a file of at most `max` bytes.
+/// Reads a regular file of at most `max` bytes: the one way in which files of users are read.
 ///
 /// # Errors
-/// [`Error::File`] where it is missing, too large, or can't be read.
+/// [`Error::File`] if it is missing, not a regular file, too large, or can't be read.
 pub fn read_file(path: &Path, max: u64) -> Result<Vec<u8>, Error> {
+    read_bytes(open_regular(path)?, path, max)
+}
+
+/// Opens a file that ends and makes nobody wait: pipes, sockets and devices are refused.
+fn open_regular(path: &Path) -> Result<File, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     let io = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => fault(FileFault::Missing { similar: similar_file(path) }),
         std::io::ErrorKind::IsADirectory => fault(FileFault::Directory),
         _ => fault(FileFault::Io(error.to_string())),
     };
-    let meta = std::fs::metadata(path).map_err(io)?;
-    if meta.is_dir() {
-        return Err(fault(FileFault::Directory));
-    }
-    read_bytes(std::fs::File::open(path).map_err(io)?, path, max)
+    let regular = |meta: &std::fs::Metadata| match (meta.is_dir(), meta.is_file()) {
+        (true, _) => Err(fault(FileFault::Directory)),
+        (_, false) => Err(fault(FileFault::NotRegular)),
+        _ => Ok(()),
+    };
+    // Before it is opened: to open a device may already do something.
+    regular(&std::fs::metadata(path).map_err(io)?)?;
+    let mut options = OpenOptions::new();
+    options.read(true);
+    // A pipe that takes its place in between would wait for a writer.
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK);
+    let file = options.open(path).map_err(io)?;
+    regular(&file.metadata().map_err(io)?)?;
+    Ok(file)
 }
 
 /// Reads a text of at most `max` bytes; `path` is how reports call it.
@@ -152,37 +179,99 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
     Ok(())
 }
 
-/// Writes a file whole or not at all: a temporary neighbour is renamed over it.
+/// Writes a file whole or not at all: a temporary neighbour is renamed over it. The one way in which files are written.
 ///
 /// # Errors
-/// [`Error::File`] where it can't be written.
+/// [`Error::File`] if it can't be written.
 pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
     let content = content.as_ref();
-    let fault = |error: std::io::Error| Error::File { path: path.to_owned(), why: FileFault::Write(error.to_string()) };
-    if path.is_dir() {
-        let why = FileFault::Write("it is a directory".to_owned());
-        return Err(Error::File { path: path.to_owned(), why });
-    }
-    let Some(name) = path.file_name() else {
-        return Err(fault(std::io::Error::other("it has no file name")));
-    };
+    check_target(path)?;
+    let fault = |error| write_fault(path, &error);
     // A device or pipe can't be renamed over.
     if path.exists() && !path.is_file() {
         return std::fs::write(path, content).map_err(fault);
     }
-    let mut temporary = name.to_owned();
-    temporary.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(temporary);
-    let replace = || {
-        std::fs::write(&temporary, content)?;
-        // Who may read and write it stays as it was.
-        if let Ok(meta) = std::fs::metadata(path) {
-            std::fs::set_permissions(&temporary, meta.permissions())?;
-        }
-        std::fs::rename(&temporary, path)
-    };
-    replace().map_err(|error| {
-        let _ = std::fs::remove_file(&temporary);
+    let temporary = Temporary::write(path, content).map_err(fault)?;
+    // Who may read and write it stays as it was.
+    if let Ok(meta) = std::fs::metadata(path) {
+        std::fs::set_permissions(&temporary.path, meta.permissions()).map_err(fault)?;
+    }
+    std::fs::rename(&temporary.path, path).map_err(fault)
+}
+
+/// Writes a file whole or not at all, if nothing has its name; returns whether it did.
+///
+/// Of several threads and processes that ask for one name, one gets it.
+///
+/// # Errors
+/// [`Error::File`] if it can't be written.
+pub fn write_new(path: &Path, content: impl AsRef<[u8]>) -> Result<bool, Error> {
+    if path.symlink_metadata().is_ok() {
+        return Ok(false);
+    }
+    check_target(path)?;
+    let fault = |error| write_fault(path, &error);
+    let temporary = Temporary::write(path, content.as_ref()).map_err(fault)?;
+    match std::fs::hard_link(&temporary.path, path) {
+        Ok(()) => return Ok(true),
+        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => return Ok(false),
+        // The file system has no links: the name is taken first.
+        Err(_) => {}
+    }
+    match OpenOptions::new().write(true).create_new(true).open(path) {
+        Ok(_) => {}
+        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => return Ok(false),
+        Err(error) => return Err(fault(error)),
+    }
+    std::fs::rename(&temporary.path, path).map_err(|error| {
+        let _ = std::fs::remove_file(path);
         fault(error)
-    })
+    })?;
+    Ok(true)
+}
+
+fn write_fault(path: &Path, error: &std::io::Error) -> Error {
+    Error::File { path: path.to_owned(), why: FileFault::Write(error.to_string()) }
+}
+
+fn check_target(path: &Path) -> Result<(), Error> {
+    let why = match path.file_name() {
+        _ if path.is_dir() => "it is a directory",
+        None => "it has no file name",
+        Some(_) => return Ok(()),
+    };
+    Err(Error::File { path: path.to_owned(), why: FileFault::Write(why.to_owned()) })
+}
+
+/// A complete file beside the one that is to be written; removed unless it was renamed.
+struct Temporary {
+    path: PathBuf,
+}
+
+impl Temporary {
+    fn write(beside: &Path, content: &[u8]) -> std::io::Result<Temporary> {
+        /// Makes the names of one process differ.
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        loop {
+            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            // A short name of its own: together with the other's it could be too long.
+            let path = beside.with_file_name(format!(".setpiece.{}.{count}.tmp", std::process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Ok(mut file) => {
+                    let temporary = Temporary { path };
+                    file.write_all(content)?;
+                    return Ok(temporary);
+                }
+                // What a killed process of this number has left.
+                Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
 }

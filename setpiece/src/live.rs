@@ -17,10 +17,10 @@ impl Live {
     /// Loads a scenario and watches its files.
     ///
     /// # Errors
-    /// As [`load`]; [`Error::File`] where a folder can't be watched.
+    /// As [`load`].
     pub fn open(source: &str) -> Result<Live, Error> {
         let loaded = load(source)?;
-        let watcher = Watcher::new(&loaded.inputs)?;
+        let watcher = Watcher::new(&loaded.inputs);
         Ok(Live { source: source.to_owned(), loaded, watcher })
     }
 
@@ -44,12 +44,9 @@ impl Live {
         if !self.watcher.changed(timeout) {
             return None;
         }
-        let fresh = load(&self.source).and_then(|fresh| {
-            self.watcher.watch(&fresh.inputs)?;
-            Ok(fresh)
-        });
-        Some(match fresh {
+        Some(match load(&self.source) {
             Ok(fresh) => {
+                self.watcher.watch(&fresh.inputs);
                 self.loaded = fresh;
                 Ok(&self.loaded)
             }
@@ -58,10 +55,8 @@ impl Live {
                 if let Error::Compile(failure) = &error {
                     files.extend(failure.inputs.iter().filter(|file| !self.loaded.inputs.contains(file)).cloned());
                 }
-                match self.watcher.watch(&files) {
-                    Ok(()) => Err(error),
-                    Err(unwatched) => Err(unwatched),
-                }
+                self.watcher.watch(&files);
+                Err(error)
             }
         })
     }

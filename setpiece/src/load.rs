@@ -1,7 +1,7 @@
 //! Loading: a name, a path, a text or a compiled file becomes a scenario.
 
 use crate::error::{Error, Failure, FileFault};
-use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, into_text, read_file};
+use crate::files::{FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, read_file};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
@@ -100,8 +100,8 @@ pub fn load_file(path: &Path) -> Result<Loaded, Error> {
 }
 
 fn load_file_cast(path: &Path, cast: &[Cast]) -> Result<Loaded, Error> {
-    let compiled = path.extension().is_some_and(|ending| ending == "pitchc");
-    let bytes = read_file(path, if compiled { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES })?;
+    let compiled = is_compiled(path);
+    let bytes = read_file(path, most_bytes(path))?;
     let format = |why| Error::Format { path: path.to_owned(), why };
     if bytes.starts_with(binary::MAGIC) {
         return of_file(binary::from_bytes(&bytes).map_err(format)?, path, cast);

@@ -16,7 +16,7 @@ const TICK: Duration = Duration::from_millis(200);
 pub(crate) fn watch(files: &[String], format: MessageFormat, out: &Out) -> Result<u8, Error> {
     let mut inputs = Vec::new();
     check(files, format, out, &mut inputs);
-    let mut watcher = Watcher::new(&inputs)?;
+    let mut watcher = Watcher::new(&inputs);
     loop {
         if format == MessageFormat::Human {
             out.line(&out.dim("waiting for a change; Ctrl-C ends"));
@@ -24,7 +24,7 @@ pub(crate) fn watch(files: &[String], format: MessageFormat, out: &Out) -> Resul
         while !watcher.changed(TICK) {}
         inputs.clear();
         check(files, format, out, &mut inputs);
-        watcher.watch(&inputs)?;
+        watcher.watch(&inputs);
     }
 }
 

@@ -215,6 +215,7 @@ codes! {
     NoEnding = 411 Warning "the episode never ends";
     TwoKeepers = 412 Error "a team has two keepers";
     AbsentPlayer = 413 Error "a player is absent and placed";
+    TooCostly = 418 Error "a scenario costs too much";
     // SP05xx: scripts.
     ScriptSyntax = 501 Error "a script can't be read";
     ScriptHook = 502 Error "a script lacks its hook";

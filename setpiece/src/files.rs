@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// Largest source file, bytes; a scenario is a few kilobytes.
 pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
 /// Largest compiled scenario, bytes.
-pub const COMPILED_MAX_BYTES: u64 = 64 << 20;
+pub use setpiece_scenario::file::FILE_MAX_BYTES as COMPILED_MAX_BYTES;
 /// Largest snapshot, bytes; most take some kilobytes, records of long episodes more.
 pub const SNAPSHOT_MAX_BYTES: u64 = 64 << 20;
 

@@ -21,7 +21,7 @@ mod hindsight;
 mod walk;
 
 pub use error::{SNAPSHOT_VERSION, SnapshotError};
-pub use file::checksum;
+pub use file::{MAGIC, checksum};
 
 pub(crate) use archive::Archive;
 pub(crate) use check::fits;

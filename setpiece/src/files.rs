@@ -113,6 +113,52 @@ fn similar_file(path: &Path) -> Option<String> {
     setpiece_dsl::problem::nearest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
+/// Bytes of a path that are no UTF-8, in a name: private characters, one a byte.
+#[cfg(unix)]
+const FOREIGN: u32 = 0xF_8000;
+
+/// How a source on disk is called: by its path, whose bytes that are no UTF-8 stand as private characters.
+pub fn name_of(path: &Path) -> String {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        let mut name = String::new();
+        let foreign = |byte: &u8| char::from_u32(FOREIGN + u32::from(*byte));
+        for chunk in path.as_os_str().as_bytes().utf8_chunks() {
+            for letter in chunk.valid().chars() {
+                match u32::from(letter).checked_sub(FOREIGN) {
+                    // It would be taken for a byte.
+                    Some(0x80..=0xFF) => name.extend(letter.to_string().as_bytes().iter().filter_map(foreign)),
+                    _ => name.push(letter),
+                }
+            }
+            name.extend(chunk.invalid().iter().filter_map(foreign));
+        }
+        name
+    }
+    #[cfg(not(unix))]
+    path.to_string_lossy().into_owned()
+}
+
+/// The path that [`name_of`] calls so.
+pub fn path_of(name: &str) -> PathBuf {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStringExt;
+        let mut bytes = Vec::with_capacity(name.len());
+        for letter in name.chars() {
+            // Those above 0x7F alone are ever written.
+            match u32::from(letter).checked_sub(FOREIGN) {
+                Some(byte @ 0x80..=0xFF) => bytes.push(byte as u8),
+                _ => bytes.extend_from_slice(letter.encode_utf8(&mut [0; 4]).as_bytes()),
+            }
+        }
+        std::ffi::OsString::from_vec(bytes).into()
+    }
+    #[cfg(not(unix))]
+    name.into()
+}
+
 /// Loads imports and scripts: `std/…` from the library, everything else beside the file that names it.
 #[derive(Debug, Default)]
 pub struct FileLoader;
@@ -128,12 +174,16 @@ impl SourceLoader for FileLoader {
                 LoadError { message, similar: near.into_iter().collect(), awaited: None }
             });
         }
-        let full = beside(from, path);
+        let full = beside(&path_of(from), &path_of(path));
         match read_text(&full, SOURCE_MAX_BYTES) {
-            Ok(text) => Ok(Source { name: full.to_string_lossy().into_owned(), text: text.into() }),
+            Ok(text) => Ok(Source { name: name_of(&full), text: text.into() }),
             Err(error) => {
-                let similar = similar_file(&full).into_iter().collect();
-                let awaited = Some(full.to_string_lossy().into_owned());
+                // Of a file that is there, no other was meant.
+                let similar = match &error {
+                    Error::File { why: FileFault::Missing { similar }, .. } => similar.iter().cloned().collect(),
+                    _ => Vec::new(),
+                };
+                let awaited = Some(name_of(&full));
                 Err(LoadError { message: error.to_string(), similar, awaited })
             }
         }
@@ -145,8 +195,8 @@ impl SourceLoader for FileLoader {
 }
 
 /// The path of `path` as seen from the file `from`.
-fn beside(from: &str, path: &str) -> PathBuf {
-    let folder = Path::new(from).parent().unwrap_or(Path::new(""));
+fn beside(from: &Path, path: &Path) -> PathBuf {
+    let folder = from.parent().unwrap_or(Path::new(""));
     let mut full = PathBuf::new();
     for part in folder.join(path).components() {
         match part {

@@ -3,12 +3,13 @@
 use crate::error::Error;
 use crate::load::{Loaded, load};
 use crate::watch::Watcher;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::time::Duration;
 
 /// A scenario and the watch on everything it is made of: its file, imports and scripts.
 pub struct Live {
-    source: String,
+    source: OsString,
     loaded: Loaded,
     watcher: Watcher,
 }
@@ -18,10 +19,11 @@ impl Live {
     ///
     /// # Errors
     /// As [`load`].
-    pub fn open(source: &str) -> Result<Live, Error> {
-        let loaded = load(source)?;
+    pub fn open(source: impl AsRef<OsStr>) -> Result<Live, Error> {
+        let source = source.as_ref().to_owned();
+        let loaded = load(&source)?;
         let watcher = Watcher::new(&loaded.inputs);
-        Ok(Live { source: source.to_owned(), loaded, watcher })
+        Ok(Live { source, loaded, watcher })
     }
 
     /// The last good scenario.

@@ -30,7 +30,7 @@ const BODY_MAX_BYTES: u64 = 64 << 20;
 /// Most actions, everyone's of every step: three whole matches of 22 agents.
 const ACTS_MAX: usize = 4_000_000;
 /// What a replay begins with: no text does.
-const MAGIC: &[u8; 8] = b"\x8bpitchr\n";
+pub(crate) const MAGIC: &[u8; 8] = b"\x8bpitchr\n";
 /// Mark, version, checksum, length.
 const HEAD: usize = 8 + 4 + 8 + 8;
 

@@ -153,6 +153,7 @@ impl Drawer {
         enough: u32,
     ) -> Acceptance {
         self.failures.fill(0);
+        let attempts = attempts.min(self.attempts_max);
         let mut found = Acceptance { attempts: 0, met: 0, hardest: None };
         while found.attempts < attempts && found.met < enough {
             let index = u64::from(found.attempts);

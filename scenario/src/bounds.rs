@@ -17,7 +17,7 @@ pub const EVENTS_MAX: usize = 128;
 /// of a second. Four nested loops over all players run a million.
 pub const STEP_WORK_MAX: u64 = 1 << 25;
 /// Most instructions that one attempt at a start runs.
-pub const START_WORK_MAX: u64 = 1 << 25;
+pub const START_WORK_MAX: u64 = 1 << 22;
 /// Most instructions of all programs together: a register for each agent and instruction makes some 50 MB.
 pub const CODE_MAX: u64 = 200_000;
 /// Most memory cells of all programs together, each of which an agent has for itself.
@@ -272,7 +272,7 @@ fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut out = String::new();
     for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at) % 3 == 0 {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
             out.push(',');
         }
         out.push(digit);

@@ -1,9 +1,7 @@
 //! Loading: a name, a path, a text or a compiled file becomes a scenario.
 
 use crate::error::{Error, Failure, FileFault, Packed};
-use crate::files::{
-    FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, name_of, path_of, read_file,
-};
+use crate::files::{FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, name_of, path_of, read_file};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};

@@ -90,7 +90,9 @@ fn a_text_is_held_to_the_same_bounds_where_it_stands() {
         })
         .collect();
     let text = format!("scenario s extends 11_vs_11_stochastic {{\n{records}}}\n");
-    let Err(setpiece::Error::Compile(failure)) = setpiece::compile_text(&text, "s.pitch") else { panic!("it compiles") };
+    let Err(setpiece::Error::Compile(failure)) = setpiece::compile_text(&text, "s.pitch") else {
+        panic!("it compiles")
+    };
     let [problem] = failure.problems.as_slice() else { panic!("{:?}", failure.problems) };
     assert_eq!(problem.code.to_string(), "SP0418");
     let (line, _) = failure.sources.iter().next().unwrap().1.line_column(problem.labels[0].span.start);

@@ -50,7 +50,6 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
     found.unwrap_or_else(|| lower.code.constant(if world.mirror.team(team) == Team::Left { 1.0 } else { 0.6 }))
 }
 
-
 /// A number of 0..1.
 fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
     let reg = lower.want_reg(expr, Ty::Number);

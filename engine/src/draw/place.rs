@@ -41,7 +41,9 @@ impl Fault {
             Fault::Ball => "the ball lies on the pitch",
             Fault::Player => "every player stands on the pitch",
             Fault::Gap => "players placed at random keep 0.6 m from others, but for who may overlap",
-            Fault::Bounds => "the ball's height, speed and spin, and players' speeds and headings are within their bounds",
+            Fault::Bounds => {
+                "the ball's height, speed and spin, and players' speeds and headings are within their bounds"
+            }
         }
     }
 }

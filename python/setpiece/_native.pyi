@@ -32,6 +32,8 @@ __all__ = [
     "load_cast",
     "restore",
     "run_command",
+    "write",
+    "write_new",
 ]
 
 __version__: Final[str]

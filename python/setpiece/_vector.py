@@ -322,7 +322,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             None if episode is None else check_number("episode", episode),
         )
 
-    def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
+    def _seeds(self, seed: Any) -> list[int | None]:
         if seed is None:
             return [None] * self.num_envs
         if isinstance(seed, list | tuple) or (isinstance(seed, np.ndarray) and seed.ndim > 0):

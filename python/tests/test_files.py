@@ -13,7 +13,7 @@ import pytest
 
 import setpiece
 
-PITCH = 'scenario {name} extends academy {{ ball at (0.6, 0) team left {{ CM at (0.5, 0) }} }}\n'
+PITCH = "scenario {name} extends academy {{ ball at (0.6, 0) team left {{ CM at (0.5, 0) }} }}\n"
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes, limits and bytes of paths are Unix's")
 
@@ -76,7 +76,7 @@ def test_a_watched_file_that_becomes_a_pipe_keeps_the_last_scenario(pitch_file: 
 
 def test_a_watch_holds_neither_threads_nor_files(pitch_file: Callable[[str], Path]) -> None:
     def held() -> tuple[int, int]:
-        return len(os.listdir("/proc/self/fd")), len(os.listdir("/proc/self/task"))
+        return len([*Path("/proc/self/fd").iterdir()]), len([*Path("/proc/self/task").iterdir()])
 
     if not Path("/proc/self/task").exists():
         pytest.skip("only Linux tells")
@@ -98,7 +98,7 @@ def test_a_replay_that_does_not_fit_leaves_the_earlier_one(tmp_path: Path) -> No
     with small_disk(100), pytest.raises(setpiece.FileError, match=r"kept\.pitchr` can't be written"):
         env.save_replay(path)
     assert path.read_bytes() == before
-    assert os.listdir(tmp_path) == ["kept.pitchr"]
+    assert [file.name for file in tmp_path.iterdir()] == ["kept.pitchr"]
     env.save_replay(path)
     assert setpiece.Replay(path).length == 1
 
@@ -112,7 +112,7 @@ def test_recording_on_a_full_disk_raises_once_and_leaves_nothing(tmp_path: Path)
         assert "no further episode" in str(caught.value)
         assert played(env, seed=3)["setpiece"]["replay"] is None
     assert played(env, seed=4)["setpiece"]["replay"] is None
-    assert [str(tmp_path / "runs" / name) for name in os.listdir(tmp_path / "runs")] == [first]
+    assert [str(file) for file in (tmp_path / "runs").iterdir()] == [first]
 
 
 def test_a_compiled_scenario_does_not_name_its_way_out_of_a_folder(tmp_path: Path) -> None:
@@ -138,7 +138,7 @@ def test_a_recorder_writes_into_its_folder_alone(tmp_path: Path) -> None:
 
     with pytest.raises(setpiece.FileError, match="doesn't lie in"):
         _write_beside(tmp_path / "runs", "../evil", b"")
-    assert os.listdir(tmp_path) == []
+    assert not [*tmp_path.iterdir()]
 
 
 def test_paths_that_are_not_unicode_are_paths(tmp_path: Path) -> None:

@@ -115,7 +115,10 @@ enum Command {
     #[command(after_help = "Examples:
   setpiece render academy_corner -o corner.png
   setpiece render corner.pitch --agent random --seed 7 -o sheet.png
-  setpiece render 11_vs_11_stochastic --step 120 -o frame.png")]
+  setpiece render 11_vs_11_stochastic --step 120 -o frame.png
+  setpiece render runs/academy_corner_7_0.pitchr -o sheet.png
+
+A recorded episode (.pitchr) is drawn as it was played: who played, seed and parameters are its own.")]
     Render(render::RenderArgs),
     /// Draw an episode: not part of this build
     #[cfg(not(feature = "render"))]

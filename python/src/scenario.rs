@@ -145,8 +145,8 @@ pub(crate) fn load(py: Python<'_>, name_or_path: &Bound<'_, PyAny>) -> PyResult<
 
 /// Compiles a text in the language; `name` is how reports call it.
 ///
-/// Raises `CompileError`, whose `diagnostics` lists every problem, `FileError` above 1 MiB, or `ParameterError` for what is
-/// no text.
+/// Raises `CompileError`, whose `diagnostics` lists every problem, `FileError` above 1 MiB, or `ParameterError` for what
+/// is no text.
 #[pyfunction]
 #[pyo3(signature = (text, name = None), text_signature = "(text, name='<text>')")]
 pub(crate) fn compile(text: &Bound<'_, PyAny>, name: Option<&Bound<'_, PyAny>>) -> PyResult<Scenario> {

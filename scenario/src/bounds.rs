@@ -1,9 +1,9 @@
 //! What a scenario may cost at most: the memory it takes and the work of a step and of a reset.
 //!
-//! A text of a megabyte or a compiled file can ask for more than any machine has: loops multiply instructions, and every
-//! agent has a memory of its own. The totals are reckoned before anything is made of the scenario, as if every loop went
-//! through everybody and every player had an agent. The compiler reports what is beyond them where it stands in the
-//! text; a file is refused.
+//! A text of a megabyte or a compiled file can ask for more than any machine has: loops multiply instructions, and
+//! every agent has a memory of its own. The totals are reckoned before anything is made of the scenario, as if every
+//! loop went through everybody and every player had an agent. The compiler reports what is beyond them where it
+//! stands in the text; a file is refused.
 
 use crate::behavior::Node;
 use crate::pitch::PLAYERS_MAX;
@@ -13,8 +13,8 @@ use crate::vocabulary::Team;
 
 /// Most events of one step.
 pub const EVENTS_MAX: usize = 128;
-/// Most instructions that a step runs, everyone's rewards, records, observations and behaviours together: about a quarter
-/// of a second. Four nested loops over all players run a million.
+/// Most instructions that a step runs, everyone's rewards, records, observations and behaviours together: about a
+/// quarter of a second. Four nested loops over all players run a million.
 pub const STEP_WORK_MAX: u64 = 1 << 25;
 /// Most instructions that one attempt at a start runs.
 pub const START_WORK_MAX: u64 = 1 << 22;

@@ -1,9 +1,9 @@
 //! Watching: says when a scenario's files have changed.
 //!
-//! Every look asks the system for each file's stamp (size, times, identity) through all links, so that it doesn't matter
-//! how a file came to change: saved in place or by renaming, behind a link, in a folder that was made again. A look
-//! costs about a microsecond a file, and a watcher holds no thread and no open file. Where a stamp is another one, the
-//! content is compared: a save without a change says nothing.
+//! Every look asks the system for each file's stamp (size, times, identity) through all links, so that it doesn't
+//! matter how a file came to change: saved in place or by renaming, behind a link, in a folder that was made again. A
+//! look costs about a microsecond a file, and a watcher holds no thread and no open file. Where a stamp is another
+//! one, the content is compared: a save without a change says nothing.
 
 use crate::error::{Error, FileFault};
 use crate::files::{most_bytes, read_file};

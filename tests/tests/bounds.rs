@@ -1,5 +1,5 @@
-//! Files that are called safe to load: what would take all memory, or minutes a step, is refused before anything is made
-//! of it.
+//! Files that are called safe to load: what would take all memory, or minutes a step, is refused before anything is
+//! made of it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions};
@@ -85,8 +85,8 @@ fn the_work_of_a_step_is_bounded() {
 fn a_text_is_held_to_the_same_bounds_where_it_stands() {
     let records: String = (0..1_000)
         .map(|n| {
-            let sums = "sum(sum(sum(sum(p.x * q.y + r.x * s.y for s in players) for r in players) for q in players) for p in players)";
-            format!("    record r{n} = {sums}\n")
+            let outer = ["r", "q", "p"].map(|name| format!(" for {name} in players)")).concat();
+            format!("    record r{n} = sum(sum(sum(sum(p.x * q.y + r.x * s.y for s in players){outer}\n")
         })
         .collect();
     let text = format!("scenario s extends 11_vs_11_stochastic {{\n{records}}}\n");

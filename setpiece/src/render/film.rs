@@ -154,7 +154,7 @@ fn is_award(kind: EventKind) -> bool {
     matches!(kind, Kickoff | ThrowIn | Corner | GoalKick | FreeKick | Penalty)
 }
 
-/// The seed, the episode's index, which agent played for all, if one did, and the parameters that are not their defaults.
+/// The seed, the episode's index, which agent played for all, if one did, and the parameters that aren't their defaults.
 fn origin(environment: &Environment, agent: Option<Agent>) -> String {
     let mut origin = format!("seed {}", environment.seed());
     if environment.index() > 0 {

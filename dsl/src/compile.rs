@@ -15,6 +15,7 @@ use crate::problem::{Code, Problem, ScriptApi, Severity};
 use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
+use setpiece_scenario::bounds::{self, Excess, Part};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use unused::Unused;
@@ -60,6 +61,10 @@ pub struct Origins {
     pub rewards: Vec<Span>,
     /// Its endings, in order.
     pub endings: Vec<Span>,
+    /// Its records, in order.
+    pub records: Vec<Span>,
+    /// Its observation.
+    pub observation: Option<Span>,
     /// Its requirements, in order: the written ones, then the implied.
     pub requires: Vec<RequireOrigin>,
 }
@@ -169,6 +174,12 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     });
     if let Some((scenario, origins)) = &chosen
         && !has_errors(&problems)
+        && let Err(excess) = bounds::check(scenario)
+    {
+        problems.push(too_costly(&scenario.name, excess, origins));
+    }
+    if let Some((scenario, origins)) = &chosen
+        && !has_errors(&problems)
         && let Err(fault) = setpiece_scenario::verify::verify(scenario)
     {
         // Only a program beyond every bound gets here: what is small enough passes by construction.
@@ -184,6 +195,20 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         None => (None, Origins::default()),
     };
     Outcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
+}
+
+/// What a scenario costs more than any may, told where most of it stands.
+fn too_costly(name: &str, excess: Excess, origins: &Origins) -> Problem {
+    let span = match excess.part {
+        Part::Reward(at) => origins.rewards.get(at).copied(),
+        Part::Record(at) => origins.records.get(at).copied(),
+        Part::Endings => origins.endings.first().copied(),
+        Part::Observation => origins.observation,
+        Part::Scenario | Part::Start | Part::Library(_) | Part::Behavior(_) => None,
+    };
+    let label = if span.is_some() { "the most of it" } else { "" };
+    let span = span.or(origins.scenario).unwrap_or(Span { file: FileId(0), start: 0, end: 0 });
+    Problem::new(Code::TooCostly, span, format!("`{name}` has {}", excess.message), label).help(excess.help)
 }
 
 fn place(problem: &Problem) -> Option<Span> {
@@ -310,6 +335,8 @@ fn compile_one<'a>(
         players: world.roster.iter().map(|player| player.span).collect(),
         rewards: reward_spans,
         endings: flat.ends.iter().map(|end| end.span).collect(),
+        records: flat.records.iter().map(|record| record.name.span).collect(),
+        observation: flat.observed.map(|(_, span)| span),
         requires,
     };
     let scenario = Scenario {

@@ -165,6 +165,7 @@ codes! {
     BadSnapshot = 13 Error "a snapshot can't be used";
     BadReplay = 14 Error "a replay can't be played";
     CompiledCast = 15 Error "a compiled scenario keeps who plays its players";
+    FileNotRegular = 17 Error "a pipe or device stands for a file";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";
@@ -214,6 +215,7 @@ codes! {
     NoEnding = 411 Warning "the episode never ends";
     TwoKeepers = 412 Error "a team has two keepers";
     AbsentPlayer = 413 Error "a player is absent and placed";
+    TooCostly = 418 Error "a scenario costs too much";
     // SP05xx: scripts.
     ScriptSyntax = 501 Error "a script can't be read";
     ScriptHook = 502 Error "a script lacks its hook";

@@ -208,6 +208,19 @@ impl<L: Send> Batch<L> {
         Ok(Batch { lanes, scratches, others })
     }
 
+    /// Starts the threads again: those of a process are not in its fork.
+    ///
+    /// # Errors
+    /// [`BatchError`] if the threads can't be started.
+    pub fn restart_threads(&mut self) -> Result<(), BatchError> {
+        if let Some(others) = self.others.take() {
+            // Its threads are gone, and may have gone with a lock of its own: nobody waits for them.
+            std::mem::forget(others);
+            self.others = Some(pool(self.scratches.len() - 1)?);
+        }
+        Ok(())
+    }
+
     /// The lanes.
     pub fn lanes(&self) -> &[L] {
         &self.lanes

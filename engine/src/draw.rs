@@ -17,12 +17,17 @@ use crate::random::Stream;
 use crate::start::{Drawn, DrawnAgent, DrawnPlayer};
 use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{BALL_RADIUS_M, PLAYERS_MAX, RIM_X_M, RIM_Y_M, STEPS_PER_S};
+use setpiece_scenario::bounds::start_work;
+use setpiece_scenario::pitch::{
+    BALL_RADIUS_M, GOALS_MAX, LONGEST_S, PLAYERS_MAX, RIM_X_M, RIM_Y_M, STEPS_PER_S, YELLOW_CARDS_MAX,
+};
 use setpiece_scenario::vocabulary::{Rule, Team};
 use setpiece_scenario::{Bindings, Reg, Scenario};
 
 /// Most attempts at a start that meets its requirements.
 pub const ATTEMPTS_MAX: u32 = 10_000;
+/// Most instructions that are run for one start: what large programs may cost shortens the search.
+const WORK_MAX: u64 = 1 << 28;
 /// The attempt whose streams toss the coins of `require … with P`: tossed once per start, so no attempt is its own.
 const COIN_ATTEMPT: u32 = u32::MAX;
 
@@ -77,10 +82,11 @@ pub struct Drawer {
     failures: Vec<u32>,
     /// Whether a register depends on a draw.
     random: Vec<bool>,
+    attempts_max: u32,
 }
 
 clone_in_place! {
-    Drawer { regs, failures, random }
+    Drawer { regs, failures, random, attempts_max }
 }
 
 impl Drawer {
@@ -97,6 +103,7 @@ impl Drawer {
             regs: Registers::of(program),
             failures: vec![0; scenario.start.requires.len() + place::Fault::ALL.len()],
             random,
+            attempts_max: (WORK_MAX / start_work(scenario)).clamp(1, ATTEMPTS_MAX.into()) as u32,
         }
     }
 
@@ -117,7 +124,7 @@ impl Drawer {
     ) -> Result<Drawn, DrawError> {
         self.failures.fill(0);
         self.begin(bindings, DrawKey { seed, index, attempt: 0 });
-        let attempts = if self.random.contains(&true) { ATTEMPTS_MAX } else { 1 };
+        let attempts = if self.random.contains(&true) { self.attempts_max } else { 1 };
         for attempt in 0..attempts {
             self.run(bindings, DrawKey { seed, index, attempt });
             match self.failed(scenario, roster, seed, index) {
@@ -146,6 +153,7 @@ impl Drawer {
         enough: u32,
     ) -> Acceptance {
         self.failures.fill(0);
+        let attempts = attempts.min(self.attempts_max);
         let mut found = Acceptance { attempts: 0, met: 0, hardest: None };
         while found.attempts < attempts && found.met < enough {
             let index = u64::from(found.attempts);
@@ -275,8 +283,8 @@ impl Drawer {
     }
 
     fn steps(&self, seconds: Reg) -> u32 {
-        // The cast saturates: nothing below 0, nothing beyond the largest.
-        libm::round(self.value(seconds) * STEPS_PER_S) as u32
+        // The cast saturates: nothing below 0.
+        libm::round(self.value(seconds).min(LONGEST_S) * STEPS_PER_S) as u32
     }
 
     /// The concrete start that the registers describe.
@@ -286,7 +294,7 @@ impl Drawer {
         for setting in &start.rules {
             rules[setting.rule.index()] = self.value(setting.value);
         }
-        let goals = |reg: Reg| self.value(reg) as u16;
+        let goals = |reg: Reg| (self.value(reg) as u16).min(GOALS_MAX);
         let height_m = self.optional(start.ball.height).max(0.0) as f32 + BALL_RADIUS_M as f32;
         let difficulty = start.difficulty.map(|reg| self.share(reg));
         Drawn {
@@ -338,7 +346,7 @@ impl Drawer {
                     vel: start.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity)),
                     heading_rad: start.heading.map(|heading| self.value(heading) as f32),
                     fatigue: start.fatigue.map_or(0.0, |fatigue| self.share(fatigue)),
-                    yellow_cards: self.optional(start.yellow_cards) as u8,
+                    yellow_cards: (self.optional(start.yellow_cards) as u8).min(YELLOW_CARDS_MAX),
                     difficulty: start.difficulty.map_or(difficulty[team.index()], |own| self.share(own)),
                     stats: slot.stats.iter().map(|&(stat, reg)| (stat, self.share(reg))).collect(),
                     kickoff,

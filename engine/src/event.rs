@@ -6,7 +6,7 @@ use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
 
 /// Most events of one step; further ones are dropped and counted (a step has ten ticks).
-pub const EVENTS_MAX: usize = 128;
+pub use setpiece_scenario::bounds::EVENTS_MAX;
 
 /// Something that happened.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -6,13 +6,14 @@
 //! last the episode around it, which only the same scenario can go on with.
 //!
 //! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible; [`floats`]: many
-//!   numbers at once.
+//!   numbers at once; [`bounded`](mod@bounded): no list may be endless.
 //! - [`file`]: the head. [`check`]: whether a match fits an environment.
 //! - [`hindsight`]: a new episode in an old state.
 //!
 //! What a snapshot may be asked for stands with [`Environment`](crate::environment::Environment).
 
 mod archive;
+mod bounded;
 mod check;
 mod error;
 mod file;
@@ -21,9 +22,10 @@ mod hindsight;
 mod walk;
 
 pub use error::{SNAPSHOT_VERSION, SnapshotError};
-pub use file::checksum;
+pub use file::{MAGIC, checksum};
 
 pub(crate) use archive::Archive;
+pub(crate) use bounded::bounded;
 pub(crate) use check::fits;
 pub(crate) use hindsight::begin_from;
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from setpiece._errors import CallbackError, ParameterError
 from setpiece._native import AgentInfo
 from setpiece._opponents import SIDES
+from setpiece._words import is_text
 
 NONE = "none"
 """In the place of names: none of the scenario's rewards."""
@@ -62,6 +63,8 @@ def read_rewards(rewards: Rewards) -> tuple[list[str] | None, list[RewardFunctio
     if not isinstance(given, Sequence) or not all(isinstance(one, str) or callable(one) for one in given):
         raise ParameterError(f"expected `rewards` as names or functions, found `{rewards!r}`", name="rewards")
     names = [one.strip() for one in given if isinstance(one, str)]
+    if not all(is_text(name) for name in names):
+        raise ParameterError(f"expected `rewards` as names or functions, found `{rewards!r}`", name="rewards")
     functions = [one for one in given if not isinstance(one, str)]
     if names == [NONE]:
         names = []
@@ -212,7 +215,7 @@ class Callbacks:
         """The label of the first ending that holds."""
         for function in self.ends:
             verdict = _call(function, step.agent, step)
-            if isinstance(verdict, str):
+            if isinstance(verdict, str) and is_text(verdict):
                 if verdict:
                     return verdict
             elif verdict is not None and not isinstance(verdict, bool | np.bool_):

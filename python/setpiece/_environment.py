@@ -287,7 +287,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         `id`, `team` (0 left, 1 right) and `place`: the place in its team of the player it keeps, None where it changes
         players.
         """
-        return self._native.agents
+        with one_thread:
+            return self._native.agents
 
     @property
     def observation(self) -> str:
@@ -302,7 +303,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         >>> setpiece.make("academy_corner").observation_layout[4]
         Block(start=88, length=3, meaning='ball x, y, z', unit='normalised; z in metres')
         """
-        return observation_layout(self._native, self._observation, self._options["stack"])
+        with one_thread:
+            return observation_layout(self._native, self._observation, self._options["stack"])
 
     @property
     def action_set(self) -> str:
@@ -321,11 +323,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         >>> env.look("raw")["steps_left"].item()
         400
         """
-        if self._native.episode is None:
-            raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
         kind = check_observation(observation)
         scale = check_scale(scale, kind)
         with one_thread:
+            if self._native.episode is None:
+                raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
             return self._native.look(kind, scale)
 
     def clone(self) -> FootballEnv:
@@ -469,7 +471,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
-        mask = self._native.action_mask()
+        with one_thread:
+            mask = self._native.action_mask()
         return mask if self._table is None else self._table.mask(mask)
 
     def played(self) -> dict[str, int]:
@@ -486,11 +489,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         >>> env.played()["left_CB_1"] == setpiece.Action.RIGHT
         True
         """
-        return self._native.played()
+        with one_thread:
+            return self._native.played()
 
     def render(self) -> str | None:
         """Returns a drawing of the pitch in text, for `render_mode="ansi"`; None without a render mode."""
-        return self._native.drawing() if self.render_mode == "ansi" else None
+        if self.render_mode is None:
+            return None
+        with one_thread:
+            return self._native.drawing()
 
     def __repr__(self) -> str:
         return f"FootballEnv({self.scenario.name}, observation={self._observation}, agents={', '.join(self.agents)})"

@@ -101,8 +101,10 @@ def make(
       shot, slide; and the power of a kick, 0..1: how hard a shot is and how far a pass goes, 0 as a key's).
     - `record`: a folder for replays of episodes, `{scenario}_{seed}_{index}.pitchr` (with `_2` and so on behind it
       where one of the same draw lies there already): of all, of those with a goal (`record_when="goal"`), or of the
-      first and each n-th after it (`record_when=n`). The last `info["setpiece"]` has `replay`, the path or None;
-      `setpiece replay FILE` plays one again, and so does `setpiece.Replay`.
+      first and each n-th after it (`record_when=n`). The first that can't be written, as on a full disk, raises
+      `FileError` in its last `step`, and no more is recorded; no part of a replay is ever left. The last
+      `info["setpiece"]` has `replay`, the path or None; `setpiece replay FILE` plays one again, and so does
+      `setpiece.Replay`.
     - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from operator import index
-from os import PathLike, fspath
+from os import PathLike, fsencode, fspath
 from pathlib import Path
 from typing import Any
 
@@ -90,9 +90,18 @@ def check_path(name: str, value: object) -> Path:
     """Returns a path, or raises `ParameterError`."""
     if isinstance(value, str | PathLike):
         path = fspath(value)
-        if isinstance(path, str):
+        if isinstance(path, str) and "\0" not in path and _is_encodable(path):
             return Path(path)
     raise ParameterError(f"expected a path as `{name}`, found `{value!r}`", name=name)
+
+
+def _is_encodable(path: str) -> bool:
+    """Whether a file can be called so: no path has surrogates other than those that stand for its bytes."""
+    try:
+        fsencode(path)
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def check_snapshot(snapshot: object) -> bytes:

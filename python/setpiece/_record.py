@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from itertools import count
 from os import PathLike
 from pathlib import Path
@@ -41,22 +41,33 @@ class Record:
         # Now, not when an episode has been played that can't be written.
         make_folder(self._folder)
         self._ended = 0
+        self._failed = False
 
     def end(self, native: _native.Environment, name: str, score: Sequence[int]) -> str | None:
         """Writes the episode that has just ended, if it is one of those; returns where.
 
-        One that was restored in its middle has no beginning to be played from: it is none of them.
+        One that was restored in its middle has no beginning to be played from: it is none of them. Raises `FileError`
+        for the first that can't be written (a full disk), and records no more: what is played goes on.
         """
         wanted = self._wants(score)
         self._ended += 1
-        if not wanted or native.episode is None:
+        if not wanted or self._failed or native.episode is None:
             return None
         seed, index = native.episode
         try:
             replay = native.replay()
         except ReplayError:
             return None
-        return str(_write_beside(self._folder / f"{name}_{seed}_{index}.pitchr", replay))
+        try:
+            return str(_write_beside(self._folder, f"{name}_{seed}_{index}", replay))
+        except FileError as error:
+            self._failed = True
+            raise FileError(
+                error.args[0],
+                path=error.path,
+                code=error.code,
+                help="no further episode of this environment is recorded; `reset` plays on",
+            ) from None
 
     def _wants(self, score: Sequence[int]) -> bool:
         if self._when == "goal":
@@ -67,8 +78,7 @@ class Record:
 def write(path: Path, replay: bytes) -> None:
     """Writes a replay and the folders it lies in; `FileError` where it can't."""
     make_folder(path.parent)
-    with _writing(path):
-        path.write_bytes(replay)
+    _native.write(path, replay)
 
 
 def make_folder(folder: Path) -> None:
@@ -77,16 +87,18 @@ def make_folder(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
 
 
-def _write_beside(path: Path, replay: bytes) -> Path:
+def _write_beside(folder: Path, stem: str, replay: bytes) -> Path:
     """Writes a replay, with a number behind its name where one of the same draw lies there already; returns where."""
-    make_folder(path.parent)
-    free = path
+    free = folder / f"{stem}.pitchr"
+    if free.parent != folder:
+        # No scenario is called so that it leads out of the folder; whatever called this would.
+        raise FileError(f"`{free}` doesn't lie in `{folder}`", path=str(free))
+    make_folder(folder)
     for number in count(2):
         # Whoever makes the file has the name: other threads and processes may write there too.
-        with _writing(free), suppress(FileExistsError), free.open("xb") as file:
-            file.write(replay)
+        if _native.write_new(free, replay):
             break
-        free = path.with_stem(f"{path.stem}_{number}")
+        free = folder / f"{stem}_{number}.pitchr"
     return free
 
 

@@ -228,7 +228,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     @property
     def observation_layout(self) -> Layout:
         """How one agent's observation lies: the blocks of its last axis."""
-        return observation_layout(self._batch, self._observation, self._stack)
+        with one_thread:
+            return observation_layout(self._batch, self._observation, self._stack)
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns what `infos["action_mask"]` shows now."""
@@ -239,7 +240,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         """Returns a drawing of every pitch in text, for `render_mode="ansi"`; None without a render mode."""
         if self.render_mode is None:
             return None
-        return tuple(self._batch.drawing(at) for at in range(self.num_envs))
+        with one_thread:
+            return tuple(self._batch.drawing(at) for at in range(self.num_envs))
 
     def _read(self, given: Any) -> NDArray[Any]:
         """Everyone's actions: the caller's, and what opponents say; the batch reads the numbers."""
@@ -320,10 +322,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             None if episode is None else check_number("episode", episode),
         )
 
-    def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
+    def _seeds(self, seed: Any) -> list[int | None]:
         if seed is None:
             return [None] * self.num_envs
-        if isinstance(seed, list | tuple | np.ndarray):
+        if isinstance(seed, list | tuple) or (isinstance(seed, np.ndarray) and seed.ndim > 0):
             if len(seed) != self.num_envs:
                 raise ParameterError(f"expected {self.num_envs} seeds, found {len(seed)}", name="seed")
             return [None if one is None else check_number("seed", one) for one in seed]

@@ -14,6 +14,15 @@ def similar(name: object, known: Iterable[str]) -> str | None:
     return f"did you mean `{found[0]}`?" if found else None
 
 
+def is_text(text: str) -> bool:
+    """Whether a string is Unicode text: one with a lone surrogate can't be handed to the engine or written."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def check_word(option: str, name: object, known: tuple[str, ...]) -> str:
     """Returns an option's value, or raises `ParameterError` where it is none of those known."""
     if isinstance(name, str) and name in known:

@@ -64,6 +64,8 @@ pub(crate) struct Batch {
     /// Whether a step begins the next episode where the last one has ended.
     next_step: bool,
     acts: Vec<Act>,
+    /// The process whose threads play.
+    process: u32,
 }
 
 /// The arrays of a batch, a row for each environment: rewards (n, agents), terms (n, agents, terms), masks
@@ -108,7 +110,7 @@ impl Batch {
         scale: bool,
         left: Option<&Bound<'_, PyAny>>,
         right: Option<&Bound<'_, PyAny>>,
-        switching: Option<&str>,
+        switching: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Batch> {
         let (wanted, seats) = (Wanted { name: observation, size, scale }, Seats { left, right, switching });
         let (engine, kind, action_set) = prepare(py, scenario, rewards, wanted, action_set, &seats)?;
@@ -125,7 +127,7 @@ impl Batch {
         let lane = || Lane { engine: engine.clone(), film: film(), over: true, fault: None, broken: None };
         let lanes = Lanes::new((0..n).map(|_| lane()).collect(), threads)
             .map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
-        Ok(Batch { lanes, kind, stack, action_set, next_step, acts })
+        Ok(Batch { lanes, kind, stack, action_set, next_step, acts, process: std::process::id() })
     }
 
     /// The agents of each environment, left before right.
@@ -365,6 +367,11 @@ impl Batch {
             numbers.zip(flags.zip(shown.drain(..)))
         {
             rows.push(Row { observation, rewards, terms, mask, score, terminated, truncated, begun });
+        }
+        if self.process != std::process::id() {
+            // A fork has inherited it.
+            self.lanes.restart_threads().map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
+            self.process = std::process::id();
         }
         let lanes = &mut self.lanes;
         py.detach(|| lanes.each(rows, &work));

@@ -79,7 +79,7 @@ impl Environment {
         scale: bool,
         left: Option<&Bound<'_, PyAny>>,
         right: Option<&Bound<'_, PyAny>>,
-        switching: Option<&str>,
+        switching: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Environment> {
         let (wanted, seats) = (Wanted { name: observation, size, scale }, Seats { left, right, switching });
         let (engine, kind, action_set) = prepare(py, scenario, rewards, wanted, action_set, &seats)?;
@@ -373,7 +373,7 @@ pub(crate) fn agents(
     scenario: &Scenario,
     left: Option<&Bound<'_, PyAny>>,
     right: Option<&Bound<'_, PyAny>>,
-    switching: Option<&str>,
+    switching: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<AgentInfo>> {
     let agents = read_seats(py, &Seats { left, right, switching })?;
     let options = EnvironmentOptions { agents, ..EnvironmentOptions::default() };

@@ -5,6 +5,7 @@ mod batch;
 mod diagnostics;
 mod environment;
 mod errors;
+mod given;
 mod info;
 mod live;
 mod observation;
@@ -12,6 +13,7 @@ mod params;
 mod replay;
 mod scenario;
 mod seats;
+mod write;
 
 /// Football scenarios from text files, and the engine that runs them.
 #[pyo3::pymodule]
@@ -21,6 +23,7 @@ mod _native {
     use pyo3::types::IntoPyDict;
     use setpiece::engine::control::continuous;
     use setpiece::scenario::Action;
+    use std::ffi::OsString;
 
     #[pymodule_export]
     use crate::batch::{Arrays, Batch};
@@ -34,6 +37,8 @@ mod _native {
     use crate::replay::Replay;
     #[pymodule_export]
     use crate::scenario::{Scenario, compile, compile_cast, library, load, load_cast, restore};
+    #[pymodule_export]
+    use crate::write::{write, write_new};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -49,8 +54,8 @@ mod _native {
 
     /// Runs the command `setpiece` with arguments and returns its exit code: 0, 1 (input) or 2 (usage).
     #[pyfunction]
-    fn run_command(py: Python<'_>, arguments: Vec<String>) -> u8 {
-        let words = std::iter::once("setpiece".to_owned()).chain(arguments);
-        py.detach(|| setpiece::cli::main(words.map(Into::into)))
+    fn run_command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+        let words = std::iter::once(OsString::from("setpiece")).chain(arguments);
+        py.detach(|| setpiece::cli::main(words))
     }
 }

@@ -125,7 +125,7 @@ fn bind_one(
     value: &Bound<'_, PyAny>,
 ) -> Result<(), Fault> {
     if let Ok(text) = value.cast::<PyString>() {
-        return Ok(bindings.set_text(params, name, &text.to_cow()?)?);
+        return Ok(bindings.set_text(params, name, &text.to_string_lossy())?);
     }
     let ty = params.iter().find(|param| param.name == name).map(|param| param.ty);
     let wrong = || -> Result<(), Fault> {

@@ -1,12 +1,11 @@
 //! Scenarios: loading, compiling, binding, saving.
 
 use crate::params::{Param, bind};
-use crate::{diagnostics, errors};
+use crate::{diagnostics, errors, given};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMappingProxy};
 use setpiece::scenario::{self as compiled, Bindings, Team};
 use setpiece::{Cast, Loaded, Whom};
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A compiled scenario: what `setpiece.load` and `setpiece.compile` return. It never changes.
@@ -106,9 +105,10 @@ impl Scenario {
 
     /// Writes the compiled scenario to a file (`.pitchc`): self-contained, parameters can still be bound.
     ///
-    /// Raises `FileError` where it can't be written.
-    #[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    /// Raises `FileError` where it can't be written, `ParameterError` where `path` is no path.
+    fn save(&self, path: &Bound<'_, PyAny>) -> PyResult<()> {
+        let py = path.py();
+        let path = given::path("path", path)?;
         let text = self.to_json(py)?;
         setpiece::files::refuse_overwriting(&path, &[]).map_err(|error| errors::from_facade(py, &error))?;
         setpiece::files::write(&path, &text).map_err(|error| errors::from_facade(py, &error))
@@ -137,45 +137,62 @@ impl Scenario {
 ///
 /// Raises `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
-pub(crate) fn load(py: Python<'_>, name_or_path: PathBuf) -> PyResult<Scenario> {
-    let loaded = py.detach(|| setpiece::load(&name_or_path.to_string_lossy()));
+pub(crate) fn load(py: Python<'_>, name_or_path: &Bound<'_, PyAny>) -> PyResult<Scenario> {
+    let name_or_path = given::path("scenario", name_or_path)?;
+    let loaded = py.detach(|| setpiece::load(&name_or_path));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
 /// Compiles a text in the language; `name` is how reports call it.
 ///
-/// Raises `CompileError`, whose `diagnostics` lists every problem, or `FileError` above 1 MiB.
+/// Raises `CompileError`, whose `diagnostics` lists every problem, `FileError` above 1 MiB, or `ParameterError` for what
+/// is no text.
 #[pyfunction]
-#[pyo3(signature = (text, name = "<text>"))]
-pub(crate) fn compile(py: Python<'_>, text: &str, name: &str) -> PyResult<Scenario> {
-    let loaded = py.detach(|| setpiece::compile_text(text, name));
+#[pyo3(signature = (text, name = None), text_signature = "(text, name='<text>')")]
+pub(crate) fn compile(text: &Bound<'_, PyAny>, name: Option<&Bound<'_, PyAny>>) -> PyResult<Scenario> {
+    let py = text.py();
+    let (text, name) = (given::text("text", text)?, text_name(name)?);
+    let loaded = py.detach(|| setpiece::compile_text(&text, &name));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
-/// A cast as Python writes it: of a team (0 left, 1 right) or its player at a place, what stands behind `ai:`.
-type Casting = Vec<(usize, Option<usize>, String)>;
+/// What reports call a text.
+fn text_name(name: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
+    name.map_or_else(|| Ok("<text>".to_owned()), |name| given::text("name", name))
+}
 
-fn cast_of(casting: Casting) -> Vec<Cast> {
+/// A cast as Python writes it: of a team (0 left, 1 right) or its player at a place, what stands behind `ai:`.
+type Casting<'py> = Vec<(usize, Option<usize>, Bound<'py, PyAny>)>;
+
+fn cast_of(casting: Casting<'_>) -> PyResult<Vec<Cast>> {
     let whom = |team: usize, place: Option<usize>| {
         let team = if team == 0 { Team::Left } else { Team::Right };
         place.map_or(Whom::Team(team), |place| Whom::Player(team, place))
     };
-    casting.into_iter().map(|(team, place, ai)| Cast { whom: whom(team, place), ai }).collect()
+    let cast = |(team, place, ai): (usize, Option<usize>, Bound<'_, PyAny>)| {
+        Ok(Cast { whom: whom(team, place), ai: given::text("opponents", &ai)? })
+    };
+    casting.into_iter().map(cast).collect()
 }
 
 /// Loads a scenario as `load` does, its players played by a cast.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
-pub(crate) fn load_cast(py: Python<'_>, name_or_path: PathBuf, casting: Casting) -> PyResult<Scenario> {
-    let loaded = py.detach(|| setpiece::load_cast(&name_or_path.to_string_lossy(), &cast_of(casting)));
+pub(crate) fn load_cast(py: Python<'_>, name_or_path: &Bound<'_, PyAny>, casting: Casting<'_>) -> PyResult<Scenario> {
+    let (name_or_path, cast) = (given::path("scenario", name_or_path)?, cast_of(casting)?);
+    let loaded = py.detach(|| setpiece::load_cast(&name_or_path, &cast));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
 /// Compiles a text as `compile` does, its players played by a cast.
 #[pyfunction]
-pub(crate) fn compile_cast(py: Python<'_>, text: &str, name: &str, casting: Casting) -> PyResult<Scenario> {
-    let loaded = py.detach(|| setpiece::compile_text_cast(text, name, &cast_of(casting)));
+pub(crate) fn compile_cast(
+    text: &Bound<'_, PyAny>,
+    name: &Bound<'_, PyAny>,
+    casting: Casting<'_>,
+) -> PyResult<Scenario> {
+    let py = text.py();
+    let (text, name, cast) = (given::text("text", text)?, given::text("name", name)?, cast_of(casting)?);
+    let loaded = py.detach(|| setpiece::compile_text_cast(&text, &name, &cast));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 

@@ -12,7 +12,7 @@ pub(crate) struct Seats<'a, 'py> {
     /// The same of the right side.
     pub(crate) right: Option<&'a Bound<'py, PyAny>>,
     /// None, `"auto"` or `"fixed"`.
-    pub(crate) switching: Option<&'a str>,
+    pub(crate) switching: Option<&'a Bound<'py, PyAny>>,
 }
 
 /// Reads them; none where the scenario says all of it.
@@ -21,16 +21,21 @@ pub(crate) fn read(py: Python<'_>, seats: &Seats<'_, '_>) -> PyResult<Option<Age
         return Ok(None);
     }
     let sides = [side(py, "left", seats.left)?, side(py, "right", seats.right)?];
-    let fixed = match seats.switching {
+    let fixed = match seats.switching.map(|word| (word, word.extract::<&str>())) {
         None => None,
-        Some("auto") => Some(false),
-        Some("fixed") => Some(true),
-        Some(other) => {
-            let message = format!("`switching` is `{other}`; it can be `auto` or `fixed`");
+        Some((_, Ok("auto"))) => Some(false),
+        Some((_, Ok("fixed"))) => Some(true),
+        Some((other, _)) => {
+            let message = format!("`switching` is `{}`; it can be `auto` or `fixed`", shown(other));
             return Err(errors::parameter(py, "switching", &message));
         }
     };
     Ok(Some(AgentsChoice { sides, fixed }))
+}
+
+/// A value in a message: a string as it is.
+fn shown(given: &Bound<'_, PyAny>) -> String {
+    given.cast::<PyString>().map_or_else(|_| given.to_string(), |text| text.to_string_lossy().into_owned())
 }
 
 fn side(py: Python<'_>, name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<SideChoice> {

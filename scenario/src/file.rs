@@ -9,6 +9,8 @@ use serde_json::value::RawValue;
 
 /// The version this build reads and writes.
 pub const FORMAT_VERSION: u32 = 1;
+/// Largest file, bytes: more than the largest scenario needs, and little enough to be read whole.
+pub const FILE_MAX_BYTES: u64 = 16 << 20;
 /// What the field `format` says.
 pub(crate) const FORMAT_NAME: &str = "setpiece scenario";
 
@@ -78,7 +80,17 @@ pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     let checksum = format!("{:016x}", fnv1a(body.as_bytes()));
     let raw = RawValue::from_string(body).map_err(write)?;
     let out = Out { format: FORMAT_NAME, version: FORMAT_VERSION, checksum, scenario: &raw };
-    serde_json::to_string(&out).map_err(write)
+    let file = serde_json::to_string(&out).map_err(write)?;
+    check_size(file.len(), FormatError::Write)?;
+    Ok(file)
+}
+
+/// Refuses what is larger than any file is read.
+fn check_size(bytes: usize, fault: impl Fn(String) -> FormatError) -> Result<(), FormatError> {
+    if bytes as u64 <= FILE_MAX_BYTES {
+        return Ok(());
+    }
+    Err(fault(format!("it is larger than {} MiB", FILE_MAX_BYTES >> 20)))
 }
 
 /// A number that changes with anything in the scenario: the checksum of its file.
@@ -95,6 +107,7 @@ pub fn digest(scenario: &Scenario) -> Result<u64, FormatError> {
 /// # Errors
 /// [`FormatError`] for anything but an unchanged file of this version.
 pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
+    check_size(text.len(), FormatError::NotAScenario)?;
     if text.trim().is_empty() {
         return Err(FormatError::NotAScenario("it is empty".to_owned()));
     }

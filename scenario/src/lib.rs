@@ -6,6 +6,7 @@
 //! Python share. [`file`](mod@file) is the versioned `.pitchc` format.
 
 pub mod behavior;
+pub mod bounds;
 pub mod file;
 pub mod params;
 pub mod pitch;

@@ -40,6 +40,20 @@ pub const CIRCLE_RADIUS_M: f64 = 9.15;
 pub const BALL_RADIUS_M: f64 = 0.11;
 /// Half the width of a painted line.
 pub const LINE_HALF_WIDTH_M: f64 = 0.06;
+/// Greatest height of the ball at a start, metres.
+pub const START_HEIGHT_MAX_M: f64 = 50.0;
+/// Greatest speed of the ball at a start, m/s: the hardest shots on record are slower by a fifth.
+pub const BALL_SPEED_MAX_MPS: f64 = 70.0;
+/// Greatest spin of the ball at a start about each axis, rad/s: a hard free kick spins at about 60.
+pub const BALL_SPIN_MAX: f64 = 200.0;
+/// Greatest speed of a player at a start, m/s: the fastest sprints on record.
+pub const PLAYER_SPEED_MAX_MPS: f64 = 12.0;
+/// Most goals of a team at a start.
+pub const GOALS_MAX: u16 = 99;
+/// Most yellow cards of a player at a start.
+pub const YELLOW_CARDS_MAX: u8 = 1;
+/// Longest time that may be written, seconds: more than a day of play.
+pub const LONGEST_S: f64 = 1.0e5;
 /// Most players of one team.
 pub const TEAM_MAX: usize = 11;
 /// Player ids run over both teams: `team * 11 + index`.

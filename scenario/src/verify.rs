@@ -4,6 +4,7 @@
 
 mod behavior;
 
+use crate::bounds::{self, NAME_MAX_BYTES};
 use crate::pitch::TEAM_MAX;
 use crate::program::{Fold, Instr, Program, Reg};
 use crate::scenario::{Ai, RewardBody, Scenario, SideAgents};
@@ -19,6 +20,8 @@ const LOOPS_MAX: usize = 4;
 /// # Errors
 /// One sentence about the first fault found.
 pub fn verify(scenario: &Scenario) -> Result<(), String> {
+    bounds::check(scenario).map_err(|excess| excess.message)?;
+    verify_names(scenario)?;
     for team in Team::ALL {
         if scenario.team(*team).count() > TEAM_MAX {
             return Err(format!("the {team} team has more than {TEAM_MAX} players"));
@@ -80,6 +83,22 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
         behavior::verify_nodes(behavior, n_scripts).map_err(|fault| format!("{}: {fault}", behavior.name))?;
     }
     verify_start(scenario)
+}
+
+/// Names that others are made of (files, keys, ids) are words of the language.
+fn verify_names(scenario: &Scenario) -> Result<(), String> {
+    let params = scenario.params.iter().map(|param| &param.name);
+    let players = scenario.players.iter().filter_map(|slot| slot.name.as_ref());
+    for name in std::iter::once(&scenario.name).chain(params).chain(players) {
+        let word = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+        if name.is_empty() || !word {
+            return Err(format!("{name:?} is not a name: it may have letters, digits and `_`"));
+        }
+    }
+    if scenario.name.len() > NAME_MAX_BYTES {
+        return Err(format!("its name is longer than {NAME_MAX_BYTES} letters"));
+    }
+    Ok(())
 }
 
 fn verify_start(scenario: &Scenario) -> Result<(), String> {

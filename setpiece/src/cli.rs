@@ -20,7 +20,7 @@ use crate::Error;
 use crate::dsl::problem::Code;
 use clap::{Parser, Subcommand, ValueEnum};
 use out::Out;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
 /// Exit code where all is well.
@@ -61,7 +61,7 @@ enum Command {
     Check {
         /// .pitch files, or names of the library
         #[arg(required = true, value_name = "FILE")]
-        files: Vec<String>,
+        files: Vec<OsString>,
         /// How to print the problems
         #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
         message_format: MessageFormat,
@@ -73,7 +73,7 @@ enum Command {
     Build {
         /// A .pitch file, or a scenario of the library
         #[arg(value_name = "FILE")]
-        source: String,
+        source: OsString,
         /// Where to write it
         #[arg(short, long, value_name = "OUT")]
         output: PathBuf,
@@ -115,8 +115,19 @@ enum Command {
     #[command(after_help = "Examples:
   setpiece render academy_corner -o corner.png
   setpiece render corner.pitch --agent random --seed 7 -o sheet.png
-  setpiece render 11_vs_11_stochastic --step 120 -o frame.png")]
+  setpiece render 11_vs_11_stochastic --step 120 -o frame.png
+  setpiece render runs/academy_corner_7_0.pitchr -o sheet.png
+
+A recorded episode (.pitchr) is drawn as it was played: who played, seed and parameters are its own.")]
     Render(render::RenderArgs),
+    /// Draw an episode: not part of this build
+    #[cfg(not(feature = "render"))]
+    #[command(disable_help_flag = true)]
+    Render {
+        /// What the whole command would draw
+        #[arg(value_name = "…", trailing_var_arg = true, allow_hyphen_values = true)]
+        _arguments: Vec<OsString>,
+    },
     /// Play into an episode and write the state it is in: what `run --from` begins from
     #[command(after_help = "Examples:
   setpiece snapshot 11_vs_11_stochastic --step 1500 -o half_time.pitchs
@@ -185,6 +196,12 @@ fn run(args: Args) -> u8 {
         Command::Run(args) => play::run_command(&args, &out),
         #[cfg(feature = "render")]
         Command::Render(args) => render::render(&args, &out),
+        #[cfg(not(feature = "render"))]
+        Command::Render { .. } => {
+            let help = "the whole command has it: `cargo install --path setpiece` in Setpiece's sources";
+            out.fault(&Code::NoPicture.to_string(), "the Python package's `setpiece` draws no pictures", Some(help));
+            Ok(FAULT)
+        }
         Command::Snapshot(args) => snapshot::snapshot(&args, &out),
         Command::Replay(args) => replay::replay(&args, &out),
         Command::Bench(args) => bench::bench(&args, &out),
@@ -212,7 +229,7 @@ fn list(out: &Out) -> u8 {
     FINE
 }
 
-fn build(source: &str, output: &std::path::Path, format: BuildFormat, out: &Out) -> Result<u8, Error> {
+fn build(source: &OsStr, output: &std::path::Path, format: BuildFormat, out: &Out) -> Result<u8, Error> {
     let loaded = crate::load(source)?;
     out.warnings(&loaded);
     crate::files::refuse_overwriting(output, &loaded.inputs)?;

@@ -76,11 +76,15 @@ pub enum FileFault {
     },
     /// It is a directory.
     Directory,
+    /// It is a pipe, a socket or a device.
+    NotRegular,
     /// It is not UTF-8.
     NotUtf8 {
         /// The first line with a wrong byte.
         line: usize,
     },
+    /// It is a replay or snapshot, where a scenario was wanted.
+    Packed(Packed),
     /// It is larger than allowed.
     TooLarge {
         /// The most bytes.
@@ -90,6 +94,23 @@ pub enum FileFault {
     Io(String),
     /// It can't be written: the system's own words.
     Write(String),
+}
+
+/// What is no scenario, and yet one of Setpiece's files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Packed {
+    /// A recorded episode.
+    Replay,
+    /// The state of an episode.
+    Snapshot,
+}
+
+impl Packed {
+    /// What a file is, by its beginning.
+    pub fn of(bytes: &[u8]) -> Option<Packed> {
+        let marks = [(crate::replay::MAGIC, Packed::Replay), (setpiece_engine::snapshot::MAGIC, Packed::Snapshot)];
+        marks.into_iter().find(|(mark, _)| bytes.starts_with(*mark)).map(|(_, kind)| kind)
+    }
 }
 
 /// The reports of a compilation that failed.
@@ -112,10 +133,11 @@ impl Error {
                 Code::FileMissing
             }
             Error::File { why: FileFault::Directory, .. } => Code::FileIsDirectory,
+            Error::File { why: FileFault::NotRegular, .. } => Code::FileNotRegular,
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Code::NotUtf8,
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
             Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, |problem| problem.code),
-            Error::Format { .. } => Code::BadCompiled,
+            Error::Format { .. } | Error::File { why: FileFault::Packed(_), .. } => Code::BadCompiled,
             Error::Cast { .. } => Code::CompiledCast,
             Error::Param { .. } => Code::BadParameter,
             Error::Environment(why) => match why {
@@ -151,6 +173,15 @@ impl Error {
                 similar.as_ref().map(meant)
             }
             Error::File { why: FileFault::Directory, .. } => Some("name a file in it".to_owned()),
+            Error::File { why: FileFault::NotRegular, .. } => {
+                Some("save what it gives to a file, and name that file".to_owned())
+            }
+            Error::File { why: FileFault::Packed(Packed::Replay), .. } => {
+                Some("`setpiece replay FILE` plays it again, and `setpiece.Replay` in Python".to_owned())
+            }
+            Error::File { why: FileFault::Packed(Packed::Snapshot), .. } => {
+                Some("name the scenario too, and begin in the snapshot: `setpiece run SCENARIO --from FILE`".to_owned())
+            }
             Error::File { why: FileFault::NotUtf8 { .. }, path } if path.extension().is_some_and(|e| e == "pitchc") => {
                 Some("it is damaged: build it again from its source".to_owned())
             }
@@ -196,7 +227,10 @@ impl std::fmt::Display for Error {
                 match why {
                     FileFault::Missing { .. } => write!(f, "no file `{path}`"),
                     FileFault::Directory => write!(f, "`{path}` is a directory"),
+                    FileFault::NotRegular => write!(f, "`{path}` is not a regular file"),
                     FileFault::NotUtf8 { line } => write!(f, "`{path}` is not UTF-8 text: line {line} has other bytes"),
+                    FileFault::Packed(Packed::Replay) => write!(f, "`{path}` is a replay, not a scenario"),
+                    FileFault::Packed(Packed::Snapshot) => write!(f, "`{path}` is a snapshot, not a scenario"),
                     FileFault::TooLarge { max } => {
                         write!(f, "`{path}` is larger than {} MiB", max / (1 << 20))
                     }

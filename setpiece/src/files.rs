@@ -3,15 +3,27 @@
 use crate::error::{Error, FileFault};
 use crate::stdlib;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
-use std::io::Read;
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Largest source file, bytes; a scenario is a few kilobytes.
 pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
 /// Largest compiled scenario, bytes.
-pub const COMPILED_MAX_BYTES: u64 = 64 << 20;
+pub use setpiece_scenario::file::FILE_MAX_BYTES as COMPILED_MAX_BYTES;
 /// Largest snapshot, bytes; most take some kilobytes, records of long episodes more.
 pub const SNAPSHOT_MAX_BYTES: u64 = 64 << 20;
+
+/// The most bytes that a scenario's file may have, by its name.
+pub fn most_bytes(path: &Path) -> u64 {
+    if is_compiled(path) { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES }
+}
+
+/// Whether a file is called as compiled scenarios are.
+pub fn is_compiled(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "pitchc")
+}
 
 /// Reads a text file of at most `max` bytes.
 ///
@@ -21,22 +33,37 @@ pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
     into_text(read_file(path, max)?, path)
 }
 
-/// Reads a file of at most `max` bytes.
+/// Reads a regular file of at most `max` bytes: the one way in which files of users are read.
 ///
 /// # Errors
-/// [`Error::File`] where it is missing, too large, or can't be read.
+/// [`Error::File`] if it is missing, not a regular file, too large, or can't be read.
 pub fn read_file(path: &Path, max: u64) -> Result<Vec<u8>, Error> {
+    read_bytes(open_regular(path)?, path, max)
+}
+
+/// Opens a file that ends and makes nobody wait: pipes, sockets and devices are refused.
+fn open_regular(path: &Path) -> Result<File, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     let io = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => fault(FileFault::Missing { similar: similar_file(path) }),
         std::io::ErrorKind::IsADirectory => fault(FileFault::Directory),
         _ => fault(FileFault::Io(error.to_string())),
     };
-    let meta = std::fs::metadata(path).map_err(io)?;
-    if meta.is_dir() {
-        return Err(fault(FileFault::Directory));
-    }
-    read_bytes(std::fs::File::open(path).map_err(io)?, path, max)
+    let regular = |meta: &std::fs::Metadata| match (meta.is_dir(), meta.is_file()) {
+        (true, _) => Err(fault(FileFault::Directory)),
+        (_, false) => Err(fault(FileFault::NotRegular)),
+        _ => Ok(()),
+    };
+    // Before it is opened: to open a device may already do something.
+    regular(&std::fs::metadata(path).map_err(io)?)?;
+    let mut options = OpenOptions::new();
+    options.read(true);
+    // A pipe that takes its place in between would wait for a writer.
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK);
+    let file = options.open(path).map_err(io)?;
+    regular(&file.metadata().map_err(io)?)?;
+    Ok(file)
 }
 
 /// Reads a text of at most `max` bytes; `path` is how reports call it.
@@ -86,6 +113,52 @@ fn similar_file(path: &Path) -> Option<String> {
     setpiece_dsl::problem::nearest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
+/// Bytes of a path that are no UTF-8, in a name: private characters, one a byte.
+#[cfg(unix)]
+const FOREIGN: u32 = 0xF_8000;
+
+/// How a source on disk is called: by its path, whose bytes that are no UTF-8 stand as private characters.
+pub fn name_of(path: &Path) -> String {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        let mut name = String::new();
+        let foreign = |byte: &u8| char::from_u32(FOREIGN + u32::from(*byte));
+        for chunk in path.as_os_str().as_bytes().utf8_chunks() {
+            for letter in chunk.valid().chars() {
+                match u32::from(letter).checked_sub(FOREIGN) {
+                    // It would be taken for a byte.
+                    Some(0x80..=0xFF) => name.extend(letter.to_string().as_bytes().iter().filter_map(foreign)),
+                    _ => name.push(letter),
+                }
+            }
+            name.extend(chunk.invalid().iter().filter_map(foreign));
+        }
+        name
+    }
+    #[cfg(not(unix))]
+    path.to_string_lossy().into_owned()
+}
+
+/// The path that [`name_of`] calls so.
+pub fn path_of(name: &str) -> PathBuf {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStringExt;
+        let mut bytes = Vec::with_capacity(name.len());
+        for letter in name.chars() {
+            // Those above 0x7F alone are ever written.
+            match u32::from(letter).checked_sub(FOREIGN) {
+                Some(byte @ 0x80..=0xFF) => bytes.push(byte as u8),
+                _ => bytes.extend_from_slice(letter.encode_utf8(&mut [0; 4]).as_bytes()),
+            }
+        }
+        std::ffi::OsString::from_vec(bytes).into()
+    }
+    #[cfg(not(unix))]
+    name.into()
+}
+
 /// Loads imports and scripts: `std/…` from the library, everything else beside the file that names it.
 #[derive(Debug, Default)]
 pub struct FileLoader;
@@ -101,12 +174,16 @@ impl SourceLoader for FileLoader {
                 LoadError { message, similar: near.into_iter().collect(), awaited: None }
             });
         }
-        let full = beside(from, path);
+        let full = beside(&path_of(from), &path_of(path));
         match read_text(&full, SOURCE_MAX_BYTES) {
-            Ok(text) => Ok(Source { name: full.to_string_lossy().into_owned(), text: text.into() }),
+            Ok(text) => Ok(Source { name: name_of(&full), text: text.into() }),
             Err(error) => {
-                let similar = similar_file(&full).into_iter().collect();
-                let awaited = Some(full.to_string_lossy().into_owned());
+                // Of a file that is there, no other was meant.
+                let similar = match &error {
+                    Error::File { why: FileFault::Missing { similar }, .. } => similar.iter().cloned().collect(),
+                    _ => Vec::new(),
+                };
+                let awaited = Some(name_of(&full));
                 Err(LoadError { message: error.to_string(), similar, awaited })
             }
         }
@@ -118,8 +195,8 @@ impl SourceLoader for FileLoader {
 }
 
 /// The path of `path` as seen from the file `from`.
-fn beside(from: &str, path: &str) -> PathBuf {
-    let folder = Path::new(from).parent().unwrap_or(Path::new(""));
+fn beside(from: &Path, path: &Path) -> PathBuf {
+    let folder = from.parent().unwrap_or(Path::new(""));
     let mut full = PathBuf::new();
     for part in folder.join(path).components() {
         match part {
@@ -152,37 +229,99 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
     Ok(())
 }
 
-/// Writes a file whole or not at all: a temporary neighbour is renamed over it.
+/// Writes a file whole or not at all: a temporary neighbour is renamed over it. The one way in which files are written.
 ///
 /// # Errors
-/// [`Error::File`] where it can't be written.
+/// [`Error::File`] if it can't be written.
 pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
     let content = content.as_ref();
-    let fault = |error: std::io::Error| Error::File { path: path.to_owned(), why: FileFault::Write(error.to_string()) };
-    if path.is_dir() {
-        let why = FileFault::Write("it is a directory".to_owned());
-        return Err(Error::File { path: path.to_owned(), why });
-    }
-    let Some(name) = path.file_name() else {
-        return Err(fault(std::io::Error::other("it has no file name")));
-    };
+    check_target(path)?;
+    let fault = |error| write_fault(path, &error);
     // A device or pipe can't be renamed over.
     if path.exists() && !path.is_file() {
         return std::fs::write(path, content).map_err(fault);
     }
-    let mut temporary = name.to_owned();
-    temporary.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(temporary);
-    let replace = || {
-        std::fs::write(&temporary, content)?;
-        // Who may read and write it stays as it was.
-        if let Ok(meta) = std::fs::metadata(path) {
-            std::fs::set_permissions(&temporary, meta.permissions())?;
-        }
-        std::fs::rename(&temporary, path)
-    };
-    replace().map_err(|error| {
-        let _ = std::fs::remove_file(&temporary);
+    let temporary = Temporary::write(path, content).map_err(fault)?;
+    // Who may read and write it stays as it was.
+    if let Ok(meta) = std::fs::metadata(path) {
+        std::fs::set_permissions(&temporary.path, meta.permissions()).map_err(fault)?;
+    }
+    std::fs::rename(&temporary.path, path).map_err(fault)
+}
+
+/// Writes a file whole or not at all, if nothing has its name; returns whether it did.
+///
+/// Of several threads and processes that ask for one name, one gets it.
+///
+/// # Errors
+/// [`Error::File`] if it can't be written.
+pub fn write_new(path: &Path, content: impl AsRef<[u8]>) -> Result<bool, Error> {
+    if path.symlink_metadata().is_ok() {
+        return Ok(false);
+    }
+    check_target(path)?;
+    let fault = |error| write_fault(path, &error);
+    let temporary = Temporary::write(path, content.as_ref()).map_err(fault)?;
+    match std::fs::hard_link(&temporary.path, path) {
+        Ok(()) => return Ok(true),
+        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => return Ok(false),
+        // The file system has no links: the name is taken first.
+        Err(_) => {}
+    }
+    match OpenOptions::new().write(true).create_new(true).open(path) {
+        Ok(_) => {}
+        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => return Ok(false),
+        Err(error) => return Err(fault(error)),
+    }
+    std::fs::rename(&temporary.path, path).map_err(|error| {
+        let _ = std::fs::remove_file(path);
         fault(error)
-    })
+    })?;
+    Ok(true)
+}
+
+fn write_fault(path: &Path, error: &std::io::Error) -> Error {
+    Error::File { path: path.to_owned(), why: FileFault::Write(error.to_string()) }
+}
+
+fn check_target(path: &Path) -> Result<(), Error> {
+    let why = match path.file_name() {
+        _ if path.is_dir() => "it is a directory",
+        None => "it has no file name",
+        Some(_) => return Ok(()),
+    };
+    Err(Error::File { path: path.to_owned(), why: FileFault::Write(why.to_owned()) })
+}
+
+/// A complete file beside the one that is to be written; removed unless it was renamed.
+struct Temporary {
+    path: PathBuf,
+}
+
+impl Temporary {
+    fn write(beside: &Path, content: &[u8]) -> std::io::Result<Temporary> {
+        /// Makes the names of one process differ.
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        loop {
+            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            // A short name of its own: together with the other's it could be too long.
+            let path = beside.with_file_name(format!(".setpiece.{}.{count}.tmp", std::process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Ok(mut file) => {
+                    let temporary = Temporary { path };
+                    file.write_all(content)?;
+                    return Ok(temporary);
+                }
+                // What a killed process of this number has left.
+                Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
 }

@@ -12,7 +12,6 @@ pub mod drawing;
 pub mod error;
 pub mod explain;
 pub mod files;
-#[cfg(feature = "watch")]
 pub mod live;
 pub mod load;
 pub mod picture;
@@ -23,11 +22,9 @@ pub mod replay;
 pub mod run;
 pub mod script_api;
 mod stdlib;
-#[cfg(feature = "watch")]
 pub mod watch;
 
 pub use error::Error;
-#[cfg(feature = "watch")]
 pub use live::Live;
 pub use load::{
     Cast, Checked, Entry, Loaded, Whom, bind, check, compile_text, compile_text_cast, list, load, load_cast, load_file,

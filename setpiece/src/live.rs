@@ -3,12 +3,13 @@
 use crate::error::Error;
 use crate::load::{Loaded, load};
 use crate::watch::Watcher;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::time::Duration;
 
 /// A scenario and the watch on everything it is made of: its file, imports and scripts.
 pub struct Live {
-    source: String,
+    source: OsString,
     loaded: Loaded,
     watcher: Watcher,
 }
@@ -17,11 +18,12 @@ impl Live {
     /// Loads a scenario and watches its files.
     ///
     /// # Errors
-    /// As [`load`]; [`Error::File`] where a folder can't be watched.
-    pub fn open(source: &str) -> Result<Live, Error> {
-        let loaded = load(source)?;
-        let watcher = Watcher::new(&loaded.inputs)?;
-        Ok(Live { source: source.to_owned(), loaded, watcher })
+    /// As [`load`].
+    pub fn open(source: impl AsRef<OsStr>) -> Result<Live, Error> {
+        let source = source.as_ref().to_owned();
+        let loaded = load(&source)?;
+        let watcher = Watcher::new(&loaded.inputs);
+        Ok(Live { source, loaded, watcher })
     }
 
     /// The last good scenario.
@@ -44,12 +46,9 @@ impl Live {
         if !self.watcher.changed(timeout) {
             return None;
         }
-        let fresh = load(&self.source).and_then(|fresh| {
-            self.watcher.watch(&fresh.inputs)?;
-            Ok(fresh)
-        });
-        Some(match fresh {
+        Some(match load(&self.source) {
             Ok(fresh) => {
+                self.watcher.watch(&fresh.inputs);
                 self.loaded = fresh;
                 Ok(&self.loaded)
             }
@@ -58,10 +57,8 @@ impl Live {
                 if let Error::Compile(failure) = &error {
                     files.extend(failure.inputs.iter().filter(|file| !self.loaded.inputs.contains(file)).cloned());
                 }
-                match self.watcher.watch(&files) {
-                    Ok(()) => Err(error),
-                    Err(unwatched) => Err(unwatched),
-                }
+                self.watcher.watch(&files);
+                Err(error)
             }
         })
     }

@@ -1,7 +1,7 @@
 //! Loading: a name, a path, a text or a compiled file becomes a scenario.
 
-use crate::error::{Error, Failure, FileFault};
-use crate::files::{COMPILED_MAX_BYTES, FileLoader, SOURCE_MAX_BYTES, into_text, read_file};
+use crate::error::{Error, Failure, FileFault, Packed};
+use crate::files::{FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, name_of, path_of, read_file};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
@@ -10,6 +10,7 @@ pub use setpiece_dsl::{Cast, Whom};
 use setpiece_dsl::{CompileOptions, Origins, Prelude, compile};
 use setpiece_scenario::file::{self, binary};
 use setpiece_scenario::{Bindings, Scenario, Team};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -61,7 +62,7 @@ pub fn list() -> Vec<Entry> {
 ///
 /// # Errors
 /// [`Error`], for everything that can be wrong with a name, a file or its content.
-pub fn load(name_or_path: &str) -> Result<Loaded, Error> {
+pub fn load(name_or_path: impl AsRef<OsStr>) -> Result<Loaded, Error> {
     load_cast(name_or_path, &[])
 }
 
@@ -72,11 +73,13 @@ const BEGUN_LEAST: usize = 4;
 ///
 /// # Errors
 /// As [`load`], and [`Error::Cast`] for a compiled file, which stays as it is.
-pub fn load_cast(name_or_path: &str, cast: &[Cast]) -> Result<Loaded, Error> {
+pub fn load_cast(name_or_path: impl AsRef<OsStr>, cast: &[Cast]) -> Result<Loaded, Error> {
+    let path = Path::new(name_or_path.as_ref());
+    // What isn't Unicode is the path of a file: every name is.
+    let Some(name_or_path) = path.to_str() else { return load_file_cast(path, cast) };
     if let Some(source) = stdlib::scenario(name_or_path) {
         return compile_source(source, cast);
     }
-    let path = Path::new(name_or_path);
     let looks_like_path = name_or_path.contains(['/', '\\'])
         || path.extension().is_some_and(|ending| ending == "pitch" || ending == "pitchc");
     if looks_like_path || path.exists() {
@@ -100,17 +103,20 @@ pub fn load_file(path: &Path) -> Result<Loaded, Error> {
 }
 
 fn load_file_cast(path: &Path, cast: &[Cast]) -> Result<Loaded, Error> {
-    let compiled = path.extension().is_some_and(|ending| ending == "pitchc");
-    let bytes = read_file(path, if compiled { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES })?;
+    let compiled = is_compiled(path);
+    let bytes = read_file(path, most_bytes(path))?;
     let format = |why| Error::Format { path: path.to_owned(), why };
     if bytes.starts_with(binary::MAGIC) {
         return of_file(binary::from_bytes(&bytes).map_err(format)?, path, cast);
+    }
+    if let Some(kind) = Packed::of(&bytes) {
+        return Err(Error::File { path: path.to_owned(), why: FileFault::Packed(kind) });
     }
     let text = into_text(bytes, path)?;
     if compiled || text.starts_with("{\"format\"") {
         return of_file(file::from_json(&text).map_err(format)?, path, cast);
     }
-    compile_source(Source { name: path.to_string_lossy().into_owned(), text: text.into() }, cast)
+    compile_source(Source { name: name_of(path), text: text.into() }, cast)
 }
 
 /// A scenario that a file holds compiled.
@@ -163,7 +169,7 @@ pub struct Checked {
 ///
 /// # Errors
 /// As [`load`], but for problems of the text, which come back in order.
-pub fn check(name_or_path: &str) -> Result<Checked, Error> {
+pub fn check(name_or_path: impl AsRef<OsStr>) -> Result<Checked, Error> {
     let failure = match load(name_or_path) {
         Ok(loaded) => {
             let problems = crate::probe::probe(&loaded, None);
@@ -173,8 +179,9 @@ pub fn check(name_or_path: &str) -> Result<Checked, Error> {
         Err(error) => return Err(error),
     };
     let errors = || failure.problems.iter().filter(|problem| problem.severity() == Severity::Error);
-    let only_parts = errors().all(|problem| problem.code == Code::NoScenario) && !name_or_path.contains('"');
     let root = failure.sources.iter().next().map(|(_, source)| source.clone());
+    let only_parts = errors().all(|problem| problem.code == Code::NoScenario)
+        && !root.as_ref().is_some_and(|root| root.name.contains('"'));
     let parts = root.as_ref().and_then(|root| setpiece_dsl::parts(&root.text));
     let (Some(root), Some(formations), true) = (root, parts, only_parts) else {
         return Ok(Checked { problems: failure.problems, sources: failure.sources, inputs: failure.inputs });
@@ -193,7 +200,7 @@ fn compile_source(source: Source, cast: &[Cast]) -> Result<Loaded, Error> {
     let options = CompileOptions { cast, ..compile_options() };
     let outcome = compile(source, &FileLoader, &options);
     let (problems, sources) = (outcome.problems, outcome.sources);
-    let inputs = outcome.inputs.iter().filter(|name| is_on_disk(name)).map(PathBuf::from).collect();
+    let inputs = outcome.inputs.iter().filter(|name| is_on_disk(name)).map(|name| path_of(name)).collect();
     match outcome.scenario {
         Some(scenario) => Ok(Loaded {
             scenario: Arc::new(scenario),

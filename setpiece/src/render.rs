@@ -21,7 +21,7 @@ pub mod text;
 pub mod view;
 pub mod words;
 
-pub use film::{Film, FilmOptions, film};
+pub use film::{Film, FilmOptions, film, replayed};
 pub use scene::Scene;
 pub use sheet::{frame, sheet};
 pub use stage::draw;

@@ -9,14 +9,16 @@ use flate2::Compression;
 use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 use glam::Vec2;
-use serde::{Deserialize, Serialize};
-use setpiece_engine::batch::EpisodeError;
+use serde::de::{Error as _, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use setpiece_engine::batch::{EpisodeError, STEPS_MAX};
 use setpiece_engine::environment::{AgentsChoice, Environment, EnvironmentOptions, Physics, ResetError, Scratch};
 use setpiece_engine::judge::Outcome;
 use setpiece_engine::state::Steer;
 use setpiece_scenario::file::{binary, fnv1a};
 use setpiece_scenario::{Action, Bindings, Scenario, Verdict};
 use std::io::{Read as _, Write as _};
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// The version of replays that this build writes and plays.
@@ -24,9 +26,11 @@ pub const REPLAY_VERSION: u32 = 1;
 /// Largest replay, bytes.
 pub const REPLAY_MAX_BYTES: u64 = 64 << 20;
 /// Most bytes behind the head, inflated.
-const BODY_MAX_BYTES: u64 = 256 << 20;
+const BODY_MAX_BYTES: u64 = 64 << 20;
+/// Most actions, everyone's of every step: three whole matches of 22 agents.
+const ACTS_MAX: usize = 4_000_000;
 /// What a replay begins with: no text does.
-const MAGIC: &[u8; 8] = b"\x8bpitchr\n";
+pub(crate) const MAGIC: &[u8; 8] = b"\x8bpitchr\n";
 /// Mark, version, checksum, length.
 const HEAD: usize = 8 + 4 + 8 + 8;
 
@@ -51,6 +55,12 @@ pub enum ReplayError {
     /// It has no episode.
     #[error("no episode has begun: there is nothing to replay")]
     NotBegun,
+    /// Its episode is longer than one can be.
+    #[error("the episode is too long: a replay has {STEPS_MAX} steps and {ACTS_MAX} actions at most")]
+    TooLong,
+    /// It is larger than one can be.
+    #[error("the replay is larger than {} MiB", BODY_MAX_BYTES >> 20)]
+    TooLarge,
     /// How its episode began is not known.
     #[error("the episode goes on from a restored snapshot or with changed scripts: a replay can't tell how it began")]
     Beginning,
@@ -69,6 +79,7 @@ pub struct Recorder {
     acts: Vec<u8>,
     steers: Vec<Option<Steer>>,
     whole: bool,
+    too_long: bool,
 }
 
 impl Recorder {
@@ -77,7 +88,7 @@ impl Recorder {
         self.from = from.map(<[u8]>::to_vec);
         self.acts.clear();
         self.steers.clear();
-        self.whole = true;
+        (self.whole, self.too_long) = (true, false);
     }
 
     /// The episode goes on from elsewhere: what it was before is not known.
@@ -86,7 +97,13 @@ impl Recorder {
     }
 
     /// Writes down what an agent does in the step to come; agent by agent, step by step.
+    ///
+    /// An episode that is longer than a replay can be isn't kept.
     pub fn note(&mut self, action: Action, steer: Option<Steer>) {
+        if self.acts.len() >= ACTS_MAX || !self.whole {
+            *self = Recorder { too_long: self.too_long || self.whole, ..Recorder::default() };
+            return;
+        }
         self.acts.push(action.index() as u8);
         self.steers.push(steer);
     }
@@ -115,8 +132,10 @@ pub struct Replay {
     pub length: u32,
     /// The fingerprint of its last state.
     pub digest: u64,
+    #[serde(deserialize_with = "acts")]
     acts: Vec<u8>,
     /// Way and power, where agents steered.
+    #[serde(deserialize_with = "acts")]
     steers: Vec<Option<[f32; 3]>>,
     /// How it ended: label, verdict, whether by the limit. A caller may have [ended](Environment::end) it.
     #[serde(default)]
@@ -133,6 +152,9 @@ impl Replay {
             return Err(Error::Replay(ReplayError::NotBegun));
         }
         let noted = environment.steps() as usize * environment.n_agents();
+        if recorder.too_long || environment.steps() > STEPS_MAX {
+            return Err(Error::Replay(ReplayError::TooLong));
+        }
         if !recorder.whole || recorder.acts.len() != noted {
             return Err(Error::Replay(ReplayError::Beginning));
         }
@@ -166,6 +188,9 @@ impl Replay {
         let corrupt = |why: String| Error::Replay(ReplayError::Corrupt(why));
         let mut body = Vec::new();
         ciborium::into_writer(self, &mut body).map_err(|why| corrupt(why.to_string()))?;
+        if body.len() as u64 > BODY_MAX_BYTES {
+            return Err(Error::Replay(ReplayError::TooLarge));
+        }
         let mut deflated = DeflateEncoder::new(Vec::new(), Compression::default());
         deflated.write_all(&body).map_err(|why| corrupt(why.to_string()))?;
         let body = deflated.finish().map_err(|why| corrupt(why.to_string()))?;
@@ -290,6 +315,30 @@ fn corrupt(why: &dyn std::fmt::Display) -> Error {
     Error::Replay(ReplayError::Corrupt(why.to_string()))
 }
 
+/// Reads a list of as many actions as a replay may have: a byte of a file may stand for sixteen in memory.
+fn acts<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
+    struct Acts<T>(PhantomData<T>);
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Acts<T> {
+        type Value = Vec<T>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("a list of actions")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<T>, A::Error> {
+            let mut acts = Vec::new();
+            while let Some(act) = list.next_element()? {
+                if acts.len() >= ACTS_MAX {
+                    return Err(A::Error::custom(format_args!("it has more than {ACTS_MAX} actions")));
+                }
+                acts.push(act);
+            }
+            Ok(acts)
+        }
+    }
+    from.deserialize_seq(Acts(PhantomData))
+}
+
 fn read(file: &[u8]) -> Result<Replay, ReplayError> {
     let rest = file.strip_prefix(MAGIC).ok_or(ReplayError::NotAReplay)?;
     let (version, rest) = rest.split_first_chunk::<4>().ok_or(ReplayError::Truncated)?;
@@ -308,10 +357,16 @@ fn read(file: &[u8]) -> Result<Replay, ReplayError> {
         return Err(ReplayError::Checksum);
     }
     let mut inflated = Vec::new();
-    let mut inflater = DeflateDecoder::new(body).take(BODY_MAX_BYTES);
+    let mut inflater = DeflateDecoder::new(body).take(BODY_MAX_BYTES + 1);
     inflater.read_to_end(&mut inflated).map_err(|why| ReplayError::Corrupt(why.to_string()))?;
+    if inflated.len() as u64 > BODY_MAX_BYTES {
+        return Err(ReplayError::TooLarge);
+    }
     let replay: Replay =
         ciborium::from_reader(inflated.as_slice()).map_err(|why| ReplayError::Corrupt(why.to_string()))?;
+    if replay.length > STEPS_MAX {
+        return Err(ReplayError::TooLong);
+    }
     let sound = replay.steers.iter().flatten().flatten().all(|number| (-1.0..=1.0).contains(number));
     if sound { Ok(replay) } else { Err(ReplayError::Corrupt("a way or power is beyond its bounds".to_owned())) }
 }

@@ -1,91 +1,154 @@
 //! Watching: says when a scenario's files have changed.
 //!
-//! The folders are watched, not the files: a watch on a file dies with the first editor that saves by renaming.
-//! Content is compared, so that a save without a change, or an editor's temporary file, says nothing.
+//! Every look asks the system for each file's stamp (size, times, identity) through all links, so that it doesn't
+//! matter how a file came to change: saved in place or by renaming, behind a link, in a folder that was made again. A
+//! look costs about a microsecond a file, and a watcher holds no thread and no open file. Where a stamp is another
+//! one, the content is compared: a save without a change says nothing.
 
 use crate::error::{Error, FileFault};
-use notify_debouncer_mini::notify::{RecommendedWatcher, RecursiveMode};
-use notify_debouncer_mini::{DebounceEventResult, Debouncer, new_debouncer};
+use crate::files::{most_bytes, read_file};
 use setpiece_scenario::file::fnv1a;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
+use std::thread::sleep;
+use std::time::{Duration, Instant, SystemTime};
 
-/// How long a burst of events is gathered.
+/// How long a file has been left alone before it is read: a save may take several writes.
 const DEBOUNCE: Duration = Duration::from_millis(50);
+/// How often the files are looked at.
+const LOOK_EVERY: Duration = Duration::from_millis(10);
+/// How long a second save may leave the stamp as it was: the coarsest clock of a file system in use (FAT's).
+const COARSE: Duration = Duration::from_secs(2);
 
 /// Watches some files.
+#[derive(Debug, Default)]
 pub struct Watcher {
-    /// Keeps the folders' watches alive; replaced when other files are watched.
-    debouncer: Debouncer<RecommendedWatcher>,
-    events: Receiver<DebounceEventResult>,
-    folders: Vec<PathBuf>,
-    files: Vec<(PathBuf, Option<u64>)>,
+    files: Vec<Watched>,
+    looked: Option<Instant>,
+}
+
+/// A file and what is known of it.
+#[derive(Debug)]
+struct Watched {
+    path: PathBuf,
+    stamp: Option<Stamp>,
+    /// When the stamp was first seen.
+    since: Instant,
+    /// Whether the content may be another one under the same stamp.
+    young: bool,
+    content: Content,
+}
+
+/// What tells one state of a file from another without reading it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Stamp {
+    length: u64,
+    modified: Option<SystemTime>,
+    /// Device, file, and when anything of it last changed: seconds, nanoseconds.
+    identity: (u64, u64, i64, i64),
+}
+
+/// What a file holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Content {
+    /// Nothing: it is not there.
+    Gone,
+    /// What has this fingerprint.
+    Bytes(u64),
+    /// What can't be read.
+    Fault(FileFault),
 }
 
 impl Watcher {
-    /// Begins to watch `files`.
-    ///
-    /// # Errors
-    /// [`Error::File`] where a folder can't be watched.
-    pub fn new(files: &[PathBuf]) -> Result<Watcher, Error> {
-        let (sender, events) = channel();
-        let debouncer = new_debouncer(DEBOUNCE, sender).map_err(|why| fault(Path::new("."), &why.to_string()))?;
-        let mut watcher = Watcher { debouncer, events, folders: Vec::new(), files: Vec::new() };
-        watcher.watch(files)?;
-        Ok(watcher)
+    /// Begins to watch `files`; those that aren't there are waited for.
+    pub fn new(files: &[PathBuf]) -> Watcher {
+        let mut watcher = Watcher::default();
+        watcher.watch(files);
+        watcher
     }
 
     /// Watches other files from now on: what a recompilation read.
-    ///
-    /// # Errors
-    /// As [`Watcher::new`].
-    pub fn watch(&mut self, files: &[PathBuf]) -> Result<(), Error> {
-        for file in files {
-            let folder = match file.parent() {
-                Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
-                _ => PathBuf::from("."),
-            };
-            if !self.folders.contains(&folder) {
-                self.debouncer
-                    .watcher()
-                    .watch(&folder, RecursiveMode::NonRecursive)
-                    .map_err(|why| fault(&folder, &why.to_string()))?;
-                self.folders.push(folder);
-            }
-        }
-        self.files = files.iter().map(|file| (file.clone(), hash(file))).collect();
-        Ok(())
+    pub fn watch(&mut self, files: &[PathBuf]) {
+        self.files = files.iter().map(|file| Watched::new(file)).collect();
     }
 
     /// Whether a watched file's content has changed since the last call; waits for at most `timeout`.
     ///
-    /// A file that is gone for a moment (a save by renaming) is no change until it is back.
+    /// A file that is gone for a moment (a save by renaming) is no change until it is back. A change that is younger
+    /// than 50 ms may wait for the next call.
     pub fn changed(&mut self, timeout: Duration) -> bool {
-        let mut woken = self.events.recv_timeout(timeout).is_ok();
-        while self.events.try_recv().is_ok() {
-            woken = true;
+        let begun = Instant::now();
+        loop {
+            // Environments ask in every step.
+            if self.looked.is_none_or(|looked| looked.elapsed() >= LOOK_EVERY) {
+                self.looked = Some(Instant::now());
+                // Every file is looked at, whichever has changed.
+                if self.files.iter_mut().fold(false, |changed, file| file.look() | changed) {
+                    return true;
+                }
+            }
+            let left = timeout.saturating_sub(begun.elapsed());
+            if left.is_zero() {
+                return false;
+            }
+            sleep(left.min(LOOK_EVERY));
         }
-        woken && self.content_changed()
+    }
+}
+
+impl Watched {
+    fn new(path: &Path) -> Watched {
+        let stamp = Stamp::of(path);
+        let (since, young) = (Instant::now(), stamp.is_some_and(|stamp| !stamp.is_older_than(COARSE)));
+        Watched { path: path.to_owned(), stamp, since, young, content: Content::of(path) }
     }
 
-    fn content_changed(&mut self) -> bool {
-        let mut changed = false;
-        for (file, known) in &mut self.files {
-            let now = hash(file);
-            if now.is_some() && now != *known {
-                *known = now;
-                changed = true;
-            }
+    /// Whether the content is another one than at the last look.
+    fn look(&mut self) -> bool {
+        let stamp = Stamp::of(&self.path);
+        if stamp != self.stamp {
+            (self.stamp, self.since, self.young) = (stamp, Instant::now(), true);
+        }
+        let Some(stamp) = stamp.filter(|_| self.young) else { return false };
+        let left_alone = |time: Duration| self.since.elapsed() >= time || stamp.is_older_than(time);
+        if !left_alone(DEBOUNCE) {
+            return false;
+        }
+        self.young = !left_alone(COARSE);
+        let content = Content::of(&self.path);
+        let changed = content != Content::Gone && content != self.content;
+        if changed {
+            self.content = content;
         }
         changed
     }
 }
 
-fn hash(file: &Path) -> Option<u64> {
-    std::fs::read(file).ok().map(|bytes| fnv1a(&bytes))
+impl Stamp {
+    fn of(path: &Path) -> Option<Stamp> {
+        let meta = std::fs::metadata(path).ok()?;
+        #[cfg(unix)]
+        let identity = {
+            use std::os::unix::fs::MetadataExt;
+            (meta.dev(), meta.ino(), meta.ctime(), meta.ctime_nsec())
+        };
+        #[cfg(not(unix))]
+        let identity = (0, 0, 0, 0);
+        Some(Stamp { length: meta.len(), modified: meta.modified().ok(), identity })
+    }
+
+    /// Whether the file was last written so long ago, by the system's clock.
+    fn is_older_than(self, time: Duration) -> bool {
+        self.modified.and_then(|modified| modified.elapsed().ok()).is_some_and(|age| age >= time)
+    }
 }
 
-fn fault(path: &Path, why: &str) -> Error {
-    Error::File { path: path.to_owned(), why: FileFault::Io(format!("it can't be watched: {why}")) }
+impl Content {
+    fn of(path: &Path) -> Content {
+        match read_file(path, most_bytes(path)) {
+            Ok(bytes) => Content::Bytes(fnv1a(&bytes)),
+            Err(Error::File { why: FileFault::Missing { .. }, .. }) => Content::Gone,
+            Err(Error::File { why, .. }) => Content::Fault(why),
+            Err(other) => Content::Fault(FileFault::Io(other.to_string())),
+        }
+    }
 }

@@ -2,11 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::agents::Agent;
-use setpiece::engine::environment::EnvironmentOptions;
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::football::body::Pose;
 use setpiece::render::colours::{AGENT, Colour, shirt};
 use setpiece::render::view::View;
-use setpiece::render::{Film, FilmOptions, Region, Scene, draw, film, frame, sheet};
+use setpiece::render::{Film, FilmOptions, Region, Scene, draw, film, frame, replayed, sheet};
+use setpiece::replay::{Recorder, Replay};
+use setpiece::scenario::Action;
 use std::path::Path;
 use std::process::{Command, Output};
 use tiny_skia::{Pixmap, PixmapMut, Point};
@@ -89,6 +91,35 @@ fn a_step_is_one_large_frame() {
     let later = rendered(&["academy_corner", "--step", "10"]);
     assert_eq!((start.width(), later.width()), (1720, 1720));
     assert!(start.height() > 1200 && start.data() != later.data());
+}
+
+#[test]
+fn a_recorded_episode_is_drawn_as_it_was_played() {
+    let mut environment =
+        Environment::new(setpiece::load("11_vs_11_stochastic").unwrap().scenario, EnvironmentOptions::default())
+            .unwrap();
+    let (mut recorder, mut scratch) = (Recorder::default(), Scratch::default());
+    environment.reset(Some(7), Some(0)).unwrap();
+    recorder.begin(None);
+    for _ in 0..12 {
+        recorder.note(Action::Idle, None);
+        environment.step(&[Action::Idle], &mut scratch).unwrap();
+    }
+    let replay = Replay::of(&environment, &recorder).unwrap();
+    let film = replayed(&replay).unwrap();
+    assert_eq!((film.length(), film.origin.as_str()), (12, "seed 7"));
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.pitchr"), replay.to_bytes().unwrap()).unwrap();
+    let output = setpiece(folder.path(), &["render", "a.pitchr", "-o", "a.png"]);
+    assert!(
+        text(&output.stdout).contains("11_vs_11_stochastic, seed 7 · 12 steps → a.png"),
+        "{}",
+        text(&output.stderr)
+    );
+    let output = setpiece(folder.path(), &["render", "a.pitchr", "--step", "13", "-o", "a.png"]);
+    assert!(text(&output.stderr).contains("there is no step 13"), "{}", text(&output.stderr));
+    let output = setpiece(folder.path(), &["run", "a.pitchr"]);
+    assert!(text(&output.stderr).contains("`a.pitchr` is a replay, not a scenario"), "{}", text(&output.stderr));
 }
 
 #[test]

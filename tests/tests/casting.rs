@@ -87,7 +87,7 @@ fn a_compiled_file_keeps_who_plays() {
     let text = setpiece::scenario::file::to_json(&cast(&[]).unwrap()).unwrap();
     std::fs::write(&path, text).unwrap();
     let lazy = [Cast { whom: Whom::Team(Team::Left), ai: "lazy".to_owned() }];
-    let error = load_cast(&path.to_string_lossy(), &lazy).unwrap_err();
+    let error = load_cast(&path, &lazy).unwrap_err();
     assert!(matches!(error, Error::Cast { .. }), "{error}");
     assert!(error.help().is_some());
 }

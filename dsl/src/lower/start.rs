@@ -20,6 +20,7 @@ use crate::check::types::Ty;
 use crate::compile::RequireOrigin;
 use crate::problem::{Code, Problem};
 use remap::{map_agents, map_slot, map_start};
+use setpiece_scenario::pitch::LONGEST_S;
 use setpiece_scenario::vocabulary::{Rule, StartKind, Team};
 use setpiece_scenario::{
     Agents, BallStart, Instr, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
@@ -31,8 +32,6 @@ pub(crate) const NO_CIRCLE: &str = "give one of the circle a value of its own";
 
 /// Seconds of a step.
 const STEP_S: f64 = 0.1;
-/// Longest duration that a start may name: a million steps.
-pub(crate) const LONGEST_S: f64 = 1.0e5;
 
 /// A player's places at kick-offs: when his team kicks off, and when the others do.
 pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));

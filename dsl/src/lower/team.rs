@@ -9,6 +9,7 @@ use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{self, PLAYER, TEAM};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};
 use setpiece_scenario::vocabulary::{Stat, Team};
 use setpiece_scenario::{Ai, Reg};
 
@@ -48,9 +49,6 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
     }
     found.unwrap_or_else(|| lower.code.constant(if world.mirror.team(team) == Team::Left { 1.0 } else { 0.6 }))
 }
-
-/// The fastest sprints on record.
-const FASTEST_PLAYER_MPS: f64 = 12.0;
 
 /// A number of 0..1.
 fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
@@ -124,7 +122,7 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
         "fatigue" => options.fatigue = Some(share(lower, expr, "`fatigue`")),
         "yellow_cards" => {
             let reg = lower.want_reg(expr, Ty::Int);
-            lower.check_range(reg, (0.0, 1.0), "`yellow_cards`", expr.span, "`0..1`");
+            lower.check_range(reg, (0.0, YELLOW_CARDS_MAX.into()), "`yellow_cards`", expr.span, "`0..1`");
             options.yellow_cards = Some(reg);
         }
         "velocity" => {
@@ -137,7 +135,7 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
             }
             let velocity = lower.pair(&value);
             let zero = lower.code.constant(0.0);
-            lower.check_speed((velocity.0, velocity.1, zero), FASTEST_PLAYER_MPS, "a player", expr.span);
+            lower.check_speed((velocity.0, velocity.1, zero), PLAYER_SPEED_MAX_MPS, "a player", expr.span);
             options.velocity = Some(velocity);
         }
         "controllable" => {

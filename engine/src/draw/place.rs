@@ -4,11 +4,17 @@ use super::{Drawer, Roster};
 use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::Scenario;
-use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
+use setpiece_scenario::pitch::{
+    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, PLAYER_SPEED_MAX_MPS, PLAYERS_MAX, RIM_X_M, RIM_Y_M, START_HEIGHT_MAX_M,
+};
 use setpiece_scenario::vocabulary::Team;
 
 /// Least distance between two players of whom one was placed at random.
 const MIN_GAP_M: f32 = 0.6;
+/// Greatest size of a heading: a float of 32 bits still tells a hundredth of a degree from the next.
+const HEADING_MAX_RAD: f64 = 1.0e3;
+/// How far a number may lie beyond its bound: texts are held to it with 64 bits, and the match has 32.
+const SLACK: f64 = 1.0e-3;
 
 /// What can be wrong with a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,10 +27,12 @@ pub(super) enum Fault {
     Player,
     /// Two players stand in each other.
     Gap,
+    /// A number is beyond what play can go on from; texts are held to narrower bounds, files may say anything.
+    Bounds,
 }
 
 impl Fault {
-    pub(super) const ALL: [Fault; 4] = [Fault::Number, Fault::Ball, Fault::Player, Fault::Gap];
+    pub(super) const ALL: [Fault; 5] = [Fault::Number, Fault::Ball, Fault::Player, Fault::Gap, Fault::Bounds];
 
     /// The requirement, in words.
     pub(super) const fn words(self) -> &'static str {
@@ -33,6 +41,9 @@ impl Fault {
             Fault::Ball => "the ball lies on the pitch",
             Fault::Player => "every player stands on the pitch",
             Fault::Gap => "players placed at random keep 0.6 m from others, but for who may overlap",
+            Fault::Bounds => {
+                "the ball's height, speed and spin, and players' speeds and headings are within their bounds"
+            }
         }
     }
 }
@@ -50,6 +61,13 @@ impl Drawer {
         if !on_pitch(ball) {
             return Some(Fault::Ball);
         }
+        if !self.is_ball_bounded(scenario) {
+            return Some(Fault::Bounds);
+        }
+        let layouts = start.kickoff.iter().flat_map(|kickoff| &kickoff.places);
+        if layouts.flat_map(|at| [at.kicking, at.receiving]).any(|at| self.point(at).is_nan()) {
+            return Some(Fault::Number);
+        }
         // Where the men before him stand, whether they were drawn there, and whether others may stand there too.
         let mut placed: ArrayVec<(Vec2, bool, bool), PLAYERS_MAX> = ArrayVec::new();
         for team in Team::ALL {
@@ -63,6 +81,10 @@ impl Drawer {
                 if !on_pitch(at) {
                     return Some(Fault::Player);
                 }
+                let speed = f64::from(velocity.length());
+                if speed > PLAYER_SPEED_MAX_MPS + SLACK || self.optional(own.heading).abs() > HEADING_MAX_RAD {
+                    return Some(Fault::Bounds);
+                }
                 let random = self.is_random(own.x) || self.is_random(own.y);
                 // Two fixed places may coincide: the author wrote them so.
                 let crowded = placed.iter().any(|&(other, other_random, other_overlap)| {
@@ -75,6 +97,15 @@ impl Drawer {
             }
         }
         None
+    }
+
+    /// Whether the ball is as high, fast and spinning as a start may have it.
+    fn is_ball_bounded(&self, scenario: &Scenario) -> bool {
+        let ball = &scenario.start.ball;
+        let [speed, spin] = [self.vector(ball.velocity).length(), self.vector(ball.spin).abs().max_element()];
+        self.optional(ball.height) <= START_HEIGHT_MAX_M + SLACK
+            && f64::from(speed) <= BALL_SPEED_MAX_MPS + SLACK
+            && f64::from(spin) <= BALL_SPIN_MAX + SLACK
     }
 }
 

@@ -116,6 +116,58 @@ fn random_players_stay_on_the_pitch_and_apart() {
 }
 
 #[test]
+fn numbers_that_play_cannot_go_on_from_are_no_start() {
+    let refused = |change: &dyn Fn(&mut Scenario, Reg)| {
+        let mut scenario = striker(-20.0, 20.0);
+        let huge = push(&mut scenario, Instr::Const(1.0e39));
+        change(&mut scenario, huge);
+        draw(&scenario, 1, 0).unwrap_err().requirement
+    };
+    let zero = Reg(0);
+    for requirement in [
+        refused(&|scenario, huge| scenario.start.ball.height = Some(huge)),
+        refused(&|scenario, huge| scenario.players[0].start.heading = Some(huge)),
+    ] {
+        assert!(requirement.contains("within their bounds"), "{requirement}");
+    }
+    let large = |change: &dyn Fn(&mut Scenario, Reg)| {
+        refused(&|scenario, _| {
+            let large = push(scenario, Instr::Const(3.4e38));
+            change(scenario, large);
+        })
+    };
+    for requirement in [
+        large(&|scenario, large| scenario.start.ball.spin = Some((zero, zero, large))),
+        large(&|scenario, large| scenario.start.ball.velocity = Some((large, zero, zero))),
+        large(&|scenario, large| scenario.players[1].start.velocity = Some((zero, large))),
+    ] {
+        assert!(requirement.contains("within their bounds"), "{requirement}");
+    }
+    let mut scenario = striker(-20.0, 20.0);
+    let huge = push(&mut scenario, Instr::Const(1.0e39));
+    (scenario.start.score, scenario.start.elapsed) = (Some((huge, huge)), Some(huge));
+    scenario.players[0].start.yellow_cards = Some(huge);
+    let drawn = draw(&scenario, 1, 0).unwrap();
+    let cards = drawn.players[0].as_ref().unwrap().yellow_cards;
+    assert_eq!((drawn.score, drawn.elapsed_steps, cards), ([99, 99], 1_000_000, 1));
+}
+
+#[test]
+fn a_start_that_costs_much_is_looked_for_less_long() {
+    let mut scenario = striker(-20.0, 20.0);
+    for key in 0..1_000 {
+        let (mean, sd) = (push(&mut scenario, Instr::Const(0.0)), push(&mut scenario, Instr::Const(1.0)));
+        let from = Box::new(Distribution::TruncatedNormal(mean, sd, mean, sd));
+        push(&mut scenario, Instr::Random { key: 100 + key, from });
+    }
+    let (at, far) = (scenario.players[0].start.x, push(&mut scenario, Instr::Const(30.0)));
+    let condition = push(&mut scenario, Instr::Binary(BinaryOp::Gt, at, far));
+    scenario.start.requires.push(Require { condition, probability: None, label: "up".to_owned() });
+    let attempts = draw(&scenario, 1, 0).unwrap_err().attempts;
+    assert!((100..1_000).contains(&attempts), "{attempts}");
+}
+
+#[test]
 fn without_a_draw_one_attempt_is_enough() {
     let mut scenario = scenario(&[(Team::Left, Role::CF, 100.0, 0.0)]);
     assert_eq!(draw(&scenario, 1, 0).unwrap_err().attempts, 1);

@@ -3,7 +3,7 @@
 use super::error::{SNAPSHOT_VERSION, SnapshotError};
 
 /// What a snapshot begins with: no text does.
-const MAGIC: &[u8; 8] = b"\x8bpitchs\n";
+pub const MAGIC: &[u8; 8] = b"\x8bpitchs\n";
 /// Mark, version, checksum, length.
 const HEAD: usize = 8 + 4 + 8 + 8;
 

@@ -6,11 +6,11 @@ import argparse
 import sys
 from collections.abc import Sequence
 from contextlib import redirect_stdout
-from pathlib import Path
 
 import setpiece
-from setpiece import gfootball
-from setpiece._errors import FileError, SetpieceError
+from setpiece import _native, gfootball
+from setpiece._errors import SetpieceError
+from setpiece._options import check_path
 from setpiece.gfootball._translation import TranslationError, identifier, to_pitch
 from setpiece.gfootball.env.scenario_builder import Script, load_script, record, script_of
 from setpiece.gfootball.env.scenario_config import FIXED_SEED, ScenarioConfig
@@ -83,7 +83,4 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _write(path: str, text: str) -> None:
-    try:
-        Path(path).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FileError(f"`{path}` can't be written: {error.strerror}", path=path) from error
+    _native.write(check_path("output", path), text.encode())

@@ -1,6 +1,6 @@
 //! The compact form: a mark, version, checksum and length, then the scenario as CBOR (RFC 8949).
 
-use super::{FORMAT_VERSION, FormatError, fnv1a, to_json};
+use super::{FORMAT_VERSION, FormatError, check_size, fnv1a, to_json};
 use crate::scenario::Scenario;
 use crate::verify::verify;
 
@@ -32,6 +32,7 @@ pub fn to_bytes(scenario: &Scenario) -> Result<Vec<u8>, FormatError> {
 /// # Errors
 /// [`FormatError`] for anything but an unchanged file of this version.
 pub fn from_bytes(file: &[u8]) -> Result<Scenario, FormatError> {
+    check_size(file.len(), FormatError::NotAScenario)?;
     let Some(rest) = file.strip_prefix(MAGIC) else {
         return Err(FormatError::NotAScenario("it doesn't begin as `setpiece build --format bin` writes".to_owned()));
     };

@@ -9,6 +9,7 @@ use crate::files::{SOURCE_MAX_BYTES, into_text, read_file};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -19,7 +20,7 @@ const SCENARIOS: [&str; 3] = ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper
 pub(crate) struct BenchArgs {
     /// Scenarios of the library, .pitch or .pitchc files [default: three of the library, of 22, 6 and 3 players]
     #[arg(value_name = "SCENARIO")]
-    scenarios: Vec<String>,
+    scenarios: Vec<OsString>,
     /// Threads; several numbers with commas between them [default: 1 and one per core]
     #[arg(short, long, value_name = "N", value_delimiter = ',', value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
     threads: Vec<u16>,
@@ -109,9 +110,9 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
     if threads.is_empty() {
         threads = if cores == 1 { vec![1] } else { vec![1, cores] };
     }
-    let named = args.scenarios.iter().map(String::as_str);
-    let names: Vec<&str> = if args.scenarios.is_empty() { SCENARIOS.to_vec() } else { named.collect() };
-    let loaded = names.iter().map(|name| crate::load(name)).collect::<Result<Vec<_>, _>>()?;
+    let names: Vec<OsString> =
+        if args.scenarios.is_empty() { SCENARIOS.map(OsString::from).to_vec() } else { args.scenarios.clone() };
+    let loaded = names.iter().map(crate::load).collect::<Result<Vec<_>, _>>()?;
     let observation =
         args.observation.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
     let agent = args.agent.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());

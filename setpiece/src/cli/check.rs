@@ -6,6 +6,7 @@ use crate::dsl::problem::Severity;
 use crate::dsl::report::{Format, render};
 use crate::load::Checked;
 use crate::watch::Watcher;
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -13,10 +14,10 @@ use std::time::Duration;
 const TICK: Duration = Duration::from_millis(200);
 
 /// Checks files again and again, as soon as one of them or of what they import has changed.
-pub(crate) fn watch(files: &[String], format: MessageFormat, out: &Out) -> Result<u8, Error> {
+pub(crate) fn watch(files: &[OsString], format: MessageFormat, out: &Out) -> Result<u8, Error> {
     let mut inputs = Vec::new();
     check(files, format, out, &mut inputs);
-    let mut watcher = Watcher::new(&inputs)?;
+    let mut watcher = Watcher::new(&inputs);
     loop {
         if format == MessageFormat::Human {
             out.line(&out.dim("waiting for a change; Ctrl-C ends"));
@@ -24,22 +25,23 @@ pub(crate) fn watch(files: &[String], format: MessageFormat, out: &Out) -> Resul
         while !watcher.changed(TICK) {}
         inputs.clear();
         check(files, format, out, &mut inputs);
-        watcher.watch(&inputs)?;
+        watcher.watch(&inputs);
     }
 }
 
 /// Compiles each file and prints what was found; adds the files that were read to `inputs`.
-pub(crate) fn check(files: &[String], format: MessageFormat, out: &Out, inputs: &mut Vec<PathBuf>) -> u8 {
+pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs: &mut Vec<PathBuf>) -> u8 {
     let mut failed = false;
     let mut array = Vec::new();
     for file in files {
+        let name = file.to_string_lossy();
         let Checked { problems, sources, inputs: read } = match crate::check(file) {
             Ok(found) => found,
             Err(error) => {
                 failed = true;
                 match format {
                     MessageFormat::Human => out.error(&error),
-                    MessageFormat::Json => array.push(bare(&error, file)),
+                    MessageFormat::Json => array.push(bare(&error, &name)),
                 }
                 // A file that is not there may come.
                 inputs.push(PathBuf::from(file));
@@ -50,11 +52,11 @@ pub(crate) fn check(files: &[String], format: MessageFormat, out: &Out, inputs: 
         let errors = problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
         failed |= errors > 0;
         match format {
-            MessageFormat::Human if problems.is_empty() => out.line(&format!("{file}: no problems")),
+            MessageFormat::Human if problems.is_empty() => out.line(&format!("{name}: no problems")),
             MessageFormat::Human => {
                 out.problems(&problems, &sources);
                 let warnings = problems.len() - errors;
-                out.line(&format!("{}: {} and {}", file, count(errors, "error"), count(warnings, "warning")));
+                out.line(&format!("{name}: {} and {}", count(errors, "error"), count(warnings, "warning")));
             }
             MessageFormat::Json => {
                 let text = render(&problems, &sources, Format::Json);

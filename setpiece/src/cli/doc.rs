@@ -7,13 +7,14 @@ use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::files::{refuse_overwriting, write};
 use crate::{Error, doc, picture};
 use clap::Args;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
 pub(crate) struct DocArgs {
     /// A scenario of the library, a .pitch file or a compiled .pitchc file
     #[arg(value_name = "SCENARIO")]
-    scenario: String,
+    scenario: OsString,
     /// Where to write the page [default: standard output]
     #[arg(short, long, value_name = "OUT.md")]
     output: Option<PathBuf>,

@@ -106,7 +106,8 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let mut live = Live::open(&args.playing.scenario)?;
     out.warnings(live.loaded());
     if !live.is_watching() {
-        out.fault("SP0001", &format!("`{}` is no file: there is nothing to watch", args.playing.scenario), None);
+        let name = args.playing.scenario.to_string_lossy();
+        out.fault("SP0001", &format!("`{name}` is no file: there is nothing to watch"), None);
         return Ok(FAULT);
     }
     let mut options = options(args, live.loaded())?;

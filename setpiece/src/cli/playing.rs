@@ -5,6 +5,7 @@ use crate::engine::environment::{EnvironmentOptions, Physics};
 use crate::files::{SNAPSHOT_MAX_BYTES, read_file};
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum};
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -12,7 +13,7 @@ use std::sync::Arc;
 pub(crate) struct Playing {
     /// A scenario of the library, a .pitch file or a compiled .pitchc file
     #[arg(value_name = "SCENARIO")]
-    pub(crate) scenario: String,
+    pub(crate) scenario: OsString,
     /// Who plays for the agents
     #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
     agent: AgentName,

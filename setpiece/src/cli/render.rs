@@ -3,9 +3,10 @@
 use super::{FAULT, FINE, out::Out, playing::Playing};
 use crate::Error;
 use crate::dsl::problem::Code;
-use crate::error::FileFault;
-use crate::files::{refuse_overwriting, write};
-use crate::render::{FilmOptions, film, frame, sheet};
+use crate::error::{FileFault, Packed};
+use crate::files::{read_file, refuse_overwriting, write};
+use crate::render::{FilmOptions, film, frame, replayed, sheet};
+use crate::replay::{REPLAY_MAX_BYTES, Replay};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -33,17 +34,25 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
         out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
         return Ok(FAULT);
     }
-    let loaded = crate::load(&args.playing.scenario)?;
-    out.warnings(&loaded);
-    refuse_overwriting(path, &loaded.inputs)?;
-    let options = FilmOptions {
-        seed: args.playing.seed,
-        episode: args.episode,
-        agent: args.playing.agent(),
-        environment: args.playing.environment(&loaded)?,
-        until_step: args.step,
+    let film = match crate::load(&args.playing.scenario) {
+        Err(Error::File { path: recorded, why: FileFault::Packed(Packed::Replay) }) => {
+            refuse_overwriting(path, std::slice::from_ref(&recorded))?;
+            replayed(&Replay::from_bytes(&read_file(&recorded, REPLAY_MAX_BYTES)?)?)?
+        }
+        loaded => {
+            let loaded = loaded?;
+            out.warnings(&loaded);
+            refuse_overwriting(path, &loaded.inputs)?;
+            let options = FilmOptions {
+                seed: args.playing.seed,
+                episode: args.episode,
+                agent: args.playing.agent(),
+                environment: args.playing.environment(&loaded)?,
+                until_step: args.step,
+            };
+            film(&loaded.scenario, &options)?
+        }
     };
-    let film = film(&loaded.scenario, &options)?;
     let (picture, told) = match args.step {
         None => (sheet(&film), format!("{} steps", film.length())),
         Some(step) => {

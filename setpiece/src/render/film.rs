@@ -8,6 +8,7 @@ use crate::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use crate::engine::event::Event;
 use crate::engine::judge::Outcome;
 use crate::engine::state::{Match, PlayerId};
+use crate::replay::Replay;
 use crate::scenario::pitch::PLAYERS_MAX;
 use crate::scenario::vocabulary::{Action, EventKind, Role};
 use crate::scenario::{Scenario, Team};
@@ -81,16 +82,7 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
     environment.reset(Some(options.seed), Some(options.episode)).map_err(|why| fault(EpisodeError::Draw(why)))?;
     let mut policy = ReadyMade::new(options.agent);
     policy.begin(&environment);
-    let mut film = Film {
-        name: scenario.name.clone(),
-        title: scenario.title().to_owned(),
-        origin: origin(&environment, options.agent),
-        scenes: vec![Scene::of(environment.state(), true)],
-        events: Vec::new(),
-        names: names(scenario),
-        keepers: keepers(scenario),
-        outcome: None,
-    };
+    let mut film = Film::begun(&environment, origin(&environment, Some(options.agent)));
     let mut scratch = Scratch::default();
     let mut actions = vec![Action::Idle; environment.n_agents()];
     while environment.is_running() && options.until_step.is_none_or(|step| environment.steps() < step) {
@@ -107,7 +99,37 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
     Ok(film)
 }
 
+/// Plays a recorded episode again and keeps every moment.
+///
+/// # Errors
+/// [`Error::Replay`] if it can't be played here, or comes to another end than it did.
+pub fn replayed(replay: &Replay) -> Result<Film, Error> {
+    let mut film: Option<Film> = None;
+    let environment = replay.play(|environment, _| match &mut film {
+        None => film = Some(Film::begun(environment, origin(environment, None))),
+        Some(film) => film.take(environment),
+    })?;
+    let mut film = film.unwrap_or_else(|| Film::begun(&environment, origin(&environment, None)));
+    film.outcome = environment.outcome().cloned();
+    Ok(film)
+}
+
 impl Film {
+    /// The first moment of an episode.
+    fn begun(environment: &Environment, origin: String) -> Film {
+        let scenario = environment.scenario();
+        Film {
+            name: scenario.name.clone(),
+            title: scenario.title().to_owned(),
+            origin,
+            scenes: vec![Scene::of(environment.state(), true)],
+            events: Vec::new(),
+            names: names(scenario),
+            keepers: keepers(scenario),
+            outcome: None,
+        }
+    }
+
     /// Keeps what a step led to.
     fn take(&mut self, environment: &Environment) {
         let (judged, now) = (environment.judged_state(), environment.state());
@@ -132,13 +154,13 @@ fn is_award(kind: EventKind) -> bool {
     matches!(kind, Kickoff | ThrowIn | Corner | GoalKick | FreeKick | Penalty)
 }
 
-/// The seed, the episode's index, who played, and the parameters that are not their defaults.
-fn origin(environment: &Environment, agent: Agent) -> String {
+/// The seed, the episode's index, which agent played for all, if one did, and the parameters that aren't their defaults.
+fn origin(environment: &Environment, agent: Option<Agent>) -> String {
     let mut origin = format!("seed {}", environment.seed());
     if environment.index() > 0 {
         origin += &format!(" · episode {}", environment.index());
     }
-    if let Some((name, _)) = Agent::NAMED.iter().find(|(_, named)| *named == agent) {
+    if let Some((name, _)) = Agent::NAMED.iter().find(|(_, named)| Some(*named) == agent) {
         origin += &format!(" · agent {name}");
     }
     for (param, &value) in environment.scenario().params.iter().zip(&environment.bindings().0) {

@@ -4,6 +4,7 @@ use super::Writer;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem, signature};
+use setpiece_scenario::pitch::LONGEST_S;
 use setpiece_scenario::vocabulary::{Field, Primitive};
 use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, Then, UnaryOp, Watch, When};
 
@@ -94,8 +95,7 @@ impl<'w> Writer<'_, 'w> {
         let until = stmt.until.as_ref().map(|condition| self.lower.condition(condition));
         let seconds = stmt.duration.as_ref().map(|duration| {
             let reg = self.lower.want_reg(duration, Ty::DURATION);
-            let longest = crate::lower::start::LONGEST_S;
-            self.lower.check_range(reg, (0.0, longest), "the duration", duration.span, "`0s..100000s`");
+            self.lower.check_range(reg, (0.0, LONGEST_S), "the duration", duration.span, "`0s..100000s`");
             reg
         });
         (until, seconds)

@@ -1,11 +1,11 @@
 //! Operators over time: evaluated once per step, outside every loop, whatever guards their use.
 
-use super::super::start::LONGEST_S;
 use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::LONGEST_S;
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 

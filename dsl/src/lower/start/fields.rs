@@ -4,18 +4,14 @@ use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind, Span};
 use crate::check::options::{self, BALL, START};
 use crate::check::types::Ty;
 use crate::lower::Lower;
-use crate::lower::start::LONGEST_S;
 use crate::lower::value::Repr;
 use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::{BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M};
 use setpiece_scenario::vocabulary::Rule;
 use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
 
-/// No kicked ball is faster; the hardest shots on record are slower by a fifth.
-const FASTEST_BALL_MPS: f64 = 70.0;
 /// Beyond this nobody has the ball, metres.
 const AT_HIS_FEET_M: f64 = 2.0;
-/// Radians per second; a hard free kick spins at about 60.
-const FASTEST_SPIN: f64 = 200.0;
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn start_fields(&mut self) -> (Option<(Reg, Reg)>, Option<Reg>) {
@@ -46,8 +42,8 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             };
             let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
-            self.check_range(goals.0, (0.0, 99.0), "a team's score", left.span, "`0..99`");
-            self.check_range(goals.1, (0.0, 99.0), "a team's score", right.span, "`0..99`");
+            self.check_range(goals.0, (0.0, GOALS_MAX.into()), "a team's score", left.span, "`0..99`");
+            self.check_range(goals.1, (0.0, GOALS_MAX.into()), "a team's score", right.span, "`0..99`");
             score = Some(goals);
         }
         (score, elapsed)
@@ -80,12 +76,12 @@ impl<'w> Lower<'_, 'w> {
                         Repr::Two(x, y) => (x, y, zero),
                         _ => (zero, zero, zero),
                     };
-                    lower.check_speed(velocity, FASTEST_BALL_MPS, "the ball", expr.span);
+                    lower.check_speed(velocity, BALL_SPEED_MAX_MPS, "the ball", expr.span);
                     start.velocity = Some(velocity);
                 }
                 "height" => {
                     let reg = lower.want_reg(expr, Ty::LENGTH);
-                    lower.check_range(reg, (0.0, 50.0), "the ball's height", expr.span, "`0m..50m`");
+                    lower.check_range(reg, (0.0, START_HEIGHT_MAX_M), "the ball's height", expr.span, "`0m..50m`");
                     start.height = Some(reg);
                 }
                 "owner" => {
@@ -124,7 +120,7 @@ impl<'w> Lower<'_, 'w> {
         {
             let mut about = |expr: &'w Expr| {
                 let reg = self.want_reg(expr, Ty::Number);
-                self.check_range(reg, (-FASTEST_SPIN, FASTEST_SPIN), "the spin", expr.span, "`-200..200`");
+                self.check_range(reg, (-BALL_SPIN_MAX, BALL_SPIN_MAX), "the spin", expr.span, "`-200..200`");
                 reg
             };
             let spin = (about(x), about(y), about(z));

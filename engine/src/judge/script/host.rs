@@ -17,7 +17,7 @@ const CALL_LEVELS_MAX: usize = 24;
 pub(super) const EXPRESSION_DEPTH_MAX: usize = 48;
 const STRING_MAX: usize = 4_096;
 const ARRAY_MAX: usize = 4_096;
-const MAP_MAX: usize = 512;
+pub(super) const MAP_MAX: usize = 512;
 const VARIABLES_MAX: usize = 256;
 const FUNCTIONS_MAX: usize = 256;
 

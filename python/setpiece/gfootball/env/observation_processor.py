@@ -12,12 +12,14 @@ from collections import deque
 from collections.abc import Iterable
 from datetime import datetime
 from importlib import import_module
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from setpiece._errors import FileError, FormatError
+from setpiece._record import write
 from setpiece.gfootball.env.football_action_set import CoreAction
 
 if TYPE_CHECKING:
@@ -145,14 +147,11 @@ def trace_of(
 
 def write_dump(path: Path, config: dict[str, Any], traces: Iterable[Trace]) -> None:
     """Writes records, and the settings into the first; `FileError` where the file can't be written."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("wb") as file:
-            for number, trace in enumerate(traces):
-                debug = {**trace["debug"], "config": config} if number == 0 else trace["debug"]
-                _Writer(file, PROTOCOL).dump({**trace, "debug": debug})
-    except OSError as error:
-        raise FileError(f"`{path}` can't be written: {error.strerror}", path=str(path)) from error
+    records = BytesIO()
+    for number, trace in enumerate(traces):
+        debug = {**trace["debug"], "config": config} if number == 0 else trace["debug"]
+        _Writer(records, PROTOCOL).dump({**trace, "debug": debug})
+    write(path, records.getvalue())
 
 
 def read_dump(path: str) -> list[Trace]:
@@ -161,6 +160,8 @@ def read_dump(path: str) -> list[Trace]:
     Raises `FileError` where the file can't be read, `FormatError` where it is no dump.
     """
     records = []
+    if Path(path).exists() and not Path(path).is_file():
+        raise FileError(f"`{path}` is not a regular file", path=path, code="SP0017")
     try:
         with Path(path).open("rb") as file:
             while file.peek(1):

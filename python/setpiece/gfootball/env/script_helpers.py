@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from pprint import pformat
 from typing import Any
 
-from setpiece._errors import FileError, FormatError, ParameterError
+from setpiece import _native
+from setpiece._errors import FormatError, ParameterError
+from setpiece._options import check_path
 from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env.config import Config, no_pictures
 from setpiece.gfootball.env.football_env import FootballEnv
@@ -30,10 +31,8 @@ class ScriptHelpers:
         records = read_dump(dump_file)
         if not include_debug:
             records = [{key: value for key, value in record.items() if key != "debug"} for record in records]
-        try:
-            Path(output).write_text("".join(f"{pformat(record)}\n" for record in records), encoding="utf-8")
-        except OSError as error:
-            raise FileError(f"`{output}` can't be written: {error.strerror}", path=output) from error
+        text = "".join(f"{pformat(record)}\n" for record in records)
+        _native.write(check_path("output", output), text.encode())
 
     def build_players(self, dump_file: str, spec: list[str] | None = None) -> list[str]:
         """Returns a definition for each player whose actions a dump has: `replay`, or in order what `spec` says."""

@@ -6,11 +6,11 @@
 
 use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
 use super::{Perspective, Scene};
-use crate::event::Event;
+use crate::event::{EVENTS_MAX, Event};
 use crate::judge::script::{Memory, host};
 use crate::judge::view::View;
 use crate::random::Stream;
-use crate::snapshot::{Archive, SnapshotError};
+use crate::snapshot::{Archive, SnapshotError, bounded};
 use crate::state::PlayerId;
 use rhai::{Array, Dynamic, FnPtr, ImmutableString, Map};
 use serde::{Deserialize, Serialize};
@@ -23,13 +23,20 @@ use std::sync::Arc;
 pub(crate) struct Shelf {
     scenes: Vec<Arc<Scene>>,
     kept: Vec<KeptScene>,
+    /// How many values were read, those of all memories together.
+    n_read: usize,
 }
+
+/// Most values that a snapshot holds of scripts' memories.
+const NODES_MAX: usize = 1 << 20;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct KeptScene {
     now: View,
     prev: View,
+    #[serde(deserialize_with = "bounded::<_, _, EVENTS_MAX>")]
     events: Vec<Event>,
+    #[serde(deserialize_with = "bounded::<_, _, NODES_MAX>")]
     params: Vec<Node>,
     random: Stream,
     seed: u64,
@@ -48,13 +55,18 @@ enum Node {
     /// Of so many values.
     List(u32),
     /// Of as many values as it has names.
-    Table(Vec<String>),
+    Table(#[serde(deserialize_with = "bounded::<_, _, { host::MAP_MAX }>")] Vec<String>),
     Range(i64, i64),
     RangeThrough(i64, i64),
     Point([f64; 2], f64),
     Vector([f64; 2]),
     Shown(Shown, Eye),
 }
+
+/// The values of a memory.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(transparent)]
+struct Nodes(#[serde(deserialize_with = "bounded::<_, _, NODES_MAX>")] Vec<Node>);
 
 /// What a hook is shown.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -87,14 +99,14 @@ struct Unkept {
 impl Memory {
     /// Writes or reads a script's memory.
     pub(crate) fn pass(&mut self, name: &str, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        let mut nodes = Vec::new();
+        let mut nodes = Nodes::default();
         if !archive.is_reading() {
-            archive.shelf.write(&self.this, &mut nodes).map_err(Unkept::within_this)?;
+            archive.shelf.write(&self.this, &mut nodes.0).map_err(Unkept::within_this)?;
         }
         archive.value("begun", &mut self.begun)?;
         archive.value(name, &mut nodes)?;
         if archive.is_reading() {
-            self.this = archive.shelf.read(nodes).map_err(|why| SnapshotError::damaged(name, why))?;
+            self.this = archive.shelf.read(nodes.0).map_err(|why| SnapshotError::damaged(name, why))?;
             host::check_size(&self.this).map_err(|why| SnapshotError::damaged(name, why))?;
         }
         Ok(())
@@ -130,7 +142,7 @@ impl Shelf {
         Ok(())
     }
 
-    fn stage(&self, kept: KeptScene) -> Result<Scene, String> {
+    fn stage(&mut self, kept: KeptScene) -> Result<Scene, String> {
         let params = self.read(kept.params)?.try_cast::<Map>().ok_or("has no parameters")?;
         let key = (kept.seed, kept.index);
         Ok(Scene::new(kept.now, kept.prev, &kept.events, Arc::new(params), kept.random, key))
@@ -162,6 +174,9 @@ impl Shelf {
 
     /// A value as nodes.
     fn write(&mut self, value: &Dynamic, nodes: &mut Vec<Node>) -> Result<(), Unkept> {
+        if nodes.len() >= NODES_MAX {
+            return Err(Unkept { place: String::new(), what: format!("more than {NODES_MAX} values") });
+        }
         if let Some(map) = value.read_lock::<Map>() {
             return self.write_map(&map, nodes);
         }
@@ -212,7 +227,11 @@ impl Shelf {
     }
 
     /// The value of some nodes.
-    fn read(&self, nodes: Vec<Node>) -> Result<Dynamic, String> {
+    fn read(&mut self, nodes: Vec<Node>) -> Result<Dynamic, String> {
+        self.n_read += nodes.len();
+        if self.n_read > NODES_MAX {
+            return Err(format!("makes more than {NODES_MAX} values of all memories"));
+        }
         // Every value with how deep it goes.
         let mut open: Vec<(Dynamic, usize)> = Vec::new();
         for node in nodes {
@@ -309,4 +328,26 @@ fn plain(value: &Dynamic) -> Option<Node> {
         return Some(Node::Point(point.metres, point.side));
     }
     value.read_lock::<Vector>().map(|vector| Node::Vector(vector.own))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_memory_of_endless_nothings_is_refused_before_it_is_made() {
+        let bytes = |length: usize| {
+            let mut bytes = postcard::to_allocvec(&(length as u64)).unwrap();
+            bytes.resize(bytes.len() + length, 0);
+            bytes
+        };
+        assert_eq!(postcard::from_bytes::<Nodes>(&bytes(NODES_MAX)).unwrap().0.len(), NODES_MAX);
+        assert!(postcard::from_bytes::<Nodes>(&bytes(NODES_MAX + 1)).is_err());
+        let mut shelf = Shelf::default();
+        let nothings = || vec![Node::Nothing; NODES_MAX / 2];
+        let first = shelf.read(nothings()).unwrap_err();
+        assert_eq!(first, "is not one value");
+        shelf.read(nothings()).unwrap_err();
+        assert!(shelf.read(vec![Node::Nothing]).unwrap_err().contains("all memories"), "they add up");
+    }
 }

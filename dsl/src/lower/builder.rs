@@ -22,6 +22,8 @@ struct Node {
     block: BlockId,
     /// The body, of an `Each`.
     body: Option<BlockId>,
+    /// Whether it depends on a broken expression.
+    unknown: bool,
 }
 
 #[derive(Default)]
@@ -97,6 +99,11 @@ impl Builder {
             open: vec![ROOT],
             writes: Vec::new(),
         }
+    }
+
+    /// How many instructions it has so far.
+    pub(crate) fn len(&self) -> usize {
+        self.nodes.len()
     }
 
     /// A new memory cell.
@@ -187,7 +194,7 @@ impl Builder {
 
     /// Whether a register belongs to a broken expression.
     pub(crate) fn is_unknown(&self, reg: Reg) -> bool {
-        self.depends(reg, &|instr| matches!(instr, Instr::Param(u32::MAX)))
+        self.nodes.get(reg.index()).is_some_and(|node| node.unknown)
     }
 
     /// A scenario `let`.
@@ -337,6 +344,7 @@ impl Builder {
             instr: Instr::Each(Box::new(Each { over, body: 0, fold })),
             block: body,
             body: Some(body),
+            unknown: false,
         });
         self.blocks.push(Block { owner: Some(at), ..Block::default() });
         self.open.push(body);
@@ -347,8 +355,13 @@ impl Builder {
     pub(crate) fn close_loop(&mut self, open: OpenLoop, fold: Fold) -> Reg {
         self.open.retain(|&block| block != open.body);
         let here = self.here();
+        let mut unknown = fold.value.iter().chain(&fold.guard).any(|reg| self.is_unknown(*reg));
+        if let Some(instr) = self.instr(open.element()) {
+            instr.operands(&mut |reg| unknown |= self.is_unknown(reg));
+        }
         if let Some(node) = self.nodes.get_mut(open.at as usize) {
             node.block = here;
+            node.unknown = unknown;
             if let Instr::Each(each) = &mut node.instr {
                 each.fold = fold;
             }
@@ -407,7 +420,9 @@ impl Builder {
 
     fn push(&mut self, block: BlockId, instr: Instr, key: Option<Key>) -> Reg {
         let at = self.nodes.len() as u32;
-        self.nodes.push(Node { instr, block, body: None });
+        let mut unknown = matches!(instr, Instr::Param(u32::MAX));
+        instr.operands(&mut |reg| unknown |= self.is_unknown(reg));
+        self.nodes.push(Node { instr, block, body: None, unknown });
         if let Some(block) = self.blocks.get_mut(block) {
             block.nodes.push(at);
             if let Some(key) = key {

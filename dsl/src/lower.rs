@@ -9,7 +9,6 @@ pub(crate) mod builder;
 pub(crate) mod casting;
 pub(crate) mod ending;
 pub(crate) mod expr;
-pub(crate) mod fold;
 pub(crate) mod hidden;
 pub(crate) mod interval;
 pub(crate) mod mirror;

@@ -7,6 +7,7 @@
 
 pub mod behavior;
 pub mod file;
+pub mod operators;
 pub mod params;
 pub mod pitch;
 pub mod program;

@@ -4,7 +4,6 @@
 //! out in order and tells where each register went. A pure instruction is put into the outermost block in which its
 //! operands are known, so that what doesn't depend on the element of a loop is computed once, before the loop.
 
-use super::fold;
 use setpiece_scenario::{
     BinaryOp, Distribution, Each, EventField, EventFilter, Field, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp,
     When, Who,
@@ -219,7 +218,7 @@ impl Builder {
 
     /// One operand; folded where it is constant and the result finite.
     pub(crate) fn unary(&mut self, op: UnaryOp, a: Reg) -> Reg {
-        if let Some(folded) = self.constant_of(a).and_then(|a| fold::unary(op, a)).filter(|v| v.is_finite()) {
+        if let Some(folded) = self.constant_of(a).and_then(|a| op.fold(a)).filter(|v| v.is_finite()) {
             return self.constant(folded);
         }
         match (op, self.instr(a)) {
@@ -236,7 +235,8 @@ impl Builder {
     pub(crate) fn binary(&mut self, op: BinaryOp, a: Reg, b: Reg) -> Reg {
         let (left, right) = (self.constant_of(a), self.constant_of(b));
         if let (Some(x), Some(y)) = (left, right)
-            && let Some(folded) = fold::binary(op, x, y).filter(|v| v.is_finite())
+            && let folded = op.apply(x, y)
+            && folded.is_finite()
         {
             return self.constant(folded);
         }

@@ -21,6 +21,7 @@ use crate::compile::RequireOrigin;
 use crate::problem::{Code, Problem};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
+use setpiece_scenario::pitch::STEP_S;
 use setpiece_scenario::vocabulary::{Rule, StartKind, Team};
 use setpiece_scenario::{
     Agents, BallStart, Instr, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
@@ -30,8 +31,6 @@ use std::collections::BTreeMap;
 /// What to do about what is defined by itself.
 pub(crate) const NO_CIRCLE: &str = "give one of the circle a value of its own";
 
-/// Seconds of a step.
-const STEP_S: f64 = 0.1;
 /// Longest duration that a start may name: a million steps.
 pub(crate) const LONGEST_S: f64 = 1.0e5;
 

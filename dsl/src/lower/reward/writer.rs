@@ -6,8 +6,9 @@ use crate::ast::{
 use crate::check::types::Ty;
 use crate::lower::script::embed;
 use crate::lower::value::Binding;
-use crate::lower::{Lower, fold, param};
+use crate::lower::{Lower, param};
 use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::STEP_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, RewardHook, UnaryOp};
 use std::collections::BTreeMap;
@@ -257,7 +258,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             }
         };
         if give.per_second {
-            let step = self.lower.code.constant(0.1);
+            let step = self.lower.code.constant(STEP_S);
             reg = self.lower.code.binary(BinaryOp::Mul, reg, step);
         }
         self.weighted(reg)
@@ -309,7 +310,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
             // A division by zero has been told.
             Some(&Instr::Binary(BinaryOp::Div, _, b)) if code.constant_of(b) == Some(0.0) => None,
-            Some(&Instr::Binary(op, a, b)) => fold::binary(op, code.constant_of(a)?, code.constant_of(b)?),
+            Some(&Instr::Binary(op, a, b)) => Some(op.apply(code.constant_of(a)?, code.constant_of(b)?)),
             _ => None,
         });
         if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {

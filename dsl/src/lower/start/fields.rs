@@ -7,6 +7,7 @@ use crate::lower::Lower;
 use crate::lower::start::LONGEST_S;
 use crate::lower::value::Repr;
 use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::{STEP_S, STEPS_PER_S};
 use setpiece_scenario::vocabulary::Rule;
 use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
 
@@ -184,7 +185,7 @@ impl<'w> Lower<'_, 'w> {
                     Ty::Int => reg,
                     Ty::DURATION => {
                         self.check_steps(reg, "`half_time`", expr.span);
-                        let step = self.code.constant(0.1);
+                        let step = self.code.constant(STEP_S);
                         let steps = self.code.binary(BinaryOp::Div, reg, step);
                         self.code.unary(UnaryOp::Round, steps)
                     }
@@ -194,7 +195,7 @@ impl<'w> Lower<'_, 'w> {
                         return None;
                     }
                 };
-                let most = LONGEST_S * 10.0;
+                let most = LONGEST_S * STEPS_PER_S;
                 self.check_range(steps, (0.0, most), "`half_time`", expr.span, "`0 steps..1000000 steps`");
                 Some(steps)
             }

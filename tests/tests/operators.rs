@@ -57,7 +57,9 @@ impl SourceLoader for Alone {
 
 /// The records of an episode of one step.
 fn records(body: &str) -> BTreeMap<String, Option<f64>> {
-    let text = format!("scenario s {{ ball at centre team left {{ CM at (-0.1, 0) }} agents {{ left: 0 }}\n    end limit 1 step {body} }}");
+    let text = format!(
+        "scenario s {{ ball at centre team left {{ CM at (-0.1, 0) }} agents {{ left: 0 }}\n    end limit 1 step {body} }}"
+    );
     let root = Source { name: "test.pitch".to_owned(), text: text.into() };
     let outcome = compile(root, &Alone, &CompileOptions::default());
     let scenario = outcome.scenario.unwrap_or_else(|| panic!("{:#?}", outcome.problems));

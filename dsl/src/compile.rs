@@ -4,7 +4,7 @@ mod cast;
 mod scripts;
 mod unused;
 
-pub use cast::{Cast, Whom};
+pub use cast::{CAST_NAME, Cast, Whom};
 
 use crate::ast::{ItemKind, ScenarioItem, Span};
 use crate::lower::casting::Casting;

@@ -5,7 +5,7 @@ use crate::{diagnostics, errors};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMappingProxy};
 use setpiece::scenario::{self as compiled, Bindings, Team};
-use setpiece::{Cast, Loaded, Whom};
+use setpiece::{LoadOptions, Cast, Loaded, Whom};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -135,21 +135,26 @@ impl Scenario {
 
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
 ///
-/// Raises `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
+/// With `allow_outside` imports and scripts may lie outside of the file's folder. Raises `UnknownScenarioError`,
+/// `FileError`, `CompileError` or `FormatError`.
 #[pyfunction]
+#[pyo3(signature = (name_or_path, *, allow_outside = false))]
 #[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
-pub(crate) fn load(py: Python<'_>, name_or_path: PathBuf) -> PyResult<Scenario> {
-    let loaded = py.detach(|| setpiece::load(&name_or_path.to_string_lossy()));
+pub(crate) fn load(py: Python<'_>, name_or_path: PathBuf, allow_outside: bool) -> PyResult<Scenario> {
+    let options = LoadOptions { allow_outside, ..LoadOptions::default() };
+    let loaded = py.detach(|| setpiece::load_with(&name_or_path.to_string_lossy(), &options));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
 /// Compiles a text in the language; `name` is how reports call it.
 ///
-/// Raises `CompileError`, whose `diagnostics` lists every problem, or `FileError` above 1 MiB.
+/// With `allow_outside` imports and scripts may lie outside of the folder of `name`, which is the working directory for a
+/// name without one. Raises `CompileError`, whose `diagnostics` lists every problem, or `FileError` above 1 MiB.
 #[pyfunction]
-#[pyo3(signature = (text, name = "<text>"))]
-pub(crate) fn compile(py: Python<'_>, text: &str, name: &str) -> PyResult<Scenario> {
-    let loaded = py.detach(|| setpiece::compile_text(text, name));
+#[pyo3(signature = (text, name = "<text>", *, allow_outside = false))]
+pub(crate) fn compile(py: Python<'_>, text: &str, name: &str, allow_outside: bool) -> PyResult<Scenario> {
+    let options = LoadOptions { allow_outside, ..LoadOptions::default() };
+    let loaded = py.detach(|| setpiece::compile_text_with(text, name, &options));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 

@@ -1,7 +1,7 @@
 //! A scenario that follows its files: compiled anew when one of them changes.
 
 use crate::error::Error;
-use crate::load::{Loaded, load};
+use crate::load::{LoadOptions, Loaded, load_with};
 use crate::watch::Watcher;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -9,6 +9,7 @@ use std::time::Duration;
 /// A scenario and the watch on everything it is made of: its file, imports and scripts.
 pub struct Live {
     source: String,
+    allow_outside: bool,
     loaded: Loaded,
     watcher: Watcher,
 }
@@ -16,12 +17,14 @@ pub struct Live {
 impl Live {
     /// Loads a scenario and watches its files.
     ///
+    /// - `allow_outside`: as in [`LoadOptions`].
+    ///
     /// # Errors
-    /// As [`load`]; [`Error::File`] where a folder can't be watched.
-    pub fn open(source: &str) -> Result<Live, Error> {
-        let loaded = load(source)?;
+    /// As [`load_with`]; [`Error::File`] where a folder can't be watched.
+    pub fn open(source: &str, allow_outside: bool) -> Result<Live, Error> {
+        let loaded = load_with(source, &LoadOptions { allow_outside, ..LoadOptions::default() })?;
         let watcher = Watcher::new(&loaded.inputs)?;
-        Ok(Live { source: source.to_owned(), loaded, watcher })
+        Ok(Live { source: source.to_owned(), allow_outside, loaded, watcher })
     }
 
     /// The last good scenario.
@@ -39,12 +42,13 @@ impl Live {
     /// A broken file leaves the last good scenario in place; what it asks for in vain is watched too.
     ///
     /// # Errors
-    /// As [`load`], of the changed files.
+    /// As [`load_with`], of the changed files.
     pub fn poll(&mut self, timeout: Duration) -> Option<Result<&Loaded, Error>> {
         if !self.watcher.changed(timeout) {
             return None;
         }
-        let fresh = load(&self.source).and_then(|fresh| {
+        let options = LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() };
+        let fresh = load_with(&self.source, &options).and_then(|fresh| {
             self.watcher.watch(&fresh.inputs)?;
             Ok(fresh)
         });

@@ -111,7 +111,7 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
     }
     let named = args.scenarios.iter().map(String::as_str);
     let names: Vec<&str> = if args.scenarios.is_empty() { SCENARIOS.to_vec() } else { named.collect() };
-    let loaded = names.iter().map(|name| crate::load(name)).collect::<Result<Vec<_>, _>>()?;
+    let loaded = names.iter().map(|name| crate::load_with(name, &out.loading())).collect::<Result<Vec<_>, _>>()?;
     let observation =
         args.observation.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
     let agent = args.agent.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());

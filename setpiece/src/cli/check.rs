@@ -33,7 +33,7 @@ pub(crate) fn check(files: &[String], format: MessageFormat, out: &Out, inputs: 
     let mut failed = false;
     let mut array = Vec::new();
     for file in files {
-        let Checked { problems, sources, inputs: read } = match crate::check(file) {
+        let Checked { problems, sources, inputs: read } = match crate::check_with(file, &out.loading()) {
             Ok(found) => found,
             Err(error) => {
                 failed = true;

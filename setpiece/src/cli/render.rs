@@ -33,7 +33,7 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
         out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
         return Ok(FAULT);
     }
-    let loaded = crate::load(&args.playing.scenario)?;
+    let loaded = crate::load_with(&args.playing.scenario, &out.loading())?;
     out.warnings(&loaded);
     refuse_overwriting(path, &loaded.inputs)?;
     let options = FilmOptions {

@@ -18,8 +18,8 @@ def load(source: Source, *, allow_outside: bool = False) -> Scenario:
     """Loads a scenario: a name of the library, the path of a `.pitch` or `.pitchc` file, a text, or a `ScenarioDict`.
 
     A string with a `{` is a text. Imports and scripts lie in the file's folder or below (a text's: in the working
-    directory), unless `allow_outside` permits other places. Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, and
-    `ParameterError` for a dict that is none.
+    directory), unless `allow_outside` permits other places. Raises `UnknownScenarioError`, `FileError`,
+    `CompileError`, `FormatError`, and `ParameterError` for a dict that is none.
 
     >>> import setpiece
     >>> setpiece.load("academy_corner")

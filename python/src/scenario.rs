@@ -5,7 +5,7 @@ use crate::{diagnostics, errors};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMappingProxy};
 use setpiece::scenario::{self as compiled, Bindings, Team};
-use setpiece::{LoadOptions, Cast, Loaded, Whom};
+use setpiece::{Cast, LoadOptions, Loaded, Whom};
 use std::path::PathBuf;
 use std::sync::Arc;
 

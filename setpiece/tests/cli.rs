@@ -604,6 +604,6 @@ fn what_an_author_writes_does_not_steer_the_terminal() {
             assert!(colour == "always" || !said.contains('\u{1B}'), "{said:?}");
         }
     }
-    let said = fails(&["check", &format!("no\u{1B}[31msuch.pitch")], 1, &["SP0001"]);
+    let said = fails(&["check", "no\u{1B}[31msuch.pitch"], 1, &["SP0001"]);
     assert!(!said.contains('\u{1B}'), "{said:?}");
 }

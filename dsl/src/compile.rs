@@ -4,13 +4,16 @@ mod cast;
 mod scripts;
 mod unused;
 
-pub use cast::{Cast, Whom};
+pub use cast::{CAST_NAME, Cast, Whom};
 
 use crate::ast::{ItemKind, ScenarioItem, Span};
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
-use crate::lower::{World, behavior, ending, hidden, observation, param, record, reward, roster, start};
+use crate::lower::{
+    Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, roster, start,
+};
+use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem, ScriptApi, Severity};
 use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
@@ -103,7 +106,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     let texts: Vec<Source> = options.cast.iter().map(Cast::source).collect();
     let (mut library, guests) = load(&root, loader, options.prelude, &texts, &mut problems);
     let mut scripts = Scripts::new(options.scripts);
-    scripts::load(&mut library, &mut scripts, loader);
+    scripts::load(&mut library, &mut scripts, loader, &mut problems);
     let casting = cast::read(options.cast, &guests, &library, &mut problems);
 
     let mut chosen = None;
@@ -118,20 +121,27 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     }
     let mut unused = Unused::default();
     let wanted = pick(&candidates, options.scenario.as_deref(), &library, &mut problems);
+    let effort = Effort::new();
     for (item, doc) in &candidates {
         if item.is_abstract {
             let mut found = Vec::new();
-            compile_one(&library, &scripts, &[], item, doc, &mut found, &mut unused);
+            compile_one(&library, &scripts, &[], item, doc, &effort, &mut found, &mut unused);
             // What is missing, a child may bring.
             found.retain(|problem| !follows_from_gaps(problem.code) && problem.code != Code::UnknownName);
             problems.append(&mut found);
+            if is_enough(&effort, item, &mut problems) {
+                break;
+            }
             continue;
         }
         let is_wanted = wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item));
         let casting = if is_wanted { casting.as_slice() } else { &[] };
-        let lowered = compile_one(&library, &scripts, casting, item, doc, &mut problems, &mut unused);
+        let lowered = compile_one(&library, &scripts, casting, item, doc, &effort, &mut problems, &mut unused);
         if is_wanted {
             chosen = Some(lowered);
+        }
+        if is_enough(&effort, item, &mut problems) {
+            break;
         }
     }
 
@@ -151,7 +161,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
             || !place(problem).is_some_and(|span| lost.contains(library.sources.text(span)))
     });
     problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
-    if problems.iter().any(|problem| matches!(problem.code.number(), 1..=4 | 6 | 101..=107 | 203 | 207..=210)) {
+    if problems.iter().any(|problem| matches!(problem.code.number(), 1..=4 | 6 | 101..=107 | 109 | 203 | 207..=210)) {
         problems.retain(|problem| !follows_from_gaps(problem.code));
     }
     // The library is sound: what breaks in it follows from what the author wrote.
@@ -272,16 +282,35 @@ fn pick<'a>(
     None
 }
 
+/// What a scenario costs by itself, in expressions.
+const SCENARIO_EFFORT: usize = 100;
+
+/// A compilation that has found so many problems looks at no further scenario.
+const ENOUGH_PROBLEMS: usize = 8 * MAX_PROBLEMS;
+
+/// Whether no further scenario is looked at; reports a compilation that is larger than any may be.
+fn is_enough(effort: &Effort, item: &ScenarioItem, problems: &mut Vec<Problem>) -> bool {
+    if effort.is_spent() {
+        let message = format!("up to `{}` more than {MAX_LOWERED} expressions are used", item.name.node);
+        let help = "use fewer or smaller rewards and functions, or put scenarios into files of their own";
+        problems.push(Problem::new(Code::TooMuch, item.name.span, message, "too much").help(help));
+    }
+    effort.is_spent() || (problems.len() > ENOUGH_PROBLEMS && has_errors(problems))
+}
+
+#[allow(clippy::too_many_arguments, reason = "what a scenario is made of, and where its findings go")]
 fn compile_one<'a>(
     library: &'a Library,
     scripts: &'a Scripts<'a>,
     casting: &'a [Casting<'a>],
     item: &'a ScenarioItem,
     doc: &'a str,
+    effort: &'a Effort,
     problems: &mut Vec<Problem>,
     unused: &mut Unused,
 ) -> (Scenario, Origins) {
     let mut flat = flatten(library, item, problems);
+    effort.spend(SCENARIO_EFFORT + flat.size());
     let mirror = Mirror::of(flat.mirror, problems);
     if mirror == Mirror::Ends {
         flat.teams.swap(0, 1);
@@ -302,6 +331,8 @@ fn compile_one<'a>(
         scripts_loaded: scripts,
         problems: RefCell::default(),
         used: RefCell::new(BTreeSet::new()),
+        effort,
+        counts: RefCell::default(),
     };
     world.params = param::lower_params(&world);
     let told = world.problems.borrow().len();

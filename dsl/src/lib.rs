@@ -15,5 +15,5 @@ pub mod report;
 mod resolve;
 pub mod source;
 
-pub use compile::{Cast, CompileOptions, Origins, Outcome, RequireOrigin, Whom, compile, parts};
+pub use compile::{CAST_NAME, Cast, CompileOptions, Origins, Outcome, RequireOrigin, Whom, compile, parts};
 pub use resolve::Prelude;

@@ -9,7 +9,6 @@ pub(crate) mod builder;
 pub(crate) mod casting;
 pub(crate) mod ending;
 pub(crate) mod expr;
-pub(crate) mod fold;
 pub(crate) mod hidden;
 pub(crate) mod interval;
 pub(crate) mod mirror;
@@ -28,8 +27,9 @@ pub(crate) mod value;
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::compile::RequireOrigin;
+use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
-use crate::resolve::{Flat, Library};
+use crate::resolve::{Flat, Library, Named};
 use builder::Builder;
 use casting::Casting;
 use interval::Interval;
@@ -39,8 +39,8 @@ use roster::Rostered;
 use setpiece_scenario::vocabulary::{EventKind, Rule, Team};
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
 use start::{LetSlot, StartState};
-use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
 use value::{Frame, Repr, Scope, Value};
 
 /// What every program of a scenario is lowered against.
@@ -75,12 +75,51 @@ pub(crate) struct World<'w> {
     pub(crate) problems: RefCell<Vec<Problem>>,
     /// Declarations that something refers to.
     pub(crate) used: RefCell<BTreeSet<Span>>,
+    /// What may still be lowered.
+    pub(crate) effort: &'w Effort,
+    /// How many problems of each code were found.
+    pub(crate) counts: RefCell<BTreeMap<Code, usize>>,
+}
+
+/// One compilation may lower this much: expressions of every scenario of a file, each as often as it is used, and the
+/// instructions that they become. The largest scenarios of the library take some thousand.
+pub(crate) const MAX_LOWERED: usize = 400_000;
+
+/// What one compilation may still lower.
+pub(crate) struct Effort(Cell<usize>);
+
+impl Effort {
+    /// That of a compilation that begins.
+    pub(crate) fn new() -> Effort {
+        Effort(Cell::new(MAX_LOWERED))
+    }
+
+    /// Takes some of it; `false` once it is spent.
+    pub(crate) fn spend(&self, amount: usize) -> bool {
+        self.0.set(self.0.get().saturating_sub(amount));
+        !self.is_spent()
+    }
+
+    /// Whether nothing is left.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.0.get() == 0
+    }
 }
 
 impl World<'_> {
-    /// Reports a problem.
+    /// Reports a problem, unless there are enough of its kind.
     pub(crate) fn report(&self, problem: Problem) {
-        self.problems.borrow_mut().push(problem);
+        let mut counts = self.counts.borrow_mut();
+        let count = counts.entry(problem.code).or_default();
+        *count += 1;
+        if *count <= MAX_PROBLEMS {
+            self.problems.borrow_mut().push(problem);
+        }
+    }
+
+    /// Whether there are enough problems of a kind: one that is costly to explain needn't be.
+    pub(crate) fn is_full(&self, code: Code) -> bool {
+        self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
     }
 
     /// Notes that a declaration is referred to.
@@ -91,12 +130,14 @@ impl World<'_> {
     /// Where the scenario declares a value of this name, players aside.
     pub(crate) fn declaration(&self, name: &str) -> Option<Span> {
         let flat = self.flat;
-        let params = flat.params.iter().map(|param| &param.decl.name);
-        let bindings = flat.lets.iter().chain(&flat.consts).map(|binding| &binding.name);
-        let regions = flat.regions.iter().map(|region| &region.name);
-        let shuffled = flat.tuples.iter().flat_map(|(names, _)| *names);
-        let mut all = params.chain(bindings).chain(regions).chain(shuffled);
-        all.find(|known| known.node == name).map(|known| known.span)
+        let known = match flat.named(name)? {
+            Named::Param(at) => &flat.params.get(at)?.decl.name,
+            Named::Let(at) => &flat.lets.get(at)?.name,
+            Named::Tuple(at, index) => flat.tuples.get(at)?.0.get(index)?,
+            Named::Const(at) => &flat.consts.get(at)?.name,
+            Named::Region(at) => &flat.regions.get(at)?.name,
+        };
+        Some(known.span)
     }
 
     /// Whether the scenario has a value or player of this name.
@@ -178,6 +219,8 @@ pub(crate) struct Lower<'c, 'w> {
     depth: u32,
     inlining: Vec<Span>,
     inlined: u32,
+    /// How many instructions were taken from the world's effort.
+    paid: usize,
 }
 
 /// Deepest expression, parents of names included.
@@ -203,6 +246,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             depth: 0,
             inlining: Vec::new(),
             inlined: 0,
+            paid: 0,
         }
     }
 
@@ -215,6 +259,14 @@ impl<'c, 'w> Lower<'c, 'w> {
     pub(crate) fn fail(&self, problem: Problem) -> Value<'w> {
         self.world.report(problem);
         Value::error()
+    }
+
+    /// Pays for an expression and for the instructions since the last one; `false` once too much was lowered.
+    fn pay(&mut self) -> bool {
+        let made = self.code.len();
+        let new = made.saturating_sub(self.paid);
+        self.paid = made;
+        self.world.effort.spend(1 + new)
     }
 
     /// Runs `f` in another scope.

@@ -36,8 +36,19 @@ pub const MAX_OPERATORS: u32 = 256;
 /// Blocks and `else when`s may be nested this deep.
 pub const MAX_BLOCKS: u32 = 64;
 
-/// A stage of parsing tells no more problems of one file.
+/// A stage of compilation reports no more problems of one file.
 pub const MAX_PROBLEMS: usize = 500;
+
+/// A file may have this many words and signs, comments apart. Scenarios have some hundreds; a tree of so many takes
+/// some hundred milliseconds and 100 MB, whatever the text is.
+pub const MAX_TOKENS: usize = 100_000;
+
+/// A list may be this long: statements of a block, items of a file, arguments, parameters, names, values. Nobody writes
+/// so many, and looking one up in a list takes time.
+pub const MAX_LIST: usize = 4_096;
+
+/// Bytes of a file that may be looked at again to say what is wrong, beyond twice its length.
+const LEAST_EFFORT: usize = 1 << 18;
 
 /// Parses a file; says everything that could not be read in `problems`.
 pub fn parse(source: &Source, id: FileId, problems: &mut Vec<Problem>) -> ast::File {

@@ -95,17 +95,53 @@ impl Problem {
     }
 }
 
+/// A similar name is looked for if the name is at most this long, bytes: comparing costs the product of both lengths.
+const SIMILAR_BYTES_MAX: usize = 64;
+/// A similar name is looked for among this many candidates at most. More names than that are no longer a typo's
+/// neighbours, and a text may hold as many wrong names as right ones.
+pub(crate) const CANDIDATES_MAX: usize = 1_000;
+/// How alike two names must be, from 0 to 1.
+const LIKENESS_MIN: f64 = 0.6;
+
 /// The candidate most like `found`, if it is like enough (similarity above 0.6).
 pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if found.len() > SIMILAR_BYTES_MAX {
+        return None;
+    }
     let found = found.to_lowercase();
-    let mut best = (0.6, None);
-    for candidate in candidates {
-        let likeness = strsim::normalized_damerau_levenshtein(&found, &candidate.to_lowercase());
+    let mut best = (LIKENESS_MIN, None);
+    for candidate in candidates.into_iter().take(CANDIDATES_MAX) {
+        let lowered = candidate.to_lowercase();
+        if lowered.len() > SIMILAR_BYTES_MAX || likeness_at_most(&found, &lowered) <= best.0 {
+            continue;
+        }
+        let likeness = strsim::normalized_damerau_levenshtein(&found, &lowered);
         if likeness > best.0 {
             best = (likeness, Some(candidate));
         }
     }
     best.1
+}
+
+/// A bound of the likeness of two names that is quick to compute: letters that only one of them has must be edited.
+fn likeness_at_most(a: &str, b: &str) -> f64 {
+    let (long, short) = if a.chars().count() < b.chars().count() { (b, a) } else { (a, b) };
+    let mut counts = [0_u8; 64];
+    let slot = |letter: char| letter as usize % 64;
+    for letter in short.chars() {
+        if let Some(count) = counts.get_mut(slot(letter)) {
+            *count += 1;
+        }
+    }
+    let (mut length, mut common) = (0_u32, 0_u32);
+    for letter in long.chars() {
+        length += 1;
+        if let Some(count) = counts.get_mut(slot(letter)).filter(|count| **count > 0) {
+            *count -= 1;
+            common += 1;
+        }
+    }
+    if length == 0 { 1.0 } else { f64::from(common) / f64::from(length) }
 }
 
 /// How a word is written, from its line of documentation: what stands before the first `: ` outside of brackets.
@@ -175,6 +211,7 @@ codes! {
     ComparisonChain = 106 Error "comparisons don't chain";
     ReservedName = 107 Error "a reserved word is used as a name";
     NotYet = 108 Error "this construct is not supported yet";
+    TooMuch = 109 Error "there is more of this than a text may hold";
     // SP02xx: names.
     UnknownName = 201 Error "no such name";
     DuplicateName = 202 Error "a name is declared twice";

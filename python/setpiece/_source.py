@@ -14,11 +14,12 @@ Source = Scenario | ScenarioDict | str | PathLike[str]
 """A scenario: compiled, as a `ScenarioDict`, its name in the library, the path of its file, or its text."""
 
 
-def load(source: Source) -> Scenario:
+def load(source: Source, *, allow_outside: bool = False) -> Scenario:
     """Loads a scenario: a name of the library, the path of a `.pitch` or `.pitchc` file, a text, or a `ScenarioDict`.
 
-    A string with a `{` is a text. Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, and
-    `ParameterError` for a dict that is none.
+    A string with a `{` is a text. Imports and scripts lie in the file's folder or below (a text's: in the working
+    directory), unless `allow_outside` permits other places. Raises `UnknownScenarioError`, `FileError`,
+    `CompileError`, `FormatError`, and `ParameterError` for a dict that is none.
 
     >>> import setpiece
     >>> setpiece.load("academy_corner")
@@ -28,8 +29,8 @@ def load(source: Source) -> Scenario:
         return source
     text = text_of(source)
     if text is not None:
-        return _native.compile(text, name_of(source))
-    return _native.load(path_of(source))
+        return _native.compile(text, name_of(source), allow_outside=allow_outside)
+    return _native.load(path_of(source), allow_outside=allow_outside)
 
 
 def text_of(source: Source) -> str | None:

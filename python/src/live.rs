@@ -19,7 +19,7 @@ pub(crate) struct Live {
 impl Live {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Live> {
-        let opened = py.detach(|| Facade::open(&path));
+        let opened = py.detach(|| Facade::open(&path, false));
         let inner = opened.map_err(|error| errors::from_facade(py, &error))?;
         if !inner.is_watching() {
             let message = format!("`{}` is no file: there is nothing to watch", path.display());

@@ -5,7 +5,7 @@ use crate::{diagnostics, errors, given};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMappingProxy};
 use setpiece::scenario::{self as compiled, Bindings, Team};
-use setpiece::{Cast, Loaded, Whom};
+use setpiece::{Cast, LoadOptions, Loaded, Whom};
 use std::sync::Arc;
 
 /// A compiled scenario: what `setpiece.load` and `setpiece.compile` return. It never changes.
@@ -135,24 +135,36 @@ impl Scenario {
 
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
 ///
-/// Raises `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
+/// With `allow_outside` imports and scripts may lie outside of the file's folder. Raises `UnknownScenarioError`,
+/// `FileError`, `CompileError` or `FormatError`.
 #[pyfunction]
-pub(crate) fn load(py: Python<'_>, name_or_path: &Bound<'_, PyAny>) -> PyResult<Scenario> {
+#[pyo3(signature = (name_or_path, *, allow_outside = false))]
+pub(crate) fn load(py: Python<'_>, name_or_path: &Bound<'_, PyAny>, allow_outside: bool) -> PyResult<Scenario> {
     let name_or_path = given::path("scenario", name_or_path)?;
-    let loaded = py.detach(|| setpiece::load(&name_or_path));
+    let options = LoadOptions { allow_outside, ..LoadOptions::default() };
+    let loaded = py.detach(|| setpiece::load_with(&name_or_path, &options));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
 /// Compiles a text in the language; `name` is how reports call it.
 ///
-/// Raises `CompileError`, whose `diagnostics` lists every problem, `FileError` above 1 MiB, or `ParameterError` for what
-/// is no text.
+/// With `allow_outside` imports and scripts may lie outside of the folder of `name`, which is the working directory for a
+/// name without one. Raises `CompileError`, whose `diagnostics` lists every problem, `FileError` above 1 MiB, or
+/// `ParameterError` for what is no text.
 #[pyfunction]
-#[pyo3(signature = (text, name = None), text_signature = "(text, name='<text>')")]
-pub(crate) fn compile(text: &Bound<'_, PyAny>, name: Option<&Bound<'_, PyAny>>) -> PyResult<Scenario> {
+#[pyo3(
+    signature = (text, name = None, *, allow_outside = false),
+    text_signature = "(text, name='<text>', *, allow_outside=False)"
+)]
+pub(crate) fn compile(
+    text: &Bound<'_, PyAny>,
+    name: Option<&Bound<'_, PyAny>>,
+    allow_outside: bool,
+) -> PyResult<Scenario> {
     let py = text.py();
     let (text, name) = (given::text("text", text)?, text_name(name)?);
-    let loaded = py.detach(|| setpiece::compile_text(&text, &name));
+    let options = LoadOptions { allow_outside, ..LoadOptions::default() };
+    let loaded = py.detach(|| setpiece::compile_text_with(&text, &name, &options));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 

@@ -8,6 +8,7 @@
 pub mod behavior;
 pub mod bounds;
 pub mod file;
+pub mod operators;
 pub mod params;
 pub mod pitch;
 pub mod program;

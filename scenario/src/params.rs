@@ -1,5 +1,6 @@
 //! Parameters of a scenario and their binding.
 
+use crate::pitch::STEPS_PER_S;
 use crate::vocabulary::Type;
 use serde::{Deserialize, Serialize};
 
@@ -214,7 +215,7 @@ impl Param {
             Type::Length => format!("{}m", number(value)),
             Type::Speed => format!("{}m/s", number(value)),
             Type::Angle => format!("{}deg", number(value.to_degrees())),
-            Type::Duration => match number(value * 10.0) {
+            Type::Duration => match number(value * STEPS_PER_S) {
                 steps if steps.fract() == 0.0 => format!("{steps} steps"),
                 _ => format!("{}s", number(value)),
             },

@@ -60,6 +60,8 @@ pub const TEAM_MAX: usize = 11;
 pub const PLAYERS_MAX: usize = 2 * TEAM_MAX;
 /// Steps of an agent per second.
 pub const STEPS_PER_S: f64 = 10.0;
+/// Seconds of a step.
+pub const STEP_S: f64 = 1.0 / STEPS_PER_S;
 /// Ticks of physics per step.
 pub const TICKS_PER_STEP: u32 = 10;
 

@@ -104,7 +104,7 @@ fn main() {
     let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
     let path = folder.path().join("saved.pitch");
     save(&path, &text(SAVES, "CM"), false);
-    let mut live = Live::open(&path).unwrap_or_else(|error| panic!("{error}"));
+    let mut live = Live::open(&path, false).unwrap_or_else(|error| panic!("{error}"));
     latency(&path, &mut live);
     alternating(&path, &mut live);
 }

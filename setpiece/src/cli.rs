@@ -38,6 +38,9 @@ pub(crate) struct Args {
     /// When to colour the output
     #[arg(long, global = true, value_enum, default_value_t = Colour::Auto, value_name = "WHEN")]
     color: Colour,
+    /// Let imports and scripts lie outside of the scenario's folder
+    #[arg(long, global = true)]
+    allow_outside: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -182,7 +185,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Runs a command.
 fn run(args: Args) -> u8 {
-    let out = Out::new(args.color);
+    let out = Out::new(args.color, args.allow_outside);
     let result = match args.command {
         Command::List => Ok(list(&out)),
         Command::Check { files, message_format, watch: true } => check::watch(&files, message_format, &out),
@@ -230,7 +233,7 @@ fn list(out: &Out) -> u8 {
 }
 
 fn build(source: &OsStr, output: &std::path::Path, format: BuildFormat, out: &Out) -> Result<u8, Error> {
-    let loaded = crate::load(source)?;
+    let loaded = crate::load_with(source, &out.loading())?;
     out.warnings(&loaded);
     crate::files::refuse_overwriting(output, &loaded.inputs)?;
     let written = match format {

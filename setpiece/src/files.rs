@@ -2,6 +2,7 @@
 
 use crate::error::{Error, FileFault};
 use crate::stdlib;
+use setpiece_dsl::CAST_NAME;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
@@ -160,8 +161,45 @@ pub fn path_of(name: &str) -> PathBuf {
 }
 
 /// Loads imports and scripts: `std/…` from the library, everything else beside the file that names it.
-#[derive(Debug, Default)]
-pub struct FileLoader;
+#[derive(Clone, Debug, Default)]
+pub struct FileLoader {
+    /// The folder that nothing but the library may lie outside of; none where anything may be read.
+    within: Option<PathBuf>,
+}
+
+impl FileLoader {
+    /// Reads any file.
+    pub fn anywhere() -> FileLoader {
+        FileLoader { within: None }
+    }
+
+    /// Reads files in the folder of a root file and below; a text from memory has the working directory.
+    pub fn beside(root: &str) -> FileLoader {
+        let root_path = path_of(root);
+        let folder = root_path.parent().filter(|_| !root.starts_with('<')).unwrap_or(Path::new(""));
+        FileLoader { within: Some(folder.to_owned()) }
+    }
+
+    /// Whether a file may be read, as it is written and where its links lead.
+    fn may_read(&self, full: &Path) -> bool {
+        let Some(within) = &self.within else { return true };
+        let written = match (plain(full), plain(within)) {
+            (Some(full), Some(within)) => full.starts_with(within),
+            _ => false,
+        };
+        let folder = if within.as_os_str().is_empty() { Path::new(".") } else { within };
+        // What is not there has no links to follow.
+        let linked = |full: PathBuf| folder.canonicalize().is_ok_and(|within| full.starts_with(within));
+        written && full.canonicalize().map_or(true, linked)
+    }
+}
+
+/// An absolute path without `.` and `..`.
+fn plain(path: &Path) -> Option<PathBuf> {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    let absolute = std::path::absolute(path).ok()?;
+    Some(beside(Path::new(""), &absolute))
+}
 
 impl SourceLoader for FileLoader {
     fn load(&self, path: &str, from: &str) -> Result<Source, LoadError> {
@@ -175,6 +213,11 @@ impl SourceLoader for FileLoader {
             });
         }
         let full = beside(&path_of(from), &path_of(path));
+        // Who plays from outside names their own files.
+        if from != CAST_NAME && !self.may_read(&full) {
+            let message = format!("`{path}` lies outside of the scenario's folder, and `--allow-outside` isn't given");
+            return Err(LoadError { message, similar: Vec::new(), awaited: None });
+        }
         match read_text(&full, SOURCE_MAX_BYTES) {
             Ok(text) => Ok(Source { name: name_of(&full), text: text.into() }),
             Err(error) => {

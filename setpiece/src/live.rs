@@ -1,7 +1,7 @@
 //! A scenario that follows its files: compiled anew when one of them changes.
 
 use crate::error::Error;
-use crate::load::{Loaded, load};
+use crate::load::{LoadOptions, Loaded, load_with};
 use crate::watch::Watcher;
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
@@ -10,6 +10,7 @@ use std::time::Duration;
 /// A scenario and the watch on everything it is made of: its file, imports and scripts.
 pub struct Live {
     source: OsString,
+    allow_outside: bool,
     loaded: Loaded,
     watcher: Watcher,
 }
@@ -17,13 +18,15 @@ pub struct Live {
 impl Live {
     /// Loads a scenario and watches its files.
     ///
+    /// - `allow_outside`: as in [`LoadOptions`].
+    ///
     /// # Errors
-    /// As [`load`].
-    pub fn open(source: impl AsRef<OsStr>) -> Result<Live, Error> {
+    /// As [`load_with`].
+    pub fn open(source: impl AsRef<OsStr>, allow_outside: bool) -> Result<Live, Error> {
         let source = source.as_ref().to_owned();
-        let loaded = load(&source)?;
+        let loaded = load_with(&source, &LoadOptions { allow_outside, ..LoadOptions::default() })?;
         let watcher = Watcher::new(&loaded.inputs);
-        Ok(Live { source, loaded, watcher })
+        Ok(Live { source, allow_outside, loaded, watcher })
     }
 
     /// The last good scenario.
@@ -41,12 +44,13 @@ impl Live {
     /// A broken file leaves the last good scenario in place; what it asks for in vain is watched too.
     ///
     /// # Errors
-    /// As [`load`], of the changed files.
+    /// As [`load_with`], of the changed files.
     pub fn poll(&mut self, timeout: Duration) -> Option<Result<&Loaded, Error>> {
         if !self.watcher.changed(timeout) {
             return None;
         }
-        Some(match load(&self.source) {
+        let options = LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() };
+        Some(match load_with(&self.source, &options) {
             Ok(fresh) => {
                 self.watcher.watch(&fresh.inputs);
                 self.loaded = fresh;

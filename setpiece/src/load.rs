@@ -46,7 +46,7 @@ pub struct Entry {
 pub fn list() -> Vec<Entry> {
     let mut entries: Vec<Entry> = stdlib::scenarios()
         .filter_map(|(name, source)| {
-            let scenario = compile_source(source, &[]).ok()?.scenario;
+            let scenario = compile_source(source, &LoadOptions::default()).ok()?.scenario;
             Some(Entry {
                 name: name.to_owned(),
                 title: scenario.title().to_owned(),
@@ -58,12 +58,22 @@ pub fn list() -> Vec<Entry> {
     entries
 }
 
+/// What a caller may choose when a scenario is loaded.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LoadOptions<'a> {
+    /// Who plays players, whatever the text says.
+    pub cast: &'a [Cast],
+    /// Whether imports and scripts may lie outside of the root file's folder, or outside of the working directory where
+    /// the root is a text from memory. The library may always be imported.
+    pub allow_outside: bool,
+}
+
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
 ///
 /// # Errors
 /// [`Error`], for everything that can be wrong with a name, a file or its content.
 pub fn load(name_or_path: impl AsRef<OsStr>) -> Result<Loaded, Error> {
-    load_cast(name_or_path, &[])
+    load_with(name_or_path, &LoadOptions::default())
 }
 
 /// Bytes of a scenario's name from which on its beginning alone tells what is meant.
@@ -72,18 +82,26 @@ const BEGUN_LEAST: usize = 4;
 /// Loads a scenario as [`load`] does, its players played by a cast.
 ///
 /// # Errors
-/// As [`load`], and [`Error::Cast`] for a compiled file, which stays as it is.
+/// As [`load_with`].
 pub fn load_cast(name_or_path: impl AsRef<OsStr>, cast: &[Cast]) -> Result<Loaded, Error> {
+    load_with(name_or_path, &LoadOptions { cast, ..LoadOptions::default() })
+}
+
+/// Loads a scenario as [`load`] does, with options.
+///
+/// # Errors
+/// As [`load`], and [`Error::Cast`] for a compiled file with a cast, as such a file stays as it is.
+pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     let path = Path::new(name_or_path.as_ref());
     // What isn't Unicode is the path of a file: every name is.
-    let Some(name_or_path) = path.to_str() else { return load_file_cast(path, cast) };
+    let Some(name_or_path) = path.to_str() else { return load_file_with(path, options) };
     if let Some(source) = stdlib::scenario(name_or_path) {
-        return compile_source(source, cast);
+        return compile_source(source, options);
     }
     let looks_like_path = name_or_path.contains(['/', '\\'])
         || path.extension().is_some_and(|ending| ending == "pitch" || ending == "pitchc");
     if looks_like_path || path.exists() {
-        return load_file_cast(path, cast);
+        return load_file_with(path, options);
     }
     // What can be played: bases that others extend are no answer.
     let known = list();
@@ -99,24 +117,24 @@ pub fn load_cast(name_or_path: impl AsRef<OsStr>, cast: &[Cast]) -> Result<Loade
 /// # Errors
 /// As [`load`].
 pub fn load_file(path: &Path) -> Result<Loaded, Error> {
-    load_file_cast(path, &[])
+    load_file_with(path, &LoadOptions::default())
 }
 
-fn load_file_cast(path: &Path, cast: &[Cast]) -> Result<Loaded, Error> {
+fn load_file_with(path: &Path, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     let compiled = is_compiled(path);
     let bytes = read_file(path, most_bytes(path))?;
     let format = |why| Error::Format { path: path.to_owned(), why };
     if bytes.starts_with(binary::MAGIC) {
-        return of_file(binary::from_bytes(&bytes).map_err(format)?, path, cast);
+        return of_file(binary::from_bytes(&bytes).map_err(format)?, path, options.cast);
     }
     if let Some(kind) = Packed::of(&bytes) {
         return Err(Error::File { path: path.to_owned(), why: FileFault::Packed(kind) });
     }
     let text = into_text(bytes, path)?;
     if compiled || text.starts_with("{\"format\"") {
-        return of_file(file::from_json(&text).map_err(format)?, path, cast);
+        return of_file(file::from_json(&text).map_err(format)?, path, options.cast);
     }
-    compile_source(Source { name: name_of(path), text: text.into() }, cast)
+    compile_source(Source { name: name_of(path), text: text.into() }, options)
 }
 
 /// A scenario that a file holds compiled.
@@ -139,7 +157,7 @@ fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Err
 /// # Errors
 /// [`Error::Compile`] with every report; [`Error::File`] where it is larger than a file may be.
 pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
-    compile_text_cast(text, name, &[])
+    compile_text_with(text, name, &LoadOptions::default())
 }
 
 /// Compiles a text as [`compile_text`] does, its players played by a cast.
@@ -147,10 +165,18 @@ pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
 /// # Errors
 /// As [`compile_text`].
 pub fn compile_text_cast(text: &str, name: &str, cast: &[Cast]) -> Result<Loaded, Error> {
+    compile_text_with(text, name, &LoadOptions { cast, ..LoadOptions::default() })
+}
+
+/// Compiles a text as [`compile_text`] does, with options.
+///
+/// # Errors
+/// As [`compile_text`].
+pub fn compile_text_with(text: &str, name: &str, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     if text.len() as u64 > SOURCE_MAX_BYTES {
         return Err(Error::File { path: name.into(), why: FileFault::TooLarge { max: SOURCE_MAX_BYTES } });
     }
-    compile_source(Source { name: name.to_owned(), text: text.into() }, cast)
+    compile_source(Source { name: name.to_owned(), text: text.into() }, options)
 }
 
 /// What a check found.
@@ -170,7 +196,15 @@ pub struct Checked {
 /// # Errors
 /// As [`load`], but for problems of the text, which come back in order.
 pub fn check(name_or_path: impl AsRef<OsStr>) -> Result<Checked, Error> {
-    let failure = match load(name_or_path) {
+    check_with(name_or_path, &LoadOptions::default())
+}
+
+/// Checks as [`check`] does, with options.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Checked, Error> {
+    let failure = match load_with(name_or_path, options) {
         Ok(loaded) => {
             let problems = crate::probe::probe(&loaded, None);
             return Ok(Checked { problems, sources: loaded.sources, inputs: loaded.inputs });
@@ -191,14 +225,20 @@ pub fn check(name_or_path: impl AsRef<OsStr>) -> Result<Checked, Error> {
     for (index, team) in teams.chain(["team left { CM at (-0.1, 0) }".to_owned()]).enumerate() {
         user.push_str(&format!("scenario part_{index} {{ ball at centre  {team}  end limit 1 step }}\n"));
     }
-    let options = compile_options();
-    let outcome = compile(Source { name: "<check>".to_owned(), text: user.into() }, &FileLoader, &options);
+    let loader = loader(&root.name, options);
+    let source = Source { name: "<check>".to_owned(), text: user.into() };
+    let outcome = compile(source, &loader, &compile_options());
     Ok(Checked { problems: outcome.problems, sources: outcome.sources, inputs: failure.inputs })
 }
 
-fn compile_source(source: Source, cast: &[Cast]) -> Result<Loaded, Error> {
-    let options = CompileOptions { cast, ..compile_options() };
-    let outcome = compile(source, &FileLoader, &options);
+/// What reads the files that a root names.
+fn loader(root: &str, options: &LoadOptions<'_>) -> FileLoader {
+    if options.allow_outside { FileLoader::anywhere() } else { FileLoader::beside(root) }
+}
+
+fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
+    let loader = loader(&source.name, options);
+    let outcome = compile(source, &loader, &CompileOptions { cast: options.cast, ..compile_options() });
     let (problems, sources) = (outcome.problems, outcome.sources);
     let inputs = outcome.inputs.iter().filter(|name| is_on_disk(name)).map(|name| path_of(name)).collect();
     match outcome.scenario {
@@ -217,7 +257,7 @@ fn compile_source(source: Source, cast: &[Cast]) -> Result<Loaded, Error> {
 /// What a compilation is told: the library's prelude is read once per process.
 fn compile_options() -> CompileOptions<'static> {
     static PRELUDE: OnceLock<Prelude> = OnceLock::new();
-    let prelude = PRELUDE.get_or_init(|| Prelude::load(&FileLoader));
+    let prelude = PRELUDE.get_or_init(|| Prelude::load(&FileLoader::anywhere()));
     CompileOptions { scenario: None, prelude: Some(prelude), scripts: Some(&EngineScripts), cast: &[] }
 }
 

@@ -543,3 +543,67 @@ fn a_bench_tells_its_figures_and_compares_them() {
     fails(&["bench", "nowhere"], 1, &["SP0005", "nowhere"]);
     fails(&["bench", "--seconds", "never"], 2, &["0.01 to 3600"]);
 }
+
+#[test]
+fn imports_and_scripts_stay_below_the_root() {
+    let outer = folder();
+    let inner = outer.path().join("inner");
+    std::fs::create_dir_all(inner.join("parts")).unwrap();
+    let secret = write(outer.path(), "secret.pitch", "root:x:0:0:secret\n");
+    write(&inner, "parts/shared.pitch", "import \"../also.pitch\"\nconst width = 0.1\n");
+    write(&inner, "also.pitch", "const also = 0.2\n");
+    let scenario = |head: &str, body: &str| {
+        format!("{head}\nscenario s extends academy {{ ball at (0, 0) team left {{ CM at (0.1, 0) }} {body} }}\n")
+    };
+    let below = write(&inner, "below.pitch", scenario("import \"parts/shared.pitch\"", "require also > width"));
+    assert!(setpiece(&["check", &below]).status.success());
+    let paths = ["../secret.pitch", "parts/../../secret.pitch", &secret, "/etc/passwd"];
+    for path in paths {
+        for text in
+            [scenario(&format!("import \"{path}\""), ""), scenario("", &format!("reward script \"{path}\" as \"r\""))]
+        {
+            let root = write(&inner, "root.pitch", text);
+            let said = fails(&["check", &root], 1, &[]) + &text_of(&["check", &root]);
+            assert!(said.contains("lies outside of the scenario's folder"), "{path}: {said}");
+            assert!(!said.contains("root:x"), "{path}: {said}");
+        }
+    }
+    // A file that is named by another one is as far from the root.
+    write(&inner, "parts/outward.pitch", "import \"../../secret.pitch\"\n");
+    let root = write(&inner, "root.pitch", scenario("import \"parts/outward.pitch\"", ""));
+    fails(&["check", &root], 1, &["lies outside of the scenario's folder"]);
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&secret, inner.join("link.pitch")).unwrap();
+        let root = write(&inner, "root.pitch", scenario("import \"link.pitch\"", ""));
+        fails(&["check", &root], 1, &["lies outside of the scenario's folder"]);
+    }
+    write(outer.path(), "fine.pitch", "const fine = 0.1\n");
+    let root = write(&inner, "root.pitch", scenario("import \"../fine.pitch\"", "require fine < 1"));
+    fails(&["run", &root], 1, &["`--allow-outside` isn't given"]);
+    assert!(setpiece(&["check", "--allow-outside", &root]).status.success());
+    assert!(setpiece(&["run", &root, "--allow-outside", "--episodes", "1"]).status.success());
+}
+
+fn text_of(args: &[&str]) -> String {
+    text(&setpiece(args).stdout)
+}
+
+#[test]
+fn what_an_author_writes_does_not_steer_the_terminal() {
+    let folder = folder();
+    let clear = "\u{1B}[2J\u{1B}]0;title\u{7}\u{9B}31m\u{202E}";
+    let body = format!("scenario s extends academy {{ ball at (0, 0) {clear} foo\n let a = \"{clear}\" + 1 }}\n");
+    let sources = [body, format!("import \"{clear}.pitch\"\n"), format!("scenario s {{ reward script \"{clear}\" }}")];
+    for source in sources {
+        let path = write(folder.path(), "steers.pitch", source);
+        for colour in ["never", "always"] {
+            let said = fails(&["--color", colour, "check", &path], 1, &[]);
+            let controls = ["\u{1B}[2J", "\u{1B}]", "\u{7}", "\u{9B}", "\u{202E}"];
+            assert!(controls.iter().all(|control| !said.contains(control)), "{said:?}");
+            assert!(colour == "always" || !said.contains('\u{1B}'), "{said:?}");
+        }
+    }
+    let said = fails(&["check", "no\u{1B}[31msuch.pitch"], 1, &["SP0001"]);
+    assert!(!said.contains('\u{1B}'), "{said:?}");
+}

@@ -137,7 +137,7 @@ fn a_watched_file_that_becomes_a_pipe_is_reported_and_the_watch_goes_on() {
     let dir = folder();
     let path = dir.path().join("a.pitch");
     std::fs::write(&path, CLOSE).unwrap();
-    let mut live = Live::open(path.to_str().unwrap()).unwrap();
+    let mut live = Live::open(path.to_str().unwrap(), false).unwrap();
     std::fs::remove_file(&path).unwrap();
     pipe(&path);
     let error = live.poll(PATIENCE).expect("no change was noticed").unwrap_err();

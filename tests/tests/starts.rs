@@ -160,3 +160,34 @@ fn nobody_begins_beyond_the_rim_and_no_ball_below_the_grass() {
     let furthest = kickoffs.map(|at| at.x.abs()).fold(0.0, f32::max);
     assert!((59.0..=60.0).contains(&furthest), "{furthest}");
 }
+
+#[test]
+fn nobody_is_moved_behind_the_rim_to_stand_apart() {
+    // At the end, in the corner, and at the side of the picture.
+    let pairs = [
+        ("(-59.7m, 16m)", "(-59.99m, 16.1m)"),
+        ("(-59.99m, 16m)", "(-59.7m, 16.1m)"),
+        ("(59.8m, -39.8m)", "(59.95m, -39.95m)"),
+        ("(10m, 39.7m)", "(10.1m, 39.99m)"),
+        ("(10m, -39.99m)", "(10.1m, -39.7m)"),
+    ];
+    for (first, second) in pairs {
+        for (left, right) in [(first, second), (second, first)] {
+            let text = format!(
+                "scenario s {{
+                    start kickoff for left
+                    ball at centre
+                    team left {{ CM at {left} {{ overlap: allowed }}  CF at (-1m, 0m) }}
+                    team right {{ CM at {right} {{ overlap: allowed }} }}
+                    end limit 10 steps
+                }}"
+            );
+            let places: Vec<_> = places(&text, 0).iter().map(|[x, y]| [x * 54.4, y * 83.6]).collect();
+            for [x, y] in &places {
+                assert!(x.abs() < 60.001 && y.abs() < 40.001, "{left} and {right}: {places:?}");
+            }
+            let apart = (places[0][0] - places[2][0]).hypot(places[0][1] - places[2][1]);
+            assert!(apart > 0.7, "{left} and {right}: {places:?}");
+        }
+    }
+}

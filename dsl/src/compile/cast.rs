@@ -28,9 +28,12 @@ pub enum Whom {
 impl Cast {
     /// The text that is read in its place.
     pub(super) fn source(&self) -> Source {
-        Source { name: "<ai>".to_owned(), text: format!("{BEFORE}{}{AFTER}", self.ai).into() }
+        Source { name: CAST_NAME.to_owned(), text: format!("{BEFORE}{}{AFTER}", self.ai).into() }
     }
 }
+
+/// How reports call the text of an `ai` from outside.
+pub const CAST_NAME: &str = "<ai>";
 
 /// What stands around the `ai` in its text.
 const BEFORE: &str = "scenario cast { team left { each all { ai: ";

@@ -6,11 +6,17 @@ use crate::ast::{
     TeamStmt, TeamStmtKind,
 };
 use crate::lower::script::Scripts;
+use crate::problem::{Code, Problem};
 use crate::resolve::Library;
 use crate::source::{Source, SourceLoader};
 
 /// Loads every script that a file names, so that reports can show its text.
-pub(super) fn load(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dyn SourceLoader) {
+pub(super) fn load(
+    library: &mut Library,
+    scripts: &mut Scripts<'_>,
+    loader: &dyn SourceLoader,
+    problems: &mut Vec<Problem>,
+) {
     let mut named = Vec::new();
     for item in library.files.iter().flat_map(|file| &file.items) {
         match &item.kind {
@@ -41,6 +47,11 @@ pub(super) fn load(library: &mut Library, scripts: &mut Scripts<'_>, loader: &dy
     }
     for script in named {
         let ScriptSource::File(path) = &script.source else { continue };
+        if let Some(limit) = scripts.limit() {
+            let problem = Problem::new(Code::TooMuch, path.span, limit, "one too many");
+            problems.push(problem.help("join some of the scripts: a file may hold several hooks"));
+            break;
+        }
         let from = path.span.file;
         let from_name = library.sources.get(from).map_or(String::new(), |source| source.name.clone());
         let (sources, inputs) = (&mut library.sources, &mut library.inputs);

@@ -4,7 +4,6 @@
 //! out in order and tells where each register went. A pure instruction is put into the outermost block in which its
 //! operands are known, so that what doesn't depend on the element of a loop is computed once, before the loop.
 
-use super::fold;
 use setpiece_scenario::{
     BinaryOp, Distribution, Each, EventField, EventFilter, Field, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp,
     When, Who,
@@ -22,6 +21,8 @@ struct Node {
     block: BlockId,
     /// The body, of an `Each`.
     body: Option<BlockId>,
+    /// Whether it depends on a broken expression.
+    unknown: bool,
 }
 
 #[derive(Default)]
@@ -97,6 +98,11 @@ impl Builder {
             open: vec![ROOT],
             writes: Vec::new(),
         }
+    }
+
+    /// How many instructions it has so far.
+    pub(crate) fn len(&self) -> usize {
+        self.nodes.len()
     }
 
     /// A new memory cell.
@@ -187,7 +193,7 @@ impl Builder {
 
     /// Whether a register belongs to a broken expression.
     pub(crate) fn is_unknown(&self, reg: Reg) -> bool {
-        self.depends(reg, &|instr| matches!(instr, Instr::Param(u32::MAX)))
+        self.nodes.get(reg.index()).is_some_and(|node| node.unknown)
     }
 
     /// A scenario `let`.
@@ -212,7 +218,7 @@ impl Builder {
 
     /// One operand; folded where it is constant and the result finite.
     pub(crate) fn unary(&mut self, op: UnaryOp, a: Reg) -> Reg {
-        if let Some(folded) = self.constant_of(a).and_then(|a| fold::unary(op, a)).filter(|v| v.is_finite()) {
+        if let Some(folded) = self.constant_of(a).and_then(|a| op.fold(a)).filter(|v| v.is_finite()) {
             return self.constant(folded);
         }
         match (op, self.instr(a)) {
@@ -229,7 +235,8 @@ impl Builder {
     pub(crate) fn binary(&mut self, op: BinaryOp, a: Reg, b: Reg) -> Reg {
         let (left, right) = (self.constant_of(a), self.constant_of(b));
         if let (Some(x), Some(y)) = (left, right)
-            && let Some(folded) = fold::binary(op, x, y).filter(|v| v.is_finite())
+            && let folded = op.apply(x, y)
+            && folded.is_finite()
         {
             return self.constant(folded);
         }
@@ -337,6 +344,7 @@ impl Builder {
             instr: Instr::Each(Box::new(Each { over, body: 0, fold })),
             block: body,
             body: Some(body),
+            unknown: false,
         });
         self.blocks.push(Block { owner: Some(at), ..Block::default() });
         self.open.push(body);
@@ -347,8 +355,13 @@ impl Builder {
     pub(crate) fn close_loop(&mut self, open: OpenLoop, fold: Fold) -> Reg {
         self.open.retain(|&block| block != open.body);
         let here = self.here();
+        let mut unknown = fold.value.iter().chain(&fold.guard).any(|reg| self.is_unknown(*reg));
+        if let Some(instr) = self.instr(open.element()) {
+            instr.operands(&mut |reg| unknown |= self.is_unknown(reg));
+        }
         if let Some(node) = self.nodes.get_mut(open.at as usize) {
             node.block = here;
+            node.unknown = unknown;
             if let Instr::Each(each) = &mut node.instr {
                 each.fold = fold;
             }
@@ -407,7 +420,9 @@ impl Builder {
 
     fn push(&mut self, block: BlockId, instr: Instr, key: Option<Key>) -> Reg {
         let at = self.nodes.len() as u32;
-        self.nodes.push(Node { instr, block, body: None });
+        let mut unknown = matches!(instr, Instr::Param(u32::MAX));
+        instr.operands(&mut |reg| unknown |= self.is_unknown(reg));
+        self.nodes.push(Node { instr, block, body: None, unknown });
         if let Some(block) = self.blocks.get_mut(block) {
             block.nodes.push(at);
             if let Some(key) = key {

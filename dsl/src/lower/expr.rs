@@ -34,6 +34,9 @@ pub(crate) fn is_tuple(expr: &Expr) -> bool {
 impl<'w> Lower<'_, 'w> {
     /// Lowers an expression.
     pub(crate) fn expr(&mut self, expr: &'w Expr) -> Value<'w> {
+        if !self.pay() {
+            return Value::error();
+        }
         self.depth += 1;
         let value = if self.depth > DEPTH_MAX {
             if self.depth == DEPTH_MAX + 1 {

@@ -167,7 +167,7 @@ fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
 
 fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
     let kept = world.problems.borrow().len();
-    let used = world.used.borrow().clone();
+    let used = world.used.take();
     let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
     let value = lower.expr(expr);
     world.problems.borrow_mut().truncate(kept);

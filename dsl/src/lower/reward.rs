@@ -75,6 +75,9 @@ impl<'w> Written<'w> {
 
 /// Lowers a reward that a scenario uses.
 pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, span: Span) -> Option<Reward> {
+    if world.effort.is_spent() {
+        return None;
+    }
     if let Some(weight) = &used.weight {
         check_weight(world, weight, name);
     }
@@ -158,7 +161,7 @@ pub(crate) fn lower_library(world: &World<'_>) -> Vec<Reward> {
         if world.library.ambiguous(file, name, item.name.span).is_some() {
             continue;
         }
-        if item.params.iter().all(|param| param.default.is_some()) {
+        if item.params.iter().all(|param| param.default.is_some()) && !world.effort.is_spent() {
             let written = Written::named(world, item, &[], item.name.span);
             rewards.push(lower_written(world, name, found.item.doc.clone(), &written, None));
         }
@@ -173,8 +176,9 @@ fn lower_written<'w>(
     written: &Written<'w>,
     weight: Option<&'w Expr>,
 ) -> Reward {
-    check_names(world, written);
     let statements = written.statements();
+    world.effort.spend(statements.len());
+    check_names(world, written);
     let states = states(&statements);
 
     let mut init = Lower::new(world, Stage::Init, Scope::new(false, Frame::Own));

@@ -120,10 +120,26 @@ fn from_statements<'w>(world: &World<'w>, team: Team, flat: &FlatTeam<'w>) -> Ve
         }
     }
     for (player, span) in &flat.players {
+        if !has_room(world, &players, *span, team) {
+            break;
+        }
         let scope = Scope::new(true, Frame::World);
         players.extend(copies(world, player, *span, &scope, team));
     }
     players
+}
+
+/// Most players that a team may write before some of them are declared absent.
+const WRITTEN_MAX: usize = 4 * TEAM_MAX;
+
+/// Whether a team may write a further player; reports one that it may not.
+fn has_room(world: &World<'_>, players: &[Rostered<'_>], span: Span, team: Team) -> bool {
+    if players.len() >= WRITTEN_MAX {
+        let message = format!("more than {WRITTEN_MAX} players are written for the {team} team");
+        let problem = Problem::new(Code::TooManyPlayers, span, message, "one too many");
+        world.report(problem.help(format!("a team has at most {TEAM_MAX} players: leave the others out")));
+    }
+    players.len() < WRITTEN_MAX
 }
 
 fn not_a_formation(span: Span) -> Problem {
@@ -294,6 +310,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
         let (mut absent, mut overrides, mut each) = (Vec::new(), Vec::new(), Vec::new());
         for stmt in &link.body {
             match &stmt.kind {
+                TeamStmtKind::Player(_) if !has_room(world, &players, stmt.span, team) => break,
                 TeamStmtKind::Player(player) => players.extend(copies(world, player, stmt.span, &scope, team)),
                 TeamStmtKind::Override { who, change } => overrides.push((who, change)),
                 TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),

@@ -5,6 +5,7 @@ use super::{Lower, World};
 use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem, ScriptApi};
+use crate::resolve::{MAX_FILES, MAX_IMPORTED_BYTES};
 use crate::source::{FileId, LoadError, Source, SourceLoader};
 use setpiece_scenario::vocabulary::Type;
 use setpiece_scenario::{Script, ScriptArg};
@@ -23,13 +24,24 @@ pub(crate) struct LoadedScript {
 #[derive(Default)]
 pub(crate) struct Scripts<'a> {
     loaded: Vec<LoadedScript>,
+    /// Bytes of all of them.
+    bytes: usize,
     api: Option<&'a dyn ScriptApi>,
 }
 
 impl<'a> Scripts<'a> {
     /// With the API that scripts are checked against.
     pub(crate) fn new(api: Option<&'a dyn ScriptApi>) -> Scripts<'a> {
-        Scripts { loaded: Vec::new(), api }
+        Scripts { loaded: Vec::new(), bytes: 0, api }
+    }
+
+    /// Why no more scripts may be loaded, if none may.
+    pub(crate) fn limit(&self) -> Option<String> {
+        if self.loaded.len() > MAX_FILES {
+            return Some(format!("more than {MAX_FILES} script files are named"));
+        }
+        let larger = self.bytes > MAX_IMPORTED_BYTES;
+        larger.then(|| format!("script files are larger than {} MiB together", MAX_IMPORTED_BYTES >> 20))
     }
 
     /// Loads a script that a file names, once; says which file it would be where there is none.
@@ -44,7 +56,9 @@ impl<'a> Scripts<'a> {
         if self.loaded.iter().any(|script| script.from == from && script.path == path) {
             return None;
         }
-        let found = loader.load(path, from_name).map(add);
+        let found = loader.load(path, from_name);
+        self.bytes += found.as_ref().map_or(0, |source| source.text.len());
+        let found = found.map(add);
         let awaited = found.as_ref().err().and_then(|error| error.awaited.clone());
         self.loaded.push(LoadedScript { from, path: path.to_owned(), found });
         awaited

@@ -19,8 +19,9 @@ use crate::check::football;
 use crate::check::types::Ty;
 use crate::compile::RequireOrigin;
 use crate::problem::{Code, Problem};
+use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
-use setpiece_scenario::pitch::LONGEST_S;
+use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
 use setpiece_scenario::vocabulary::{Rule, StartKind, Team};
 use setpiece_scenario::{
     Agents, BallStart, Instr, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
@@ -29,9 +30,6 @@ use std::collections::BTreeMap;
 
 /// What to do about what is defined by itself.
 pub(crate) const NO_CIRCLE: &str = "give one of the circle a value of its own";
-
-/// Seconds of a step.
-const STEP_S: f64 = 0.1;
 
 /// A player's places at kick-offs: when his team kicks off, and when the others do.
 pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
@@ -306,11 +304,18 @@ impl<'w> Lower<'_, 'w> {
             None => {}
         }
         let world = self.world;
-        if let Some((names, expr)) = world.flat.tuples.iter().find(|(names, _)| names.iter().any(|n| n.node == name)) {
+        let named = world.flat.named(name);
+        if let Some(Named::Tuple(at, _)) = named
+            && let Some((names, expr)) = world.flat.tuples.get(at)
+        {
             return self.shuffled_let(name, names, expr);
         }
-        let binding = world.flat.lets.iter().find(|binding| binding.name.node == name);
-        let bound = world.params.iter().find(|param| param.name.node == name);
+        let (mut binding, mut bound) = (None, None);
+        match named {
+            Some(Named::Let(at)) => binding = world.flat.lets.get(at),
+            Some(Named::Param(at)) => bound = world.params.get(at),
+            _ => {}
+        }
         let (expr, ty): (&'w Expr, _) = match (binding, bound) {
             (Some(binding), _) => {
                 let ty = binding.ty.as_ref().map(|ty| super::param::declared_type(world, ty));
@@ -336,7 +341,10 @@ impl<'w> Lower<'_, 'w> {
             && value.ty.dim().is_some()
         {
             let reg = self.reg(&value);
-            let allowed = world.flat.params.iter().find(|param| param.decl.name.node == domain.node);
+            let allowed = match world.flat.named(&domain.node) {
+                Some(Named::Param(at)) => world.flat.params.get(at),
+                _ => None,
+            };
             if let Some(crate::ast::Domain::Range(low, high)) = allowed.and_then(|param| param.domain) {
                 let shown = format!("`{}..{}`", world.text(low.span), world.text(high.span));
                 self.check_range(reg, range, &format!("`{name}`"), expr.span, &shown);
@@ -366,8 +374,12 @@ impl<'w> Lower<'_, 'w> {
 
     fn step_let(&mut self, name: &str) -> Value<'w> {
         let world = self.world;
-        let Some(slot) = world.lets.iter().find(|slot| slot.name == name) else { return Value::error() };
-        let mut map = |reg: Reg| match slot.parts.iter().find(|(known, _)| *known == reg) {
+        // They stand in the order of their names.
+        let slot = world.lets.binary_search_by(|slot| slot.name.cmp(name)).ok().and_then(|at| world.lets.get(at));
+        let Some(slot) = slot else { return Value::error() };
+        // A value's registers are gone through in the order of its parts.
+        let mut parts = slot.parts.iter();
+        let mut map = |reg: Reg| match parts.find(|(known, _)| *known == reg) {
             Some((_, Part::Constant(value))) => self.code.constant(*value),
             Some((_, Part::Param(index))) => self.code.param(*index),
             Some((_, Part::Let(index))) => self.code.scenario_let(*index),

@@ -4,6 +4,7 @@ use crate::ast::{Expr, FormationItem, Span};
 use crate::check::types::Ty;
 use setpiece_scenario::Reg;
 use setpiece_scenario::vocabulary::Team;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// A typed value.
@@ -243,6 +244,17 @@ impl<'w> Scope<'w> {
             at = local.next.as_deref();
         }
         None
+    }
+
+    /// Every local name and what it stands for.
+    pub(crate) fn bindings(&self) -> BTreeMap<&'w str, &Binding<'w>> {
+        let mut bindings = BTreeMap::new();
+        let mut at = self.locals.as_deref();
+        while let Some(local) = at {
+            bindings.entry(local.name).or_insert(&local.binding);
+            at = local.next.as_deref();
+        }
+        bindings
     }
 
     /// Every local name, the latest first.

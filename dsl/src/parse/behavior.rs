@@ -34,6 +34,7 @@ impl Reader<'_> {
             Rule::finish => return Some(BehaviorStmtKind::Finish),
             Rule::choose => {
                 let chances = node.into_inner().filter(|child| child.as_rule() == Rule::chance);
+                let chances = self.bounded(chances, "branches").into_iter();
                 return Some(BehaviorStmtKind::Choose(chances.filter_map(|chance| self.chance(chance)).collect()));
             }
             _ => {}
@@ -62,7 +63,7 @@ impl Reader<'_> {
                 let condition = nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
                 let mut arms = vec![(condition, self.take_body(&mut nodes)?)];
                 let mut otherwise = Vec::new();
-                for rest in nodes {
+                for rest in self.bounded(nodes, "branches") {
                     let is_arm = rest.as_rule() == Rule::else_if;
                     let mut inner = Nodes::of(rest);
                     if is_arm {

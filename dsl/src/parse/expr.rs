@@ -239,6 +239,7 @@ impl Reader<'_> {
             Rule::role => Role::from_name(node.as_str()).map_or(ExprKind::Broken, ExprKind::Role),
             Rule::list => {
                 let items = node.into_inner().filter(|child| child.as_rule() == Rule::expr);
+                let items = self.bounded(items, "values").into_iter();
                 ExprKind::List(items.map(|item| self.expr(item)).collect())
             }
             Rule::paren => return self.paren(node, span),
@@ -330,7 +331,7 @@ impl Reader<'_> {
     /// The arguments in a pair of brackets.
     pub(super) fn args(&mut self, node: Node<'_>) -> Vec<Arg> {
         let args = node.into_inner().filter(|child| child.as_rule() == Rule::arg);
-        args.filter_map(|arg| self.arg(arg)).collect()
+        self.bounded(args, "arguments").into_iter().filter_map(|arg| self.arg(arg)).collect()
     }
 
     fn arg(&mut self, node: Node<'_>) -> Option<Arg> {

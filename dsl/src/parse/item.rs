@@ -113,7 +113,8 @@ impl Reader<'_> {
     fn params(&mut self, node: Node<'_>) -> Vec<ParamDecl> {
         let mut params = Vec::new();
         let mut doc = String::new();
-        for child in node.into_inner() {
+        let nodes = node.into_inner().filter(|child| matches!(child.as_rule(), Rule::doc | Rule::param));
+        for child in self.bounded(nodes, "parameters") {
             match child.as_rule() {
                 Rule::doc => add_doc(&mut doc, &child),
                 Rule::param => params.extend(self.param(child, std::mem::take(&mut doc))),
@@ -140,11 +141,8 @@ impl Reader<'_> {
         let domain = node.into_inner().next()?;
         let span = self.span(&domain);
         let is_list = domain.as_rule() == Rule::list;
-        let parts: Vec<_> = domain
-            .into_inner()
-            .filter(|part| matches!(part.as_rule(), Rule::expr | Rule::sum))
-            .map(|part| self.expr(part))
-            .collect();
+        let parts = domain.into_inner().filter(|part| matches!(part.as_rule(), Rule::expr | Rule::sum));
+        let parts: Vec<_> = self.bounded(parts, "values").into_iter().map(|part| self.expr(part)).collect();
         if is_list {
             return Some(Domain::List(parts, span));
         }

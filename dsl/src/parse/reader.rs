@@ -1,7 +1,7 @@
 //! What every conversion from pairs to the tree shares: spans, names, problems and depth.
 
 use super::scan::Scan;
-use super::{MAX_BLOCKS, MAX_PROBLEMS, span};
+use super::{LEAST_EFFORT, MAX_BLOCKS, MAX_LIST, MAX_PROBLEMS, span};
 use crate::ast::{Ident, Spanned};
 use crate::check::names::{owner_of_call, owner_of_value};
 use crate::problem::{Code, Problem};
@@ -70,6 +70,8 @@ pub(super) struct Reader<'t> {
     /// Disjoint and in order.
     told: Vec<Range<usize>>,
     problems: Vec<Problem>,
+    /// Where the lines of the text begin, but for the first.
+    lines: Vec<usize>,
     /// Where the text under conversion begins: 0 but for re-read parts.
     pub(super) base: usize,
     /// Operators on the way from the root of the current expression.
@@ -82,13 +84,14 @@ pub(super) struct Reader<'t> {
     pub(super) lost: BTreeSet<String>,
 }
 
-/// Bytes of a file that may be read again, beyond twice its length.
-const LEAST_EFFORT: usize = 1 << 18;
+/// Blanks that count as indentation.
+const INDENT_MAX: usize = 1_000;
 
 impl<'t> Reader<'t> {
     pub(super) fn new(file: FileId, original: &'t str, scan: &'t Scan<'_>) -> Reader<'t> {
         let (text, comments) = (&*scan.text, &*scan.comments);
         let (told, problems) = (disjoint(scan.told.clone()), Vec::new());
+        let newlines = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         Reader {
             file,
             original,
@@ -96,6 +99,7 @@ impl<'t> Reader<'t> {
             comments,
             told,
             problems,
+            lines: newlines.map(|(at, _)| at + 1).collect(),
             base: 0,
             operators: 0,
             blocks: 0,
@@ -178,6 +182,40 @@ impl<'t> Reader<'t> {
     pub(super) fn at(&self, at: usize) -> Span {
         let rest = self.original.get(at..).unwrap_or_default();
         self.between(at, at + token(rest).len())
+    }
+
+    /// Where the line of an offset begins.
+    pub(super) fn line_start(&self, at: usize) -> usize {
+        let index = self.lines.partition_point(|line| *line <= at);
+        index.checked_sub(1).and_then(|index| self.lines.get(index)).copied().unwrap_or_default()
+    }
+
+    /// The indentation of the line of an offset.
+    pub(super) fn indent(&self, at: usize) -> usize {
+        let line = self.text.get(self.line_start(at)..at).unwrap_or_default();
+        line.bytes().take(INDENT_MAX).take_while(|byte| matches!(byte, b' ' | b'\t')).count()
+    }
+
+    /// Whether a list may take one more; reports the first that it may not.
+    pub(super) fn has_room(&mut self, taken: usize, more: Span, what: &str) -> bool {
+        if taken == MAX_LIST {
+            let message = format!("there are more than {MAX_LIST} {what} here");
+            self.push(
+                Problem::new(Code::TooMuch, more, message, "one too many")
+                    .help("what repeats can be computed, or named once and used again"),
+            );
+        }
+        taken < MAX_LIST
+    }
+
+    /// The nodes of a list, as many as it may have; reports the first that is too many.
+    pub(super) fn bounded<'i>(&mut self, nodes: impl Iterator<Item = Node<'i>>, what: &str) -> Vec<Node<'i>> {
+        let mut list: Vec<Node<'i>> = nodes.take(MAX_LIST + 1).collect();
+        if let Some(more) = list.get(MAX_LIST).map(|more| self.span(more)) {
+            self.has_room(MAX_LIST, more, what);
+            list.truncate(MAX_LIST);
+        }
+        list
     }
 
     /// The author's text.

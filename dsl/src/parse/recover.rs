@@ -77,8 +77,16 @@ impl Reader<'_> {
         let mut doc = String::new();
         let mut before: Option<Range<usize>> = None;
         let mut told: Option<Told> = None;
+        let mut taken = 0;
         for child in Nodes::of(node) {
             let rule = child.as_rule();
+            if matches!(rule, Rule::junk) || rule == context.statement() {
+                let at = child.as_span().start() + self.base;
+                if !self.has_room(taken, self.at(at), context.list()) {
+                    break;
+                }
+                taken += 1;
+            }
             if rule == Rule::doc {
                 super::item::add_doc(&mut doc, &child);
             } else if rule == Rule::junk {
@@ -111,13 +119,6 @@ impl Reader<'_> {
             }
         }
         statements
-    }
-
-    /// The indentation of the line of an offset.
-    fn indent(&self, at: usize) -> usize {
-        let before = text(self.text, 0..at);
-        let line = before.rfind('\n').map_or(before, |newline| before.get(newline + 1..).unwrap_or_default());
-        line.len() - line.trim_start_matches([' ', '\t']).len()
     }
 
     /// Whether junk goes on with the statement before it: on its line, or with a word or sign that begins no statement.

@@ -6,7 +6,7 @@ mod chain;
 mod mend;
 mod unopened;
 
-use super::{MAX_BRACKETS, MAX_PROBLEMS, span};
+use super::{LEAST_EFFORT, MAX_BRACKETS, MAX_PROBLEMS, MAX_TOKENS, span};
 use crate::problem::{Code, Problem};
 use crate::source::FileId;
 use std::borrow::Cow;
@@ -31,6 +31,9 @@ pub(super) struct Scan<'t> {
 pub(super) fn scan(text: &str, file: FileId) -> Scan<'_> {
     // Indentation decides only where brackets don't agree without it.
     let plain = look(text, file, false);
+    if let Some(at) = plain.too_much {
+        return too_much(at, file);
+    }
     let Scanner { mends, tail, mut scan, .. } =
         if plain.scan.problems.is_empty() { plain } else { look(text, file, true) };
     if !mends.is_empty() || !tail.is_empty() {
@@ -63,10 +66,26 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
         chunk: 0,
         lost: Vec::new(),
         cut: false,
+        tokens: 0,
+        too_much: None,
+        effort: LEAST_EFFORT + 2 * text.len(),
         scan: Scan { text: Cow::Borrowed(text), comments: Vec::new(), told: Vec::new(), problems: Vec::new() },
     };
     scanner.run(text);
     scanner
+}
+
+/// What is said of a text with too many words: it is not read.
+fn too_much<'t>(at: usize, file: FileId) -> Scan<'t> {
+    let message = format!("a file has more than {MAX_TOKENS} words and signs");
+    let problem = Problem::new(Code::TooMuch, span(file, at, at + 1), message, "one too many")
+        .help("move parts of it into other files and import them, or compute them from parameters");
+    Scan { text: Cow::Borrowed(""), comments: Vec::new(), told: everything(), problems: vec![problem] }
+}
+
+/// The range of a text of which nothing more is reported.
+fn everything() -> Vec<Range<usize>> {
+    std::iter::once(0..usize::MAX).collect()
 }
 
 /// The text with bytes replaced (ASCII by ASCII) and the missing end added.
@@ -135,6 +154,12 @@ struct Scanner<'t> {
     lost: Vec<usize>,
     /// Whether a comment or script that is not closed swallows the rest.
     cut: bool,
+    /// Words and signs so far.
+    tokens: usize,
+    /// The first word that is too many.
+    too_much: Option<usize>,
+    /// Bytes that may still be looked at again to say what is missing.
+    effort: usize,
     scan: Scan<'t>,
 }
 
@@ -143,6 +168,13 @@ impl Scanner<'_> {
         let mut at = 0;
         while let Some(&byte) = self.bytes.get(at) {
             let rest = self.bytes.get(at..).unwrap_or_default();
+            if !byte.is_ascii_whitespace() && !rest.starts_with(b"//") && !rest.starts_with(b"/*") {
+                self.tokens += 1;
+                if self.tokens > MAX_TOKENS {
+                    self.too_much = Some(at);
+                    return;
+                }
+            }
             let next = match byte {
                 b'\n' => {
                     self.line_start = true;
@@ -186,6 +218,13 @@ impl Scanner<'_> {
         if only_item || (self.open.is_empty() && rest.starts_with(b"reward ")) {
             self.end_chunk(at);
         }
+    }
+
+    /// Whether so many bytes may be looked at again; takes them from what is left.
+    fn spend(&mut self, bytes: usize) -> bool {
+        let left = self.effort.checked_sub(bytes + 64);
+        self.effort = left.unwrap_or_default();
+        left.is_some()
     }
 
     /// An item ends: nothing more is told about it behind a lost bracket.

@@ -45,10 +45,10 @@ impl Reader<'_> {
             Rule::tuple_let => {
                 let mut names = Vec::new();
                 while nodes.peek().is_some_and(|rule| rule != Rule::equals) {
-                    if let Some(name) = nodes.next().filter(|node| node.as_rule() == Rule::ident) {
-                        names.push(self.value_name(&name));
-                    }
+                    names.extend(nodes.next().filter(|node| node.as_rule() == Rule::ident));
                 }
+                let names = self.bounded(names.into_iter(), "names");
+                let names = names.iter().map(|name| self.value_name(name)).collect();
                 ScenarioStmtKind::LetTuple { names, value: nodes.seek(Rule::expr).map(|value| self.expr(value))? }
             }
             Rule::rules => ScenarioStmtKind::Rules(self.take_fields(&mut nodes)),
@@ -94,6 +94,7 @@ impl Reader<'_> {
             Rule::observe => {
                 debug_assert_eq!(keyword.as_rule(), Rule::kw_observe, "the keyword stands first");
                 let observed = nodes.filter(|node| node.as_rule() == Rule::observed);
+                let observed = self.bounded(observed, "values").into_iter();
                 ScenarioStmtKind::Observe(observed.filter_map(|node| self.observed(node)).collect())
             }
             _ => return None,

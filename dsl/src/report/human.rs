@@ -1,6 +1,6 @@
 //! Problems as pictures of the source, drawn by miette.
 
-use super::{MAX_SHOWN, count};
+use super::{MAX_SHOWN, count, is_control, printable};
 use crate::problem::{Label, Problem, Severity};
 use crate::source::{FileId, Sources};
 use miette::{
@@ -26,7 +26,7 @@ pub(super) fn render(problems: &[&Problem], sources: &Sources, color: bool, widt
     for problem in problems.iter().take(MAX_SHOWN) {
         let drawn = handler.render_report(&mut text, &Picture::of(problem, sources));
         if drawn.is_err() {
-            text.push_str(&problem.message);
+            text.push_str(&printable(&problem.message, false));
         }
         text.push('\n');
     }
@@ -72,8 +72,8 @@ impl Picture {
                 Severity::Error => miette::Severity::Error,
                 Severity::Warning => miette::Severity::Warning,
             },
-            message: problem.message.clone(),
-            help: problem.help.clone(),
+            message: printable(&problem.message, false).into_owned(),
+            help: problem.help.as_deref().map(|help| printable(help, false).into_owned()),
             source,
             labels: here,
             notes: elsewhere,
@@ -82,7 +82,8 @@ impl Picture {
 
     /// A label that has a drawing of its own.
     fn note(label: &Label, sources: &Sources) -> Picture {
-        let (message, bare) = (label.text.clone(), Label { span: label.span, text: String::new() });
+        let (message, bare) =
+            (printable(&label.text, false).into_owned(), Label { span: label.span, text: String::new() });
         let source = Shown::of(label.span.file, sources);
         let labels = vec![span(&bare, source.as_ref(), true)];
         Picture {
@@ -97,6 +98,24 @@ impl Picture {
     }
 }
 
+/// A source without characters that steer a terminal: each becomes one as long, so that every offset holds.
+fn steady(text: &Arc<str>) -> Arc<str> {
+    let steers = |(at, char): (usize, char)| {
+        let ends_line = char == '\r' && text.get(at + 1..).is_some_and(|rest| rest.starts_with('\n'));
+        is_control(char) && !ends_line
+    };
+    if !text.char_indices().any(steers) {
+        return Arc::clone(text);
+    }
+    let shown = text.char_indices().map(|(at, char)| match char.len_utf8() {
+        _ if !steers((at, char)) => char,
+        1 => '?',
+        2 => '\u{B7}',
+        _ => '\u{FFFD}',
+    });
+    shown.collect::<String>().into()
+}
+
 /// A file as reports show it: whole lines, but of a very long one only what is near the mark.
 #[derive(Debug)]
 struct Shown {
@@ -106,7 +125,9 @@ struct Shown {
 
 impl Shown {
     fn of(file: FileId, sources: &Sources) -> Option<Shown> {
-        sources.get(file).map(|source| Shown { name: source.name.clone(), text: Arc::clone(&source.text) })
+        sources
+            .get(file)
+            .map(|source| Shown { name: printable(&source.name, false).into(), text: steady(&source.text) })
     }
 
     /// The line around an offset, without its end.
@@ -168,7 +189,7 @@ impl SourceCode for Shown {
 }
 
 fn span(label: &Label, source: Option<&Shown>, primary: bool) -> LabeledSpan {
-    let text = (!label.text.is_empty()).then(|| label.text.clone());
+    let text = (!label.text.is_empty()).then(|| printable(&label.text, false).into_owned());
     let range = label.span.start as usize..label.span.end as usize;
     let range = source.map_or(range.clone(), |source| source.mark(range));
     if primary { LabeledSpan::new_primary_with_span(text, range) } else { LabeledSpan::new_with_span(text, range) }

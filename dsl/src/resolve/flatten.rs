@@ -13,6 +13,8 @@ use crate::ast::{
 };
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::{Role, Team};
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A scenario with everything it inherits.
 pub(crate) struct Flat<'a> {
@@ -56,9 +58,53 @@ pub(crate) struct Flat<'a> {
     pub(crate) mirror: Option<&'a Ident>,
     /// What it extends, the root first.
     pub(crate) parents: Vec<&'a ScenarioItem>,
+    /// Where the values that have a name stand.
+    names: BTreeMap<&'a str, Named>,
 }
 
-impl Flat<'_> {
+/// The list of a [`Flat`] in which a value stands, and its place there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Named {
+    /// In `params`.
+    Param(usize),
+    /// In `lets`.
+    Let(usize),
+    /// In `tuples`, and which of its names.
+    Tuple(usize, usize),
+    /// In `consts`.
+    Const(usize),
+    /// In `regions`.
+    Region(usize),
+}
+
+impl<'a> Flat<'a> {
+    /// The value of a name; parameters hide `let`s, and so on in the order of [`Named`].
+    pub(crate) fn named(&self, name: &str) -> Option<Named> {
+        self.names.get(name).copied()
+    }
+
+    /// Notes where every name stands.
+    fn index(&mut self) {
+        let params = self.params.iter().enumerate().map(|(at, param)| (&param.decl.name, Named::Param(at)));
+        let lets = self.lets.iter().enumerate().map(|(at, binding)| (&binding.name, Named::Let(at)));
+        let tuples = self.tuples.iter().enumerate().flat_map(|(at, (names, _))| {
+            names.iter().enumerate().map(move |(index, name)| (name, Named::Tuple(at, index)))
+        });
+        let consts = self.consts.iter().enumerate().map(|(at, binding)| (&binding.name, Named::Const(at)));
+        let regions = self.regions.iter().enumerate().map(|(at, region)| (&region.name, Named::Region(at)));
+        let mut names: BTreeMap<&'a str, Named> = BTreeMap::new();
+        for (name, at) in params.chain(lets).chain(tuples).chain(consts).chain(regions) {
+            names.entry(&name.node).or_insert(at);
+        }
+        self.names = names;
+    }
+
+    /// How many parts it has: what going through it costs.
+    pub(crate) fn size(&self) -> usize {
+        let bodies = self.parents.iter().map(|parent| parent.body.len() + parent.params.len());
+        bodies.sum::<usize>() + self.item.body.len() + self.item.params.len()
+    }
+
     /// Whether a part stands in the scenario itself, not in one that it extends.
     pub(crate) fn is_own(&self, part: Span) -> bool {
         holds(self.item, part)
@@ -150,10 +196,13 @@ pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems
         observed: None,
         tuples: Vec::new(),
         mirror: None,
+        names: BTreeMap::new(),
         parents: links.iter().map(|(parent, _)| *parent).filter(|parent| !std::ptr::eq(*parent, item)).collect(),
     };
+    let mut known = BTreeSet::new();
     for (level, (scenario, _)) in links.iter().enumerate() {
-        let mut adding = Adding { flat: &mut flat, problems, is_child: level > 0, own: Vec::new() };
+        let own = BTreeMap::new();
+        let mut adding = Adding { flat: &mut flat, problems, is_child: level > 0, own, known: &mut known };
         adding.removals(&scenario.body);
         adding.begin_teams(&scenario.body);
         for param in &scenario.params {
@@ -167,6 +216,7 @@ pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems
             adding.arguments(reference);
         }
     }
+    flat.index();
     flat
 }
 
@@ -175,7 +225,9 @@ struct Adding<'a, 'f> {
     problems: &'f mut Vec<Problem>,
     is_child: bool,
     /// Names that this scenario has declared itself.
-    own: Vec<(&'static str, String, Span)>,
+    own: BTreeMap<(&'static str, String), Span>,
+    /// What any of the parents has ever named: most names are new, and needn't be looked for.
+    known: &'f mut BTreeSet<(&'static str, &'a str)>,
 }
 
 impl<'a> Adding<'a, '_> {
@@ -184,27 +236,32 @@ impl<'a> Adding<'a, '_> {
             ScenarioStmtKind::Param(param) => self.param(param),
             ScenarioStmtKind::Let(binding) => {
                 self.declare(&binding.name);
-                replace(&mut self.flat.lets, binding, |b| &b.name.node);
+                let is_new = self.known.insert(("let", &binding.name.node));
+                replace(&mut self.flat.lets, binding, is_new, |b| &b.name.node);
             }
             ScenarioStmtKind::Const(binding) => {
                 self.declare(&binding.name);
-                replace(&mut self.flat.consts, binding, |b| &b.name.node);
+                let is_new = self.known.insert(("const", &binding.name.node));
+                replace(&mut self.flat.consts, binding, is_new, |b| &b.name.node);
             }
             ScenarioStmtKind::Region(region) => {
                 self.declare(&region.name);
                 distinct_params(&region.params, self.problems);
-                replace(&mut self.flat.regions, region, |r| &r.name.node);
+                let is_new = self.known.insert(("region", &region.name.node));
+                replace(&mut self.flat.regions, region, is_new, |r| &r.name.node);
             }
             ScenarioStmtKind::Rules(fields) => {
                 for field in fields {
                     self.key_once("rules", &field.key);
-                    replace(&mut self.flat.rules, field, |f| &f.key.node);
+                    let is_new = self.known.insert(("rules", &field.key.node));
+                    replace(&mut self.flat.rules, field, is_new, |f| &f.key.node);
                 }
             }
             ScenarioStmtKind::Agents(fields) => {
                 for field in fields {
                     self.key_once("agents", &field.key);
-                    replace(&mut self.flat.agents, field, |f| &f.key.node);
+                    let is_new = self.known.insert(("agents", &field.key.node));
+                    replace(&mut self.flat.agents, field, is_new, |f| &f.key.node);
                 }
             }
             ScenarioStmtKind::Ball(ball) => {
@@ -256,16 +313,19 @@ impl<'a> Adding<'a, '_> {
             self.problems.push(Problem::declared_twice(&format!("record `{}`", name.node), name.span, first));
             return;
         }
-        replace(&mut self.flat.records, binding, |known| &known.name.node);
+        let is_new = self.known.insert(("record", &name.node));
+        replace(&mut self.flat.records, binding, is_new, |known| &known.name.node);
     }
 
     /// Where this scenario has named such a thing so before; else notes that it does here.
     fn earlier(&mut self, kind: &'static str, name: &str, span: Span) -> Option<Span> {
-        let known = self.own.iter().find(|own| own.0 == kind && own.1 == name).map(|own| own.2);
-        if known.is_none() {
-            self.own.push((kind, name.to_owned(), span));
+        match self.own.entry((kind, name.to_owned())) {
+            Entry::Occupied(first) => Some(*first.get()),
+            Entry::Vacant(free) => {
+                free.insert(span);
+                None
+            }
         }
-        known
     }
 
     /// Declares a name that expressions may use.
@@ -290,7 +350,9 @@ impl<'a> Adding<'a, '_> {
 
     fn param(&mut self, param: &'a ParamDecl) {
         self.declare(&param.name);
-        let known = self.flat.params.iter_mut().find(|known| known.decl.name.node == param.name.node);
+        let is_new = self.known.insert(("param", &param.name.node));
+        let mut params = self.flat.params.iter_mut();
+        let known = params.find(|known| !is_new && known.decl.name.node == param.name.node);
         match known {
             Some(known) if self.is_child => {
                 let same = match (&param.ty, &known.decl.ty) {
@@ -327,7 +389,10 @@ impl<'a> Adding<'a, '_> {
     }
 
     fn arguments(&mut self, reference: &'a Ref) {
-        let mut given: Vec<(&str, Span)> = Vec::new();
+        let mut given: BTreeMap<&str, Span> = BTreeMap::new();
+        let params = self.flat.params.iter().enumerate();
+        let places: BTreeMap<&str, usize> =
+            params.rev().map(|(at, param)| (param.decl.name.node.as_str(), at)).collect();
         for arg in &reference.args {
             let Some(name) = arg_name(arg) else {
                 self.problems.push(
@@ -341,7 +406,7 @@ impl<'a> Adding<'a, '_> {
                 );
                 continue;
             };
-            if let Some((_, first)) = given.iter().find(|(known, _)| *known == name) {
+            if let Some(first) = given.get(name) {
                 let message = format!("`{name}` is given twice");
                 self.problems.push(
                     Problem::new(Code::WrongArguments, arg.span, message, "given again here")
@@ -350,14 +415,13 @@ impl<'a> Adding<'a, '_> {
                 );
                 continue;
             }
-            given.push((name, arg.span));
-            let param = self.flat.params.iter_mut().find(|param| param.decl.name.node == name);
-            if let Some(param) = param {
+            given.insert(name, arg.span);
+            if let Some(param) = places.get(name).and_then(|at| self.flat.params.get_mut(*at)) {
                 param.value = Some(&arg.value);
                 param.is_argument = true;
                 continue;
             }
-            let known: Vec<&str> = self.flat.params.iter().map(|p| p.decl.name.node.as_str()).collect();
+            let known = places.keys().copied();
             let span = arg.key.as_ref().map_or(arg.span, |key| key.span);
             let message = format!("`{}` has no parameter `{name}`", reference.name.node);
             self.problems.push(Problem::new(Code::UnknownName, span, message, "").did_you_mean(name, known));
@@ -425,7 +489,7 @@ impl<'a> Adding<'a, '_> {
                 }
                 TeamStmtKind::Each { who, fields } => flat.each.push((who, fields)),
                 TeamStmtKind::Absent(role) => flat.absent.push(role.clone()),
-                TeamStmtKind::Field(field) => replace(&mut flat.fields, field, |field| &field.key.node),
+                TeamStmtKind::Field(field) => replace(&mut flat.fields, field, false, |field| &field.key.node),
                 TeamStmtKind::Broken => {}
             }
         }
@@ -519,8 +583,9 @@ pub(crate) fn arg_name(arg: &Arg) -> Option<&str> {
     }
 }
 
-fn replace<'a, T>(list: &mut Vec<&'a T>, new: &'a T, name: impl Fn(&T) -> &str) {
-    match list.iter_mut().find(|known| name(known) == name(new)) {
+/// Puts a part in the place of one of its name, or behind all; `is_new`: none has its name.
+fn replace<'a, T>(list: &mut Vec<&'a T>, new: &'a T, is_new: bool, name: impl Fn(&T) -> &str) {
+    match list.iter_mut().find(|known| !is_new && name(known) == name(new)) {
         Some(slot) => *slot = new,
         None => list.push(new),
     }

@@ -10,6 +10,15 @@ use std::sync::Arc;
 /// The file whose names every other file sees without an import.
 const PRELUDE: &str = "std/prelude.pitch";
 
+/// Files may import each other this deep; a folder that is linked to itself would have no end.
+pub(crate) const MAX_IMPORT_DEPTH: usize = 32;
+/// A root may import this many files, those of its imports included, the library's apart.
+pub(crate) const MAX_FILES: usize = 128;
+/// Imported files and scripts may be this large together, bytes: as large as one file may be.
+pub(crate) const MAX_IMPORTED_BYTES: usize = 1 << 20;
+/// Longest prefix of a name by `import … as a`, bytes: those of imports of imports add up.
+const PREFIX_MAX: usize = 256;
+
 /// Every file of a compilation and the names that each sees.
 pub(crate) struct Library {
     /// The texts.
@@ -62,7 +71,7 @@ impl Prelude {
     /// Reads `std/prelude.pitch` and what it imports.
     pub fn load(loader: &dyn SourceLoader) -> Prelude {
         let (mut library, mut problems) = (Library::empty(loader), Vec::new());
-        let mut loading = Loading { library: &mut library, loader, problems: &mut problems, stack: Vec::new() };
+        let mut loading = Loading::new(&mut library, loader, &mut problems);
         // The root's place: every file of the prelude has the same number in every compilation.
         loading.add(&Source { name: String::new(), text: "".into() });
         // A missing prelude is no mistake of the author's.
@@ -84,7 +93,7 @@ pub(crate) fn load(
     let mut library = Library::empty(loader);
     library.inputs.push(root.name.clone());
     let own = prelude.is_none().then(|| Prelude::load(loader));
-    let mut loading = Loading { library: &mut library, loader, problems, stack: Vec::new() };
+    let mut loading = Loading::new(&mut library, loader, problems);
     let id = loading.add(root);
     if let Some(prelude) = prelude.or(own.as_ref()) {
         loading.adopt(prelude);
@@ -101,6 +110,17 @@ struct Loading<'a> {
     loader: &'a dyn SourceLoader,
     problems: &'a mut Vec<Problem>,
     stack: Vec<FileId>,
+    /// Files that are imported so far, and their bytes.
+    files: usize,
+    bytes: usize,
+    /// Imports that found no file.
+    missing: usize,
+}
+
+impl<'a> Loading<'a> {
+    fn new(library: &'a mut Library, loader: &'a dyn SourceLoader, problems: &'a mut Vec<Problem>) -> Loading<'a> {
+        Loading { library, loader, problems, stack: Vec::new(), files: 0, bytes: 0, missing: 0 }
+    }
 }
 
 impl Loading<'_> {
@@ -111,11 +131,15 @@ impl Loading<'_> {
             next += 1;
             let parents: Vec<String> = file.items.iter().filter_map(parent).map(str::to_owned).collect();
             for name in parents {
+                let of_library = self.library.scenarios.iter().find(|(known, _)| *known == name);
+                let Some(path) = of_library.map(|(_, path)| path.clone()) else { continue };
+                if self.known(&path).is_some() {
+                    continue;
+                }
                 let items = self.library.files.iter().flat_map(|file| &file.items);
                 let declared = items.filter_map(item_name).any(|known| known.node == name);
-                let path =
-                    self.library.scenarios.iter().find(|(known, _)| *known == name).map(|(_, path)| path.clone());
-                let Some(source) = path.filter(|_| !declared).and_then(|path| self.loader.load(&path, &path).ok())
+                let Some(source) =
+                    Some(path).filter(|_| !declared).and_then(|path| self.loader.load(&path, &path).ok())
                 else {
                     continue;
                 };
@@ -144,6 +168,25 @@ impl Loading<'_> {
                 self.library.inputs.push(input.clone());
             }
         }
+    }
+
+    /// What a further file is too much for, if it is.
+    fn too_much(&mut self, source: &Source, at: Span) -> Option<Problem> {
+        if source.name.starts_with("std/") {
+            return None;
+        }
+        self.files += 1;
+        self.bytes += source.text.len();
+        let message = if self.stack.len() > MAX_IMPORT_DEPTH {
+            format!("files import each other more than {MAX_IMPORT_DEPTH} deep")
+        } else if self.files > MAX_FILES {
+            format!("more than {MAX_FILES} files are imported")
+        } else if self.bytes > MAX_IMPORTED_BYTES {
+            format!("imported files are larger than {} MiB together", MAX_IMPORTED_BYTES >> 20)
+        } else {
+            return None;
+        };
+        Some(too_much(message, at))
     }
 
     fn file(&mut self, source: &Source) -> FileId {
@@ -181,9 +224,14 @@ impl Loading<'_> {
             .collect();
         self.stack.push(id);
         for (path, alias) in imports {
+            if self.missing > MAX_FILES {
+                self.problems.push(too_much(format!("more than {MAX_FILES} imports find no file"), path.span));
+                break;
+            }
             let loaded = match self.loader.load(&path.node, &from) {
                 Ok(loaded) => loaded,
                 Err(error) => {
+                    self.missing += 1;
                     self.library.inputs.extend(error.awaited);
                     let problem = Problem::new(Code::FileMissing, path.span, error.message, "imported here");
                     self.problems.push(match error.similar.first() {
@@ -196,7 +244,14 @@ impl Loading<'_> {
             if !self.library.inputs.contains(&loaded.name) {
                 self.library.inputs.push(loaded.name.clone());
             }
-            let imported = match self.known(&loaded.name) {
+            let known = self.known(&loaded.name);
+            if known.is_none()
+                && let Some(problem) = self.too_much(&loaded, path.span)
+            {
+                self.problems.push(problem);
+                continue;
+            }
+            let imported = match known {
                 Some(known) if self.stack.contains(&known) => {
                     self.problems.push(
                         Problem::new(
@@ -323,6 +378,9 @@ impl Library {
                 Some(alias) => format!("{prefix}{alias}."),
                 None => prefix.to_owned(),
             };
+            if prefix.len() > PREFIX_MAX {
+                continue;
+            }
             for (name, places) in own.get(import.file.0 as usize).into_iter().flatten() {
                 let list = into.entry(format!("{prefix}{name}")).or_default();
                 for place in places {
@@ -334,6 +392,10 @@ impl Library {
             self.exports(import.file, own, done, &prefix, into);
         }
     }
+}
+
+fn too_much(message: String, at: Span) -> Problem {
+    Problem::new(Code::TooMuch, at, message, "one too many").help("import less, or join some of the files")
 }
 
 /// What is nearer hides what is farther.
@@ -382,10 +444,11 @@ fn item_name(item: &Item) -> Option<&Ident> {
 
 /// Reports parameters of one name.
 pub(super) fn distinct_params(params: &[ParamDecl], problems: &mut Vec<Problem>) {
-    for (index, param) in params.iter().enumerate() {
-        let name = &param.name;
-        if let Some(first) = params.iter().take(index).find(|first| first.name.node == name.node) {
-            problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, first.name.span));
+    let mut known: BTreeMap<&str, Span> = BTreeMap::new();
+    for ParamDecl { name, .. } in params {
+        match known.get(name.node.as_str()) {
+            Some(first) => problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, *first)),
+            None => drop(known.insert(&name.node, name.span)),
         }
     }
 }

@@ -4,6 +4,9 @@ use super::load::Library;
 use crate::ast::{FormationItem, ItemKind, Ref, RewardItem};
 use crate::problem::{Code, Problem};
 
+/// Most parents of a scenario, reward or formation: a base, its variants and their levels are a handful.
+pub(crate) const MAX_PARENTS: usize = 32;
+
 /// A link of a chain: the item, and the reference by which its child names it.
 pub(crate) type Chain<'a, T> = Vec<(&'a T, Option<&'a Ref>)>;
 
@@ -60,12 +63,11 @@ pub(super) fn chain<'a, T>(
         let name = &parent_ref.name;
         let Some(parent) = library.find(name.span.file, &name.node).and_then(|found| pick(&found.item.kind)) else {
             let given = library.scenarios.iter().filter(|_| noun == "scenario").map(|(name, _)| name.as_str());
-            let candidates: Vec<&str> = library
+            let candidates = library
                 .visible(name.span.file)
                 .filter(|(_, found)| pick(&found.item.kind).is_some_and(|other| !std::ptr::eq(other, at)))
                 .map(|(name, _)| name)
-                .chain(given)
-                .collect();
+                .chain(given);
             let message = format!("no {noun} is called `{}`", name.node);
             let problem = Problem::new(Code::UnknownParent, name.span, message, "extends this");
             problems.push(match library.find(name.span.file, &name.node) {
@@ -87,6 +89,15 @@ pub(super) fn chain<'a, T>(
                     "closes the circle",
                 )
                 .help("take one `extends` of the circle away"),
+            );
+            break;
+        }
+        if chain.len() > MAX_PARENTS {
+            let message = format!("a {noun} has more than {MAX_PARENTS} parents");
+            let at = extends(from).map_or(name.span, |parent| parent.name.span);
+            problems.push(
+                Problem::new(Code::TooMuch, at, message, "too many")
+                    .help("join some of them: a child may change everything that it inherits"),
             );
             break;
         }

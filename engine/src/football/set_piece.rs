@@ -5,7 +5,7 @@ use crate::football::{lineup, offside};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX};
+use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// How far a wall stands from the ball, metres. Laws.
@@ -122,7 +122,7 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
                 }
                 let distance = between.length();
                 let away = if distance > 1e-3 { between / distance } else { Vec2::new(0.0, a.team().side() as f32) };
-                game.players[b.index()].pos = first.pos + away * (APART_M + 0.01);
+                game.players[b.index()].pos = beside(first.pos, away * (APART_M + 0.01));
                 moved = true;
             }
         }
@@ -131,6 +131,13 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
         }
     }
     true
+}
+
+/// The place so far from another; on the other side of it where this one lies behind the rim.
+fn beside(of: Vec2, away: Vec2) -> Vec2 {
+    let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
+    let outside = (of + away).abs().cmpgt(rim);
+    (of + Vec2::select(outside, -away, away)).clamp(-rim, rim)
 }
 
 /// The three defenders nearest to the ball stand in the way of a free kick near their goal, as near as they may.

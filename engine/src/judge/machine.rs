@@ -6,7 +6,6 @@
 //! caller. Programs must have passed [`setpiece_scenario::verify`].
 
 mod fold;
-mod operators;
 mod plan;
 
 use crate::event::Event;
@@ -15,14 +14,13 @@ use crate::judge::view::{Sight, ids, player_number, team_number, team_of_number}
 use crate::random::Stream;
 use crate::state::PlayerId;
 use fold::Folding;
-pub use operators::truth;
-use operators::{binary, unary};
 pub use plan::Plan;
 use plan::{ALWAYS, Loop, Op, Step};
+pub use setpiece_scenario::operators::truth;
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Qualifier, Team};
-use setpiece_scenario::{Distribution, EventFilter, Instr, Over, Program, Reg, When, Who};
+use setpiece_scenario::{BinaryOp, Distribution, EventFilter, Instr, Over, Program, Reg, UnaryOp, When, Who};
 use std::array;
 use std::sync::Arc;
 
@@ -179,22 +177,22 @@ impl<const W: usize> Machine<'_, W> {
         let plan = self.plan;
         for step in steps {
             match step.op {
-                Op::Add => self.two(step, |a, b| a + b),
-                Op::Sub => self.two(step, |a, b| a - b),
-                Op::Mul => self.two(step, |a, b| a * b),
-                Op::Div => self.two(step, operators::quotient),
-                Op::Min => self.two(step, operators::least),
-                Op::Max => self.two(step, operators::most),
-                Op::Hypot => self.two(step, operators::length),
-                Op::Lt => self.two(step, |a, b| (a < b).into()),
-                Op::Le => self.two(step, |a, b| (a <= b).into()),
-                Op::Gt => self.two(step, |a, b| (a > b).into()),
-                Op::Ge => self.two(step, |a, b| (a >= b).into()),
-                Op::Eq => self.two(step, |a, b| (a == b).into()),
-                Op::And => self.two(step, |a, b| (truth(a) & truth(b)).into()),
-                Op::Or => self.two(step, |a, b| (truth(a) | truth(b)).into()),
-                Op::Not => self.one(step, |a| (!truth(a)).into()),
-                Op::Neg => self.one(step, |a| -a),
+                Op::Add => self.two(step, BinaryOp::Add),
+                Op::Sub => self.two(step, BinaryOp::Sub),
+                Op::Mul => self.two(step, BinaryOp::Mul),
+                Op::Div => self.two(step, BinaryOp::Div),
+                Op::Min => self.two(step, BinaryOp::Min),
+                Op::Max => self.two(step, BinaryOp::Max),
+                Op::Hypot => self.two(step, BinaryOp::Hypot),
+                Op::Lt => self.two(step, BinaryOp::Lt),
+                Op::Le => self.two(step, BinaryOp::Le),
+                Op::Gt => self.two(step, BinaryOp::Gt),
+                Op::Ge => self.two(step, BinaryOp::Ge),
+                Op::Eq => self.two(step, BinaryOp::Eq),
+                Op::And => self.two(step, BinaryOp::And),
+                Op::Or => self.two(step, BinaryOp::Or),
+                Op::Not => self.one(step, |a| UnaryOp::Not.apply(a, |_| false)),
+                Op::Neg => self.one(step, |a| UnaryOp::Neg.apply(a, |_| false)),
                 Op::Select => self.select(step),
                 Op::BallX => self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[0].into())),
                 Op::BallY => self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[1].into())),
@@ -236,10 +234,13 @@ impl<const W: usize> Machine<'_, W> {
     }
 
     #[inline]
-    fn two(&mut self, step: &Step, f: impl Fn(f64, f64) -> f64) {
+    fn two(&mut self, step: &Step, op: BinaryOp) {
         let (a, b) = (&self.regs[step.a as usize], &self.regs[step.b as usize]);
-        self.regs[step.at as usize] =
-            if W == 1 || !step.uniform { array::from_fn(|lane| f(a[lane], b[lane])) } else { [f(a[0], b[0]); W] };
+        self.regs[step.at as usize] = if W == 1 || !step.uniform {
+            array::from_fn(|lane| op.apply(a[lane], b[lane]))
+        } else {
+            [op.apply(a[0], b[0]); W]
+        };
     }
 
     fn select(&mut self, step: &Step) {
@@ -262,8 +263,14 @@ impl<const W: usize> Machine<'_, W> {
             Instr::Param(index) => [input.params.get(*index as usize).copied().unwrap_or(f64::NAN); N],
             Instr::Let(index) => [input.lets.get(*index as usize).copied().unwrap_or(f64::NAN); N],
             Instr::EpisodeIndex => [input.index as f64; N],
-            Instr::Unary(op, a) => unary(*op, self.lanes(*a), input.now),
-            Instr::Binary(op, a, b) => binary(*op, self.lanes(*a), self.lanes(*b)),
+            Instr::Unary(op, a) => {
+                let exists = |player| input.now.is_some_and(|now| now.exists(player));
+                self.lanes::<N>(*a).map(|a| op.apply(a, exists))
+            }
+            Instr::Binary(op, a, b) => {
+                let (a, b) = (self.lanes::<N>(*a), self.lanes::<N>(*b));
+                array::from_fn(|lane| op.apply(a[lane], b[lane]))
+            }
             Instr::Select(c, a, b) => {
                 let (c, a, b) = (self.lanes::<N>(*c), self.lanes::<N>(*a), self.lanes::<N>(*b));
                 array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] })

@@ -2,6 +2,7 @@
 
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
+pub use setpiece_scenario::operators::{player_index, team_of_number};
 use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Field, GameMode, Owner, Role, Team};
 use setpiece_scenario::{Instr, Program, When};
@@ -337,12 +338,6 @@ pub fn ids(team: Option<Team>) -> Range<usize> {
     }
 }
 
-/// A player id as an index; `None` for -1 and for what is no id.
-pub fn player_index(id: f64) -> Option<usize> {
-    let index = id as i64;
-    (index as f64 == id && (0..PLAYERS_MAX as i64).contains(&index)).then_some(index as usize)
-}
-
 /// A player id as programs write it: -1 for nobody.
 pub fn player_number(id: Option<PlayerId>) -> f64 {
     id.map_or(-1.0, |id| id.index() as f64)
@@ -351,15 +346,4 @@ pub fn player_number(id: Option<PlayerId>) -> f64 {
 /// A team as programs write it: -1 for none.
 pub fn team_number(team: Option<Team>) -> f64 {
     team.map_or(-1.0, |team| team.index() as f64)
-}
-
-/// The team a program's number means.
-pub fn team_of_number(number: f64) -> Option<Team> {
-    if number == 0.0 {
-        Some(Team::Left)
-    } else if number == 1.0 {
-        Some(Team::Right)
-    } else {
-        None
-    }
 }

@@ -90,7 +90,7 @@ impl Unit {
             Unit::Degree => number * (std::f64::consts::PI / 180.0),
             Unit::Millisecond => number / 1000.0,
             Unit::Percent => number / 100.0,
-            Unit::Step => number / 10.0,
+            Unit::Step => number / crate::pitch::STEPS_PER_S,
             _ => number,
         }
     }

@@ -112,7 +112,7 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
     }
     let names: Vec<OsString> =
         if args.scenarios.is_empty() { SCENARIOS.map(OsString::from).to_vec() } else { args.scenarios.clone() };
-    let loaded = names.iter().map(crate::load).collect::<Result<Vec<_>, _>>()?;
+    let loaded = names.iter().map(|name| crate::load_with(name, &out.loading())).collect::<Result<Vec<_>, _>>()?;
     let observation =
         args.observation.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
     let agent = args.agent.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());

@@ -35,7 +35,7 @@ pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs
     let mut array = Vec::new();
     for file in files {
         let name = file.to_string_lossy();
-        let Checked { problems, sources, inputs: read } = match crate::check(file) {
+        let Checked { problems, sources, inputs: read } = match crate::check_with(file, &out.loading()) {
             Ok(found) => found,
             Err(error) => {
                 failed = true;

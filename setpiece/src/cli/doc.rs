@@ -34,7 +34,7 @@ pub(crate) fn doc(args: &DocArgs, out: &Out) -> Result<u8, Error> {
         out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
         return Ok(FAULT);
     }
-    let loaded = crate::load(&args.scenario)?;
+    let loaded = crate::load_with(&args.scenario, &out.loading())?;
     out.warnings(&loaded);
     for path in [&args.output, &args.picture].into_iter().flatten() {
         refuse_overwriting(path, &loaded.inputs)?;

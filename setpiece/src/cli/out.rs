@@ -2,23 +2,25 @@
 
 use super::Colour;
 use crate::drawing::Paint;
-use crate::dsl::report::{Format, render};
+use crate::dsl::report::{Format, printable, render};
 use crate::dsl::{problem::Problem, source::Sources};
-use crate::{Error, Loaded};
+use crate::{Error, LoadOptions, Loaded};
 use owo_colors::OwoColorize;
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 
-/// Where and how to print.
+/// Where and how to print, and what every command may read.
 pub(crate) struct Out {
     stdout_colour: bool,
     stderr_colour: bool,
     failed: Cell<bool>,
+    /// Whether imports and scripts may lie outside of a scenario's folder.
+    pub(crate) allow_outside: bool,
 }
 
 impl Out {
     /// Colour as asked for; `auto` looks at the terminal and `NO_COLOR`.
-    pub(crate) fn new(colour: Colour) -> Out {
+    pub(crate) fn new(colour: Colour, allow_outside: bool) -> Out {
         let wanted = |terminal: bool| match colour {
             Colour::Always => true,
             Colour::Never => false,
@@ -28,7 +30,13 @@ impl Out {
             stdout_colour: wanted(std::io::stdout().is_terminal()),
             stderr_colour: wanted(std::io::stderr().is_terminal()),
             failed: Cell::new(false),
+            allow_outside,
         }
+    }
+
+    /// How scenarios are loaded.
+    pub(crate) fn loading(&self) -> LoadOptions<'static> {
+        LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() }
     }
 
     /// Prints a line; a reader that has gone away (`| head`) is no error, a full disk is.
@@ -36,9 +44,11 @@ impl Out {
         self.text(&format!("{text}\n"));
     }
 
-    /// Prints a text as it is.
+    /// Prints a text; control characters that an author has written don't reach the terminal.
     pub(crate) fn text(&self, text: &str) {
         let mut stdout = std::io::stdout();
+        // A file or another program gets what was written.
+        let text = if stdout.is_terminal() { printable(text, self.stdout_colour) } else { text.into() };
         if let Err(why) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush())
             && why.kind() != std::io::ErrorKind::BrokenPipe
         {
@@ -52,9 +62,8 @@ impl Out {
     }
 
     /// Prints a line to standard error.
-    #[allow(clippy::unused_self, reason = "printing is the job of the value that knows how")]
     pub(crate) fn note(&self, text: &str) {
-        let _ = writeln!(std::io::stderr(), "{text}");
+        let _ = writeln!(std::io::stderr(), "{}", printable(text, self.stderr_colour));
     }
 
     /// Bold, padded to `width` before the escapes count.
@@ -99,9 +108,9 @@ impl Out {
         } else {
             (code.to_owned(), "×".to_owned())
         };
-        self.note(&format!("{code}\n  {cross} {message}"));
+        self.note(&format!("{code}\n  {cross} {}", printable(message, false)));
         if let Some(help) = help {
-            self.note(&format!("  help: {help}"));
+            self.note(&format!("  help: {}", printable(help, false)));
         }
     }
 

@@ -51,7 +51,7 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     if args.watch {
         return watch(args, out);
     }
-    let loaded = crate::load(&args.playing.scenario)?;
+    let loaded = crate::load_with(&args.playing.scenario, &out.loading())?;
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
     let summary = with_progress(&loaded, &options)?;
@@ -103,7 +103,7 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 
 /// Runs episode by episode: a changed file takes effect at the next one, a broken one leaves the last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
-    let mut live = Live::open(&args.playing.scenario)?;
+    let mut live = Live::open(&args.playing.scenario, out.allow_outside)?;
     out.warnings(live.loaded());
     if !live.is_watching() {
         let name = args.playing.scenario.to_string_lossy();

@@ -34,7 +34,7 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
         out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
         return Ok(FAULT);
     }
-    let film = match crate::load(&args.playing.scenario) {
+    let film = match crate::load_with(&args.playing.scenario, &out.loading()) {
         Err(Error::File { path: recorded, why: FileFault::Packed(Packed::Replay) }) => {
             refuse_overwriting(path, std::slice::from_ref(&recorded))?;
             replayed(&Replay::from_bytes(&read_file(&recorded, REPLAY_MAX_BYTES)?)?)?

@@ -27,7 +27,7 @@ pub(crate) struct SnapshotArgs {
 
 /// Plays to the step and writes the snapshot.
 pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
-    let loaded = crate::load(&args.playing.scenario)?;
+    let loaded = crate::load_with(&args.playing.scenario, &out.loading())?;
     out.warnings(&loaded);
     refuse_overwriting(&args.output, &loaded.inputs)?;
     let options = args.playing.environment(&loaded)?;

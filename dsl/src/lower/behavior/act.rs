@@ -4,12 +4,9 @@ use super::Writer;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem, signature};
-use setpiece_scenario::pitch::LONGEST_S;
+use setpiece_scenario::pitch::{LONGEST_S, STEPS_PER_S};
 use setpiece_scenario::vocabulary::{Field, Primitive};
 use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, Then, UnaryOp, Watch, When};
-
-/// Steps of a second.
-const STEPS_PER_S: f64 = 10.0;
 
 impl<'w> Writer<'_, 'w> {
     pub(super) fn do_stmt(&mut self, stmt: &'w DoStmt) {

@@ -61,6 +61,9 @@ impl<'w> Writer<'_, 'w> {
 
     /// Writes a block: its statements, then what may interrupt them, the first written last.
     pub(super) fn block(&mut self, statements: &'w [BehaviorStmt], is_top: bool) {
+        if !self.lower.world.effort.spend(statements.len()) {
+            return;
+        }
         let scope = self.lower.scope.clone();
         // The states at the top belong to the block itself.
         let inner = if is_top { self.around.clone() } else { scope.clone() };

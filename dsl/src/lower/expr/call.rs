@@ -5,7 +5,7 @@ use super::super::{Lower, param};
 use crate::ast::{Arg, Expr, FnItem, Ident, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem, signature};
-use crate::resolve::arg_name;
+use crate::resolve::{Named, arg_name};
 use setpiece_scenario::vocabulary::Function;
 
 /// What functions of the language are called elsewhere.
@@ -40,13 +40,17 @@ impl<'w> Lower<'_, 'w> {
             }
         }
         if self.scope.scenario
-            && let Some(region) = self.world.flat.regions.iter().find(|region| region.name.node == name.node)
+            && let Some(Named::Region(at)) = self.world.flat.named(&name.node)
+            && let Some(region) = self.world.flat.regions.get(at)
         {
             self.world.mark_used(region.name.span);
             return self.call_region(region, args, span, true);
         }
         if let Some(function) = Function::from_name(&name.node) {
             return self.function(function, name, args, span);
+        }
+        if self.world.is_full(Code::UnknownFunction) {
+            return Value::error();
         }
         let of_file = library.visible(name.span.file);
         let mut known: Vec<&str> = of_file

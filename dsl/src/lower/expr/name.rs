@@ -6,6 +6,7 @@ use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
+use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
 use setpiece_scenario::{Reg, UnaryOp, When};
 
@@ -33,6 +34,9 @@ impl<'w> Lower<'_, 'w> {
         }
         if let Some(value) = self.builtin(name, span) {
             return value;
+        }
+        if self.world.is_full(Code::UnknownName) {
+            return Value::error();
         }
         let mut candidates = self.names_in_sight(span);
         if matches!(self.stage, Stage::Reward | Stage::Ending) {
@@ -112,7 +116,10 @@ impl<'w> Lower<'_, 'w> {
 
     fn scenario_name(&mut self, name: &'w str, span: Span) -> Option<Value<'w>> {
         let world = self.world;
-        if let Some(info) = world.params.iter().find(|param| param.name.node == name) {
+        let named = world.flat.named(name);
+        if let Some(Named::Param(at)) = named
+            && let Some(info) = world.params.get(at)
+        {
             world.mark_used(info.name.span);
             if info.bound.is_some() {
                 return Some(self.scenario_let(name, span));
@@ -122,20 +129,27 @@ impl<'w> Lower<'_, 'w> {
             let repr = if info.ty == Ty::Error { Repr::Nothing } else { repr };
             return Some(Value { ty: info.ty, repr });
         }
-        if let Some(binding) = world.flat.lets.iter().find(|binding| binding.name.node == name) {
+        if let Some(Named::Let(at)) = named
+            && let Some(binding) = world.flat.lets.get(at)
+        {
             world.mark_used(binding.name.span);
             return Some(self.scenario_let(name, span));
         }
-        let mut shuffled = world.flat.tuples.iter().flat_map(|(names, _)| *names);
-        if let Some(known) = shuffled.find(|known| known.node == name) {
+        if let Some(Named::Tuple(at, index)) = named
+            && let Some(known) = world.flat.tuples.get(at).and_then(|(names, _)| names.get(index))
+        {
             world.mark_used(known.span);
             return Some(self.scenario_let(name, span));
         }
-        if let Some(binding) = world.flat.consts.iter().find(|binding| binding.name.node == name) {
+        if let Some(Named::Const(at)) = named
+            && let Some(binding) = world.flat.consts.get(at)
+        {
             world.mark_used(binding.name.span);
             return Some(self.constant_item(binding, span));
         }
-        if let Some(region) = world.flat.regions.iter().find(|region| region.name.node == name) {
+        if let Some(Named::Region(at)) = named
+            && let Some(region) = world.flat.regions.get(at)
+        {
             world.mark_used(region.name.span);
             let scope = Scope::new(true, Frame::World);
             let value = self.inline(region.name.span, span, |lower| {

@@ -9,6 +9,9 @@ use crate::problem::{Code, Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
+/// Most values of a `shuffle`: each may come to each place, so the program grows with the square.
+const SHUFFLED_MAX: usize = 64;
+
 impl<'w> Lower<'_, 'w> {
     /// Reports a draw that stands outside the start.
     fn may_draw(&self, function: Function, span: Span) -> bool {
@@ -218,6 +221,13 @@ impl<'w> Lower<'_, 'w> {
             };
             self.report(
                 Problem::new(Code::WrongArguments, expr.span, message, "").help("write `let (a, b) = shuffle(x, y)`"),
+            );
+            return None;
+        }
+        if let Some(more) = args.get(SHUFFLED_MAX) {
+            let message = format!("`shuffle` mixes more than {SHUFFLED_MAX} values");
+            self.report(
+                Problem::new(Code::TooMuch, more.span, message, "one too many").help("mix them in several groups"),
             );
             return None;
         }

@@ -1,6 +1,7 @@
 //! Payments that no match can earn, and why.
 
 use crate::lower::Lower;
+use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Rule, Team};
 use setpiece_scenario::{EventFilter, Instr, Over, Reg, UnaryOp, Who};
 
@@ -72,7 +73,8 @@ impl Lower<'_, '_> {
         let counts = self
             .code
             .depends(guard, &|instr| matches!(instr, Instr::Each(each) if matches!(each.over, Over::Players { .. })));
-        let limit = self.world.longest.map(|seconds| format!("the episode is over after {:.0} steps", seconds * 10.0));
+        let limit =
+            self.world.longest.map(|seconds| format!("the episode is over after {:.0} steps", seconds * STEPS_PER_S));
         let all = [
             (reads(PLACES), Some("x lies between about -1 and 1, y between -0.42 and 0.42".to_owned())),
             (reads(&[Field::BallVx, Field::BallVy, Field::BallVz]), Some("no ball flies as fast".to_owned())),

@@ -6,10 +6,12 @@ use crate::ast::{
 use crate::check::types::Ty;
 use crate::lower::script::embed;
 use crate::lower::value::Binding;
-use crate::lower::{Lower, fold, param};
+use crate::lower::{Lower, param};
 use crate::problem::{Code, Problem};
+use setpiece_scenario::pitch::STEP_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, RewardHook, UnaryOp};
+use std::collections::BTreeMap;
 
 /// What a step program pays into, and which scripts it asks.
 pub(super) struct Written {
@@ -23,6 +25,8 @@ pub(super) struct Written {
 pub(super) struct Writer<'l, 'c, 'w> {
     lower: &'l mut Lower<'c, 'w>,
     terms: Vec<String>,
+    /// Where each label stands among them.
+    places: BTreeMap<String, u32>,
     hooks: Vec<RewardHook>,
     /// The reward's parameters, which its scripts see.
     params: Vec<&'w ParamDecl>,
@@ -37,6 +41,16 @@ pub(super) struct Writer<'l, 'c, 'w> {
 }
 
 impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
+    fn new(
+        lower: &'l mut Lower<'c, 'w>,
+        weight: Option<Reg>,
+        pays: bool,
+        params: Vec<&'w ParamDecl>,
+    ) -> Writer<'l, 'c, 'w> {
+        let (terms, places, hooks) = (Vec::new(), BTreeMap::new(), Vec::new());
+        Writer { lower, terms, places, hooks, params, weight, pays, guard: None, never: None, unlabelled: 0 }
+    }
+
     /// Writes the statements, for what their names are bound to in the present scope; gives what it pays into.
     pub(super) fn write(
         lower: &'l mut Lower<'c, 'w>,
@@ -45,8 +59,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         pays: bool,
         params: Vec<&'w ParamDecl>,
     ) -> Written {
-        let (terms, hooks) = (Vec::new(), Vec::new());
-        let mut writer = Writer { lower, terms, hooks, params, weight, pays, guard: None, never: None, unlabelled: 0 };
+        let mut writer = Writer::new(lower, weight, pays, params);
         // The step's `let`s come first, top to bottom: they see no assignment of this step.
         for statement in statements {
             if let RewardStmtKind::Let(binding) = &statement.kind {
@@ -65,9 +78,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         script: &'w ScriptRef,
         weight: Option<Reg>,
     ) -> Vec<RewardHook> {
-        let (terms, hooks, params) = (Vec::new(), Vec::new(), Vec::new());
-        let mut writer =
-            Writer { lower, terms, hooks, params, weight, pays: true, guard: None, never: None, unlabelled: 0 };
+        let mut writer = Writer::new(lower, weight, true, Vec::new());
         let value = writer.script(script);
         let value = writer.weighted(value);
         writer.lower.code.give(0, value, None);
@@ -198,11 +209,12 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     }
 
     fn term(&mut self, label: String) -> u32 {
-        let known = self.terms.iter().position(|term| *term == label);
-        known.unwrap_or_else(|| {
+        let next = self.terms.len() as u32;
+        let place = *self.places.entry(label.clone()).or_insert(next);
+        if place == next {
             self.terms.push(label);
-            self.terms.len() - 1
-        }) as u32
+        }
+        place
     }
 
     fn pay(&mut self, give: &'w GiveStmt, term: u32) {
@@ -246,7 +258,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             }
         };
         if give.per_second {
-            let step = self.lower.code.constant(0.1);
+            let step = self.lower.code.constant(STEP_S);
             reg = self.lower.code.binary(BinaryOp::Mul, reg, step);
         }
         self.weighted(reg)
@@ -298,7 +310,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
             // A division by zero has been told.
             Some(&Instr::Binary(BinaryOp::Div, _, b)) if code.constant_of(b) == Some(0.0) => None,
-            Some(&Instr::Binary(op, a, b)) => fold::binary(op, code.constant_of(a)?, code.constant_of(b)?),
+            Some(&Instr::Binary(op, a, b)) => Some(op.apply(code.constant_of(a)?, code.constant_of(b)?)),
             _ => None,
         });
         if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {
@@ -323,13 +335,15 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     }
 
     fn not_a_state(&self, name: &Ident) {
-        let scope = &self.lower.scope;
-        let known = scope.names();
-        let states = known.iter().copied().filter(|name| matches!(scope.find(name), Some(Binding::State { .. })));
-        let states: Vec<&str> = states.collect();
+        if self.lower.world.is_full(Code::UnknownName) {
+            return;
+        }
+        let known = self.lower.scope.bindings();
+        let states: Vec<&str> =
+            known.iter().filter(|(_, bound)| matches!(bound, Binding::State { .. })).map(|(name, _)| *name).collect();
         let problem = |message: String| Problem::new(Code::UnknownName, name.span, message, "can't be assigned");
         let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
-        self.lower.report(if known.contains(&name.node.as_str()) {
+        self.lower.report(if known.contains_key(name.node.as_str()) {
             problem(format!("`{}` is no `state`, and only a `state` is assigned", name.node))
                 .help(format!("declare it at the top: `state {} = 0`", name.node))
         } else if near {

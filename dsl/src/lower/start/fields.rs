@@ -6,7 +6,9 @@ use crate::check::types::Ty;
 use crate::lower::Lower;
 use crate::lower::value::Repr;
 use crate::problem::{Code, Problem};
-use setpiece_scenario::pitch::{BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M};
+use setpiece_scenario::pitch::{
+    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S, STEPS_PER_S,
+};
 use setpiece_scenario::vocabulary::Rule;
 use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
 
@@ -180,7 +182,7 @@ impl<'w> Lower<'_, 'w> {
                     Ty::Int => reg,
                     Ty::DURATION => {
                         self.check_steps(reg, "`half_time`", expr.span);
-                        let step = self.code.constant(0.1);
+                        let step = self.code.constant(STEP_S);
                         let steps = self.code.binary(BinaryOp::Div, reg, step);
                         self.code.unary(UnaryOp::Round, steps)
                     }
@@ -190,7 +192,7 @@ impl<'w> Lower<'_, 'w> {
                         return None;
                     }
                 };
-                let most = LONGEST_S * 10.0;
+                let most = LONGEST_S * STEPS_PER_S;
                 self.check_range(steps, (0.0, most), "`half_time`", expr.span, "`0 steps..1000000 steps`");
                 Some(steps)
             }

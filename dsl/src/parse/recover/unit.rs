@@ -8,12 +8,11 @@ impl Reader<'_> {
     /// `5mm`, and `5 m`: a number whose unit is not one or does not touch it.
     pub(super) fn unit(&self, at: usize) -> Option<Problem> {
         let text = self.text;
-        let before = text.get(..at)?;
         let word = token(text.get(at..)?);
         if !word.starts_with(|char: char| char.is_alphabetic() || char == '_') {
             return None;
         }
-        let line = before.get(before.rfind('\n').map_or(0, |newline| newline + 1)..)?;
+        let line = text.get(self.line_start(at)..at)?;
         let digits = line.trim_end_matches([' ', '\t']);
         let number_len =
             digits.len() - digits.trim_end_matches(|char: char| char.is_ascii_digit() || char == '.').len();

@@ -61,6 +61,15 @@ impl Context {
         }
     }
 
+    /// What it lists.
+    pub(super) const fn list(self) -> &'static str {
+        match self {
+            Context::File => "items",
+            Context::Fields => "options",
+            Context::Scenario | Context::Team | Context::Reward | Context::Behavior => "statements",
+        }
+    }
+
     /// Where one is, with its article.
     pub(super) const fn name(self) -> &'static str {
         match self {

@@ -8,18 +8,22 @@ use setpiece_scenario::vocabulary::Role;
 
 impl Scanner<'_> {
     /// Whether a closing bracket was written for the innermost open one, which it does not fit.
-    pub(super) fn is_wrong_closer(&self, at: usize, byte: u8, matching: Option<usize>) -> bool {
+    pub(super) fn is_wrong_closer(&mut self, at: usize, byte: u8, matching: Option<usize>) -> bool {
         let Some(last) = self.open.last().filter(|open| open.closer() != byte) else { return false };
+        let (last_byte, last_at, last_indent) = (last.byte, last.at, last.indent);
         let here = |open: &&super::Open| open.byte == b'{' && open.at >= self.line_from;
-        match (byte, last.byte) {
+        match (byte, last_byte) {
             // The braces that this line opened are all that it may close.
             (b'}', b'(' | b'[') => {
                 let line = self.bytes.get(at..).unwrap_or_default().split(|byte| *byte == b'\n').next();
-                let closed = line.unwrap_or_default().split(|byte| *byte == b'}').count() - 1;
-                last.at >= self.line_from && closed > self.open.iter().filter(here).count() && !self.line_start
+                let line = line.unwrap_or_default();
+                let closed = line.split(|byte| *byte == b'}').count() - 1;
+                let opened = self.open.iter().filter(here).count();
+                let wrong = last_at >= self.line_from && closed > opened && !self.line_start;
+                self.spend(line.len()) && wrong
             }
             (b'}', _) => false,
-            (_, b'{') => self.line_start && last.indent == self.indent,
+            (_, b'{') => self.line_start && last_indent == self.indent,
             _ => {
                 let block = self.open.iter().rposition(|open| open.byte == b'{');
                 matching.is_none_or(|index| block.is_some_and(|block| index < block))
@@ -54,7 +58,9 @@ impl Scanner<'_> {
     pub(super) fn unclosed(&mut self, at: usize, closer: Option<usize>) {
         let Some(open) = self.open.pop() else { return };
         let (opener, wanted) = (open.byte as char, open.closer());
-        let line = if open.byte == b'{' { None } else { self.line_end(open.at, at) };
+        // To tell a statement from the rest of one takes many times as long as to see a byte.
+        let look = open.byte != b'{' && self.spend(8 * (at - open.at));
+        let line = if look { self.line_end(open.at, at) } else { None };
         let end = line.or_else(|| self.blank_before(at, open.at));
         // Behind the line that was mended everything is read as it stands.
         self.scan.told.push(open.at..line.unwrap_or(at) + 1);

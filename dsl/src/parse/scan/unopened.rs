@@ -10,6 +10,7 @@ impl Scanner<'_> {
     /// Reports and mends a closing bracket that nothing opens.
     pub(super) fn unopened(&mut self, at: usize, byte: u8) {
         if byte == b'}'
+            && self.spend(at - self.chunk)
             && let Some((head, slot)) = self.head_without_brace(at)
         {
             self.mends.insert(slot, b'{');
@@ -18,7 +19,9 @@ impl Scanner<'_> {
         }
         let closer = byte as char;
         let (message, label) = (format!("nothing is open that this `{closer}` closes"), "no opening bracket");
-        let help = self.point_without_bracket(at).unwrap_or_else(|| format!("take the `{closer}` away"));
+        let near = self.spend(at - self.line_from);
+        let point = if near { self.point_without_bracket(at) } else { None };
+        let help = point.unwrap_or_else(|| format!("take the `{closer}` away"));
         self.problem(at, 1, Code::Syntax, &message, label, &help);
         self.mends.insert(at, b' ');
         if byte == b'}' {

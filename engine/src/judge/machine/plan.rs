@@ -1,7 +1,7 @@
 //! A program made ready to run: what must run how often, and for whom.
 
 use setpiece_scenario::vocabulary::Field;
-use setpiece_scenario::{BinaryOp, Each, Fold, Instr, Over, Program, Reg, UnaryOp, When, Who};
+use setpiece_scenario::{BinaryOp, Fold, Instr, Over, Program, Reg, UnaryOp, When};
 
 /// A program as a [`Machine`](super::Machine) runs it.
 #[derive(Clone, Debug, Default)]
@@ -123,7 +123,7 @@ impl Reader<'_> {
             return (self.simple(instr, at), at + 1);
         };
         let mut uniform = true;
-        over(each, &mut |reg| uniform &= self.is_the_same(reg));
+        instr.operands(&mut |reg| uniform &= self.is_the_same(reg));
         let end = at + 1 + each.body as usize;
         self.open.push(at);
         let mut body = Vec::new();
@@ -209,23 +209,4 @@ fn two(op: BinaryOp) -> Option<Op> {
         BinaryOp::Or => Op::Or,
         BinaryOp::Mod | BinaryOp::Pow | BinaryOp::Atan2 | BinaryOp::Ne => return None,
     })
-}
-
-/// Calls `f` with what a loop reads before its first element.
-fn over(each: &Each, f: &mut dyn FnMut(Reg)) {
-    match &each.over {
-        Over::Players { team, except } => {
-            f(*team);
-            if let Some(reg) = except {
-                f(*reg);
-            }
-        }
-        Over::Events(filter) => {
-            for who in filter.by.iter().chain(&filter.to) {
-                match who {
-                    Who::Team(reg) | Who::Player(reg) => f(*reg),
-                }
-            }
-        }
-    }
 }

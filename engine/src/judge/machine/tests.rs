@@ -302,3 +302,40 @@ fn weights_choose_in_proportion() {
     assert_eq!(seen[1], 0);
     assert!((1400..1600).contains(&seen[0]), "{seen:?}");
 }
+
+#[test]
+fn every_operator_runs_as_it_is_folded() {
+    let values = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        0.1,
+        2.5,
+        -2.5,
+        11.0,
+        21.0,
+        22.0,
+        PI,
+        -PI,
+        1e300,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NAN,
+    ];
+    let same = |one: f64, other: f64| one == other || (one.is_nan() && other.is_nan());
+    for op in UnaryOp::ALL.iter().copied().filter(|op| *op != UnaryOp::Exists) {
+        for a in values {
+            let folded = op.fold(a).unwrap();
+            assert!(same(unary(op, a), folded), "{op:?} of {a}: {folded}");
+        }
+    }
+    for op in BinaryOp::ALL.iter().copied() {
+        for a in values {
+            for b in values {
+                let folded = op.apply(a, b);
+                assert!(same(binary(op, a, b), folded), "{op:?} of {a} and {b}: {folded}");
+            }
+        }
+    }
+}

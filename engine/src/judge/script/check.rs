@@ -48,6 +48,9 @@ fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subject)]> {
     }
 }
 
+/// Names of a script that are reported at most: each is looked for from the script's beginning.
+const FAULTS_MAX: usize = 100;
+
 /// Finds what is wrong with a script that is to serve as `hook` (`reward`, `done`, `act` or `reset`) and finds these names
 /// in `ctx.params`.
 ///
@@ -74,7 +77,7 @@ pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFaul
     let mut names = Names::of(source, hook, params, &ast);
     ast.walk(&mut |path: &[ASTNode]| {
         names.visit(path);
-        true
+        names.faults.len() < FAULTS_MAX
     });
     faults.append(&mut names.faults);
     faults.sort_by_key(|fault| fault.range.start);

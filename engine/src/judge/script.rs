@@ -120,6 +120,9 @@ struct Compiled {
     memory_bytes: usize,
 }
 
+/// Why places in a script can't be found: Rhai counts lines and columns in two bytes, and its own line ends.
+const UNFOLLOWED: &str =
+    "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
 /// The hook that is called before a script's first hook of an episode.
 const RESET: &str = "reset";
 const REWARD: &str = "reward";
@@ -139,8 +142,8 @@ impl Scripts {
                 failed(host::line_column(error.position()).unwrap_or((1, 1)), host::parse_message(&error))
             };
             let ast = host::read(&script.source).map_err(unread)?;
-            let (counted, edits) = budget::count_copies(&script.source, &ast)
-                .map_err(|place| failed(place, "the text has more than 65535 lines or columns".to_owned()))?;
+            let (counted, edits) =
+                budget::count_copies(&script.source, &ast).map_err(|place| failed(place, UNFOLLOWED.to_owned()))?;
             let resets = ast.iter_functions().any(|function| function.name == RESET && function.params.len() == 1);
             Ok(Compiled {
                 resets,

@@ -54,7 +54,7 @@ impl Edits {
 /// Returns a script's text with its copies counted.
 ///
 /// # Errors
-/// A place that can't be counted: Rhai counts 65,535 lines and columns.
+/// A place that Rhai finds elsewhere: it counts lines and columns in two bytes, and has line ends of its own.
 pub(in super::super) fn count_copies(source: &str, ast: &AST) -> Result<(String, Edits), (usize, usize)> {
     let functions = functions(ast);
     let pointers = pointers(ast, &functions);
@@ -260,7 +260,7 @@ impl Writer<'_> {
         let spelled = links(place).1.iter().all(|step| matches!(step, Link::Property(_)));
         let least = if spelled { Class::Squad } else { Class::Text };
         let counted = matches!(value, Expr::Variable(..) | Expr::ThisPtr(_)) && self.class(value) >= Class::Squad;
-        if counted || self.class(value) < least {
+        if counted || closure(value).is_some() || self.class(value) < least {
             return;
         }
         if let Some(at) = self.offset(operator) {
@@ -330,11 +330,15 @@ impl Writer<'_> {
         if captured.iter().all(|variable| self.class(variable) <= Class::Text) {
             return;
         }
-        if let Expr::Stmt(block) = expr
-            && let Some(Stmt::Expr(inner)) = block.statements().get(1)
-            && let Some(start) = self.offset_of(inner.position(), "|")
-        {
-            self.count(start, expression_end(self.source, start));
+        let Expr::Stmt(block) = expr else { return };
+        let begins = match block.statements() {
+            [_, Stmt::Expr(inner)] => inner.position(),
+            [_, Stmt::FnCall(_, position)] => *position,
+            _ => return,
+        };
+        if let Some(start) = self.offset_of(begins, "|") {
+            let parameters = self.source.get(start + 1..).and_then(|rest| rest.find('|')).unwrap_or_default();
+            self.count(start, expression_end(self.source, start + 1 + parameters + 1));
         }
     }
 

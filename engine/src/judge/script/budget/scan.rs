@@ -82,7 +82,7 @@ fn raw_text_end(text: &str, start: usize) -> usize {
 fn comment_end(text: &str, start: usize) -> usize {
     let rest = &text[start..];
     if rest.starts_with("//") {
-        return rest.find('\n').map_or(text.len(), |end| start + end);
+        return rest.find(['\n', '\r']).map_or(text.len(), |end| start + end);
     }
     if !rest.starts_with("/*") {
         return start + 1;

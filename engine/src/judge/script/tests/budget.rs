@@ -239,6 +239,13 @@ fn plain_scripts_stay_as_they_are() {
     let expected = "fn reward(ctx, now, prev, events) { let a = setpiece_counted(this.a[\"]\"]); /* } */ \
                     let b = setpiece_counted(a); setpiece_counted(b.c[0].d) /* a */ }";
     assert_eq!(counted(source), expected);
+    for odd in [
+        "this.f = || ;; 1",
+        "this.f = |x, | x; let a = []; this.g = |x, | a; 1",
+        "let a = []; let f = || { a // }\n }; 1",
+    ] {
+        assert_eq!(pay(odd), 1.0, "{odd}");
+    }
     let fault = check_script("fn setpiece_counted(x) { x }", "none", &[]).pop().unwrap();
     assert_eq!((fault.kind, fault.range), (ScriptFaultKind::Syntax, 23..24));
     assert_eq!(fault.message, "`setpiece_counted` is not available in a script");

@@ -53,8 +53,9 @@ const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
 
 /// Where a word may stand all the same, and why.
 const MAY_SAY: &[(&str, &str)] = &[
-    // Rhai's machine and the operations left to a call: every call sets or reckons anew what its result hangs on.
+    // Rhai's machine, and what a call has left and shares: every call begins with its own.
     ("engine/src/judge/script/call.rs", "thread_local!"),
+    ("engine/src/judge/script/budget.rs", "thread_local!"),
 ];
 
 /// Checks every rule and names each breach.

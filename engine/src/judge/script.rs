@@ -10,6 +10,7 @@
 //! - `fn act(ctx, me, now)` names the action of the player it plays, each step.
 
 mod api;
+mod budget;
 mod call;
 mod check;
 mod host;
@@ -20,9 +21,11 @@ pub use api::{Argument, Member, Perspective, Scene, Subject, functions, members}
 pub use check::{ScriptFault, ScriptFaultKind, check_script};
 
 use api::{Sight, events_of};
+use budget::Edits;
 use call::Code;
 use place::hook_position;
 use rhai::{Array, Dynamic, EvalAltResult, FuncArgs};
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Type};
 use setpiece_scenario::{Param, Scenario};
 use std::sync::Arc;
@@ -106,13 +109,20 @@ struct Compiled {
     at: (u32, u32),
     source: String,
     code: Code,
+    /// What leads places of the code back to the source.
+    edits: Edits,
     uses_me: bool,
     /// Whether a hook looks at the step's events.
     reads_events: bool,
     /// Whether it has a `reset` hook.
     resets: bool,
+    /// Its memory's share of those of an episode, one for each of the players and scripts.
+    memory_bytes: usize,
 }
 
+/// Why places in a script can't be found: Rhai counts lines and columns in two bytes, and its own line ends.
+const UNFOLLOWED: &str =
+    "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
 /// The hook that is called before a script's first hook of an episode.
 const RESET: &str = "reset";
 const REWARD: &str = "reward";
@@ -124,22 +134,27 @@ impl Scripts {
     /// # Errors
     /// The first that is not Rhai.
     pub fn compile(scenario: &Scenario) -> Result<Scripts, ScriptLoadError> {
+        let memory_bytes = host::MEMORIES_BYTES_MAX / (PLAYERS_MAX * scenario.scripts.len().max(1));
         let compile = |script: &setpiece_scenario::Script| {
-            let ast = host::engine().compile(&script.source).map_err(|error| ScriptLoadError {
-                script: script.name.clone(),
-                line: error.position().line().unwrap_or(1),
-                column: error.position().position().unwrap_or(1),
-                message: host::parse_message(&error),
-            })?;
+            let failed =
+                |(line, column), message| ScriptLoadError { script: script.name.clone(), line, column, message };
+            let unread = |error: rhai::ParseError| {
+                failed(host::line_column(error.position()).unwrap_or((1, 1)), host::parse_message(&error))
+            };
+            let ast = host::read(&script.source).map_err(unread)?;
+            let (counted, edits) =
+                budget::count_copies(&script.source, &ast).map_err(|place| failed(place, UNFOLLOWED.to_owned()))?;
             let resets = ast.iter_functions().any(|function| function.name == RESET && function.params.len() == 1);
             Ok(Compiled {
                 resets,
+                memory_bytes,
                 name: script.name.clone(),
                 at: script.at,
                 source: script.source.clone(),
                 uses_me: check::mentions_me(&ast),
                 reads_events: [REWARD, DONE].iter().any(|hook| check::mentions_events(&ast, hook)),
-                code: Code::of(ast),
+                code: Code::of(host::engine().compile(counted).map_err(unread)?),
+                edits,
             })
         };
         Ok(Scripts {
@@ -306,15 +321,23 @@ impl Compiled {
         memory: &mut Memory,
         scene: &Scene,
     ) -> Result<Dynamic, ScriptError> {
-        let value =
-            self.code.call(hook, arguments, &mut memory.this).map_err(|error| self.fault(hook, error, scene))?;
-        host::check_size(&memory.this).map_err(|message| self.error(hook, None, message, scene))?;
-        Ok(value)
+        let value = self.code.call(hook, arguments, &mut memory.this);
+        let ended = budget::end(&mut memory.this);
+        let called = value.map_err(|error| self.fault(hook, error, scene)).and_then(|value| {
+            ended
+                .and_then(|()| host::check_size(&memory.this, self.memory_bytes))
+                .map_err(|why| self.error(hook, None, why, scene))?;
+            Ok(value)
+        });
+        if called.is_err() {
+            memory.this = Memory::default().this;
+        }
+        called
     }
 
     fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &Scene) -> ScriptError {
         let (position, message) = host::explain(error);
-        self.error(hook, position, message, scene)
+        self.error(hook, position.map(|place| self.edits.original(place)), message, scene)
     }
 
     fn error(&self, hook: &str, position: Option<(usize, usize)>, message: String, scene: &Scene) -> ScriptError {

@@ -11,10 +11,12 @@ mod table;
 pub(super) use functions::function;
 pub use functions::functions;
 pub(crate) use kept::Shelf;
+pub(super) use kept::scene_of;
 pub use table::{Member, Subject, members};
 
 use crate::event::Event;
 use crate::judge::script::Params;
+use crate::judge::script::budget::count_operations;
 use crate::judge::view::{PlayerView, View, player_index, team_of_number};
 use crate::random::Stream;
 use crate::state::PlayerId;
@@ -219,6 +221,8 @@ impl Sight {
     fn players(&self, team: Option<Team>) -> Dynamic {
         let list: Array =
             self.view().on_pitch(team).map(|(id, _)| Dynamic::from(Player(self.clone(), PlayerId(id as u8)))).collect();
+        // Making the list is work. If no operations are left, the next one fails.
+        count_operations(list.len() as u64 / 2);
         list.into()
     }
 }

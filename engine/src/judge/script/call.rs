@@ -1,9 +1,9 @@
 //! Calls a script's functions: as Rhai's bytecode where all of it can be lowered, else by Rhai's tree walker.
 
-use super::host::{self, OPERATIONS_MAX};
+use super::{budget, host};
 use rhai::grain::{Compiler, Program, Vm};
 use rhai::{AST, CallFnOptions, Dynamic, EvalAltResult, FuncArgs, Scope};
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 
 /// A script, ready to be called.
 #[derive(Debug)]
@@ -16,16 +16,6 @@ pub(super) struct Code {
 thread_local! {
     /// A machine keeps what it found about the engine's functions; scripts' own functions are not in it.
     static MACHINE: RefCell<Option<Vm<'static>>> = const { RefCell::new(None) };
-    /// Operations that the present call may still use.
-    static LEFT: Cell<u64> = const { Cell::new(0) };
-}
-
-/// Counts an operation of the present call; `false` where it has none left.
-pub(super) fn count_operation() -> bool {
-    LEFT.with(|left| {
-        left.set(left.get().saturating_sub(1));
-        left.get() > 0
-    })
 }
 
 impl Code {
@@ -54,7 +44,7 @@ impl Code {
         arguments: impl FuncArgs,
         this: &mut Dynamic,
     ) -> Result<Dynamic, Box<EvalAltResult>> {
-        LEFT.with(|left| left.set(OPERATIONS_MAX + 1));
+        budget::begin();
         let options = CallFnOptions::new().eval_ast(false).rewind_scope(true).bind_this_ptr(this);
         let scope = &mut Scope::new();
         let Some(program) = &self.program else {

@@ -37,7 +37,7 @@ pub struct ScriptFault {
 }
 
 /// The arguments of a hook; `None` for no hook.
-fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subject)]> {
+pub(super) fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subject)]> {
     const STEP: &[(&str, Subject)] =
         &[("ctx", Subject::Ctx), ("now", Subject::State), ("prev", Subject::State), ("events", Subject::Events)];
     match hook {
@@ -56,7 +56,7 @@ const FAULTS_MAX: usize = 100;
 ///
 /// Faults are in the order of the text; a script that is not Rhai has one.
 pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFault> {
-    let ast = match host::engine().compile(source) {
+    let ast = match host::read(source) {
         Ok(ast) => ast,
         Err(error) => {
             let start = position_offset(source, error.position());

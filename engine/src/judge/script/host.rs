@@ -1,33 +1,67 @@
 //! The one Rhai engine of the process: what a script may use, and how much.
 
-use super::{api, call};
+use super::budget::{BYTES_PER_OPERATION, OPERATIONS_MAX, Over, Why};
+use super::{api, budget};
 use rhai::packages::{
     ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage, BasicStringPackage,
     LogicPackage, MoreStringPackage, Package,
 };
 use rhai::{
-    Array, Dynamic, Engine, EvalAltResult, ImmutableString, Map, OptimizationLevel, ParseError, ParseErrorType,
-    Position,
+    AST, Array, Dynamic, Engine, EvalAltResult, FnPtr, ImmutableString, Map, OptimizationLevel, ParseError,
+    ParseErrorType, Position,
 };
 use std::sync::OnceLock;
 
-/// Most operations of one call of a hook, a few milliseconds.
-pub(super) const OPERATIONS_MAX: u64 = 200_000;
 const CALL_LEVELS_MAX: usize = 24;
 pub(super) const EXPRESSION_DEPTH_MAX: usize = 48;
 const STRING_MAX: usize = 4_096;
-const ARRAY_MAX: usize = 4_096;
+pub(super) const ARRAY_MAX: usize = 4_096;
 pub(super) const MAP_MAX: usize = 512;
+/// Bytes of the steps that the memories of an episode's scripts remember, of the 64 MiB that the documentation promises.
+pub(super) const MEMORIES_BYTES_MAX: usize = 12 << 20;
+/// Steps that each may remember, however many scripts there are.
+const SCENES_LEAST: usize = 8;
 const VARIABLES_MAX: usize = 256;
 const FUNCTIONS_MAX: usize = 256;
 
 /// Words of the language that would open a door.
 const DISABLED: &[&str] = &["eval", "import", "export", "print", "debug", "**", "**="];
 
-/// The engine; built at the first use.
+/// The engine that runs scripts; built at the first use.
 pub(super) fn engine() -> &'static Engine {
     static ENGINE: OnceLock<Engine> = OnceLock::new();
-    ENGINE.get_or_init(build)
+    ENGINE.get_or_init(|| {
+        let mut engine = build();
+        budget::register(&mut engine);
+        budget::register_natives(&mut engine, &plain_engine());
+        engine
+    })
+}
+
+/// The engine that reads what authors write: nothing is left out of its trees.
+fn reader() -> &'static Engine {
+    static READER: OnceLock<Engine> = OnceLock::new();
+    READER.get_or_init(|| {
+        let mut engine = build();
+        engine.set_optimization_level(OptimizationLevel::None);
+        engine
+    })
+}
+
+/// An engine with what scripts have of Rhai itself, as Rhai has it.
+pub(super) fn plain_engine() -> Engine {
+    let mut engine = Engine::new_raw();
+    Basics::new().register_into_engine(&mut engine);
+    engine
+}
+
+/// Reads a script.
+pub(super) fn read(source: &str) -> Result<AST, ParseError> {
+    let ast = reader().compile(source)?;
+    // A function of such a name would be called instead of the one that counts.
+    let reserved = ast.iter_fn_def().find(|own| budget::RESERVED.contains(&own.name.as_str()));
+    let refused = reserved.map(|own| (ParseErrorType::Reserved(own.name.to_string()), own.body.start_position()));
+    refused.map_or(Ok(ast), |(why, position)| Err(ParseError(Box::new(why), position)))
 }
 
 rhai::def_package! {
@@ -37,8 +71,7 @@ rhai::def_package! {
 }
 
 fn build() -> Engine {
-    let mut engine = Engine::new_raw();
-    Basics::new().register_into_engine(&mut engine);
+    let mut engine = plain_engine();
     register_maths(&mut engine);
     api::register(&mut engine);
     for word in DISABLED {
@@ -48,7 +81,7 @@ fn build() -> Engine {
     // Never higher: the optimiser would fold a call of `ctx.random()`.
     engine.set_optimization_level(OptimizationLevel::Simple);
     // Not Rhai's own limit: a machine that is used again goes on counting, and a closure counts from 0.
-    engine.on_progress(|_| (!call::count_operation()).then_some(Dynamic::UNIT));
+    engine.on_progress(|_| (!budget::count_operations(1)).then_some(Dynamic::UNIT));
     engine.set_max_call_levels(CALL_LEVELS_MAX);
     engine.set_max_expr_depths(EXPRESSION_DEPTH_MAX, EXPRESSION_DEPTH_MAX);
     engine.set_max_string_size(STRING_MAX);
@@ -115,13 +148,14 @@ pub(super) fn to_number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
     }
 }
 
-/// What a value holds, all in all.
+/// What a script's memory holds, all in all.
 #[derive(Default)]
 struct Held {
     elements: usize,
     entries: usize,
     bytes: usize,
     levels: usize,
+    scenes: Vec<*const api::Scene>,
 }
 
 impl Held {
@@ -136,8 +170,15 @@ impl Held {
             self.elements += array.len();
             self.within()?;
             array.iter().try_for_each(|value| self.add(value, level + 1))
+        } else if let Some(function) = value.read_lock::<FnPtr>() {
+            self.elements += function.curry().len();
+            self.within()?;
+            function.iter_curry().try_for_each(|value| self.add(value, level + 1))
         } else {
             self.bytes += value.read_lock::<ImmutableString>().map_or(0, |text| text.len());
+            if value.is_variant() {
+                self.scenes.extend(api::scene_of(value));
+            }
             self.within()
         }
     }
@@ -155,12 +196,27 @@ impl Held {
         }
         Ok(())
     }
+
+    /// Whether the steps that it remembers are not too many.
+    fn scenes_within(mut self, bytes: usize) -> Result<(), String> {
+        self.scenes.sort_unstable();
+        self.scenes.dedup();
+        let max = (bytes / size_of::<api::Scene>()).max(SCENES_LEAST);
+        if self.scenes.len() > max {
+            return Err(format!(
+                "`this` holds what was shown in more than {max} steps: keep the numbers that are needed of it"
+            ));
+        }
+        Ok(())
+    }
 }
 
 /// Whether a script's memory is within the bounds of any value: Rhai looks only at what is handed on, not at what grows
-/// where it lies.
-pub(super) fn check_size(memory: &Dynamic) -> Result<(), String> {
-    Held::default().add(memory, 0)
+/// where it lies. What it was shown keeps the step that it was shown in, which takes its share of so many bytes.
+pub(super) fn check_size(memory: &Dynamic, bytes: usize) -> Result<(), String> {
+    let mut held = Held::default();
+    held.add(memory, 0)?;
+    held.scenes_within(bytes)
 }
 
 /// Line and column of a position, if it has any.
@@ -181,22 +237,40 @@ pub(super) fn explain(error: Box<EvalAltResult>) -> (Option<(usize, usize)>, Str
                 error = inner;
             }
             other => {
-                let place = here.or(place);
+                let known = match &other {
+                    EvalAltResult::ErrorTerminated(token, _) => token.read_lock::<Over>().and_then(|over| over.place),
+                    _ => None,
+                };
+                let place = known.or(here).or(place);
                 return (place, runtime_message(other));
             }
         }
     }
 }
 
+/// Two of a script's functions are at one variable.
+const RACE: &str = "a closure reads the variable that its chain begins with: put one of both into a `let` before";
+
+/// Rhai says what is too large, we what of it is.
+fn words_of_size(words: &str) -> String {
+    if words.starts_with("a value") { words.to_owned() } else { format!("{words} too large") }
+}
+
 fn runtime_message(error: EvalAltResult) -> String {
     match error {
+        EvalAltResult::ErrorTerminated(token, _) if token.is::<Over>() => match token.cast::<Over>().why {
+            Why::Size => format!(
+                "more than {OPERATIONS_MAX} operations in one call: work on values counts by their size, \
+                 {BYTES_PER_OPERATION} bytes to an operation"
+            ),
+            Why::Changing => RACE.to_owned(),
+        },
         EvalAltResult::ErrorTerminated(..) => {
             format!("more than {OPERATIONS_MAX} operations in one call: a loop doesn't end")
         }
         EvalAltResult::ErrorStackOverflow(_) => format!("calls nest deeper than {CALL_LEVELS_MAX}"),
-        EvalAltResult::ErrorDataRace(..) => {
-            "a closure reads the variable that its chain begins with: put one of both into a `let` before".to_owned()
-        }
+        EvalAltResult::ErrorDataRace(..) => RACE.to_owned(),
+        EvalAltResult::ErrorDataTooLarge(words, _) => lower_first(&words_of_size(&words)),
         EvalAltResult::ErrorDotExpr(message, _) if !message.is_empty() => lower_first(&message),
         EvalAltResult::ErrorRuntime(value, _) => format!("the script threw `{value}`"),
         EvalAltResult::ErrorPropertyNotFound(name, _) => format!("unknown property `{name}`"),
@@ -213,7 +287,7 @@ fn runtime_message(error: EvalAltResult) -> String {
 pub(super) fn parse_message(error: &ParseError) -> String {
     match error.err_type() {
         ParseErrorType::VariableUndefined(name) => format!("unknown variable `{name}`"),
-        ParseErrorType::Reserved(word) if DISABLED.contains(&word.as_str()) => {
+        ParseErrorType::Reserved(word) if DISABLED.iter().chain(budget::RESERVED).any(|known| known == word) => {
             format!("`{word}` is not available in a script")
         }
         other => lower_first(&other.to_string()),

@@ -403,3 +403,5 @@ fn only_scripts_that_ask_run_for_each_agent() {
     assert!(scripts("fn reward(ctx, now, prev, events) { now.me.x }").uses_me(0));
     assert!(!scripts("fn reward(ctx, now, prev, events) { now.ball.x }").uses_me(0));
 }
+
+mod budget;

@@ -1,11 +1,11 @@
 //! The functions of the interface, and every other function that a script can call.
 
+use super::super::budget::count_bytes;
 use super::super::host::to_number;
 use super::{Ball, Ctx, Happening, Player, Point, Side, Sight, Vector};
 use crate::judge::machine;
 use crate::judge::view::PlayerView;
-use crate::state::PlayerId;
-use rhai::{Array, Dynamic, Engine, EvalAltResult};
+use rhai::{Array, Dynamic, Engine, EvalAltResult, NativeCallContext};
 use setpiece_scenario::EventFilter;
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier};
@@ -182,6 +182,9 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
     OWN.iter().map(|function| function.name).chain(RHAI.iter().copied())
 }
 
+/// Bytes that a look at an element of a list counts for.
+const ELEMENT_BYTES: usize = 64;
+
 type Failable<T> = Result<T, Box<EvalAltResult>>;
 
 pub(super) fn register(engine: &mut Engine) {
@@ -211,8 +214,12 @@ pub(super) fn register(engine: &mut Engine) {
     engine.register_fn("point", |now: &mut Sight, x: Dynamic, y: Dynamic| -> Failable<Point> {
         Ok(now.normalised(to_number(&x)?, to_number(&y)?))
     });
-    engine.register_fn("count", |events: Array, words: &str| count(&events, words, None));
-    engine.register_fn("count", |events: Array, words: &str, team: &str| count(&events, words, Some(team)));
+    engine.register_fn("count", |context: NativeCallContext, events: &mut Array, words: &str| {
+        count(&context, events, words, None)
+    });
+    engine.register_fn("count", |context: NativeCallContext, events: &mut Array, words: &str, team: &str| {
+        count(&context, events, words, Some(team))
+    });
     register_equality(engine);
 }
 
@@ -325,28 +332,35 @@ fn place(of: &Dynamic) -> Failable<Point> {
         })
 }
 
+/// Counts a look at each of a list.
+fn look_at_each(context: &NativeCallContext, list: &Array) -> Failable<()> {
+    count_bytes(ELEMENT_BYTES * list.len(), context.call_position())
+}
+
 #[allow(clippy::needless_pass_by_value, reason = "Rhai passes arguments by value")]
-fn nearest(players: Array, to: Dynamic) -> Failable<Dynamic> {
+fn nearest(context: NativeCallContext, players: &mut Array, to: Dynamic) -> Failable<Dynamic> {
+    look_at_each(&context, players)?;
     let to = place(&to)?;
-    let mut best: Option<(f64, PlayerId, Player)> = None;
-    for player in players {
-        if let Some(player) = player.try_cast::<Player>() {
+    let mut best: Option<(f64, &Dynamic)> = None;
+    for element in &*players {
+        if let Some(player) = element.read_lock::<Player>() {
             let apart = apart_m(player.point(), to);
-            if best.as_ref().is_none_or(|best| apart < best.0) {
-                best = Some((apart, player.1, player));
+            if best.is_none_or(|best| apart < best.0) {
+                best = Some((apart, element));
             }
         }
     }
-    Ok(best.map_or(Dynamic::UNIT, |(_, _, player)| Dynamic::from(player)))
+    Ok(best.map_or(Dynamic::UNIT, |(_, player)| player.clone()))
 }
 
 /// How many events match: `words` are a kind and, perhaps, a qualifier; a kind alone means what it means in the language.
-fn count(events: &Array, words: &str, team: Option<&str>) -> i64 {
+fn count(context: &NativeCallContext, events: &Array, words: &str, team: Option<&str>) -> Failable<i64> {
+    look_at_each(context, events)?;
     let (kind, qualifier) = words.split_once(' ').map_or((words, None), |(kind, word)| (kind, Some(word)));
-    let Some(kind) = EventKind::from_name(kind) else { return 0 };
+    let Some(kind) = EventKind::from_name(kind) else { return Ok(0) };
     let qualifier = qualifier.map(Qualifier::from_name);
     if qualifier == Some(None) {
-        return 0;
+        return Ok(0);
     }
     let filter = EventFilter { kind, qualifier: qualifier.flatten(), by: None, to: None };
     let matching = events.iter().filter(|event| {
@@ -358,5 +372,5 @@ fn count(events: &Array, words: &str, team: Option<&str>) -> i64 {
             machine::is_kind(&filter, &event.1) && team.is_none_or(of_team)
         })
     });
-    matching.count() as i64
+    Ok(matching.count() as i64)
 }

@@ -7,6 +7,7 @@
 use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
 use super::{Perspective, Scene};
 use crate::event::{EVENTS_MAX, Event};
+use crate::judge::script::host::MEMORIES_BYTES_MAX;
 use crate::judge::script::{Memory, host};
 use crate::judge::view::View;
 use crate::random::Stream;
@@ -107,7 +108,7 @@ impl Memory {
         archive.value(name, &mut nodes)?;
         if archive.is_reading() {
             self.this = archive.shelf.read(nodes.0).map_err(|why| SnapshotError::damaged(name, why))?;
-            host::check_size(&self.this).map_err(|why| SnapshotError::damaged(name, why))?;
+            host::check_size(&self.this, MEMORIES_BYTES_MAX).map_err(|why| SnapshotError::damaged(name, why))?;
         }
         Ok(())
     }
@@ -202,21 +203,7 @@ impl Shelf {
 
     /// What a hook was shown.
     fn shown(&mut self, value: &Dynamic) -> Result<Node, Unkept> {
-        let (shown, sight) = if let Some(sight) = value.read_lock::<Sight>() {
-            (Shown::State, sight.clone())
-        } else if let Some(ctx) = value.read_lock::<Ctx>() {
-            (Shown::Ctx, ctx.0.clone())
-        } else if let Some(ball) = value.read_lock::<Ball>() {
-            (Shown::Ball, ball.0.clone())
-        } else if let Some(player) = value.read_lock::<Player>() {
-            (Shown::Player(player.1), player.0.clone())
-        } else if let Some(side) = value.read_lock::<Side>() {
-            (Shown::Side(side.1), side.0.clone())
-        } else if let Some(score) = value.read_lock::<Score>() {
-            (Shown::Score, score.0.clone())
-        } else if let Some(happening) = value.read_lock::<Happening>() {
-            (Shown::Event(happening.1), happening.0.clone())
-        } else {
+        let Some((shown, sight)) = shown(value) else {
             let function = value.is::<FnPtr>();
             let what = if function { "a function".to_owned() } else { host::type_words(value.type_name()) };
             return Err(Unkept { place: String::new(), what });
@@ -296,6 +283,32 @@ impl Unkept {
     fn within_this(self) -> SnapshotError {
         SnapshotError::Unkept { place: format!("this{}", self.place), what: self.what }
     }
+}
+
+/// What a hook was shown, and in which scene.
+fn shown(value: &Dynamic) -> Option<(Shown, Sight)> {
+    Some(if let Some(sight) = value.read_lock::<Sight>() {
+        (Shown::State, sight.clone())
+    } else if let Some(ctx) = value.read_lock::<Ctx>() {
+        (Shown::Ctx, ctx.0.clone())
+    } else if let Some(ball) = value.read_lock::<Ball>() {
+        (Shown::Ball, ball.0.clone())
+    } else if let Some(player) = value.read_lock::<Player>() {
+        (Shown::Player(player.1), player.0.clone())
+    } else if let Some(side) = value.read_lock::<Side>() {
+        (Shown::Side(side.1), side.0.clone())
+    } else if let Some(score) = value.read_lock::<Score>() {
+        (Shown::Score, score.0.clone())
+    } else if let Some(happening) = value.read_lock::<Happening>() {
+        (Shown::Event(happening.1), happening.0.clone())
+    } else {
+        return None;
+    })
+}
+
+/// Which scene a value keeps.
+pub(in super::super) fn scene_of(value: &Dynamic) -> Option<*const Scene> {
+    shown(value).map(|(_, sight)| Arc::as_ptr(&sight.scene))
 }
 
 /// A value that stands for itself.

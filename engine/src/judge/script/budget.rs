@@ -1,0 +1,140 @@
+//! What one call of a hook may use.
+//!
+//! Rhai counts what its interpreter does, whatever the size of the values: one operation may copy a list of thousands.
+//! Here the bytes that are copied, read and made are counted as well, [`BYTES_PER_OPERATION`] to an operation, so that
+//! one number bounds both the time of a call and the memory of its values. Copies are counted where the text makes
+//! them ([`count_copies`]), the work of Rhai's own functions where they are registered (`natives`).
+
+mod class;
+mod copies;
+mod natives;
+mod scan;
+mod size;
+
+pub(super) use copies::{Edits, count_copies};
+pub(super) use natives::register as register_natives;
+pub(super) use size::bytes_of;
+
+use super::host;
+use rhai::{Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext, Position};
+use std::cell::{Cell, RefCell};
+
+/// Most operations of one call of a hook, a few milliseconds.
+pub(super) const OPERATIONS_MAX: u64 = 200_000;
+
+/// Bytes that count as one operation. Copying as much takes about as long as an operation, and a call whose every
+/// operation is spent on values has made 200,000 × 256 B = 49 MiB of them: less than the 64 MiB that the documentation
+/// promises, the rest being for what is too small to be counted.
+pub(super) const BYTES_PER_OPERATION: usize = 256;
+
+/// Operations that a caught error counts for. What fails has done work that nothing else counts.
+const CAUGHT_OPERATIONS: i64 = 1_000;
+/// The same in a script with closures, where Rhai waits for 50 ms before it says that two of them are at one variable.
+const CAUGHT_WAITING_OPERATIONS: i64 = 40_000;
+
+/// The functions that [`count_copies`] writes into a text; no script can name them.
+pub(super) const COUNTED: &str = "setpiece_counted";
+const WORKED: &str = "setpiece_worked";
+pub(super) const RESERVED: &[&str] = &[COUNTED, WORKED];
+
+type Failable<T> = Result<T, Box<EvalAltResult>>;
+
+thread_local! {
+    /// Operations that the present call may still use.
+    static LEFT: Cell<u64> = const { Cell::new(0) };
+    /// Variables of the present call that closures share.
+    static SHARED: RefCell<Vec<Dynamic>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Begins a call.
+pub(super) fn begin() {
+    LEFT.with(|left| left.set(OPERATIONS_MAX + 1));
+}
+
+/// Counts operations of the present call; `false` where it has none left.
+pub(super) fn count_operations(n: u64) -> bool {
+    LEFT.with(|left| {
+        left.set(left.get().saturating_sub(n));
+        left.get() > 0
+    })
+}
+
+/// Counts work on so many bytes, done at a place.
+///
+/// # Errors
+/// The call is over where it has no operations left; a script can't catch that.
+pub(super) fn count_bytes(bytes: usize, at: Position) -> Failable<()> {
+    let operations = bytes / BYTES_PER_OPERATION;
+    if operations == 0 || count_operations(operations as u64) { Ok(()) } else { over(Why::Size, at) }
+}
+
+/// Why a call is over, whatever the script does to catch it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Why {
+    /// Its operations are spent on the size of values, not on their number.
+    Size,
+    /// A value is used that is being changed.
+    Changing,
+}
+
+/// What ends a call, and where: Rhai itself forgets the place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Over {
+    pub(super) why: Why,
+    pub(super) place: Option<(usize, usize)>,
+}
+
+fn over(why: Why, at: Position) -> Failable<()> {
+    let over = Over { why, place: host::line_column(at) };
+    Err(EvalAltResult::ErrorTerminated(Dynamic::from(over), at).into())
+}
+
+/// Registers what [`count_copies`] writes into a text.
+pub(super) fn register(engine: &mut Engine) {
+    engine.register_fn(COUNTED, |context: NativeCallContext, value: Dynamic| -> Failable<Dynamic> {
+        // Most of what could be large is not.
+        if value.is_int() || value.is_float() || value.is_bool() || value.is_unit() {
+            return Ok(value);
+        }
+        let at = context.call_position();
+        count_bytes(bytes_of(&value, at)?, at)?;
+        keep_shared(&value);
+        Ok(value)
+    });
+    engine.register_fn(WORKED, |operations: i64| -> Failable<()> {
+        if count_operations(operations.max(0) as u64) {
+            Ok(())
+        } else {
+            Err(EvalAltResult::ErrorTerminated(Dynamic::UNIT, Position::NONE).into())
+        }
+    });
+}
+
+/// Notes the variables that a closure shares: one that holds the closure itself would never be freed.
+fn keep_shared(value: &Dynamic) {
+    if !value.is_fnptr() {
+        return;
+    }
+    let Some(function) = value.read_lock::<FnPtr>() else { return };
+    let shared = function.iter_curry().filter(|captured| captured.is_shared()).cloned();
+    SHARED.with(|list| list.borrow_mut().extend(shared));
+}
+
+/// Ends a call: nothing outlives it but `this`, and that shares nothing with anybody.
+///
+/// # Errors
+/// What `this` can't keep.
+pub(super) fn end(this: &mut Dynamic) -> Result<(), String> {
+    let shared = SHARED.with(RefCell::take);
+    if shared.is_empty() {
+        return Ok(());
+    }
+    let kept = bytes_of(this, Position::NONE).map_err(|error| host::explain(error).1).map(|_| size::unshared(this));
+    for mut variable in shared {
+        if let Some(mut value) = variable.write_lock::<Dynamic>() {
+            *value = Dynamic::UNIT;
+        }
+    }
+    *this = kept?;
+    Ok(())
+}

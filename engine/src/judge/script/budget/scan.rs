@@ -1,0 +1,105 @@
+//! Where expressions end in a script's text, which Rhai's syntax tree doesn't tell.
+
+/// The byte behind an expression: where a bracket closes that didn't open in it, or a `,` or `;` stands outside any.
+pub(super) fn expression_end(text: &str, start: usize) -> usize {
+    end_of(text, start, |byte| matches!(byte, b',' | b';'))
+}
+
+/// The bracket that closes the one at `open`.
+pub(super) fn closing_bracket(text: &str, open: usize) -> Option<usize> {
+    let end = end_of(text, open + 1, |_| false);
+    (end < text.len()).then_some(end)
+}
+
+/// The first closing bracket without an opening one, or a byte that `stops` outside all brackets.
+fn end_of(text: &str, start: usize, stops: impl Fn(u8) -> bool) -> usize {
+    let bytes = text.as_bytes();
+    let mut depth = 0usize;
+    let mut at = start;
+    while let Some(&byte) = bytes.get(at) {
+        at = match byte {
+            b'"' | b'\'' => quote_end(bytes, at),
+            b'`' => interpolated_end(text, at),
+            b'#' => raw_text_end(text, at),
+            b'/' => comment_end(text, at),
+            b'(' | b'[' | b'{' => {
+                depth += 1;
+                at + 1
+            }
+            b')' | b']' | b'}' if depth == 0 => return at,
+            b')' | b']' | b'}' => {
+                depth -= 1;
+                at + 1
+            }
+            byte if depth == 0 && stops(byte) => return at,
+            _ => at + 1,
+        };
+    }
+    bytes.len()
+}
+
+/// Behind a text in quotes.
+fn quote_end(bytes: &[u8], start: usize) -> usize {
+    let quote = bytes[start];
+    let mut at = start + 1;
+    while let Some(&byte) = bytes.get(at) {
+        match byte {
+            b'\\' => at += 2,
+            byte if byte == quote => return at + 1,
+            _ => at += 1,
+        }
+    }
+    bytes.len()
+}
+
+/// Behind a text in backticks, whose `${…}` hold expressions.
+fn interpolated_end(text: &str, start: usize) -> usize {
+    let bytes = text.as_bytes();
+    let mut at = start + 1;
+    while let Some(&byte) = bytes.get(at) {
+        match byte {
+            b'`' => return at + 1,
+            b'$' if bytes.get(at + 1) == Some(&b'{') => at = end_of(text, at + 2, |_| false) + 1,
+            _ => at += 1,
+        }
+    }
+    bytes.len()
+}
+
+/// Behind a text between `#"` and `"#` with as many `#`, or behind a `#` of something else.
+fn raw_text_end(text: &str, start: usize) -> usize {
+    let rest = &text[start..];
+    let hashes = rest.bytes().take_while(|&byte| byte == b'#').count();
+    if rest.as_bytes().get(hashes) != Some(&b'"') {
+        return start + hashes;
+    }
+    let close = format!("\"{}", "#".repeat(hashes));
+    let body = start + hashes + 1;
+    text[body..].find(&close).map_or(text.len(), |found| body + found + close.len())
+}
+
+/// Behind a comment, or behind a `/` of something else.
+fn comment_end(text: &str, start: usize) -> usize {
+    let rest = &text[start..];
+    if rest.starts_with("//") {
+        return rest.find(['\n', '\r']).map_or(text.len(), |end| start + end);
+    }
+    if !rest.starts_with("/*") {
+        return start + 1;
+    }
+    let bytes = rest.as_bytes();
+    let (mut depth, mut at) = (0usize, 0);
+    while at < bytes.len() {
+        match &bytes[at..(at + 2).min(bytes.len())] {
+            b"/*" => (depth, at) = (depth + 1, at + 2),
+            b"*/" => {
+                (depth, at) = (depth - 1, at + 2);
+                if depth == 0 {
+                    return start + at;
+                }
+            }
+            _ => at += 1,
+        }
+    }
+    text.len()
+}

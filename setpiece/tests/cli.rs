@@ -370,6 +370,12 @@ fn a_bad_script_is_an_error_and_never_a_hang() {
     let path = write(folder.path(), "loop.pitch", scenario("loop.rhai"));
     fails(&["run", &path, "--episodes", "1"], 1, &["loop.rhai", "reward", "operations"]);
 
+    let large =
+        "fn reward(ctx, now, prev, events) {\n    let s = \"\"; s.pad(4000, \"a\");\n    loop { s.split(\"a\"); }\n}";
+    write(folder.path(), "large.rhai", large);
+    let path = write(folder.path(), "large.pitch", scenario("large.rhai"));
+    fails(&["run", &path, "--episodes", "1"], 1, &["large.rhai:3:14", "reward", "by their size"]);
+
     write(folder.path(), "name.rhai", "fn reward(ctx, now, prev, events) {\n    now.ball.colour\n}");
     let path = write(folder.path(), "name.pitch", scenario("name.rhai"));
     fails(&["check", &path], 1, &["SP0503", "colour", "name.rhai:2"]);

@@ -1,9 +1,9 @@
 //! Counts the copies that a script makes.
 //!
-//! Rhai copies a value wherever a variable is read as a whole, and has no callback for it. A script is compiled with a call of
-//! [`COUNTED`] around whatever may be large ([`Class`]): variables and chains that are read as a whole, and what is put
-//! into a list or map. Bodies that are longer than an operation's worth, and caught errors, are counted in the same way.
-//! Ordinary hooks hold numbers and players: their text stays as it is.
+//! Rhai copies a value wherever a variable is read as a whole, and has no callback for it. A script is compiled with a
+//! call of [`COUNTED`] around whatever may be large ([`Class`]): variables and chains that are read as a whole, and what
+//! is put into a list or map. Long bodies and caught errors are counted by a call of their own. Ordinary hooks hold
+//! numbers and players: their text stays as it is.
 //!
 //! Rhai's syntax tree can be read but not written, so the calls are written into the text; [`Edits`] leads places in it
 //! back to the author's text.

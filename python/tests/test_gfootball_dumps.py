@@ -69,8 +69,8 @@ def test_extra_players_take_slots_of_their_own(name: str) -> None:
     for _ in range(12):
         observation, reward, _, _ = env.step(0)
     assert np.shape(reward) == ()
-    # `academy_empty_goal_close` has its right keeper far from their goal: the bot runs home, and a lazy one stays but for
-    # what the other keeper, who starts in the same place, pushes them away.
+    # `academy_empty_goal_close` has its right keeper far from their goal: the bot runs home, and a lazy one stays, but
+    # for what the other keeper, who starts in the same place, pushes them away.
     moved = abs(float(observation[0]["right_team"][0][0]) + 1.011) > 0.03
     assert moved == (name == "builtin_ai")
 

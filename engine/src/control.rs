@@ -15,10 +15,10 @@ pub mod sticky;
 pub mod switching;
 pub mod tell;
 
-use crate::event::Events;
-use crate::football::body::KickKind;
-use crate::football::play::Acting;
 use crate::football::{forecast, reach};
+use crate::state::event::Events;
+use crate::state::play::Acting;
+use crate::state::player::KickKind;
 use crate::state::{AgentSlot, Match, PlayerId};
 
 use arrayvec::ArrayVec;

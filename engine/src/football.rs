@@ -1,8 +1,8 @@
 //! The game: players, touches, kicks, the referee.
 //!
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
-//! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. Inside: [`body`] and [`play`] hold the state;
-//! [`movement`] (with `rows` and `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
+//! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. What it all changes is [`crate::state`]. Inside:
+//! [`movement`] (with `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
 //! ball first; [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`])
 //! and [`keeper`] play it, and it may [`bounce`] off a body; [`flight`] says what that means;
 //! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and
@@ -11,7 +11,6 @@
 pub mod advantage;
 pub mod begin;
 pub mod block;
-pub mod body;
 pub mod bounce;
 pub mod clock;
 mod dribble;
@@ -30,14 +29,12 @@ pub mod noise;
 pub mod offside;
 pub mod pass;
 pub mod pass_target;
-pub mod play;
 pub mod possession;
 pub mod reach;
 pub mod recent;
 pub mod referee;
 pub mod report;
 pub mod restart;
-mod rows;
 pub mod separation;
 pub mod set_piece;
 pub mod shot;
@@ -49,11 +46,11 @@ pub mod tick;
 pub mod touch;
 
 use crate::control;
-use crate::event::Events;
 use crate::laps::Phase;
 use crate::physics::Scratch;
 use crate::start::Drawn;
 use crate::state::Match;
+use crate::state::event::Events;
 use setpiece_scenario::pitch::TICKS_PER_STEP;
 use setpiece_scenario::vocabulary::Action;
 

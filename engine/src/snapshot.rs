@@ -5,7 +5,7 @@
 //! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
 //! last the episode around it, which only the same scenario can go on with.
 //!
-//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible; [`floats`]: many
+//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible; [`floats`](crate::floats): many
 //!   numbers at once; [`bounded`](mod@bounded): no list may be endless.
 //! - [`file`]: the head. [`check`]: whether a match fits an environment.
 //! - [`hindsight`]: a new episode in an old state.
@@ -17,7 +17,6 @@ mod bounded;
 mod check;
 mod error;
 mod file;
-pub(crate) mod floats;
 mod hindsight;
 mod walk;
 

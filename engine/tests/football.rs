@@ -22,11 +22,11 @@ mod statistics;
 
 use layouts::{Layout, drawn};
 use setpiece_engine::control;
-use setpiece_engine::event::{Event, Events};
 use setpiece_engine::football;
-use setpiece_engine::football::body::NEVER;
 use setpiece_engine::physics::Scratch;
 use setpiece_engine::state::Match;
+use setpiece_engine::state::event::{Event, Events};
+use setpiece_engine::state::player::NEVER;
 use setpiece_scenario::vocabulary::{Action, EventKind};
 
 /// A match and what it needs to be played.

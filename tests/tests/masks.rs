@@ -2,12 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::event::Events;
 use setpiece::engine::football;
-use setpiece::engine::football::play::Acting;
 use setpiece::engine::observe::action_mask;
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::state::Match;
+use setpiece::engine::state::event::Events;
+use setpiece::engine::state::play::Acting;
 use setpiece::scenario::vocabulary::{Action, GameMode};
 
 /// A scenario that starts with a set piece, with an agent on either side.

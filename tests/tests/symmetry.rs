@@ -2,10 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::event::{Event, Events};
 use setpiece::engine::football;
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::start::{Drawn, DrawnPlayer};
+use setpiece::engine::state::event::{Event, Events};
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::vocabulary::{Action, EventKind, Team};
 

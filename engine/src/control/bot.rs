@@ -22,7 +22,7 @@ mod view;
 
 pub use view::View;
 
-use crate::football::body::Intent;
+use crate::state::player::Intent;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::HALF_LENGTH_M;

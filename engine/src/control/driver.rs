@@ -1,10 +1,10 @@
 //! An agent's actions become what its player wants.
 
 use crate::control::{assist, sticky};
-use crate::event::Events;
-use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
 use crate::football::{kick, reach, slide, touch};
+use crate::state::event::Events;
+use crate::state::player::{Intent, KickKind, KickPlan};
 use crate::state::{Match, Player, PlayerId, Steer};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, GameMode, Role};

@@ -7,8 +7,8 @@
 
 use crate::control::behavior::steer::{Gait, rest, towards};
 use crate::control::{agents, sticky};
-use crate::football::body::{Intent, KickKind, KickPlan, Pose};
 use crate::football::{movement, pass_target, shot, touch};
+use crate::state::player::{Intent, KickKind, KickPlan, Pose};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;

@@ -1,8 +1,8 @@
 //! A ball that springs off somebody who could not have seen it coming.
 
-use crate::event::Events;
-use crate::football::play::ticks_since;
 use crate::football::{flight, forecast};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
 use crate::state::{Match, Squad};
 
 /// For how long nobody has seen what a rival's touch has made of the ball, ticks; how often at most it springs off a body; how

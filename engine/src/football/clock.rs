@@ -1,8 +1,8 @@
 //! The clock: half-time and full time.
 
-use crate::event::Events;
 use crate::football::{referee, report};
 use crate::state::Match;
+use crate::state::event::Events;
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule};
 

@@ -1,9 +1,9 @@
 //! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
 
-use crate::event::Events;
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::touch;
 use crate::math;
+use crate::state::event::Events;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};

@@ -3,26 +3,14 @@
 //! A lunge is settled on some ticks before its foot meets the ball, at the place where the ball will be if nobody touches
 //! it. A touch in between leaves the foot beside the ball, or in the air.
 
-use crate::event::Events;
-use crate::football::play::ticks_since;
 use crate::football::{bounce, first_touch, noise, reach, report, slide, touch};
 use crate::math;
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::Lunge;
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, Role};
-
-/// A leg on its way to the ball.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Lunge {
-    /// The tick at which the foot is there.
-    pub at: i32,
-    /// Where the ball will be then, world metres.
-    pub place: Vec2,
-    /// Whether the ball is to be taken along, rather than poked away.
-    pub takes: bool,
-    /// Whether the player stops for it.
-    pub stops: bool,
-}
 
 /// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where. How far off the
 /// ball may be is fitted to how often somebody who walks straight at a defender loses it.)

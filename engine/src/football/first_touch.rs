@@ -1,10 +1,10 @@
 //! The first touch of a free ball: taken down, kept or lost, or headed on.
 
-use crate::event::Events;
-use crate::football::body::KickKind;
-use crate::football::play::ticks_since;
 use crate::football::{dribble, flight, forecast, noise, touch};
 use crate::math;
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::HALF_LENGTH_M;

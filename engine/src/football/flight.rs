@@ -1,8 +1,8 @@
 //! What a touch of the ball means: passes completed and cut out, shots blocked, offside.
 
-use crate::event::{Event, Events};
-use crate::football::play::Flight;
 use crate::football::{offside, report, restart, touch};
+use crate::state::event::{Event, Events};
+use crate::state::play::Flight;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};

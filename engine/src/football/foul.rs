@@ -1,8 +1,8 @@
 //! Fouls and cards: what a trip or a hand costs.
 
-use crate::event::Events;
-use crate::football::play::Restart;
 use crate::football::{advantage, noise, referee, report};
+use crate::state::event::Events;
+use crate::state::play::Restart;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{BOX_DEPTH_M, BOX_HALF_WIDTH_M, HALF_LENGTH_M, PENALTY_SPOT_M};

@@ -2,10 +2,10 @@
 //!
 //! Decides whether he reaches a ball and whether he holds it; leaves where he stands to `control::bot::keeper`.
 
-use crate::event::Events;
-use crate::football::body::Pose;
-use crate::football::play::{Save, ticks_since};
 use crate::football::{flight, forecast, foul, noise, report, touch};
+use crate::state::event::Events;
+use crate::state::play::{Save, ticks_since};
+use crate::state::player::Pose;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};

@@ -2,12 +2,12 @@
 //!
 //! Leaves the choice of a pass's target to `pass_target`, how the ball leaves the foot to `pass` and `shot`.
 
-use crate::event::Events;
-use crate::football::body::{KickKind, KickPlan, NEVER, Swing};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::shot::Struck;
 use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch};
 use crate::math;
+use crate::state::event::Events;
+use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};

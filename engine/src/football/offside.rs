@@ -1,7 +1,7 @@
 //! Offside: who stands beyond the line when the ball is touched, and who is caught when he touches it next.
 
-use crate::event::Events;
 use crate::football::{advantage, referee, report};
+use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Team};

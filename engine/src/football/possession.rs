@@ -1,7 +1,7 @@
 //! Who has the ball now, and which team had it last.
 
-use crate::event::Events;
 use crate::football::report;
+use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::EventKind;
 

@@ -1,9 +1,9 @@
 //! Who can be at the ball first: time to the ball for everyone, and the player of each team who goes for it.
 
-use crate::football::body::Intent;
-use crate::football::forecast::{Forecast, POINTS, SPACING_TICKS, time_s};
-use crate::football::play::ticks_since;
-use crate::football::rows::WIDTH;
+use crate::physics::forecast::{Forecast, POINTS, SPACING_TICKS, time_s};
+use crate::rows::WIDTH;
+use crate::state::play::ticks_since;
+use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{Role, Stat, Team};

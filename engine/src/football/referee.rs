@@ -1,9 +1,9 @@
 //! The referee: goals and the ball out of play. Stops play and says which restart follows.
 
-use crate::event::Events;
-use crate::football::play::Restart;
 use crate::football::{advantage, flight, report, restart};
 use crate::physics::{self, Line};
+use crate::state::event::Events;
+use crate::state::play::Restart;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};

@@ -1,10 +1,11 @@
 //! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
 
 use crate::control::bot::formation;
-use crate::football::body::{Intent, NEVER, Pose};
-use crate::football::play::{Restart, SetPiece};
 use crate::football::{forecast, reach, recent, set_piece};
-use crate::state::{Ball, Match, PlayerId};
+use crate::physics::Ball;
+use crate::state::play::{Restart, SetPiece};
+use crate::state::player::{Intent, NEVER, Pose};
+use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, CIRCLE_RADIUS_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Team};

@@ -1,9 +1,9 @@
 //! Slide tackles: the slide itself, the ball or the legs it meets.
 
-use crate::event::Events;
-use crate::football::body::Pose;
-use crate::football::play::ticks_since;
 use crate::football::{foul, noise, report, touch};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::Pose;
 use crate::state::{Match, PlayerId, Squad};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, Stat};

@@ -3,10 +3,10 @@
 //! Nothing is left to chance: a runner stumbles or falls where pace, the ball, their opponent's side and depth of the
 //! meeting outweigh their balance. (GRF's rule; its motions are measured.)
 
-use crate::event::Events;
-use crate::football::body::Pose;
 use crate::football::{foul, touch};
 use crate::math;
+use crate::state::event::Events;
+use crate::state::player::Pose;
 use crate::state::{Match, Player, PlayerId};
 use setpiece_scenario::vocabulary::Stat;
 

@@ -1,13 +1,13 @@
 //! One tick of 10 ms, in order.
 
-use crate::event::Events;
-use crate::football::play::ticks_since;
 use crate::football::{
     advantage, duel, flight, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
     restart, separation, slide, touch,
 };
 use crate::laps::Phase;
 use crate::physics::{self, Body, Contact, Scratch};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
 use crate::state::{Match, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};

@@ -3,10 +3,10 @@
 //! Leaves the touches of a dribble to `dribble`, the first touch of a free ball to `first_touch`, duels for an owned ball to
 //! `duel`, hands to `keeper`, what a touch means (passes, offside) to `flight` and `offside`.
 
-use crate::event::Events;
-use crate::football::body::{Intent, Pose};
-use crate::football::play::ticks_since;
 use crate::football::{dribble, first_touch, flight, forecast, kick};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;

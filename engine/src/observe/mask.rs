@@ -2,8 +2,8 @@
 
 use super::{ObserveError, slot};
 use crate::control::{driver, switching};
-use crate::football::body::KickKind;
 use crate::state::Match;
+use crate::state::player::KickKind;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
 /// Which of the 33 actions of GRF's `full` set can change something for agent `agent`; the first 19 are its `default`

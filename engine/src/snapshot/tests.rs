@@ -1,8 +1,8 @@
-use crate::football::body::{Intent, KickKind, KickPlan, Swing};
-use crate::football::play::{Flight, Restart, Save, SetPiece};
-use crate::football::{advantage::Advantage, begin, kick};
+use crate::football::{begin, kick};
 use crate::judge::View;
 use crate::snapshot::{SNAPSHOT_VERSION, checksum, match_bytes};
+use crate::state::play::{Advantage, Flight, Restart, Save, SetPiece};
+use crate::state::player::{Intent, KickKind, KickPlan, Swing};
 use crate::state::{Match, PlayerId};
 use crate::statistics::Statistics;
 use crate::testing::event;

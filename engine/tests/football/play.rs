@@ -3,8 +3,8 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn, set_level};
 use glam::Vec2;
-use setpiece_engine::football::duel::Lunge;
 use setpiece_engine::football::flight;
+use setpiece_engine::state::player::Lunge;
 use setpiece_engine::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
 

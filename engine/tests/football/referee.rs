@@ -3,11 +3,12 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
-use setpiece_engine::event::Event;
-use setpiece_engine::football::body::Pose;
-use setpiece_engine::football::duel::Lunge;
 use setpiece_engine::football::{flight, foul, keeper, stumble};
-use setpiece_engine::state::{Ball, PlayerId};
+use setpiece_engine::physics::Ball;
+use setpiece_engine::state::PlayerId;
+use setpiece_engine::state::event::Event;
+use setpiece_engine::state::player::Lunge;
+use setpiece_engine::state::player::Pose;
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Rule, Team};
 
 /// Sends the ball on its way as if a player had touched it last, and plays until play stops.

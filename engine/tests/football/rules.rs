@@ -3,11 +3,12 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
-use setpiece_engine::football::body::Pose;
-use setpiece_engine::football::play::Restart;
 use setpiece_engine::football::restart::place;
 use setpiece_engine::football::{flight, foul, keeper, offside};
-use setpiece_engine::state::{Ball, PlayerId};
+use setpiece_engine::physics::Ball;
+use setpiece_engine::state::PlayerId;
+use setpiece_engine::state::play::Restart;
+use setpiece_engine::state::player::Pose;
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Role, Rule, Team};
 
 /// A match of eleven against eleven with some rules changed.

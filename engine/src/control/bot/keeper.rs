@@ -1,10 +1,10 @@
 //! The keeper's feet: where they stand, when they come out. (Their hands are `football::keeper`'s.)
 
 use crate::control::bot::{GOAL, View, send};
-use crate::football::body::{Intent, Pose};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::touch;
 use crate::math::share;
+use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;

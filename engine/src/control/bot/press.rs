@@ -2,8 +2,8 @@
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
-use crate::football::body::Intent;
 use crate::football::movement::SPRINT_MPS;
+use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};

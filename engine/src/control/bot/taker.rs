@@ -1,13 +1,13 @@
 //! Set pieces by the bot: what the taker plays, and when.
 
 use crate::control::bot::GOAL;
-use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::kick;
 use crate::football::movement::SPRINT_MPS;
 use crate::football::noise;
 use crate::football::offside;
-use crate::football::play::SetPiece;
 use crate::math;
+use crate::state::play::SetPiece;
+use crate::state::player::{Intent, KickKind, KickPlan};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;

@@ -2,9 +2,9 @@
 
 use crate::control::bot::board::Board;
 use crate::control::bot::mark;
-use crate::football::recent::BallMeans;
 use crate::football::{offside, reach, touch};
 use crate::math::share;
+use crate::state::recent::BallMeans;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Team;

@@ -2,11 +2,11 @@
 //!
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. What it all changes is [`crate::state`]. Inside:
-//! [`movement`] (with `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the
-//! ball first; [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`])
-//! and [`keeper`] play it, and it may [`bounce`] off a body; [`flight`] says what that means;
-//! [`referee`], [`offside`], [`foul`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and
-//! [`lineup`] say who stands where.
+//! [`movement`] (with `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the ball first;
+//! [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`]) and [`keeper`]
+//! play it, and it may [`bounce`] off a body; [`flight`] says what that means; [`referee`], [`offside`] and [`foul`] have
+//! the [`whistle`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and [`lineup`] say who
+//! stands where.
 
 pub mod advantage;
 pub mod begin;
@@ -44,6 +44,7 @@ mod stride;
 pub mod stumble;
 pub mod tick;
 pub mod touch;
+pub mod whistle;
 
 use crate::control;
 use crate::laps::Phase;

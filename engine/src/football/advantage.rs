@@ -3,7 +3,7 @@
 //! He waits before he looks; whoever has lost the ball by then gets the free kick after all, also when the ball leaves
 //! the pitch. A team that keeps it long enough, or scores, has had its advantage.
 
-use crate::football::{referee, report};
+use crate::football::{report, whistle};
 use crate::state::event::Events;
 use crate::state::play::{Advantage, Restart};
 use crate::state::{Match, PlayerId};
@@ -39,7 +39,7 @@ pub fn called_back(game: &mut Match, events: &mut Events) -> bool {
     let Some(Advantage { restart, .. }) = game.play.advantage.take() else { return false };
     game.play.pass = None;
     game.play.shot = None;
-    referee::stop(game, events, restart.mode, restart.team, restart.spot);
+    whistle::stop(game, events, restart.mode, restart.team, restart.spot);
     true
 }
 

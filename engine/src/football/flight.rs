@@ -1,6 +1,6 @@
 //! What a touch of the ball means: passes completed and cut out, shots blocked, offside.
 
-use crate::football::{offside, report, restart, touch};
+use crate::football::{offside, report, touch, whistle};
 use crate::state::event::{Event, Events};
 use crate::state::play::Flight;
 use crate::state::{Match, PlayerId};
@@ -108,7 +108,7 @@ pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
     game.last_touch = Some(by);
     game.play.lead = by.team();
     game.players[by.index()].body.touched_at = game.tick as i32;
-    restart::end_kick_off(game);
+    whistle::end_kick_off(game);
     game.play.offside = match touch {
         Touch::Exempt => 0,
         Touch::Sprang if game.play.offside & team_bits(by.team().other()) != 0 => game.play.offside,

@@ -4,7 +4,7 @@
 
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::shot::Struck;
-use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch};
+use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch, whistle};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
@@ -344,7 +344,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     game.players[id.index()].body.follows_until = game.tick as i32 + FOLLOW_TICKS;
     game.mode = GameMode::Normal;
     if let Some(mode) = mode {
-        let kind = crate::football::restart::event_of(mode);
+        let kind = whistle::event_of(mode);
         events.push(report::event(game, kind).by(id).qualified(Qualifier::Taken));
     }
     match plan.kind {

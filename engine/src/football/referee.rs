@@ -1,12 +1,11 @@
 //! The referee: goals and the ball out of play. Stops play and says which restart follows.
 
-use crate::football::{advantage, flight, report, restart};
+use crate::football::{advantage, flight, report, whistle};
 use crate::physics::{self, Line};
 use crate::state::event::Events;
-use crate::state::play::Restart;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{BALL_RADIUS_M, GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
 
 /// No nearer to a corner than this, from the middle, is a throw-in taken, metres. (GRF's.)
@@ -51,7 +50,7 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
     if game.play.advantage.is_some_and(|advantage| advantage.restart.team == scorers) {
         advantage::played(game, events);
     }
-    stop(game, events, GameMode::KickOff, scorers.other(), Vec2::ZERO);
+    whistle::stop(game, events, GameMode::KickOff, scorers.other(), Vec2::ZERO);
 }
 
 /// The ball is out of play.
@@ -70,25 +69,13 @@ fn out(game: &mut Match, events: &mut Events, line: Line) {
         if last == defenders {
             let top = if ball.y < 0.0 { -1.0 } else { 1.0 };
             let corner = Vec2::new(HALF_LENGTH_M as f32 * ball.x.signum(), HALF_WIDTH_M as f32 * top);
-            stop(game, events, GameMode::Corner, defenders.other(), corner);
+            whistle::stop(game, events, GameMode::Corner, defenders.other(), corner);
         } else {
             let spot = Vec2::new((HALF_LENGTH_M - GOAL_KICK_SPOT_M) as f32 * ball.x.signum(), 0.0);
-            stop(game, events, GameMode::GoalKick, defenders, spot);
+            whistle::stop(game, events, GameMode::GoalKick, defenders, spot);
         }
     } else {
         let spot = Vec2::new(ball.x.clamp(-THROW_IN_X_M, THROW_IN_X_M), HALF_WIDTH_M as f32 * ball.y.signum());
-        stop(game, events, GameMode::ThrowIn, last.other(), spot);
+        whistle::stop(game, events, GameMode::ThrowIn, last.other(), spot);
     }
-}
-
-/// Stops play; a restart follows.
-pub fn stop(game: &mut Match, events: &mut Events, mode: GameMode, team: Team, spot: Vec2) {
-    if game.dead {
-        return;
-    }
-    game.dead = true;
-    game.owner = None;
-    game.play.pending = Some(Restart { mode, team, spot });
-    let spot = spot.extend(BALL_RADIUS_M as f32);
-    events.push(report::event(game, restart::event_of(mode)).team(team).at(spot));
 }

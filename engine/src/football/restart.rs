@@ -8,19 +8,7 @@ use crate::state::player::{Intent, NEVER, Pose};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, CIRCLE_RADIUS_M};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Team};
-
-/// The event that awards a set piece.
-pub fn event_of(mode: GameMode) -> EventKind {
-    match mode {
-        GameMode::Normal | GameMode::KickOff => EventKind::Kickoff,
-        GameMode::GoalKick => EventKind::GoalKick,
-        GameMode::FreeKick => EventKind::FreeKick,
-        GameMode::Corner => EventKind::Corner,
-        GameMode::ThrowIn => EventKind::ThrowIn,
-        GameMode::Penalty => EventKind::Penalty,
-    }
-}
+use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// Places everyone for the restart that waits, and ends the stop.
 pub fn apply(game: &mut Match) {
@@ -102,13 +90,6 @@ fn clear_circle(game: &mut Match, team: Team, spot: Vec2) {
             let away = if away.x * side > 0.0 { Vec2::new(-side, 0.0) } else { away };
             player.pos = spot + away * (CIRCLE_RADIUS_M as f32 + 0.3);
         }
-    }
-}
-
-/// The kick-off has been taken, or given up.
-pub fn end_kick_off(game: &mut Match) {
-    if game.play.kick_off.take().is_some() {
-        game.mode = GameMode::Normal;
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::football::{
     advantage, duel, flight, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
-    restart, separation, slide, touch,
+    separation, slide, touch, whistle,
 };
 use crate::laps::Phase;
 use crate::physics::{self, Body, Contact, Scratch};
@@ -120,7 +120,7 @@ fn keep_circle(game: &mut Match) {
     let waited = game.tick.saturating_sub(game.play.kick_off_tick);
     if game.rule(Rule::AntiStalling) && waited > KICK_OFF_TICKS {
         // Whoever does not take it gives it up.
-        restart::end_kick_off(game);
+        whistle::end_kick_off(game);
         return;
     }
     let radius = CIRCLE_RADIUS_M as f32;

@@ -2,7 +2,7 @@
 
 use super::{Step, must};
 use crate::pitch::Failure;
-use setpiece::engine::football::restart::event_of;
+use setpiece::engine::football::whistle::event_of;
 use setpiece::engine::state::event::Event;
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::pitch::PLAYERS_MAX;

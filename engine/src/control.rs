@@ -117,11 +117,10 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
 fn drive_scripted(game: &mut Match, events: &mut Events) {
     for id in game.order() {
         let i = id.index();
-        let bit = 1 << i;
         if !matches!(game.players[i].ai, Ai::Behavior(_)) {
             continue;
         }
-        let free = game.players[i].active && game.play.driven & bit == 0;
+        let free = game.players[i].active && !game.is_driven(id);
         let acting = &mut game.play.acting[i];
         let Some(action) = acting.chosen.take().filter(|_| free) else {
             acting.sticky = 0;
@@ -132,7 +131,7 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
         acting.played = Some(action);
         if action != Action::BuiltinAi {
             let held = acting.sticky;
-            game.play.driven |= bit;
+            game.play.driven |= 1 << id.0;
             let held = driver::Held { sticky: held, steer: None, key: game.play.acting[i].key };
             game.play.acting[i].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         }

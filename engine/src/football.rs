@@ -4,7 +4,7 @@
 //! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. What it all changes is [`crate::state`]. Inside:
 //! [`movement`] (with `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the ball first;
 //! [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`]) and [`keeper`]
-//! play it, and it may [`bounce`] off a body; [`flight`] says what that means; [`referee`], [`offside`] and [`foul`] have
+//! play it, and it may [`bounce`] off a body; [`contact`] says what that means; [`referee`], [`offside`] and [`foul`] have
 //! the [`whistle`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and [`lineup`] say who
 //! stands where.
 
@@ -13,11 +13,11 @@ pub mod begin;
 pub mod block;
 pub mod bounce;
 pub mod clock;
+pub mod contact;
 mod dribble;
 pub mod duel;
 pub mod fatigue;
 mod first_touch;
-pub mod flight;
 pub mod forecast;
 pub mod foul;
 pub mod frame;

@@ -116,6 +116,11 @@ impl Match {
         [self.play.lead, self.play.lead.other()]
     }
 
+    /// Whether an agent, or a behaviour, presses for a player in this step.
+    pub fn is_driven(&self, id: PlayerId) -> bool {
+        self.play.driven & (1 << id.0) != 0
+    }
+
     /// A player.
     pub fn player(&self, id: PlayerId) -> &Player {
         &self.players[id.index()]

@@ -1,6 +1,6 @@
 //! A ball that springs off somebody who could not have seen it coming.
 
-use crate::football::{flight, forecast};
+use crate::football::{contact, forecast};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::{Match, Squad};
@@ -38,7 +38,7 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let speed = velocity.length();
     let full = away.extend(0.0) * (6.0 + 0.6 * speed) - velocity * 0.2;
     let squarely = 1.0 - 0.25 * from.length() / BODY_M;
-    flight::sprang(game, events, id);
+    contact::sprang(game, events, id);
     game.play.bounced_at = game.tick as i32;
     game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * 0.7;
     forecast::renew(game);

@@ -1,6 +1,6 @@
 //! The referee: goals and the ball out of play. Stops play and says which restart follows.
 
-use crate::football::{advantage, flight, report, whistle};
+use crate::football::{advantage, contact, report, whistle};
 use crate::physics::{self, Line};
 use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
@@ -29,14 +29,14 @@ pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
 fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
     let shot = game.play.shot.take().filter(|shot| shot.by.team() == scorers);
     if let Some(shot) = shot {
-        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
+        events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
     }
     let scorer = game.last_touch;
     let score = &mut game.score[scorers.index()];
     *score = score.saturating_add(1);
     let mut base = report::event(game, EventKind::Goal).team(scorers);
     if let Some(shot) = shot {
-        let struck = flight::of_shot(game, EventKind::Goal, shot);
+        let struck = contact::of_shot(game, EventKind::Goal, shot);
         base = base.at(struck.at).length(struck.length_m);
     }
     if let Some(id) = scorer.filter(|id| id.team() != scorers) {
@@ -57,7 +57,7 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
 fn out(game: &mut Match, events: &mut Events, line: Line) {
     let ball = game.ball.pos;
     if let Some(shot) = game.play.shot.take() {
-        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OffTarget));
+        events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OffTarget));
     }
     let last = game.last_touch.map_or(game.play.lead, PlayerId::team);
     let out = report::event(game, EventKind::OutOfPlay);

@@ -1,7 +1,7 @@
 //! One tick of 10 ms, in order.
 
 use crate::football::{
-    advantage, duel, flight, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
+    advantage, contact, duel, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
     separation, slide, touch, whistle,
 };
 use crate::laps::Phase;
@@ -82,7 +82,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
                 return;
             }
             let shot = game.play.shot.is_some_and(|shot| shot.by.team() != by.team());
-            flight::deflected(game, events, by);
+            contact::deflected(game, events, by);
             foul::handball(game, events, by, shot);
             forecast::renew(game);
         }
@@ -94,7 +94,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
 fn near_bodies(game: &Match, near: Squad) -> ArrayVec<Body, BODIES_MAX> {
     let mut bodies = ArrayVec::new();
     let ball = game.ball;
-    if ball.vel.length_squared() < 25.0 || ball.pos.z > 2.3 || touch::controller(game).is_some() {
+    if ball.vel.length_squared() < 25.0 || ball.pos.z > 2.3 || game.controller().is_some() {
         return bodies;
     }
     let flat = ball.pos.truncate();

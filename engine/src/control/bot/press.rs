@@ -65,7 +65,7 @@ pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
     if game.play.team_pressure[view.team.index()] {
         let [second, third] = game.play.behind[view.team.index()];
         let mut queue = [first, second, third].into_iter().flatten();
-        if queue.find(|id| game.play.driven & (1 << id.0) == 0) == Some(id) {
+        if queue.find(|id| !game.is_driven(*id)) == Some(id) {
             return Pursuit::Hunt(rival);
         }
     }

@@ -1,9 +1,9 @@
-//! What players want to do: agents' actions, the built-in bot, and who is whose.
+//! What players want to do: agents' actions and the built-in bot.
 //!
 //! Decides every player's intent and planned kick at the start of a step; leaves to `football` what comes of them.
-//! Inside: [`sticky`] keeps held actions, [`switching`] gives slots their players, [`driver`] turns an agent's actions
-//! into intents (with [`assist`], GRF's magnet), [`continuous`] reads actions of numbers, [`behavior`] chooses such actions for scripted players, [`bot`] plays
-//! everyone else, [`tell`] says in actions what the bot does, [`agents`] are ready-made agents.
+//! Inside: [`sticky`] keeps held actions, [`driver`] turns an agent's actions into intents (with [`assist`], GRF's
+//! magnet), [`continuous`] reads actions of numbers, [`behavior`] chooses such actions for scripted players, [`bot`]
+//! plays everyone else, [`tell`] says in actions what the bot does, [`agents`] are ready-made agents.
 
 pub mod agents;
 pub mod assist;
@@ -12,10 +12,9 @@ pub mod bot;
 pub mod continuous;
 pub mod driver;
 pub mod sticky;
-pub mod switching;
 pub mod tell;
 
-use crate::football::{forecast, reach};
+use crate::football::switching;
 use crate::state::event::Events;
 use crate::state::play::Acting;
 use crate::state::player::KickKind;
@@ -29,13 +28,6 @@ use tell::Before;
 
 /// Steps that a set piece may wait for an agent. (GRF's: it is the twentieth that is hurried.)
 const STALLING_STEPS: u16 = 19;
-
-/// Before a step: who can be at the ball first, and which player each agent has in it.
-pub fn prepare(game: &mut Match) {
-    forecast::refresh(game);
-    reach::assess(game);
-    switching::update(game);
-}
 
 /// Takes the agents' actions and lets the bots decide: every intent of the step, and what everyone pressed for it.
 pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {

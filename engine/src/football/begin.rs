@@ -1,7 +1,6 @@
 //! The first moment of a match.
 
-use crate::control::bot::formation;
-use crate::football::{forecast, noise, reach, recent, restart, set_piece, stats};
+use crate::football::{forecast, lineup, noise, reach, recent, restart, set_piece, stats, switching};
 use crate::physics::Ball;
 use crate::random::Purpose;
 use crate::start::{Drawn, DrawnPlayer};
@@ -20,7 +19,7 @@ const SET_OFF_TICKS: f32 = 18.0;
 /// Who has the ball of a start so near does so at once, metres; chosen.
 const AT_BALL_M: f32 = 0.75;
 
-/// The match that a drawn start begins with.
+/// The match that a drawn start begins with, before its first step is prepared.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = blank(drawn);
     for i in 0..PLAYERS_MAX {
@@ -42,7 +41,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     for player in &mut game.players {
         player.body.ready_at = first as i32;
     }
-    formation::assign_slots(&mut game);
+    lineup::assign_slots(&mut game);
     game.play.others = drawn.others;
     let nearest = nearest_team(&mut game);
     game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
@@ -58,8 +57,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     start_of(&mut game, drawn, nearest);
     recent::begin(&mut game);
     set_off(&mut game);
-    crate::control::switching::open(&mut game);
-    crate::control::prepare(&mut game);
+    switching::open(&mut game);
     game
 }
 
@@ -168,7 +166,7 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
             (player.pos, player.vel) = (place, velocity);
         }
         set_piece::appoint(game);
-        formation::assign_slots(game);
+        lineup::assign_slots(game);
         restart::face_ball(game);
         let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
         for (i, player) in game.players.iter_mut().enumerate() {
@@ -180,7 +178,7 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
         }
         forecast::renew(game);
         reach::assess(game);
-        crate::control::switching::reassign(game);
+        switching::reassign(game);
     }
 }
 

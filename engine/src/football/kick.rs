@@ -4,7 +4,7 @@
 
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::shot::Struck;
-use crate::football::{contact, forecast, noise, offside, pass, pass_target, report, shot, whistle};
+use crate::football::{contact, forecast, noise, offside, pass, pass_target, report, shot, switching, whistle};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
@@ -353,7 +353,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     }
     forecast::renew(game);
     if let Some(receiver) = receiver {
-        crate::control::switching::hand_to(game, receiver);
+        switching::hand_to(game, receiver);
     }
     game.players[id.index()].body.touched_at = if exempt { NEVER } else { game.tick as i32 };
 }

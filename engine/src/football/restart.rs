@@ -1,7 +1,6 @@
 //! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
 
-use crate::control::bot::formation;
-use crate::football::{forecast, reach, recent, set_piece};
+use crate::football::{forecast, lineup, reach, recent, set_piece, switching};
 use crate::physics::Ball;
 use crate::state::play::{Restart, SetPiece};
 use crate::state::player::{Intent, NEVER, Pose};
@@ -44,7 +43,7 @@ pub fn place(game: &mut Match, restart: Restart) {
     forecast::renew(game);
     reach::assess(game);
     recent::begin(game);
-    crate::control::switching::reassign(game);
+    switching::reassign(game);
 }
 
 /// Times that a crowd at the circle is gone through.
@@ -59,7 +58,7 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
         let own = PlayerId(i as u8).team() == team;
         player.pos = player.body.kickoff[usize::from(!own)];
     }
-    formation::assign_slots(game);
+    lineup::assign_slots(game);
     game.mode = GameMode::KickOff;
     game.owner = None;
     game.possession = Some(team);

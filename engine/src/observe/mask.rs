@@ -1,7 +1,8 @@
 //! Which actions can change anything.
 
 use super::{ObserveError, slot};
-use crate::control::{driver, switching};
+use crate::control::driver;
+use crate::football::switching;
 use crate::state::Match;
 use crate::state::player::KickKind;
 use setpiece_scenario::vocabulary::{Action, StickyAction};

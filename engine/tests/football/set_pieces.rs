@@ -3,8 +3,8 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::Vec2;
-use setpiece_engine::control::switching;
 use setpiece_engine::football::restart::place;
+use setpiece_engine::football::switching;
 use setpiece_engine::state::PlayerId;
 use setpiece_engine::state::play::Restart;
 use setpiece_engine::state::player::KickKind;

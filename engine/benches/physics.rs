@@ -9,8 +9,8 @@ mod cpu;
 use cpu::CpuTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, criterion_group, criterion_main};
 use glam::{Vec2, Vec3};
-use setpiece_engine::physics::{Body, Scratch, advance_ball, forecast};
-use setpiece_engine::state::Ball;
+use setpiece_engine::physics::Ball;
+use setpiece_engine::physics::{Body, Scratch, advance_ball, predict::places};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -49,7 +49,7 @@ fn ticks(c: &mut Criterion<CpuTime>) {
         let ball = Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::new(20.0, 0.0, 0.0), spin: Vec3::ZERO };
         one_tick(c, &format!("tick/gated/bodies_{count}"), ball, &at(count), false);
     }
-    c.bench_function("forecast/300_ticks", |b| b.iter(|| forecast(black_box(&FLYING), 10).take(30).last()));
+    c.bench_function("forecast/300_ticks", |b| b.iter(|| places(black_box(&FLYING), 10).take(30).last()));
 }
 
 criterion_group! {

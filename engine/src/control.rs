@@ -1,9 +1,9 @@
-//! What players want to do: agents' actions, the built-in bot, and who is whose.
+//! What players want to do: agents' actions and the built-in bot.
 //!
 //! Decides every player's intent and planned kick at the start of a step; leaves to `football` what comes of them.
-//! Inside: [`sticky`] keeps held actions, [`switching`] gives slots their players, [`driver`] turns an agent's actions
-//! into intents (with [`assist`], GRF's magnet), [`continuous`] reads actions of numbers, [`behavior`] chooses such actions for scripted players, [`bot`] plays
-//! everyone else, [`tell`] says in actions what the bot does, [`agents`] are ready-made agents.
+//! Inside: [`sticky`] keeps held actions, [`driver`] turns an agent's actions into intents (with [`assist`], GRF's
+//! magnet), [`continuous`] reads actions of numbers, [`behavior`] chooses such actions for scripted players, [`bot`]
+//! plays everyone else, [`tell`] says in actions what the bot does, [`agents`] are ready-made agents.
 
 pub mod agents;
 pub mod assist;
@@ -12,13 +12,12 @@ pub mod bot;
 pub mod continuous;
 pub mod driver;
 pub mod sticky;
-pub mod switching;
 pub mod tell;
 
-use crate::event::Events;
-use crate::football::body::KickKind;
-use crate::football::play::Acting;
-use crate::football::{forecast, reach};
+use crate::football::switching;
+use crate::state::event::Events;
+use crate::state::play::Acting;
+use crate::state::player::KickKind;
 use crate::state::{AgentSlot, Match, PlayerId};
 
 use arrayvec::ArrayVec;
@@ -29,13 +28,6 @@ use tell::Before;
 
 /// Steps that a set piece may wait for an agent. (GRF's: it is the twentieth that is hurried.)
 const STALLING_STEPS: u16 = 19;
-
-/// Before a step: who can be at the ball first, and which player each agent has in it.
-pub fn prepare(game: &mut Match) {
-    forecast::refresh(game);
-    reach::assess(game);
-    switching::update(game);
-}
 
 /// Takes the agents' actions and lets the bots decide: every intent of the step, and what everyone pressed for it.
 pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
@@ -117,11 +109,10 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
 fn drive_scripted(game: &mut Match, events: &mut Events) {
     for id in game.order() {
         let i = id.index();
-        let bit = 1 << i;
         if !matches!(game.players[i].ai, Ai::Behavior(_)) {
             continue;
         }
-        let free = game.players[i].active && game.play.driven & bit == 0;
+        let free = game.players[i].active && !game.is_driven(id);
         let acting = &mut game.play.acting[i];
         let Some(action) = acting.chosen.take().filter(|_| free) else {
             acting.sticky = 0;
@@ -132,7 +123,7 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
         acting.played = Some(action);
         if action != Action::BuiltinAi {
             let held = acting.sticky;
-            game.play.driven |= bit;
+            game.play.driven |= 1 << id.0;
             let held = driver::Held { sticky: held, steer: None, key: game.play.acting[i].key };
             game.play.acting[i].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         }

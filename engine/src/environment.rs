@@ -1,11 +1,13 @@
 //! One match and its judge, as an agent meets them.
 //!
-//! Decides the order within a step: the agents' actions and ten ticks of play, the judge on the state as it stands, then
-//! the restart that a stop calls for. What is observed afterwards therefore shows the restart; what was judged is the
+//! Sets the judge into the order of a step ([`step`]): it judges the state as ten ticks of play have left it, before the
+//! restart that a stop calls for. What is observed afterwards therefore shows the restart; what was judged is the
 //! state before it. Holds what lives as long as an episode; a clone goes on as the original does, and [`snapshot`] makes
-//! bytes of it.
+//! bytes of it; [`hindsight`] begins a new one in an old state.
 
 mod error;
+mod fits;
+mod hindsight;
 mod snapshot;
 mod stopped;
 
@@ -16,18 +18,17 @@ pub use error::{EnvironmentError, ResetError, StepError};
 use crate::control;
 use crate::control::behavior::Actors;
 use crate::draw::{DrawError, Drawer, Roster, player_name};
-use crate::event::{Event, Events};
-use crate::football;
 use crate::in_place::clone_in_place;
 use crate::judge::script::Scripts;
 use crate::judge::{Given, Judge, Outcome, Recorded};
 use crate::laps::Phase;
 use crate::observe::layout::{self, Layout};
 use crate::observe::{self, Floats, ObserveError};
-use crate::snapshot::begin_from;
 use crate::start::Drawn;
+use crate::state::event::{Event, Events};
 use crate::state::{AgentSlot, Match, PlayerId, Steer};
 use crate::statistics::Statistics;
+use crate::step;
 use arrayvec::ArrayVec;
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Action, Rule, Team};
@@ -123,7 +124,7 @@ impl Environment {
         let mut drawer = Drawer::new(&scenario);
         let mut drawn = drawer.draw_unchecked(&scenario, &bindings, &roster);
         apply_physics(&mut drawn, options.physics);
-        let game = football::begin(&drawn);
+        let game = step::begin(&drawn);
         let mut environment = Environment {
             ids: agent_ids(&scenario, &roster),
             stopped: Stopped::new(&game),
@@ -180,9 +181,9 @@ impl Environment {
         self.events.clear();
         self.judged = 0;
         let drawn = self.start()?;
-        self.game = football::begin(&drawn);
+        self.game = step::begin(&drawn);
         if let Some(past) = past {
-            self.game = begin_from(past, &self.game);
+            self.game = hindsight::begin_from(past, &self.game);
         }
         self.started = true;
         let given = Given { seed: self.seed, index: self.index, params: &self.bindings.0, lets: &drawn.lets };
@@ -212,7 +213,7 @@ impl Environment {
             return Err(StepError::Script(Box::new(error)));
         }
         self.events.forget(self.judged);
-        football::play_step(&mut self.game, actions, &mut self.events, scratch);
+        step::play(&mut self.game, actions, &mut self.events, scratch);
         let judged = self.judge.step(&self.game, &mut self.events);
         self.judged = self.events.as_slice().len();
         self.statistics.observe(&self.game, self.events.as_slice());
@@ -225,7 +226,7 @@ impl Environment {
         };
         self.stopped.note(&self.game);
         scratch.laps().end(Phase::Judge);
-        football::go_on(&mut self.game);
+        step::go_on(&mut self.game);
         scratch.laps().end(Phase::Reach);
         self.judge.settle(&self.game);
         scratch.laps().end(Phase::Judge);

@@ -28,11 +28,11 @@ pub use rewards::RewardJudge;
 pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
 pub use view::{Memory, Sight, View};
 
-use crate::event::Events;
 use crate::in_place::clone_in_place;
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
+use crate::state::event::Events;
 pub use known::Given;
 use known::Known;
 use machine::Input;

@@ -1,7 +1,8 @@
 //! The football game that runs a compiled scenario: everything with a tick.
 //!
 //! - [`draw`]: a scenario, its parameters and a seed become one concrete [`start::Drawn`].
-//! - [`state::Match`]: one simulation, plain data; [`physics`], [`football`] and [`control`] move it on.
+//! - [`state::Match`]: one simulation, plain data, and its events; [`physics`], [`football`] and [`control`] move it on,
+//!   in the order of [`step`].
 //! - [`judge`]: rewards and endings, from the state and its events.
 //! - [`observe`]: the state written into the caller's buffers.
 //! - [`environment`]: one match and its judge, as an agent meets them; [`batch`]: many.
@@ -13,7 +14,7 @@ pub mod control;
 pub mod digest;
 pub mod draw;
 pub mod environment;
-pub mod event;
+mod floats;
 pub mod football;
 mod in_place;
 pub mod judge;
@@ -22,9 +23,11 @@ pub mod math;
 pub mod observe;
 pub mod physics;
 pub mod random;
+mod rows;
 pub mod snapshot;
 pub mod start;
 pub mod state;
 pub mod statistics;
+pub mod step;
 #[cfg(test)]
 mod testing;

@@ -2,19 +2,21 @@
 //!
 //! Decides how the ball flies, bounces, rolls and rebounds. Leaves to `football` who kicks it and what that means.
 
+mod ball;
 pub mod constants;
 pub mod flight;
+pub mod forecast;
 mod gate;
 pub mod lines;
 pub mod predict;
 mod scene;
 mod scratch;
 
+pub use ball::Ball;
+pub use forecast::Forecast;
 pub use lines::{Line, crossed_goal_line, left_pitch};
-pub use predict::forecast;
 pub use scratch::Scratch;
 
-use crate::state::Ball;
 use constants::{BALL_RADIUS, REST_SPEED, ROLL_DRAG, TICK_S};
 use glam::{Vec2, Vec3};
 

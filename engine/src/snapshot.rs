@@ -5,20 +5,16 @@
 //! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
 //! last the episode around it, which only the same scenario can go on with.
 //!
-//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible; [`floats`]: many
-//!   numbers at once; [`bounded`](mod@bounded): no list may be endless.
-//! - [`file`]: the head. [`check`]: whether a match fits an environment.
-//! - [`hindsight`]: a new episode in an old state.
+//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible;
+//!   [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): no list may be endless.
+//! - [`file`]: the head.
 //!
 //! What a snapshot may be asked for stands with [`Environment`](crate::environment::Environment).
 
 mod archive;
 mod bounded;
-mod check;
 mod error;
 mod file;
-pub(crate) mod floats;
-mod hindsight;
 mod walk;
 
 pub use error::{SNAPSHOT_VERSION, SnapshotError};
@@ -26,8 +22,6 @@ pub use file::{MAGIC, checksum};
 
 pub(crate) use archive::Archive;
 pub(crate) use bounded::bounded;
-pub(crate) use check::fits;
-pub(crate) use hindsight::begin_from;
 
 use crate::state::Match;
 use serde::{Deserialize, Serialize};

@@ -1,65 +1,26 @@
 //! The match: one simulation, plain data. A copy of it is a snapshot.
+//!
+//! Holds what the game knows, and no rule of it: [`crate::football`] and [`crate::control`] change it. Inside: [`player`],
+//! [`play`] (what the game keeps beside what everyone may see) with [`recent`], and [`event`].
 
+pub mod event;
+pub mod play;
+pub mod player;
+pub mod recent;
 mod squad;
 
+pub use player::{Player, PlayerId};
 pub use squad::{Ids, Squad};
 
-use crate::football::body::{Body, KickKind};
-use crate::football::play::Play;
 use crate::in_place::clone_in_place;
+use crate::physics::Ball;
 use crate::random::Stream;
-use crate::start::Drawn;
 use arrayvec::ArrayVec;
-use glam::{Vec2, Vec3};
-use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
-use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
-
-/// A player: `team * 11 + index`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
-#[serde(try_from = "u8")]
-pub struct PlayerId(pub u8);
-
-impl TryFrom<u8> for PlayerId {
-    type Error = &'static str;
-
-    fn try_from(id: u8) -> Result<PlayerId, &'static str> {
-        if usize::from(id) < PLAYERS_MAX { Ok(PlayerId(id)) } else { Err("a player's id is below 22") }
-    }
-}
-
-impl PlayerId {
-    /// The id of a team's player.
-    pub fn new(team: Team, index: usize) -> PlayerId {
-        PlayerId((team.index() * TEAM_MAX + index) as u8)
-    }
-
-    /// As an index into [`Match::players`].
-    pub const fn index(self) -> usize {
-        self.0 as usize
-    }
-
-    /// His team.
-    pub const fn team(self) -> Team {
-        if self.index() < TEAM_MAX { Team::Left } else { Team::Right }
-    }
-
-    /// His place in the team, source order.
-    pub const fn in_team(self) -> usize {
-        self.index() % TEAM_MAX
-    }
-}
-
-/// The ball: world metres, m/s, rad/s.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Ball {
-    /// Its centre.
-    pub pos: Vec3,
-    /// Its velocity.
-    pub vel: Vec3,
-    /// Its spin.
-    pub spin: Vec3,
-}
+use glam::Vec2;
+use play::Play;
+use player::KickKind;
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{GameMode, Rule, Team};
 
 /// One simulation: no heap but the agent list's inline storage, no engine handle; `clone` is a copy.
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -155,37 +116,15 @@ impl Match {
         [self.play.lead, self.play.lead.other()]
     }
 
+    /// Whether an agent, or a behaviour, presses for a player in this step.
+    pub fn is_driven(&self, id: PlayerId) -> bool {
+        self.play.driven & (1 << id.0) != 0
+    }
+
     /// A player.
     pub fn player(&self, id: PlayerId) -> &Player {
         &self.players[id.index()]
     }
-}
-
-/// A player: what everyone may see of him. What `football` needs beside it stands in his `body`.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Player {
-    /// Is on the pitch: of the squad and not sent off.
-    pub active: bool,
-    /// His role.
-    pub role: Role,
-    /// Who plays him without an agent.
-    pub ai: Ai,
-    /// Whether an agent may be given him.
-    pub controllable: bool,
-    /// World metres.
-    pub pos: Vec2,
-    /// m/s.
-    pub vel: Vec2,
-    /// The way he faces, world radians.
-    pub heading_rad: f32,
-    /// 0 fresh to 1 exhausted.
-    pub fatigue: f32,
-    /// Cards so far.
-    pub yellow_cards: u8,
-    /// 0..1.
-    pub difficulty: f32,
-    /// What `football` and `control` keep of him.
-    pub body: Body,
 }
 
 /// An agent's slot.
@@ -212,60 +151,4 @@ pub struct Steer {
     pub way: Vec2,
     /// The power of a kick, 0..1; 0 leaves it to the kicker.
     pub power: f32,
-}
-
-impl Match {
-    /// The match that a drawn start begins with; `football::begin` fills in what the game needs.
-    pub fn blank(drawn: &Drawn) -> Match {
-        use crate::football::noise;
-        use crate::random::Purpose;
-        let player = |slot: &Option<crate::start::DrawnPlayer>| {
-            let drawn_player = slot.as_ref();
-            Player {
-                active: drawn_player.is_some(),
-                role: drawn_player.map_or(Role::GK, |p| p.role),
-                ai: drawn_player.map_or(Ai::Lazy, |p| p.ai),
-                controllable: drawn_player.is_some_and(|p| p.controllable),
-                pos: drawn_player.map_or(Vec2::ZERO, |p| p.pos),
-                vel: drawn_player.map_or(Vec2::ZERO, |p| p.vel),
-                heading_rad: drawn_player.and_then(|p| p.heading_rad).unwrap_or_default(),
-                fatigue: drawn_player.map_or(0.0, |p| p.fatigue),
-                yellow_cards: drawn_player.map_or(0, |p| p.yellow_cards),
-                difficulty: drawn_player.map_or(0.0, |p| p.difficulty),
-                body: Body::blank(),
-            }
-        };
-        Match {
-            tick: 0,
-            step: 0,
-            elapsed_at_start: drawn.elapsed_steps,
-            limit_steps: drawn.limit_steps,
-            score: drawn.score,
-            ball: Ball { pos: drawn.ball_pos, vel: drawn.ball_vel, spin: drawn.ball_spin },
-            squad: (0..).zip(&drawn.players).filter(|(_, slot)| slot.is_some()).map(|(id, _)| PlayerId(id)).collect(),
-            players: std::array::from_fn(|i| player(&drawn.players[i])),
-            owner: drawn.owner,
-            possession: drawn.owner.map(PlayerId::team),
-            last_touch: drawn.owner,
-            mode: GameMode::Normal,
-            dead: false,
-            rules: drawn.rules,
-            difficulty: drawn.difficulty,
-            agents: drawn
-                .agents
-                .iter()
-                .map(|agent| AgentSlot {
-                    team: agent.team,
-                    player: agent.fixed,
-                    fixed: agent.fixed.is_some(),
-                    sticky: 0,
-                    steer: None,
-                    key: None,
-                })
-                .collect(),
-            play_random: noise::stream(drawn, Purpose::Play),
-            bot_random: noise::stream(drawn, Purpose::Bot),
-            play: Play::blank(),
-        }
-    }
 }

@@ -2,7 +2,7 @@
 //!
 //! Filled from the state and the events of every step, before restarts.
 
-use crate::event::Event;
+use crate::state::event::Event;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, PLAYERS_MAX, STEPS_PER_S};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};

@@ -1,10 +1,10 @@
 //! What the tests build: programs and scenarios by hand.
 
-use crate::event::Event;
 use crate::judge::View;
 use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers};
 use crate::judge::view::Sight;
 use crate::state::PlayerId;
+use crate::state::event::Event;
 use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Role, StartKind, Team};
 use setpiece_scenario::*;

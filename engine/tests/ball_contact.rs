@@ -2,10 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::{Vec2, Vec3};
+use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS};
 use setpiece_engine::physics::{Body, Contact, Scratch, advance_ball, crossed_goal_line};
 use setpiece_engine::random::{Purpose, Stream};
-use setpiece_engine::state::Ball;
 
 /// A draw from the test's own stream.
 struct Draw(Stream);

@@ -4,9 +4,9 @@
 
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
+use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::constants::{BALL_RADIUS, GRAVITY};
-use setpiece_engine::physics::{Scratch, advance_ball, flight, forecast};
-use setpiece_engine::state::Ball;
+use setpiece_engine::physics::{Scratch, advance_ball, flight, predict::places};
 
 const REST: Vec3 = Vec3::new(0.0, 0.0, BALL_RADIUS);
 
@@ -191,7 +191,7 @@ proptest! {
         let rise = if on_ground { vel[2].max(0.0) } else { vel[2] };
         let ball = Ball { pos: Vec3::new(0.0, 0.0, height), vel: Vec3::new(vel[0], vel[1], rise), spin: spin.into() };
         let (mut flown, mut scratch) = (ball, Scratch::default());
-        for (i, place) in forecast(&ball, 5).take(64).enumerate() {
+        for (i, place) in places(&ball, 5).take(64).enumerate() {
             advance(&mut flown, 5, &mut scratch);
             let off = place.distance(flown.pos);
             prop_assert!(off < 0.15 + 0.006 * i as f32, "{off} m at {} ticks: {place} {}", 5 * (i + 1), flown.pos);

@@ -21,12 +21,11 @@ mod set_pieces;
 mod statistics;
 
 use layouts::{Layout, drawn};
-use setpiece_engine::control;
-use setpiece_engine::event::{Event, Events};
-use setpiece_engine::football;
-use setpiece_engine::football::body::NEVER;
 use setpiece_engine::physics::Scratch;
 use setpiece_engine::state::Match;
+use setpiece_engine::state::event::{Event, Events};
+use setpiece_engine::state::player::NEVER;
+use setpiece_engine::step;
 use setpiece_scenario::vocabulary::{Action, EventKind};
 
 /// A match and what it needs to be played.
@@ -42,7 +41,7 @@ impl Bench {
     }
 
     fn of(start: &setpiece_engine::start::Drawn) -> Bench {
-        let mut game = football::begin(start);
+        let mut game = step::begin(start);
         // In the midst of a match everybody may touch the ball.
         for player in &mut game.players {
             player.body.ready_at = NEVER;
@@ -53,12 +52,12 @@ impl Bench {
     /// Plays a step; the events stay readable until the next.
     fn step(&mut self, action: Action) {
         self.events.clear();
-        control::prepare(&mut self.game);
-        football::play_step(&mut self.game, &[action], &mut self.events, &mut self.scratch);
+        step::prepare(&mut self.game);
+        step::play(&mut self.game, &[action], &mut self.events, &mut self.scratch);
     }
 
     fn restart(&mut self) {
-        football::go_on(&mut self.game);
+        step::go_on(&mut self.game);
     }
 
     fn seen(&self, kind: EventKind) -> Option<Event> {

@@ -2,11 +2,12 @@
 
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
-use setpiece_engine::football::body::Body;
-use setpiece_engine::football::forecast::Forecast;
 use setpiece_engine::football::reach::{PLAYABLE_M, Way, meeting};
+use setpiece_engine::physics::Ball;
+use setpiece_engine::physics::Forecast;
 use setpiece_engine::physics::left_pitch;
-use setpiece_engine::state::{Ball, Player};
+use setpiece_engine::state::Player;
+use setpiece_engine::state::player::Body;
 use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::Role;
 

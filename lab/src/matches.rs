@@ -6,8 +6,8 @@ use crate::figure::{Section, short};
 use crate::pitch::{Failure, deviation, library, mean};
 use recorded::{Give, part};
 use setpiece::engine::environment::{Environment, Scratch};
-use setpiece::engine::event::Event;
 use setpiece::engine::state::Match;
+use setpiece::engine::state::event::Event;
 use setpiece::engine::statistics::{MatchStatistics, Statistics, TeamStatistics};
 use setpiece::scenario::vocabulary::{Action, EventKind, GameMode, Role};
 

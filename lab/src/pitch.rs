@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::event::Event;
+use setpiece::engine::state::event::Event;
 use setpiece::engine::state::{Match, Player};
 use setpiece::scenario::vocabulary::Action;
 

@@ -6,10 +6,10 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString};
 use setpiece::engine::environment::Environment as Engine;
-use setpiece::engine::event::Event;
 use setpiece::engine::judge::Recorded;
 use setpiece::engine::observe;
 use setpiece::engine::state::PlayerId;
+use setpiece::engine::state::event::Event;
 use setpiece::scenario::pitch::{PLAYERS_MAX, to_normalised};
 use setpiece::scenario::{Qualifier, Team, Verdict};
 

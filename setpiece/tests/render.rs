@@ -3,7 +3,7 @@
 
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::football::body::Pose;
+use setpiece::engine::state::player::Pose;
 use setpiece::render::colours::{AGENT, Colour, shirt};
 use setpiece::render::view::View;
 use setpiece::render::{Film, FilmOptions, Region, Scene, draw, film, frame, replayed, sheet};

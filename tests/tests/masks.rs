@@ -2,12 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::event::Events;
-use setpiece::engine::football;
-use setpiece::engine::football::play::Acting;
 use setpiece::engine::observe::action_mask;
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::state::Match;
+use setpiece::engine::state::event::Events;
+use setpiece::engine::state::play::Acting;
+use setpiece::engine::step;
 use setpiece::scenario::vocabulary::{Action, GameMode};
 
 /// A scenario that starts with a set piece, with an agent on either side.
@@ -30,7 +30,7 @@ fn starting(set_piece: &str) -> String {
 fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> Match {
     let mut copy = game.clone();
     let actions: Vec<Action> = (0..game.agents.len()).map(|i| if i == agent { action } else { Action::Idle }).collect();
-    football::play_step(&mut copy, &actions, &mut Events::new(), scratch);
+    step::play(&mut copy, &actions, &mut Events::new(), scratch);
     for acting in &mut copy.play.acting {
         *acting = Acting::default();
     }

@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::Vec2;
-use setpiece::engine::control::{continuous, switching};
+use setpiece::engine::control::continuous;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::football::switching;
 use setpiece::engine::state::{Match, PlayerId, Steer};
 use setpiece::scenario::vocabulary::{Action, EventKind, Team};
 

@@ -4,9 +4,9 @@
 use proptest::prelude::*;
 use setpiece::engine::digest;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, ResetError, Scratch};
-use setpiece::engine::football::body::{Intent, Pose};
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::snapshot::{SnapshotError, checksum, match_bytes};
+use setpiece::engine::state::player::{Intent, Pose};
 use setpiece::scenario::vocabulary::EventKind;
 use setpiece::scenario::{Action, Bindings, Scenario};
 use std::collections::BTreeMap;

@@ -2,11 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::event::{Event, Events};
-use setpiece::engine::football;
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::start::{Drawn, DrawnPlayer};
+use setpiece::engine::state::event::{Event, Events};
 use setpiece::engine::state::{Match, PlayerId};
+use setpiece::engine::step;
 use setpiece::scenario::vocabulary::{Action, EventKind, Team};
 
 /// A player's counterpart.
@@ -89,7 +89,7 @@ fn facts(events: &[Event], turn: bool) -> Vec<(EventKind, Option<PlayerId>, Opti
 
 /// Plays a start and its turned twin with the same actions, chosen at random and held for a while.
 fn play(start: &Drawn, seed: u64, steps: u32, seen: &mut Vec<EventKind>) {
-    let (mut there, mut back) = (football::begin(start), football::begin(&turned(start)));
+    let (mut there, mut back) = (step::begin(start), step::begin(&turned(start)));
     let (mut events, mut turned_events) = (Events::new(), Events::new());
     let mut scratch = Scratch::default();
     let mut stream = Stream::new(seed, 0, Purpose::Agent);
@@ -102,8 +102,8 @@ fn play(start: &Drawn, seed: u64, steps: u32, seen: &mut Vec<EventKind>) {
         let swapped: Vec<Action> = actions[left..].iter().chain(&actions[..left]).copied().collect();
         events.clear();
         turned_events.clear();
-        football::play_step(&mut there, &actions, &mut events, &mut scratch);
-        football::play_step(&mut back, &swapped, &mut turned_events, &mut scratch);
+        step::play(&mut there, &actions, &mut events, &mut scratch);
+        step::play(&mut back, &swapped, &mut turned_events, &mut scratch);
         seen.extend(events.as_slice().iter().map(|event| event.kind));
         same(&there, &back).unwrap_or_else(|why| panic!("step {step} of seed {seed}: {why}"));
         assert_eq!(
@@ -111,8 +111,8 @@ fn play(start: &Drawn, seed: u64, steps: u32, seen: &mut Vec<EventKind>) {
             facts(turned_events.as_slice(), true),
             "step {step} of seed {seed}"
         );
-        football::go_on(&mut there);
-        football::go_on(&mut back);
+        step::go_on(&mut there);
+        step::go_on(&mut back);
         same(&there, &back).unwrap_or_else(|why| panic!("after step {step} of seed {seed}: {why}"));
     }
 }

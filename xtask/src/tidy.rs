@@ -1,5 +1,7 @@
 //! The rules of the house that a machine can hold: who may use whom, where files and clocks are read, file lengths.
 
+mod rooms;
+
 use crate::ci::root;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -62,6 +64,7 @@ const MAY_SAY: &[(&str, &str)] = &[
 pub(crate) fn tidy() -> Result<(), String> {
     let mut breaches = Vec::new();
     dependencies(&mut breaches)?;
+    rooms::check(&root().join("engine/src"), &mut breaches)?;
     for (folder, words, why) in MUST_NOT_SAY {
         for file in rust_files(&root().join(folder)) {
             let text = read(&file)?;

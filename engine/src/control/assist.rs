@@ -2,7 +2,6 @@
 //! agent's does what is written.
 
 use crate::football::movement::SPRINT_MPS;
-use crate::football::touch;
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -40,7 +39,7 @@ pub fn ball_is_his(game: &Match, id: PlayerId) -> bool {
     if game.play.chaser[team.index()] != Some(id) && !receiver {
         return false;
     }
-    if touch::controller(game).is_some_and(|owner| owner != id) {
+    if game.controller().is_some_and(|owner| owner != id) {
         return false;
     }
     let rival = game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);

@@ -10,7 +10,6 @@ pub mod perform;
 pub mod steer;
 
 use crate::draw::Roster;
-use crate::event::Event;
 use crate::in_place::clone_in_place;
 use crate::judge::known::{Given, Known};
 use crate::judge::machine::{Crew, Input, Machine, Registers};
@@ -18,6 +17,7 @@ use crate::judge::script::{ScriptError, Scripts};
 use crate::judge::view::{Sight, View};
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
+use crate::state::event::Event;
 use crate::state::{Match, PlayerId};
 use actor::{Actor, Mind};
 use setpiece_scenario::vocabulary::{Action, Team};
@@ -105,7 +105,7 @@ impl Actors {
         self.list.iter_mut().try_for_each(|actor| actor.pass(archive))
     }
 
-    /// Chooses every scripted player's action: writes [`Acting::chosen`](crate::football::play::Acting) of the match.
+    /// Chooses every scripted player's action: writes [`Acting::chosen`](crate::state::play::Acting) of the match.
     ///
     /// - `events`: those of the step before.
     /// - `actions`: the agents' actions of this step, by slot.

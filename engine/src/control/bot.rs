@@ -22,7 +22,7 @@ mod view;
 
 pub use view::View;
 
-use crate::football::body::Intent;
+use crate::state::player::Intent;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::HALF_LENGTH_M;
@@ -61,8 +61,7 @@ pub fn think(game: &mut Match) {
     }
     for id in game.order() {
         let i = id.index();
-        let driven = game.play.driven & (1 << i) != 0;
-        if !game.players[i].active || driven {
+        if !game.players[i].active || game.is_driven(id) {
             continue;
         }
         match ai_of(game, id) {

@@ -1,10 +1,10 @@
 //! An agent's actions become what its player wants.
 
 use crate::control::{assist, sticky};
-use crate::event::Events;
-use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
-use crate::football::{kick, reach, slide, touch};
+use crate::football::{kick, reach, slide};
+use crate::state::event::Events;
+use crate::state::player::{Intent, KickKind, KickPlan};
 use crate::state::{Match, Player, PlayerId, Steer};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, GameMode, Role};
@@ -52,7 +52,7 @@ impl Held {
 
 /// Sets the intent and the planned kick of an agent's player; returns the kick whose key is down and has been heard.
 pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action) -> Option<KickKind> {
-    let has_ball = game.owner == Some(id) || touch::controller(game) == Some(id);
+    let has_ball = game.owner == Some(id) || game.controller() == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
     let power = held.steer.map_or(0.0, |steer| steer.power);
     // In the first step of a start only a keeper hears a kick. (Measured: whoever is played then, it goes to the keeper.)
@@ -194,7 +194,7 @@ pub fn may_play(game: &Match, id: PlayerId) -> bool {
         return true;
     }
     let team = id.team();
-    if let Some(owner) = touch::controller(game) {
+    if let Some(owner) = game.controller() {
         return owner == id;
     }
     let rival = game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);

@@ -7,8 +7,8 @@
 
 use crate::control::behavior::steer::{Gait, rest, towards};
 use crate::control::{agents, sticky};
-use crate::football::body::{Intent, KickKind, KickPlan, Pose};
-use crate::football::{movement, pass_target, shot, touch};
+use crate::football::{movement, pass_target, shot};
+use crate::state::player::{Intent, KickKind, KickPlan, Pose};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
@@ -104,7 +104,7 @@ pub fn tell(game: &Match, before: &Before, id: PlayerId, held: u16) -> Told {
     let sprint = if sticky::sprints(held) { SPRINT_MPS[1] } else { SPRINT_MPS[0] };
     let gait = if speed > sprint {
         Gait::Sprint
-    } else if speed < CLOSE_MPS && touch::controller(game) == Some(id) {
+    } else if speed < CLOSE_MPS && game.controller() == Some(id) {
         Gait::Dribble
     } else {
         Gait::Run
@@ -131,7 +131,7 @@ fn wish(game: &Match, id: PlayerId) -> (Vec2, f32) {
 fn for_ball(game: &Match, id: PlayerId, speed: f32) -> (Vec2, f32) {
     let player = game.player(id);
     let to_ball = game.ball.pos.truncate() - player.pos;
-    if game.owner == Some(id) || touch::controller(game) == Some(id) {
+    if game.owner == Some(id) || game.controller() == Some(id) {
         return standing(player.body.dribble, player.body.dribble.length().min(speed));
     }
     if to_ball.length() < AT_FEET_M {

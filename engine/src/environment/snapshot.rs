@@ -1,9 +1,10 @@
 //! Snapshots of an environment, and episodes that begin from one.
 
+use super::fits::fits;
 use super::{Environment, ResetError, bound};
 use crate::draw::Roster;
 use crate::judge::{Given, Outcome};
-use crate::snapshot::{About, Archive, Opened, SnapshotError, fits, write};
+use crate::snapshot::{About, Archive, Opened, SnapshotError, write};
 use crate::state::Match;
 use setpiece_scenario::Bindings;
 use setpiece_scenario::vocabulary::Verdict;

@@ -3,9 +3,9 @@
 //! He waits before he looks; whoever has lost the ball by then gets the free kick after all, also when the ball leaves
 //! the pitch. A team that keeps it long enough, or scores, has had its advantage.
 
-use crate::event::Events;
-use crate::football::play::Restart;
-use crate::football::{referee, report};
+use crate::football::{report, whistle};
+use crate::state::event::Events;
+use crate::state::play::{Advantage, Restart};
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::EventKind;
 
@@ -13,19 +13,6 @@ use setpiece_scenario::vocabulary::EventKind;
 const WAIT_TICKS: u32 = 60;
 /// After so many ticks there is no way back.
 const OVER_TICKS: u32 = 300;
-
-/// A foul that was let run.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Advantage {
-    /// Who committed it.
-    pub by: PlayerId,
-    /// On whom.
-    pub victim: PlayerId,
-    /// The free kick that it would be.
-    pub restart: Restart,
-    /// When, ticks.
-    pub tick: u32,
-}
 
 /// Lets play run after a foul.
 pub fn wait(game: &mut Match, by: PlayerId, victim: PlayerId, restart: Restart) {
@@ -52,7 +39,7 @@ pub fn called_back(game: &mut Match, events: &mut Events) -> bool {
     let Some(Advantage { restart, .. }) = game.play.advantage.take() else { return false };
     game.play.pass = None;
     game.play.shot = None;
-    referee::stop(game, events, restart.mode, restart.team, restart.spot);
+    whistle::stop(game, events, restart.mode, restart.team, restart.spot);
     true
 }
 

@@ -1,14 +1,16 @@
 //! The first moment of a match.
 
-use crate::control::bot::formation;
-use crate::football::body::Body;
-use crate::football::play::Restart;
-use crate::football::{forecast, noise, reach, recent, restart, set_piece, stats};
-use crate::start::Drawn;
-use crate::state::{Match, PlayerId};
+use crate::football::{forecast, lineup, noise, reach, recent, restart, set_piece, stats, switching};
+use crate::physics::Ball;
+use crate::random::Purpose;
+use crate::start::{Drawn, DrawnPlayer};
+use crate::state::play::{Play, Restart};
+use crate::state::player::Body;
+use crate::state::{AgentSlot, Match, Player, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
-use setpiece_scenario::vocabulary::{GameMode, Rule, StartKind, Stat, Team};
+use setpiece_scenario::vocabulary::{GameMode, Role, Rule, StartKind, Stat, Team};
 
 /// Ticks before which nobody touches the ball of a start, as chance will have it. Measured.
 const FIRST_TICKS: std::ops::Range<f32> = 18.0..42.0;
@@ -17,9 +19,9 @@ const SET_OFF_TICKS: f32 = 18.0;
 /// Who has the ball of a start so near does so at once, metres; chosen.
 const AT_BALL_M: f32 = 0.75;
 
-/// The match that a drawn start begins with.
+/// The match that a drawn start begins with, before its first step is prepared.
 pub fn begin(drawn: &Drawn) -> Match {
-    let mut game = Match::blank(drawn);
+    let mut game = blank(drawn);
     for i in 0..PLAYERS_MAX {
         let Some(start) = &drawn.players[i] else { continue };
         let index = PlayerId(i as u8).in_team();
@@ -39,7 +41,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     for player in &mut game.players {
         player.body.ready_at = first as i32;
     }
-    formation::assign_slots(&mut game);
+    lineup::assign_slots(&mut game);
     game.play.others = drawn.others;
     let nearest = nearest_team(&mut game);
     game.play.first_kickoff = drawn.first_kickoff.or(drawn.taker).unwrap_or(nearest);
@@ -55,9 +57,60 @@ pub fn begin(drawn: &Drawn) -> Match {
     start_of(&mut game, drawn, nearest);
     recent::begin(&mut game);
     set_off(&mut game);
-    crate::control::switching::open(&mut game);
-    crate::control::prepare(&mut game);
+    switching::open(&mut game);
     game
+}
+
+/// A drawn start as a match, before anybody has thought.
+pub(crate) fn blank(drawn: &Drawn) -> Match {
+    let player = |slot: &Option<DrawnPlayer>| {
+        let drawn_player = slot.as_ref();
+        Player {
+            active: drawn_player.is_some(),
+            role: drawn_player.map_or(Role::GK, |p| p.role),
+            ai: drawn_player.map_or(Ai::Lazy, |p| p.ai),
+            controllable: drawn_player.is_some_and(|p| p.controllable),
+            pos: drawn_player.map_or(Vec2::ZERO, |p| p.pos),
+            vel: drawn_player.map_or(Vec2::ZERO, |p| p.vel),
+            heading_rad: drawn_player.and_then(|p| p.heading_rad).unwrap_or_default(),
+            fatigue: drawn_player.map_or(0.0, |p| p.fatigue),
+            yellow_cards: drawn_player.map_or(0, |p| p.yellow_cards),
+            difficulty: drawn_player.map_or(0.0, |p| p.difficulty),
+            body: Body::blank(),
+        }
+    };
+    Match {
+        tick: 0,
+        step: 0,
+        elapsed_at_start: drawn.elapsed_steps,
+        limit_steps: drawn.limit_steps,
+        score: drawn.score,
+        ball: Ball { pos: drawn.ball_pos, vel: drawn.ball_vel, spin: drawn.ball_spin },
+        squad: (0..).zip(&drawn.players).filter(|(_, slot)| slot.is_some()).map(|(id, _)| PlayerId(id)).collect(),
+        players: std::array::from_fn(|i| player(&drawn.players[i])),
+        owner: drawn.owner,
+        possession: drawn.owner.map(PlayerId::team),
+        last_touch: drawn.owner,
+        mode: GameMode::Normal,
+        dead: false,
+        rules: drawn.rules,
+        difficulty: drawn.difficulty,
+        agents: drawn
+            .agents
+            .iter()
+            .map(|agent| AgentSlot {
+                team: agent.team,
+                player: agent.fixed,
+                fixed: agent.fixed.is_some(),
+                sticky: 0,
+                steer: None,
+                key: None,
+            })
+            .collect(),
+        play_random: noise::stream(drawn, Purpose::Play),
+        bot_random: noise::stream(drawn, Purpose::Bot),
+        play: Play::blank(),
+    }
 }
 
 /// Lets everybody set off when chance will have it. Who has the ball at their feet does so at once, and so does whoever goes
@@ -113,7 +166,7 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
             (player.pos, player.vel) = (place, velocity);
         }
         set_piece::appoint(game);
-        formation::assign_slots(game);
+        lineup::assign_slots(game);
         restart::face_ball(game);
         let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
         for (i, player) in game.players.iter_mut().enumerate() {
@@ -125,7 +178,7 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
         }
         forecast::renew(game);
         reach::assess(game);
-        crate::control::switching::reassign(game);
+        switching::reassign(game);
     }
 }
 

@@ -1,8 +1,8 @@
 //! A ball that springs off somebody who could not have seen it coming.
 
-use crate::event::Events;
-use crate::football::play::ticks_since;
-use crate::football::{flight, forecast};
+use crate::football::{contact, forecast};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
 use crate::state::{Match, Squad};
 
 /// For how long nobody has seen what a rival's touch has made of the ball, ticks; how often at most it springs off a body; how
@@ -38,7 +38,7 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let speed = velocity.length();
     let full = away.extend(0.0) * (6.0 + 0.6 * speed) - velocity * 0.2;
     let squarely = 1.0 - 0.25 * from.length() / BODY_M;
-    flight::sprang(game, events, id);
+    contact::sprang(game, events, id);
     game.play.bounced_at = game.tick as i32;
     game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * 0.7;
     forecast::renew(game);

@@ -1,8 +1,8 @@
 //! The clock: half-time and full time.
 
-use crate::event::Events;
-use crate::football::{referee, report};
+use crate::football::{report, whistle};
 use crate::state::Match;
+use crate::state::event::Events;
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule};
 
@@ -21,7 +21,7 @@ pub fn end_step(game: &mut Match, events: &mut Events) {
         for player in &mut game.players {
             player.fatigue = 0.0;
         }
-        referee::stop(game, events, GameMode::KickOff, game.play.first_kickoff.other(), Vec2::ZERO);
+        whistle::stop(game, events, GameMode::KickOff, game.play.first_kickoff.other(), Vec2::ZERO);
     }
     if game.limit_steps.is_some_and(|limit| game.step >= limit) {
         events.push(report::event(game, EventKind::FullTime));

@@ -1,9 +1,9 @@
 //! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
 
-use crate::event::Events;
+use crate::football::contact;
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
-use crate::football::touch;
 use crate::math;
+use crate::state::event::Events;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
@@ -100,7 +100,7 @@ fn carried_m(speed: f32) -> f32 {
 pub(super) fn minds_lines(game: &Match, id: PlayerId) -> bool {
     let pos = game.player(id).pos.abs();
     let (x, y) = (HALF_LENGTH_M as f32 - AT_LINE_M, HALF_WIDTH_M as f32 - AT_LINE_M);
-    !touch::is_driven(game, id) || (pos.x < x && pos.y < y)
+    !game.is_driven(id) || (pos.x < x && pos.y < y)
 }
 
 /// Pushes the ball on in the way its player wants to run, where it isn't rolling that way already; false where it is.
@@ -130,7 +130,7 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     let care = Care { lines: minds_lines(game, id), lies: rolling < LIES_MPS };
     let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
     let closer = libm::powf(CLOSE / (CLOSEST[0] + CLOSEST[1] * player.skill(Stat::Dribble)), WAY_TO_PACE);
-    touch::push(game, events, id, longer(velocity, annoyance_m(game, id, speed)) * closer, 0.0);
+    contact::push(game, events, id, longer(velocity, annoyance_m(game, id, speed)) * closer, 0.0);
     if player.body.kick.is_none() {
         note_turn(game, id, ahead);
     }
@@ -147,7 +147,7 @@ fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     if (game.ball.vel.truncate() - wanted).length_squared() < 0.8 * 0.8 {
         return false;
     }
-    touch::push(game, events, id, wanted, 0.0);
+    contact::push(game, events, id, wanted, 0.0);
     true
 }
 

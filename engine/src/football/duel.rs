@@ -3,26 +3,14 @@
 //! A lunge is settled on some ticks before its foot meets the ball, at the place where the ball will be if nobody touches
 //! it. A touch in between leaves the foot beside the ball, or in the air.
 
-use crate::event::Events;
-use crate::football::play::ticks_since;
-use crate::football::{bounce, first_touch, noise, reach, report, slide, touch};
+use crate::football::{bounce, contact, first_touch, noise, reach, report, slide, touch};
 use crate::math;
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::Lunge;
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, Role};
-
-/// A leg on its way to the ball.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Lunge {
-    /// The tick at which the foot is there.
-    pub at: i32,
-    /// Where the ball will be then, world metres.
-    pub place: Vec2,
-    /// Whether the ball is to be taken along, rather than poked away.
-    pub takes: bool,
-    /// Whether the player stops for it.
-    pub stops: bool,
-}
 
 /// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where. How far off the
 /// ball may be is fitted to how often somebody who walks straight at a defender loses it.)
@@ -107,7 +95,7 @@ pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
         }
     }
     bounce::off_bodies(game, events, near);
-    let Some(rival) = game.owner.or_else(|| touch::controller(game)) else { return };
+    let Some(rival) = game.on_ball() else { return };
     for id in game.order_of(near) {
         if id.team() != rival.team() && game.tick.is_multiple_of(every(game, id, rival)) && may(game, id) {
             begin(game, events, id, rival);
@@ -160,7 +148,7 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
         && player.role != Role::GK
         && rolls
         && pace >= TRAP.from_mps
-        && !touch::is_driven(game, id)
+        && !game.is_driven(id)
         && seen
         && lunges(game, id, &TRAP, true, seen)
     {
@@ -233,7 +221,7 @@ fn reaches(player: &Player, ball: Vec2, way: &Motion) -> bool {
 fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
     let ball = game.ball.pos;
     let off = ball.truncate().distance(lunge.place) / MISSED_M;
-    let rival = game.owner.or_else(|| touch::controller(game)).filter(|rival| rival.team() != id.team());
+    let rival = game.on_ball().filter(|rival| rival.team() != id.team());
     if off >= 1.0 || ball.z > 1.0 || !game.player(id).is_up() || game.play.hands.is_some() {
         return;
     }
@@ -252,7 +240,7 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
     if let Some(rival) = rival {
         report::did(game, events, EventKind::Tackle, id, Some(rival));
     }
-    touch::push(game, events, id, velocity.truncate(), velocity.z);
+    contact::push(game, events, id, velocity.truncate(), velocity.z);
     if !lunge.takes {
         // A poke is no deliberate kick: the keeper may pick it up.
         game.play.kicked_by = None;

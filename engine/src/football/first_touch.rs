@@ -1,15 +1,17 @@
 //! The first touch of a free ball: taken down, kept or lost, or headed on.
 
-use crate::event::Events;
-use crate::football::body::KickKind;
-use crate::football::play::ticks_since;
-use crate::football::{dribble, flight, forecast, noise, touch};
+use crate::football::{contact, dribble, forecast, noise};
 use crate::math;
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::HALF_LENGTH_M;
 use setpiece_scenario::vocabulary::Stat;
 
+/// A higher ball is headed, or left to come down, metres.
+pub(super) const CHEST_M: f32 = 1.25;
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
 /// How fast a trapped ball is drawn to the foot of a standing player, 1/s, and at most, m/s; fitted.
@@ -46,7 +48,7 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
             return;
         }
     }
-    if ball.pos.z > touch::CHEST_M {
+    if ball.pos.z > CHEST_M {
         header(game, events, id);
         return;
     }
@@ -79,7 +81,7 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let aside = noise::bell(game) * keep * 0.5;
     let left_over = ball.vel.truncate() * keep;
     let velocity = soft * (1.0 - keep) + left_over + Vec2::new(-left_over.y, left_over.x) * aside;
-    touch::push(game, events, id, velocity, if hard { hop_mps(meeting) } else { 0.0 });
+    contact::push(game, events, id, velocity, if hard { hop_mps(meeting) } else { 0.0 });
     if wish.length_squared() > 0.25 {
         dribble::note_turn(game, id, ahead);
     }
@@ -150,7 +152,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let rise = if speed > 10.0 { 1.5 + noise::bell(game) } else { -1.0 };
     let shot = plan.is_some_and(|plan| plan.kind == KickKind::Shot);
     let from = game.ball.pos;
-    if !flight::touched(game, events, id, true) {
+    if !contact::touched(game, events, id, true) {
         return;
     }
     // Whoever jumped with them has lost this ball.
@@ -164,7 +166,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     game.ball.vel = Vec3::new(flat.x, flat.y, if shot { -0.5 } else { rise });
     game.ball.spin = Vec3::ZERO;
     if shot {
-        flight::shot_struck(game, events, id, from.truncate());
+        contact::shot_struck(game, events, id, from.truncate());
     }
     forecast::renew(game);
 }

@@ -1,8 +1,8 @@
 //! Fouls and cards: what a trip or a hand costs.
 
-use crate::event::Events;
-use crate::football::play::Restart;
-use crate::football::{advantage, noise, referee, report};
+use crate::football::{advantage, noise, report, whistle};
+use crate::state::event::Events;
+use crate::state::play::Restart;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{BOX_DEPTH_M, BOX_HALF_WIDTH_M, HALF_LENGTH_M, PENALTY_SPOT_M};
@@ -21,7 +21,7 @@ const HANDBALL: f32 = 0.04;
 /// Calls a foul of a severity: below 1 nothing, then a free kick or penalty, cards by severity.
 pub fn call(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) {
     if let Some(restart) = note(game, events, by, victim, severity) {
-        referee::stop(game, events, restart.mode, restart.team, restart.spot);
+        whistle::stop(game, events, restart.mode, restart.team, restart.spot);
     }
 }
 
@@ -31,7 +31,7 @@ pub fn call_or_let_run(game: &mut Match, events: &mut Events, by: PlayerId, vict
         Some(restart) if restart.mode == GameMode::FreeKick && severity <= YELLOW => {
             advantage::wait(game, by, victim, restart);
         }
-        Some(restart) => referee::stop(game, events, restart.mode, restart.team, restart.spot),
+        Some(restart) => whistle::stop(game, events, restart.mode, restart.team, restart.spot),
         None => {}
     }
 }
@@ -52,7 +52,7 @@ pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool)
         caution(game, events, by);
     }
     let restart = award(game, spot, by.team());
-    referee::stop(game, events, restart.mode, restart.team, restart.spot);
+    whistle::stop(game, events, restart.mode, restart.team, restart.spot);
 }
 
 /// A keeper has held the ball for longer than he may: a free kick from the edge of his box.
@@ -60,7 +60,7 @@ pub fn held_too_long(game: &mut Match, events: &mut Events, by: PlayerId) {
     let (team, pos) = (by.team().other(), game.player(by).pos);
     let edge = (HALF_LENGTH_M - BOX_DEPTH_M) as f32 * team.side() as f32;
     game.play.hands = None;
-    referee::stop(game, events, GameMode::FreeKick, team, Vec2::new(edge, pos.y));
+    whistle::stop(game, events, GameMode::FreeKick, team, Vec2::new(edge, pos.y));
 }
 
 /// Reports a foul and shows its card; what it is worth, if it is one.

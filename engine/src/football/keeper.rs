@@ -2,10 +2,10 @@
 //!
 //! Decides whether he reaches a ball and whether he holds it; leaves where he stands to `control::bot::keeper`.
 
-use crate::event::Events;
-use crate::football::body::Pose;
-use crate::football::play::{Save, ticks_since};
-use crate::football::{flight, forecast, foul, noise, report, touch};
+use crate::football::{contact, forecast, foul, noise, report, touch};
+use crate::state::event::Events;
+use crate::state::play::{Save, ticks_since};
+use crate::state::player::Pose;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
@@ -184,7 +184,7 @@ fn consider(
 fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     let shot = game.play.shot.take();
     if let Some(shot) = shot.filter(|shot| shot.by.team() != id.team()) {
-        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
+        events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
         report::did(game, events, EventKind::Save, id, Some(shot.by));
     }
     if holds && foul::in_box(game.ball.pos.truncate(), id.team()) {
@@ -192,7 +192,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
         return;
     }
     report::did(game, events, EventKind::Parry, id, shot.map(|shot| shot.by));
-    flight::deflected(game, events, id);
+    contact::deflected(game, events, id);
     let side = id.team().side() as f32;
     let (speed, own) = (game.ball.vel.length(), game.player(id).vel);
     let aside = Vec2::new(0.0, (2.0 * noise::roll(game) - 1.0) * side);
@@ -218,17 +218,17 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
         return;
     }
     let back_pass = game.rule(Rule::BackPass) && game.play.kicked_by.is_some_and(|last| last.team() == team);
-    let mate = touch::controller(game).is_some_and(|owner| owner.team() == team);
+    let mate = game.controller().is_some_and(|owner| owner.team() == team);
     if back_pass || mate {
         return;
     }
     let speed = (game.ball.vel - player.vel.extend(0.0)).length();
-    let rival = touch::controller(game).filter(|owner| owner.team() != team);
+    let rival = game.controller().filter(|owner| owner.team() != team);
     let brave = if rival.is_some() { BRAVE } else { 1.0 };
     let chance = (1.25 - speed / 22.0).clamp(0.1, 1.0) * brave * (0.6 + 0.4 * player.body.level);
     if noise::happens(game, chance) {
         if let Some(shot) = game.play.shot.take().filter(|shot| shot.by.team() != team) {
-            events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
+            events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
             report::did(game, events, EventKind::Save, id, Some(shot.by));
         }
         take(game, events, id);
@@ -239,7 +239,7 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
 
 /// Takes the ball into his hands.
 pub fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
-    if !flight::touched(game, events, id, false) {
+    if !contact::touched(game, events, id, false) {
         return;
     }
     report::did(game, events, EventKind::Catch, id, None);

@@ -2,12 +2,12 @@
 //!
 //! Leaves the choice of a pass's target to `pass_target`, how the ball leaves the foot to `pass` and `shot`.
 
-use crate::event::Events;
-use crate::football::body::{KickKind, KickPlan, NEVER, Swing};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
 use crate::football::shot::Struck;
-use crate::football::{flight, forecast, noise, offside, pass, pass_target, report, shot, touch};
+use crate::football::{contact, forecast, noise, offside, pass, pass_target, report, shot, switching, whistle};
 use crate::math;
+use crate::state::event::Events;
+use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
@@ -293,7 +293,7 @@ fn can_kick(game: &Match, id: PlayerId) -> bool {
         return false;
     }
     // A rival who dribbles the ball must be tackled first.
-    touch::controller(game).is_none_or(|owner| owner.team() == id.team())
+    game.controller().is_none_or(|owner| owner.team() == id.team())
 }
 
 /// Kicks.
@@ -301,7 +301,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     let set_piece = game.play.set_piece;
     let from_hands = game.play.hands.is_some();
     let from = game.ball.pos.truncate();
-    if !from_hands && !flight::touched(game, events, id, true) {
+    if !from_hands && !contact::touched(game, events, id, true) {
         return;
     }
     if from_hands {
@@ -338,22 +338,22 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             send(game, id, ball);
         }
     }
-    flight::note(game, id, if exempt { flight::Touch::Exempt } else { flight::Touch::Played });
+    contact::note(game, id, if exempt { contact::Touch::Exempt } else { contact::Touch::Played });
     // The kicker does not meet his own ball again at once.
     game.players[id.index()].body.ready_at = game.tick as i32 + 30;
     game.players[id.index()].body.follows_until = game.tick as i32 + FOLLOW_TICKS;
     game.mode = GameMode::Normal;
     if let Some(mode) = mode {
-        let kind = crate::football::restart::event_of(mode);
+        let kind = whistle::event_of(mode);
         events.push(report::event(game, kind).by(id).qualified(Qualifier::Taken));
     }
     match plan.kind {
-        KickKind::Shot => flight::shot_struck(game, events, id, from),
-        _ => flight::pass_struck(game, events, id, receiver, from),
+        KickKind::Shot => contact::shot_struck(game, events, id, from),
+        _ => contact::pass_struck(game, events, id, receiver, from),
     }
     forecast::renew(game);
     if let Some(receiver) = receiver {
-        crate::control::switching::hand_to(game, receiver);
+        switching::hand_to(game, receiver);
     }
     game.players[id.index()].body.touched_at = if exempt { NEVER } else { game.tick as i32 };
 }

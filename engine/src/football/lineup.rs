@@ -6,9 +6,10 @@
 
 use crate::football::block::{Block, HALF};
 use crate::math;
+use crate::state::Match;
 use glam::Vec2;
 use setpiece_scenario::pitch::{BOX_DEPTH_M, CIRCLE_RADIUS_M, TEAM_MAX};
-use setpiece_scenario::vocabulary::GameMode;
+use setpiece_scenario::vocabulary::{GameMode, Team};
 
 /// How far in front of the goal line a keeper waits, metres.
 const KEEPER_M: f32 = 0.02 * HALF.x;
@@ -29,6 +30,18 @@ pub const SLOTS: [Vec2; TEAM_MAX] = [
     Vec2::new(1.0, 0.0),
     Vec2::new(0.36, 0.85),
 ];
+
+/// Gives every player the slot of their number.
+pub fn assign_slots(game: &mut Match) {
+    for team in [Team::Left, Team::Right] {
+        let size = game.team(team).count();
+        for id in game.squad.of(team).ids() {
+            let player = &mut game.players[id.index()];
+            player.body.mind.slot = slot(id.in_team(), size);
+            player.body.mind.fills = id;
+        }
+    }
+}
 
 /// Where the keeper waits.
 pub fn keeper() -> Vec2 {

@@ -3,10 +3,10 @@
 //! Decides where a player's body goes: what each wants to run is one man's, and [`super::stride`] does the running for
 //! all of them. Leaves to `control` where he wants to go.
 
-use crate::football::body::{Intent, Pose};
 use crate::football::dribble::{LIES_MPS, SOLE_M, SPRINTS_MPS};
-use crate::football::rows::{ROWS, WIDTH};
 use crate::football::stride::{self, Four, NO_POINT};
+use crate::rows::{ROWS, WIDTH};
+use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::Vec2;

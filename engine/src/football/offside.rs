@@ -1,7 +1,7 @@
 //! Offside: who stands beyond the line when the ball is touched, and who is caught when he touches it next.
 
-use crate::event::Events;
-use crate::football::{advantage, referee, report};
+use crate::football::{advantage, report, whistle};
+use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Team};
@@ -57,6 +57,6 @@ pub fn caught(game: &mut Match, events: &mut Events, by: PlayerId) -> bool {
     }
     report::did(game, events, EventKind::Offside, by, None);
     let spot = game.player(by).pos.clamp(Vec2::new(-52.0, -34.0), Vec2::new(52.0, 34.0));
-    referee::stop(game, events, GameMode::FreeKick, by.team().other(), spot);
+    whistle::stop(game, events, GameMode::FreeKick, by.team().other(), spot);
     true
 }

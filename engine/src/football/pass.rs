@@ -2,11 +2,11 @@
 //!
 //! Its target is `pass_target`'s, its way `kick`'s.
 
-use crate::football::body::{KickKind, KickPlan};
 use crate::football::noise;
 use crate::football::shot::Struck;
 use crate::math;
 use crate::physics::constants::MAGNUS;
+use crate::state::player::{KickKind, KickPlan};
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;

@@ -1,7 +1,7 @@
 //! Whom a pass is for, and the point it is played to.
 
-use crate::football::body::{KickKind, KickPlan};
 use crate::math;
+use crate::state::player::{KickKind, KickPlan};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 

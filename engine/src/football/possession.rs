@@ -1,9 +1,28 @@
 //! Who has the ball now, and which team had it last.
 
-use crate::event::Events;
 use crate::football::report;
+use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::EventKind;
+
+/// A dribbler's ball is no higher than this, metres; chosen: how high a trapped one hops.
+const HIGH_M: f32 = 1.5;
+
+impl Match {
+    /// Whoever has the ball at their feet or in their hands, or else is dribbling it.
+    pub fn on_ball(&self) -> Option<PlayerId> {
+        self.owner.or_else(|| self.controller())
+    }
+
+    /// Whoever is dribbling the ball though it rolls free between two touches.
+    pub fn controller(&self) -> Option<PlayerId> {
+        let id = self.last_touch?;
+        let player = self.player(id);
+        let near = player.pos.distance_squared(self.ball.pos.truncate()) < 2.2 * 2.2;
+        let own = self.play.pass.is_none() && self.play.shot.is_none();
+        (player.active && near && own && self.ball.pos.z < HIGH_M).then_some(id)
+    }
+}
 
 /// Whether a player has the ball at his feet: near, low and about as fast as he.
 pub fn has_ball(game: &Match, id: PlayerId) -> bool {

@@ -1,9 +1,9 @@
 //! Who can be at the ball first: time to the ball for everyone, and the player of each team who goes for it.
 
-use crate::football::body::Intent;
-use crate::football::forecast::{Forecast, POINTS, SPACING_TICKS, time_s};
-use crate::football::play::ticks_since;
-use crate::football::rows::WIDTH;
+use crate::physics::forecast::{Forecast, POINTS, SPACING_TICKS, time_s};
+use crate::rows::WIDTH;
+use crate::state::play::ticks_since;
+use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{Role, Stat, Team};
@@ -128,7 +128,7 @@ fn delay_ticks(player: &Player, driven: bool) -> i32 {
 /// Whether a player has seen what the last touch has made of the ball.
 pub fn has_seen(game: &Match, id: PlayerId) -> bool {
     let (since, toucher) = last_touch(game);
-    toucher == Some(id) || since >= delay_ticks(game.player(id), game.play.driven & (1 << id.0) != 0)
+    toucher == Some(id) || since >= delay_ticks(game.player(id), game.is_driven(id))
 }
 
 /// Ticks since the last touch, and whose it was.
@@ -152,15 +152,15 @@ pub fn refresh(game: &mut Match) {
 
 /// Renews the meetings of some players; who has not seen the last touch yet keeps his.
 fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
-    let driven = game.play.driven;
     let (since, toucher) = last_touch(game);
     let way = Way::of(&game.play.forecast, game.tick);
     for id in game.squad.ids() {
+        let driven = game.is_driven(id);
         let player = &mut game.players[id.index()];
         if !player.active || !whose(player) {
             continue;
         }
-        let unseen = since < delay_ticks(player, driven & (1 << id.0) != 0);
+        let unseen = since < delay_ticks(player, driven);
         if unseen && toucher != Some(id) {
             continue;
         }

@@ -1,12 +1,11 @@
 //! The referee: goals and the ball out of play. Stops play and says which restart follows.
 
-use crate::event::Events;
-use crate::football::play::Restart;
-use crate::football::{advantage, flight, report, restart};
+use crate::football::{advantage, contact, report, whistle};
 use crate::physics::{self, Line};
+use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{BALL_RADIUS_M, GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
 
 /// No nearer to a corner than this, from the middle, is a throw-in taken, metres. (GRF's.)
@@ -30,14 +29,14 @@ pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
 fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
     let shot = game.play.shot.take().filter(|shot| shot.by.team() == scorers);
     if let Some(shot) = shot {
-        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
+        events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
     }
     let scorer = game.last_touch;
     let score = &mut game.score[scorers.index()];
     *score = score.saturating_add(1);
     let mut base = report::event(game, EventKind::Goal).team(scorers);
     if let Some(shot) = shot {
-        let struck = flight::of_shot(game, EventKind::Goal, shot);
+        let struck = contact::of_shot(game, EventKind::Goal, shot);
         base = base.at(struck.at).length(struck.length_m);
     }
     if let Some(id) = scorer.filter(|id| id.team() != scorers) {
@@ -51,14 +50,14 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
     if game.play.advantage.is_some_and(|advantage| advantage.restart.team == scorers) {
         advantage::played(game, events);
     }
-    stop(game, events, GameMode::KickOff, scorers.other(), Vec2::ZERO);
+    whistle::stop(game, events, GameMode::KickOff, scorers.other(), Vec2::ZERO);
 }
 
 /// The ball is out of play.
 fn out(game: &mut Match, events: &mut Events, line: Line) {
     let ball = game.ball.pos;
     if let Some(shot) = game.play.shot.take() {
-        events.push(flight::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OffTarget));
+        events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OffTarget));
     }
     let last = game.last_touch.map_or(game.play.lead, PlayerId::team);
     let out = report::event(game, EventKind::OutOfPlay);
@@ -70,25 +69,13 @@ fn out(game: &mut Match, events: &mut Events, line: Line) {
         if last == defenders {
             let top = if ball.y < 0.0 { -1.0 } else { 1.0 };
             let corner = Vec2::new(HALF_LENGTH_M as f32 * ball.x.signum(), HALF_WIDTH_M as f32 * top);
-            stop(game, events, GameMode::Corner, defenders.other(), corner);
+            whistle::stop(game, events, GameMode::Corner, defenders.other(), corner);
         } else {
             let spot = Vec2::new((HALF_LENGTH_M - GOAL_KICK_SPOT_M) as f32 * ball.x.signum(), 0.0);
-            stop(game, events, GameMode::GoalKick, defenders, spot);
+            whistle::stop(game, events, GameMode::GoalKick, defenders, spot);
         }
     } else {
         let spot = Vec2::new(ball.x.clamp(-THROW_IN_X_M, THROW_IN_X_M), HALF_WIDTH_M as f32 * ball.y.signum());
-        stop(game, events, GameMode::ThrowIn, last.other(), spot);
+        whistle::stop(game, events, GameMode::ThrowIn, last.other(), spot);
     }
-}
-
-/// Stops play; a restart follows.
-pub fn stop(game: &mut Match, events: &mut Events, mode: GameMode, team: Team, spot: Vec2) {
-    if game.dead {
-        return;
-    }
-    game.dead = true;
-    game.owner = None;
-    game.play.pending = Some(Restart { mode, team, spot });
-    let spot = spot.extend(BALL_RADIUS_M as f32);
-    events.push(report::event(game, restart::event_of(mode)).team(team).at(spot));
 }

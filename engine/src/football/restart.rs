@@ -1,25 +1,13 @@
 //! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
 
-use crate::control::bot::formation;
-use crate::football::body::{Intent, NEVER, Pose};
-use crate::football::play::{Restart, SetPiece};
-use crate::football::{forecast, reach, recent, set_piece};
-use crate::state::{Ball, Match, PlayerId};
+use crate::football::{forecast, lineup, reach, recent, set_piece, switching};
+use crate::physics::Ball;
+use crate::state::play::{Restart, SetPiece};
+use crate::state::player::{Intent, NEVER, Pose};
+use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, CIRCLE_RADIUS_M};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Team};
-
-/// The event that awards a set piece.
-pub fn event_of(mode: GameMode) -> EventKind {
-    match mode {
-        GameMode::Normal | GameMode::KickOff => EventKind::Kickoff,
-        GameMode::GoalKick => EventKind::GoalKick,
-        GameMode::FreeKick => EventKind::FreeKick,
-        GameMode::Corner => EventKind::Corner,
-        GameMode::ThrowIn => EventKind::ThrowIn,
-        GameMode::Penalty => EventKind::Penalty,
-    }
-}
+use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// Places everyone for the restart that waits, and ends the stop.
 pub fn apply(game: &mut Match) {
@@ -55,7 +43,7 @@ pub fn place(game: &mut Match, restart: Restart) {
     forecast::renew(game);
     reach::assess(game);
     recent::begin(game);
-    crate::control::switching::reassign(game);
+    switching::reassign(game);
 }
 
 /// Times that a crowd at the circle is gone through.
@@ -70,7 +58,7 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
         let own = PlayerId(i as u8).team() == team;
         player.pos = player.body.kickoff[usize::from(!own)];
     }
-    formation::assign_slots(game);
+    lineup::assign_slots(game);
     game.mode = GameMode::KickOff;
     game.owner = None;
     game.possession = Some(team);
@@ -101,13 +89,6 @@ fn clear_circle(game: &mut Match, team: Team, spot: Vec2) {
             let away = if away.x * side > 0.0 { Vec2::new(-side, 0.0) } else { away };
             player.pos = spot + away * (CIRCLE_RADIUS_M as f32 + 0.3);
         }
-    }
-}
-
-/// The kick-off has been taken, or given up.
-pub fn end_kick_off(game: &mut Match) {
-    if game.play.kick_off.take().is_some() {
-        game.mode = GameMode::Normal;
     }
 }
 

@@ -1,12 +1,12 @@
 //! Bodies don't pass through each other: circles of 0.36 m are pushed apart. Who is pushed plays worse for a moment, and
 //! may fall.
 
-use crate::event::Events;
-use crate::football::body::Pose;
 use crate::football::movement::{DT, SPRINT_MPS};
-use crate::football::rows::{ROWS, WIDTH};
 use crate::football::{frame, reach, stumble};
 use crate::math;
+use crate::rows::{ROWS, WIDTH};
+use crate::state::event::Events;
+use crate::state::player::Pose;
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;

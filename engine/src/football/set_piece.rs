@@ -1,7 +1,7 @@
 //! Set pieces: who takes one and where everybody stands.
 
-use crate::football::play::{Restart, SetPiece};
 use crate::football::{lineup, offside};
+use crate::state::play::{Restart, SetPiece};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;

@@ -1,8 +1,8 @@
 //! Where a shot goes and how hard.
 
-use crate::football::body::KickPlan;
 use crate::football::{noise, pass};
 use crate::math;
+use crate::state::player::KickPlan;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};

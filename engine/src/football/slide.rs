@@ -1,9 +1,9 @@
 //! Slide tackles: the slide itself, the ball or the legs it meets.
 
-use crate::event::Events;
-use crate::football::body::Pose;
-use crate::football::play::ticks_since;
-use crate::football::{foul, noise, report, touch};
+use crate::football::{contact, foul, noise, report};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::Pose;
 use crate::state::{Match, PlayerId, Squad};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, Stat};
@@ -87,7 +87,7 @@ fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
     let aside = noise::bell(game) * 0.3;
     let way = player.body.facing + Vec2::new(-player.body.facing.y, player.body.facing.x) * aside;
-    touch::push(game, events, id, way * 6.0 - player.vel * 0.28, 1.0);
+    contact::push(game, events, id, way * 6.0 - player.vel * 0.28, 1.0);
     game.play.kicked_by = None;
     if let Some(rival) = rival {
         game.players[rival.index()].body.ready_at = game.tick as i32 + 40;

@@ -4,7 +4,7 @@
 //! measured ones (speed step by step from a standstill, ticks to turn, length of a stop).
 
 use crate::football::movement::{ARRIVAL_PER_S, DT};
-use crate::football::rows::{Lane, WIDTH};
+use crate::rows::{Lane, WIDTH};
 use setpiece_scenario::pitch::{RIM_X_M, RIM_Y_M};
 use wide::f32x4;
 

@@ -3,10 +3,10 @@
 //! Nothing is left to chance: a runner stumbles or falls where pace, the ball, their opponent's side and depth of the
 //! meeting outweigh their balance. (GRF's rule; its motions are measured.)
 
-use crate::event::Events;
-use crate::football::body::Pose;
-use crate::football::{foul, touch};
+use crate::football::foul;
 use crate::math;
+use crate::state::event::Events;
+use crate::state::player::Pose;
 use crate::state::{Match, Player, PlayerId};
 use setpiece_scenario::vocabulary::Stat;
 
@@ -74,7 +74,7 @@ fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f
     let from = (player.pos - other.pos).normalize_or_zero();
     let turned = 0.5 - 0.5 * player.body.facing.dot(from);
     let ball = game.play.forecast.at(game.tick + 1).truncate();
-    let has_ball = touch::controller(game) == Some(id) || game.owner == Some(id);
+    let has_ball = game.controller() == Some(id) || game.owner == Some(id);
     let rival = game.play.chaser[id.team().other().index()];
     let ahead = rival.is_none_or(|rival| game.player(rival).body.meet_s > player.body.meet_s);
     let counts = turned

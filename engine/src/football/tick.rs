@@ -1,13 +1,13 @@
 //! One tick of 10 ms, in order.
 
-use crate::event::Events;
-use crate::football::play::ticks_since;
 use crate::football::{
-    advantage, duel, flight, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
-    restart, separation, slide, touch,
+    advantage, contact, duel, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
+    separation, slide, touch, whistle,
 };
 use crate::laps::Phase;
 use crate::physics::{self, Body, Contact, Scratch};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
 use crate::state::{Match, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
@@ -82,7 +82,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
                 return;
             }
             let shot = game.play.shot.is_some_and(|shot| shot.by.team() != by.team());
-            flight::deflected(game, events, by);
+            contact::deflected(game, events, by);
             foul::handball(game, events, by, shot);
             forecast::renew(game);
         }
@@ -94,7 +94,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
 fn near_bodies(game: &Match, near: Squad) -> ArrayVec<Body, BODIES_MAX> {
     let mut bodies = ArrayVec::new();
     let ball = game.ball;
-    if ball.vel.length_squared() < 25.0 || ball.pos.z > 2.3 || touch::controller(game).is_some() {
+    if ball.vel.length_squared() < 25.0 || ball.pos.z > 2.3 || game.controller().is_some() {
         return bodies;
     }
     let flat = ball.pos.truncate();
@@ -120,7 +120,7 @@ fn keep_circle(game: &mut Match) {
     let waited = game.tick.saturating_sub(game.play.kick_off_tick);
     if game.rule(Rule::AntiStalling) && waited > KICK_OFF_TICKS {
         // Whoever does not take it gives it up.
-        restart::end_kick_off(game);
+        whistle::end_kick_off(game);
         return;
     }
     let radius = CIRCLE_RADIUS_M as f32;

@@ -1,23 +1,19 @@
-//! Who plays a ball within reach, and what every touch has in common.
+//! Who plays a ball within reach.
 //!
 //! Leaves the touches of a dribble to `dribble`, the first touch of a free ball to `first_touch`, duels for an owned ball to
-//! `duel`, hands to `keeper`, what a touch means (passes, offside) to `flight` and `offside`.
+//! `duel`, hands to `keeper`, what a touch means (passes, offside) to `contact` and `offside`.
 
-use crate::event::Events;
-use crate::football::body::{Intent, Pose};
-use crate::football::play::ticks_since;
-use crate::football::{dribble, first_touch, flight, forecast, kick};
+use crate::football::{dribble, first_touch, kick};
+use crate::state::event::Events;
+use crate::state::play::ticks_since;
+use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId, Squad};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::vocabulary::{EventKind, Rule};
+use setpiece_scenario::vocabulary::Rule;
 
-/// A higher ball is headed, or left to come down, metres.
-pub(super) const CHEST_M: f32 = 1.25;
 /// A ball above this is not at the foot yet, metres: as of whoever owns it.
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
-/// A dribbler's ball is no higher than this, metres; chosen: how high a trapped one hops.
-const HIGH_M: f32 = 1.5;
 /// The ticks in which the ball of a start is pushed straight on by who stands there. Measured.
 const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
 /// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast ball that meets a body less
@@ -60,7 +56,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     }
     let ball = game.ball.pos;
     let flat = ball.truncate();
-    let owner = game.owner.or_else(|| controller(game)).filter(|&id| plays_on(game, id));
+    let owner = game.on_ball().filter(|&id| plays_on(game, id));
     let mut nearest: Option<(f32, PlayerId)> = None;
     for id in game.order_of(near) {
         let player = game.player(id);
@@ -71,7 +67,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
         {
             continue;
         }
-        if ball.z > CHEST_M && !heads(game, id) {
+        if ball.z > first_touch::CHEST_M && !heads(game, id) {
             continue;
         }
         if owner == Some(id) {
@@ -95,26 +91,12 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
 
 /// Whether a player would reach for a ball that a rival has.
 pub(super) fn contests(game: &Match, id: PlayerId) -> bool {
-    (game.player(id).ai != Ai::Lazy || is_driven(game, id)) && game.last_touch != Some(id)
+    (game.player(id).ai != Ai::Lazy || game.is_driven(id)) && game.last_touch != Some(id)
 }
 
 /// Whether whoever had the ball last can play it on: not at once after a poke at a rival's ball, so that it is anybody's.
 fn plays_on(game: &Match, id: PlayerId) -> bool {
     game.tick as i32 >= game.player(id).body.ready_at
-}
-
-/// Whoever is dribbling the ball though it rolls free between two touches.
-pub fn controller(game: &Match) -> Option<PlayerId> {
-    let id = game.last_touch?;
-    let player = game.player(id);
-    let near = player.pos.distance_squared(game.ball.pos.truncate()) < 2.2 * 2.2;
-    let own = game.play.pass.is_none() && game.play.shot.is_none();
-    (player.active && near && own && game.ball.pos.z < HIGH_M).then_some(id)
-}
-
-/// Whether an agent, or a behaviour, presses for him.
-pub(super) fn is_driven(game: &Match, id: PlayerId) -> bool {
-    game.play.driven & (1 << id.0) != 0
 }
 
 /// Whether a player would play the ball that is near him.
@@ -123,7 +105,7 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
     if (game.tick as i32) < player.body.ready_at && !pushes_off(game, player) {
         return false;
     }
-    if player.ai == Ai::Lazy && !is_driven(game, id) {
+    if player.ai == Ai::Lazy && !game.is_driven(id) {
         return false;
     }
     if game.last_touch == Some(id) {
@@ -135,7 +117,7 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
         return true;
     }
     // A mate's dribble and a mate's pass to somebody else are left alone.
-    if controller(game) == Some(last) {
+    if game.controller() == Some(last) {
         return false;
     }
     match game.play.pass.and_then(|pass| pass.to) {
@@ -156,7 +138,7 @@ fn keeps(game: &Match, id: PlayerId, distance_squared: f32) -> bool {
 /// Whether a bot's leg is on its way to a kick: it lets the ball roll until then.
 fn swings(game: &Match, id: PlayerId) -> bool {
     let swing = game.player(id).body.kick.and_then(|plan| plan.swing);
-    !is_driven(game, id) && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
+    !game.is_driven(id) && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
 }
 
 /// Whether a player stands at the ball of a start and only has to push it straight on: they do so at once.
@@ -187,30 +169,10 @@ fn about_to_kick(game: &Match, id: PlayerId) -> bool {
     apart.length_squared() <= kick::KICK_M * kick::KICK_M
 }
 
-/// Touches the ball so that it leaves with a velocity.
-pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2, hop: f32) {
-    if !flight::touched(game, events, id, false) {
-        return;
-    }
-    let velocity = velocity.clamp_length_max(14.0);
-    // A ball in the air is brought down.
-    let fall = if game.ball.pos.z > 0.3 { game.ball.vel.z.min(0.0) - 1.0 } else { 0.0 };
-    game.ball.vel = velocity.extend(if hop > 0.0 { hop } else { fall });
-    game.ball.pos.z = game.ball.pos.z.max(0.11);
-    // Rolling: the spin that belongs to the speed.
-    game.ball.spin = Vec3::new(-velocity.y, velocity.x, 0.0) / 0.11;
-    forecast::renew(game);
-}
-
 /// Whether a keeper may use his hands: not where an agent has him under `grf_keeper`, and not if he is lazy.
 pub fn may_handle(game: &Match, id: PlayerId) -> bool {
-    let driven = game.play.driven & (1 << id.0) != 0;
+    let driven = game.is_driven(id);
     let player = game.player(id);
     let bound = if driven { game.rule(Rule::GrfKeeper) } else { player.ai == Ai::Lazy };
     player.active && !bound
-}
-
-/// The event of a touch, by its height.
-pub fn kind_of_touch(height_m: f32) -> EventKind {
-    if height_m > 1.5 { EventKind::Header } else { EventKind::Touch }
 }

@@ -1,11 +1,11 @@
 //! When an episode ends, and what that says of it.
 
-use crate::event::{Event, Events};
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
 use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
+use crate::state::event::{Event, Events};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
 use setpiece_scenario::{Ending, Endings};
 use std::sync::Arc;

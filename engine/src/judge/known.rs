@@ -1,12 +1,12 @@
 //! What programs and scripts know of an episode beside the match itself.
 
-use crate::event::Event;
 use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
 use crate::judge::script::{Scene, Scripts, Shelf};
 use crate::judge::view::{Sight, View};
 use crate::random::{Purpose, Stream};
 use crate::snapshot::{Archive, SnapshotError};
+use crate::state::event::Event;
 use setpiece_scenario::vocabulary::Team;
 use std::sync::Arc;
 

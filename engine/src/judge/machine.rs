@@ -8,11 +8,11 @@
 mod fold;
 mod plan;
 
-use crate::event::Event;
 use crate::in_place::clone_in_place;
 use crate::judge::view::{Sight, ids, player_number, team_number, team_of_number};
 use crate::random::Stream;
 use crate::state::PlayerId;
+use crate::state::event::Event;
 use fold::Folding;
 pub use plan::Plan;
 use plan::{ALWAYS, Loop, Op, Step};

@@ -1,6 +1,7 @@
 use super::*;
-use crate::event::Event;
+use crate::football::begin;
 use crate::state::PlayerId;
+use crate::state::event::Event;
 use crate::testing::{Code, checkpoints, event, scenario, scoring};
 use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Field, GameMode, Qualifier, Role, Team, Verdict};
@@ -18,7 +19,7 @@ fn bench(rewards: Vec<Reward>, prepare: impl FnOnce(&mut Scenario)) -> (Judge, M
     let bindings = setpiece_scenario::Bindings::default();
     let roster = crate::draw::Roster::new(&scenario, &bindings, None).unwrap();
     let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
-    let game = Match::blank(&drawn);
+    let game = begin::blank(&drawn);
     let scripts = Scripts::compile(&scenario).unwrap();
     let mut judge = Judge::new(&scenario, rewards.into(), scripts, roster.agents.len());
     judge.reset(&game, &Given { seed: 1, index: 0, params: &bindings.0, lets: &drawn.lets });

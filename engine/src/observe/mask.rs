@@ -1,9 +1,10 @@
 //! Which actions can change anything.
 
 use super::{ObserveError, slot};
-use crate::control::{driver, switching};
-use crate::football::body::KickKind;
+use crate::control::driver;
+use crate::football::switching;
 use crate::state::Match;
+use crate::state::player::KickKind;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
 /// Which of the 33 actions of GRF's `full` set can change something for agent `agent`; the first 19 are its `default`

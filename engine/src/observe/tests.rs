@@ -1,5 +1,6 @@
 use super::layout::Layout;
 use super::*;
+use crate::football::begin;
 use crate::state::PlayerId;
 use crate::testing::scenario;
 use glam::{Vec2, Vec3};
@@ -15,7 +16,7 @@ fn game() -> Match {
     let bindings = setpiece_scenario::Bindings::default();
     let roster = crate::draw::Roster::new(&scenario, &bindings, None).unwrap();
     let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
-    let mut game = Match::blank(&drawn);
+    let mut game = begin::blank(&drawn);
     game.agents.clear();
     for (team, player) in [(Team::Left, 1), (Team::Right, 11)] {
         game.agents.push(AgentSlot {

@@ -6,12 +6,12 @@
 //!
 //! Semi-implicit Euler: its energy falls by ½ g² dt² a tick in free fall, and never grows.
 
+use super::Ball;
 use super::constants::{
     AIR_DRAG, BALL_RADIUS, BOUNCE, BOUNCE_FRICTION, BOUNCE_GRIP, BOUNCE_LEAST, BOUNCE_LOSS, GRASS_DEPTH, GRAVITY,
     MAGNUS, MAGNUS_SPEED_MAX, MAGNUS_SPIN_MAX, ROLL_DRAG, ROLL_DRAG_SQUARE, ROLL_SPIN_SHARE, ROLL_TWIST_DECAY,
     SPIN_DECAY, TICK_S,
 };
-use crate::state::Ball;
 use glam::{Vec2, Vec3};
 
 /// Angular over linear speed gained at the rim of a shell: 1 / (2/3 · R).

@@ -1,9 +1,9 @@
 //! Whether the ball can meet anything hard within a tick. Cheap, and never wrong on the side of "no".
 
+use super::Ball;
 use super::Body;
 use super::constants::{BALL_RADIUS, BODY_RADIUS, NEAR, TICK_S};
 use super::scene::{BODIES_MAX, GOAL_BOUNDS};
-use crate::state::Ball;
 use arrayvec::ArrayVec;
 use glam::Vec2;
 

@@ -4,16 +4,16 @@
 //! reckoned tick by tick, by the physics itself. Off by centimetres mostly; where a fast ball falls steeply or spins much,
 //! by up to a quarter of a metre after a second.
 
+use super::Ball;
 use super::constants::{
     AIR_DRAG, BALL_RADIUS, BOUNCE_LEAST, GRASS_DEPTH, GRAVITY, MAGNUS, MAGNUS_SPIN_MAX, ROLL_DRAG, ROLL_DRAG_SQUARE,
     ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, SPIN_DECAY, TICK_S,
 };
 use super::flight;
-use crate::state::Ball;
 use glam::{Vec2, Vec3};
 
 /// The ball's centre after `stride_ticks`, `2 * stride_ticks`, … ticks, in world metres, without an end.
-pub fn forecast(ball: &Ball, stride_ticks: u32) -> impl Iterator<Item = Vec3> + use<> {
+pub fn places(ball: &Ball, stride_ticks: u32) -> impl Iterator<Item = Vec3> + use<> {
     let mut ahead = *ball;
     let stride = Stride::of(stride_ticks);
     std::iter::repeat_with(move || {

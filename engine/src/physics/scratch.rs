@@ -4,11 +4,11 @@
 //! another path. Therefore every tick starts from a copy of the template, and the result depends on the ball and the
 //! bodies alone.
 
+use super::Ball;
 use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
 use super::scene::{BODIES_MAX, Part, Workspace, World};
 use super::{Body, Contact};
 use crate::laps::Laps;
-use crate::state::Ball;
 use glam::{Vec2, Vec3};
 
 /// Memory that one worker lends to one tick: the scratch rapier world and its templates, by the number of bodies.

@@ -1,10 +1,11 @@
-use crate::football::body::{Intent, KickKind, KickPlan, Swing};
-use crate::football::play::{Flight, Restart, Save, SetPiece};
-use crate::football::{advantage::Advantage, begin, kick};
+use crate::football::kick;
 use crate::judge::View;
 use crate::snapshot::{SNAPSHOT_VERSION, checksum, match_bytes};
+use crate::state::play::{Advantage, Flight, Restart, Save, SetPiece};
+use crate::state::player::{Intent, KickKind, KickPlan, Swing};
 use crate::state::{Match, PlayerId};
 use crate::statistics::Statistics;
+use crate::step;
 use crate::testing::event;
 use glam::Vec2;
 use serde_json::Value;
@@ -24,7 +25,7 @@ fn busy() -> Match {
     )
     .unwrap();
     environment.reset(Some(1), None).unwrap();
-    let mut game = begin::begin(&environment.start().unwrap());
+    let mut game = step::begin(&environment.start().unwrap());
     let (id, spot, mode, team) = (PlayerId(0), Vec2::ZERO, GameMode::FreeKick, Team::Left);
     let restart = Restart { mode, team, spot };
     let flight = Some(Flight { by: id, to: Some(id), from: spot, tick: 0 });

@@ -127,7 +127,7 @@ impl Serializer for Walk {
         false
     }
 
-    /// Bytes are floats: see [`super::floats`].
+    /// Bytes are floats: see [`crate::floats`].
     fn serialize_bytes(self, bytes: &[u8]) -> Result<(), Fault> {
         let floats = bytes.as_chunks().0.iter().map(|float| f32::from_le_bytes(*float));
         // All at once first: they are sound but for damage.
@@ -261,7 +261,7 @@ mod tests {
     #[derive(Serialize)]
     struct Sample {
         pos: [f32; 2],
-        #[serde(with = "crate::snapshot::floats")]
+        #[serde(with = "crate::floats")]
         lane: [f32; 3],
         tick: u32,
         limit_steps: Option<u32>,

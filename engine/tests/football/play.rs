@@ -3,8 +3,8 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn, set_level};
 use glam::Vec2;
-use setpiece_engine::football::duel::Lunge;
-use setpiece_engine::football::flight;
+use setpiece_engine::football::contact;
+use setpiece_engine::state::player::Lunge;
 use setpiece_engine::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
 
@@ -203,9 +203,9 @@ fn a_shot_that_springs_off_a_rival_is_blocked_and_off_a_keeper_saved() {
     let (striker, [keeper, defender]) = (PlayerId(9), [PlayerId(11), PlayerId(12)]);
     for (by, verdict) in [(defender, Qualifier::Blocked), (keeper, Qualifier::OnTarget)] {
         bench.events.clear();
-        flight::shot_struck(&mut bench.game, &mut bench.events, striker, Vec2::new(40.0, 0.0));
+        contact::shot_struck(&mut bench.game, &mut bench.events, striker, Vec2::new(40.0, 0.0));
         bench.events.clear();
-        flight::sprang(&mut bench.game, &mut bench.events, by);
+        contact::sprang(&mut bench.game, &mut bench.events, by);
         let shot = bench.seen(EventKind::Shot).expect("the shot is settled");
         assert_eq!((shot.qualifier, shot.by), (Some(verdict), Some(striker)));
         assert_eq!(bench.seen(EventKind::Save).is_some(), by == keeper);

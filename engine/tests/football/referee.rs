@@ -3,11 +3,12 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
-use setpiece_engine::event::Event;
-use setpiece_engine::football::body::Pose;
-use setpiece_engine::football::duel::Lunge;
-use setpiece_engine::football::{flight, foul, keeper, stumble};
-use setpiece_engine::state::{Ball, PlayerId};
+use setpiece_engine::football::{contact, foul, keeper, stumble};
+use setpiece_engine::physics::Ball;
+use setpiece_engine::state::PlayerId;
+use setpiece_engine::state::event::Event;
+use setpiece_engine::state::player::Lunge;
+use setpiece_engine::state::player::Pose;
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Rule, Team};
 
 /// Sends the ball on its way as if a player had touched it last, and plays until play stops.
@@ -299,7 +300,7 @@ fn handballs(rules: &[(Rule, f64)], man: PlayerId, at: Vec2, height: f32) -> Vec
         let from = Vec3::new(at.x - 3.0, at.y, height);
         bench.game.ball = Ball { pos: from, vel: Vec3::new(25.0, 0.0, 0.5), spin: Vec3::ZERO };
         bench.game.last_touch = Some(LEFT_MAN);
-        flight::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, from.truncate());
+        contact::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, from.truncate());
         bench.step(Action::BuiltinAi);
         bench.step(Action::BuiltinAi);
         if let Some(event) = bench.seen(EventKind::Handball) {
@@ -336,7 +337,7 @@ fn a_goal_and_a_shots_verdict_are_told_of_where_it_was_struck() {
     for (y, verdict) in [(1.0, Qualifier::OnTarget), (12.0, Qualifier::OffTarget)] {
         let mut bench = Bench::new(Layout::Eleven, 0);
         let struck = Vec2::new(40.0, y);
-        flight::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, struck);
+        contact::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, struck);
         roll(&mut bench, Vec3::new(54.0, y, 0.5), Vec3::new(20.0, 0.0, 0.0), LEFT_MAN);
         let told: Vec<Event> =
             bench.events.as_slice().iter().copied().filter(|it| it.qualifier == Some(verdict)).collect();

@@ -3,11 +3,12 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
-use setpiece_engine::football::body::Pose;
-use setpiece_engine::football::play::Restart;
 use setpiece_engine::football::restart::place;
-use setpiece_engine::football::{flight, foul, keeper, offside};
-use setpiece_engine::state::{Ball, PlayerId};
+use setpiece_engine::football::{contact, foul, keeper, offside};
+use setpiece_engine::physics::Ball;
+use setpiece_engine::state::PlayerId;
+use setpiece_engine::state::play::Restart;
+use setpiece_engine::state::player::Pose;
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Role, Rule, Team};
 
 /// A match of eleven against eleven with some rules changed.
@@ -64,7 +65,7 @@ fn a_long_shot_at_a_lone_keeper_is_seen_coming() {
             let aim = (Vec2::new(55.0, (seed % 7) as f32 - 3.0) - from).normalize();
             let vel = (aim * 33.0).extend(9.0);
             bench.game.ball = Ball { pos: from.extend(0.11), vel, spin: Vec3::ZERO };
-            flight::note(&mut bench.game, man, flight::Touch::Played);
+            contact::note(&mut bench.game, man, contact::Touch::Played);
             for _ in 0..60 {
                 bench.step(Action::Idle);
                 if bench.game.dead || bench.game.play.hands.is_some() {
@@ -82,10 +83,10 @@ fn a_shot_that_has_run_dead_is_off_target_whoever_comes_for_it() {
     let mut bench = bench(&[], 0);
     let (by, rival) = (PlayerId(5), PlayerId(14));
     let mut told = |speed: f32| {
-        flight::shot_struck(&mut bench.game, &mut bench.events, by, Vec2::ZERO);
+        contact::shot_struck(&mut bench.game, &mut bench.events, by, Vec2::ZERO);
         bench.game.ball.vel = Vec3::new(speed, 0.0, 0.0);
         bench.events.clear();
-        flight::touched(&mut bench.game, &mut bench.events, rival, false);
+        contact::touched(&mut bench.game, &mut bench.events, rival, false);
         bench.seen(EventKind::Shot).and_then(|event| event.qualifier)
     };
     assert_eq!(told(20.0), Some(Qualifier::Blocked));
@@ -172,15 +173,15 @@ fn a_deflection_plays_nobody_onside_and_a_played_ball_does() {
         bench.game.players[passer.index()].pos = Vec2::new(10.0, 0.0);
         bench.game.players[runner.index()].pos = Vec2::new(35.0, 10.0);
         bench.game.ball = Ball { pos: Vec3::new(20.0, 5.0, 0.11), vel: Vec3::new(15.0, 5.0, 0.0), spin: Vec3::ZERO };
-        flight::note(&mut bench.game, passer, flight::Touch::Played);
+        contact::note(&mut bench.game, passer, contact::Touch::Played);
         assert_ne!(offside::positions(&bench.game, passer) & (1 << runner.0), 0);
         bench
     };
     let mut sprang = set_up();
-    flight::deflected(&mut sprang.game, &mut sprang.events, defender);
+    contact::deflected(&mut sprang.game, &mut sprang.events, defender);
     assert!(offside::caught(&mut sprang.game, &mut sprang.events, runner));
     let mut played = set_up();
-    assert!(flight::touched(&mut played.game, &mut played.events, defender, false));
+    assert!(contact::touched(&mut played.game, &mut played.events, defender, false));
     assert!(!offside::caught(&mut played.game, &mut played.events, runner));
 }
 
@@ -233,7 +234,7 @@ fn a_shot_at_the_keepers_chest_does_not_go_through_him() {
         let man = PlayerId(2);
         bench.game.players[man.index()].pos = Vec2::new(43.0, 0.0);
         bench.game.ball = Ball { pos: Vec3::new(44.0, 0.0, 0.5), vel: Vec3::new(25.0, 0.0, 1.5), spin: Vec3::ZERO };
-        flight::note(&mut bench.game, man, flight::Touch::Played);
+        contact::note(&mut bench.game, man, contact::Touch::Played);
         for _ in 0..8 {
             bench.step(Action::BuiltinAi);
             if bench.game.dead {
@@ -495,7 +496,7 @@ fn a_parry_goes_back_into_play() {
         let aside = (seed % 7) as f32 - 3.0;
         bench.game.ball =
             Ball { pos: Vec3::new(35.0, 0.0, 0.5), vel: Vec3::new(24.0, 1.15 * aside, 3.0), spin: Vec3::ZERO };
-        flight::note(&mut bench.game, man, flight::Touch::Played);
+        contact::note(&mut bench.game, man, contact::Touch::Played);
         let mut parried = false;
         for _ in 0..25 {
             bench.step(Action::BuiltinAi);

@@ -3,11 +3,11 @@
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::Vec2;
-use setpiece_engine::control::switching;
-use setpiece_engine::football::body::KickKind;
-use setpiece_engine::football::play::Restart;
 use setpiece_engine::football::restart::place;
+use setpiece_engine::football::switching;
 use setpiece_engine::state::PlayerId;
+use setpiece_engine::state::play::Restart;
+use setpiece_engine::state::player::KickKind;
 use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::{Action, GameMode, Rule, Team};
 

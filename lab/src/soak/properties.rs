@@ -10,8 +10,8 @@ mod waiting;
 use crate::pitch::Failure;
 use film::Film;
 use setpiece::engine::environment::Scratch;
-use setpiece::engine::event::Event;
 use setpiece::engine::state::Match;
+use setpiece::engine::state::event::Event;
 use setpiece::scenario::vocabulary::{Action, EventKind};
 use waiting::Waiting;
 

@@ -7,8 +7,8 @@ use super::colours::{AGENT, CARD_YELLOW, Colour, DARK, SHADOW, faded, shirt};
 use super::scene::{Person, Scene};
 use super::text::Style;
 use super::view::View;
-use crate::engine::football::body::Pose;
 use crate::engine::state::PlayerId;
+use crate::engine::state::player::Pose;
 use tiny_skia::Point;
 
 /// Radius of a player's disc, metres, and its least, pixels.

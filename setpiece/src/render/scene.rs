@@ -1,6 +1,6 @@
 //! What is drawn of a moment: copied from the match, so that moments can be kept and laid over each other.
 
-use crate::engine::football::body::Pose;
+use crate::engine::state::player::Pose;
 use crate::engine::state::{Match, Player, PlayerId};
 use crate::scenario::Team;
 use crate::scenario::vocabulary::{GameMode, Role};

@@ -8,7 +8,7 @@ use super::moments::{Happening, choose};
 use super::stage::{self, TRAIL_STEPS};
 use super::view::Region;
 use super::{head, words};
-use crate::engine::event::Event;
+use crate::engine::state::event::Event;
 use crate::scenario::pitch::HALF_LENGTH_M;
 use tiny_skia::{Pixmap, PixmapMut, PixmapPaint, Transform};
 

@@ -1,7 +1,7 @@
 //! Events in words, and how much each is worth telling.
 
-use crate::engine::event::Event;
 use crate::engine::state::PlayerId;
+use crate::engine::state::event::Event;
 use crate::scenario::Team;
 use crate::scenario::vocabulary::{EventKind, GameMode, Qualifier};
 

@@ -5,7 +5,7 @@ use super::steer::{Gait, rest, towards};
 use crate::control::driver::may_play;
 use crate::control::{agents, sticky};
 use crate::football::movement::RUN_MPS;
-use crate::football::{shot, touch};
+use crate::football::shot;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
@@ -92,7 +92,7 @@ pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut
 fn his(game: &Match, id: PlayerId) -> bool {
     let near = game.player(id).pos.distance(game.ball.pos.truncate()) < NEAR_M;
     let taker = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
-    touch::controller(game) == Some(id) || ((near || taker || game.owner == Some(id)) && may_play(game, id))
+    game.controller() == Some(id) || ((near || taker || game.owner == Some(id)) && may_play(game, id))
 }
 
 /// A player and what he holds.
@@ -198,7 +198,7 @@ impl Legs<'_> {
 
     /// Whoever has the ball or dribbles it.
     fn owner(&self) -> Option<PlayerId> {
-        self.game.owner.or_else(|| touch::controller(self.game))
+        self.game.on_ball()
     }
 
     fn to_ball(&self) -> Action {

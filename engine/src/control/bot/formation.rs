@@ -1,17 +1,16 @@
 //! The team's block in open play: where everyone's place is, given the ball and who is nearer to it.
 //!
-//! Every number has a slot in one formation ([`lineup::SLOTS`]); its role says how its place follows the ball. Players
-//! swap slots where that brings the team to its places sooner. (All figures are GRF's.)
+//! Every number has a slot in one formation ([`SLOTS`](crate::football::lineup::SLOTS)); its role says how its place
+//! follows the ball. Players swap slots where that brings the team to its places sooner. (All figures are GRF's.)
 
 use crate::control::bot::View;
 use crate::control::bot::matching::matching;
 use crate::football::block::{Block, HALF};
-use crate::football::lineup;
 use crate::math::{self, mix, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::TEAM_MAX;
-use setpiece_scenario::vocabulary::{Role, Team};
+use setpiece_scenario::vocabulary::Role;
 
 /// The whole block's depth and width, shares of the pitch.
 const DEPTH: f32 = 0.45;
@@ -67,18 +66,6 @@ fn wishes(role: Role) -> [Wish; 2] {
     attack.by_side += 0.2 * mind;
     defence.by_side -= 0.2 * mind;
     [attack, defence]
-}
-
-/// Gives every player the slot of their number.
-pub fn assign_slots(game: &mut Match) {
-    for team in [Team::Left, Team::Right] {
-        let size = game.team(team).count();
-        for id in game.squad.of(team).ids() {
-            let player = &mut game.players[id.index()];
-            player.body.mind.slot = lineup::slot(id.in_team(), size);
-            player.body.mind.fills = id;
-        }
-    }
 }
 
 /// Gives the slots out again, so that everyone's way to theirs is short. (GRF's.)

@@ -1,10 +1,9 @@
 //! The keeper's feet: where they stand, when they come out. (Their hands are `football::keeper`'s.)
 
 use crate::control::bot::{GOAL, View, send};
-use crate::football::body::{Intent, Pose};
 use crate::football::movement::{RUN_MPS, SPRINT_MPS};
-use crate::football::touch;
 use crate::math::share;
+use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
@@ -164,7 +163,7 @@ fn second_danger(game: &Match, view: &View, id: PlayerId, rival: PlayerId, left_
 /// Whether a free ball is the keeper's: passed to them, or they are surely there before the others. How surely depends on
 /// where it is: out of the box hands are no help, and the goal is empty; who has no mates has nobody else.
 fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
-    if touch::controller(game).is_some() {
+    if game.controller().is_some() {
         return false;
     }
     if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {

@@ -1,8 +1,8 @@
 //! How likely a ball comes to where it is played. (GRF's figures.)
 
 use crate::control::bot::View;
-use crate::football::body::KickKind;
 use crate::football::movement::SPRINT_MPS;
+use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};

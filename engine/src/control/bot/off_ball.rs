@@ -3,9 +3,9 @@
 
 use crate::control::bot::formation::{Outlook, mindset};
 use crate::control::bot::{View, mark, send, support};
-use crate::football::body::Intent;
 use crate::football::movement::SPRINT_MPS;
 use crate::math::{self, ease, share};
+use crate::state::player::Intent;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Role, Stat};
 

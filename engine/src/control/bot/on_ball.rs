@@ -2,11 +2,11 @@
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, dribbling, odds};
-use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::movement::SPRINT_MPS;
-use crate::football::play::ticks_since;
 use crate::football::{kick, noise};
 use crate::math::{self, ease, share};
+use crate::state::play::ticks_since;
+use crate::state::player::{Intent, KickKind, KickPlan};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};

@@ -2,8 +2,8 @@
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
-use crate::football::body::Intent;
 use crate::football::movement::SPRINT_MPS;
+use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};
@@ -65,7 +65,7 @@ pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
     if game.play.team_pressure[view.team.index()] {
         let [second, third] = game.play.behind[view.team.index()];
         let mut queue = [first, second, third].into_iter().flatten();
-        if queue.find(|id| game.play.driven & (1 << id.0) == 0) == Some(id) {
+        if queue.find(|id| !game.is_driven(*id)) == Some(id) {
             return Pursuit::Hunt(rival);
         }
     }

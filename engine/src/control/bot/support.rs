@@ -168,10 +168,9 @@ pub fn assign(game: &mut Match, view: &View) {
         return;
     }
     let to = place + Vec2::new(26.0 * view.side, 0.0);
-    let driven = game.play.driven;
     let runner = game
         .team(view.team)
-        .filter(|(id, _)| *id != main && driven & (1 << id.0) == 0)
+        .filter(|(id, _)| *id != main && !game.is_driven(*id))
         .min_by(|(_, a), (_, b)| a.pos.distance_squared(to).total_cmp(&b.pos.distance_squared(to)));
     let Some((runner, player)) = runner else { return };
     let near = (1.0 - share(player.pos.distance(place), 0.0, 40.0)).sqrt();

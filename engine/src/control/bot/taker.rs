@@ -1,13 +1,13 @@
 //! Set pieces by the bot: what the taker plays, and when.
 
 use crate::control::bot::GOAL;
-use crate::football::body::{Intent, KickKind, KickPlan};
 use crate::football::kick;
 use crate::football::movement::SPRINT_MPS;
 use crate::football::noise;
 use crate::football::offside;
-use crate::football::play::SetPiece;
 use crate::math;
+use crate::state::play::SetPiece;
+use crate::state::player::{Intent, KickKind, KickPlan};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
@@ -21,12 +21,12 @@ const LAZY_WAIT_STEPS: u16 = 14;
 pub fn think(game: &mut Match) {
     let Some(set_piece) = game.play.set_piece else { return };
     for i in 0..PLAYERS_MAX {
-        if game.play.driven & (1 << i) == 0 {
+        if !game.is_driven(PlayerId(i as u8)) {
             game.players[i].body.intent = Intent::Stand;
         }
     }
     let taker = set_piece.taker;
-    let driven = game.play.driven & (1 << taker.0) != 0;
+    let driven = game.is_driven(taker);
     // Who is lazy takes it only where he would hold up the game.
     let late = set_piece.waited_steps >= LAZY_WAIT_STEPS && game.rule(Rule::AntiStalling);
     let lazy = game.player(taker).ai == Ai::Lazy && !late;

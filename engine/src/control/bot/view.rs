@@ -2,9 +2,9 @@
 
 use crate::control::bot::board::Board;
 use crate::control::bot::mark;
-use crate::football::recent::BallMeans;
-use crate::football::{offside, reach, touch};
+use crate::football::{offside, reach};
 use crate::math::share;
+use crate::state::recent::BallMeans;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Team;
@@ -59,7 +59,7 @@ impl View {
     /// What a team knows now.
     fn of(game: &Match, team: Team, board: Board, means: BallMeans) -> View {
         let side = team.side() as f32;
-        let owner = game.owner.or_else(|| touch::controller(game));
+        let owner = game.on_ball();
         let soonest = [team, team.other()].map(|team| View::soonest(game, team));
         let mut view = View {
             team,

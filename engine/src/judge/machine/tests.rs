@@ -239,7 +239,7 @@ fn loops_nest() {
     assert_eq!(run(&code.program, &now, &now, &[], &mut [], false).regs[outer.index()], 2.0);
 }
 
-fn counted(filter: EventFilter, events: &[crate::event::Event]) -> f64 {
+fn counted(filter: EventFilter, events: &[crate::state::event::Event]) -> f64 {
     let mut code = Code::default();
     // Registers 0 and 1 are what filters of the tests read.
     code.number(0.0);
@@ -257,11 +257,12 @@ fn events_are_filtered() {
     assert_eq!(counted(filter(EventKind::Goal, None, Some(Who::Team(Reg(0)))), &goals), 2.0);
     // The second is an own goal: a goal of the team's, but of no player's.
     assert_eq!(counted(filter(EventKind::Goal, None, Some(Who::Player(Reg(1)))), &goals), 1.0);
-    let taken = crate::event::Event { qualifier: Some(Qualifier::Taken), ..event(EventKind::Corner, left, None) };
+    let taken =
+        crate::state::event::Event { qualifier: Some(Qualifier::Taken), ..event(EventKind::Corner, left, None) };
     let corners = [event(EventKind::Corner, left, None), taken];
     assert_eq!(counted(filter(EventKind::Corner, None, None), &corners), 1.0);
     assert_eq!(counted(filter(EventKind::Corner, Some(Qualifier::Taken), None), &corners), 1.0);
-    let end = crate::event::Event { qualifier: Some(Qualifier::Success), ..event(EventKind::End, None, None) };
+    let end = crate::state::event::Event { qualifier: Some(Qualifier::Success), ..event(EventKind::End, None, None) };
     assert_eq!(counted(filter(EventKind::End, None, None), &[end]), 1.0);
     assert_eq!(counted(filter(EventKind::End, Some(Qualifier::Failure), None), &[end]), 0.0);
 }

@@ -1,6 +1,7 @@
 use super::*;
-use crate::event::Event;
+use crate::football::begin;
 use crate::judge::{Sight, View};
+use crate::state::event::Event;
 use crate::testing::{checkpoints, event, scenario, scoring};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 
@@ -25,7 +26,7 @@ impl Bench {
         let bindings = setpiece_scenario::Bindings::default();
         let roster = crate::draw::Roster::new(&scenario, &bindings, Some(&choice)).unwrap();
         let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
-        let game = Match::blank(&drawn);
+        let game = begin::blank(&drawn);
         let scripts = Scripts::compile(&scenario).unwrap();
         let mut bench = Bench { judge: RewardJudge::new(rewards.into(), &scripts, 3), game, prev: View::EMPTY };
         bench.prev = View::of(&bench.game);

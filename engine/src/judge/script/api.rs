@@ -14,12 +14,12 @@ pub(crate) use kept::Shelf;
 pub(super) use kept::scene_of;
 pub use table::{Member, Subject, members};
 
-use crate::event::Event;
 use crate::judge::script::Params;
 use crate::judge::script::budget::count_operations;
 use crate::judge::view::{PlayerView, View, player_index, team_of_number};
 use crate::random::Stream;
 use crate::state::PlayerId;
+use crate::state::event::Event;
 use rhai::{Array, Dynamic, Engine};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{Team, Type};

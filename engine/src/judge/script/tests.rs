@@ -1,8 +1,8 @@
 use super::api::getters_complete;
 use super::*;
-use crate::event::Event;
 use crate::random::{Purpose, Stream};
 use crate::state::PlayerId;
+use crate::state::event::Event;
 use crate::testing::{event, scenario, view};
 use setpiece_scenario::Script;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};

@@ -5,11 +5,11 @@ use crate::pitch::Failure;
 use glam::{Vec2, Vec3};
 use setpiece::engine::control;
 use setpiece::engine::environment::Scratch;
-use setpiece::engine::event::Events;
-use setpiece::engine::football::body::Pose;
 use setpiece::engine::football::{separation, tick};
 use setpiece::engine::physics::constants::{BALL_RADIUS, FRAME_RADIUS, NET_HALF, TICK_S};
 use setpiece::engine::physics::lines::OUT_X;
+use setpiece::engine::state::event::Events;
+use setpiece::engine::state::player::Pose;
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::pitch::{
     CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, GOAL_HEIGHT_M, HALF_LENGTH_M, PLAYERS_MAX,

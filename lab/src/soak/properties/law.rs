@@ -2,8 +2,8 @@
 
 use super::{Step, must};
 use crate::pitch::Failure;
-use setpiece::engine::event::Event;
-use setpiece::engine::football::restart::event_of;
+use setpiece::engine::football::whistle::event_of;
+use setpiece::engine::state::event::Event;
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::pitch::PLAYERS_MAX;
 use setpiece::scenario::vocabulary::{EventKind, GameMode, Qualifier, Rule, Team};

@@ -4,9 +4,9 @@ use super::*;
 use crate::pitch::text;
 use glam::{Vec2, Vec3};
 use setpiece::engine::environment::Environment;
-use setpiece::engine::football::body::Pose;
 use setpiece::engine::physics::lines::OUT_X;
 use setpiece::engine::state::PlayerId;
+use setpiece::engine::state::player::Pose;
 use setpiece::scenario::vocabulary::{Qualifier, Role, Rule, Team};
 
 const MATCH: &str = "scenario held {

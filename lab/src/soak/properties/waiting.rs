@@ -68,7 +68,7 @@ impl Waiting {
 /// Counts a step in which somebody could have gone on: where the rule does not hurry him, one in which no agent and no
 /// behaviour led him and he isn't lazy.
 fn count(steps: &mut u32, game: &Match, who: Option<PlayerId>, hurried: bool) {
-    let free = |id: PlayerId| game.play.driven & (1 << id.0) == 0 && game.player(id).ai != Ai::Lazy;
+    let free = |id: PlayerId| !game.is_driven(id) && game.player(id).ai != Ai::Lazy;
     let could = who.is_some_and(|id| hurried || free(id));
     *steps = if could { *steps + 1 } else { 0 };
 }

@@ -6,13 +6,13 @@
 
 use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
 use super::{Perspective, Scene};
-use crate::event::{EVENTS_MAX, Event};
 use crate::judge::script::host::MEMORIES_BYTES_MAX;
 use crate::judge::script::{Memory, host};
 use crate::judge::view::View;
 use crate::random::Stream;
 use crate::snapshot::{Archive, SnapshotError, bounded};
 use crate::state::PlayerId;
+use crate::state::event::{EVENTS_MAX, Event};
 use rhai::{Array, Dynamic, FnPtr, ImmutableString, Map};
 use serde::{Deserialize, Serialize};
 use setpiece_scenario::vocabulary::Team;

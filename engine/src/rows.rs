@@ -3,9 +3,9 @@
 use setpiece_scenario::pitch::PLAYERS_MAX;
 
 /// Numbers of a row.
-pub(super) const WIDTH: usize = 4;
+pub(crate) const WIDTH: usize = 4;
 /// Rows that hold everybody.
-pub(super) const ROWS: usize = PLAYERS_MAX.div_ceil(WIDTH);
+pub(crate) const ROWS: usize = PLAYERS_MAX.div_ceil(WIDTH);
 
 /// A number for each of four.
-pub(super) type Lane = [f32; WIDTH];
+pub(crate) type Lane = [f32; WIDTH];

@@ -1,18 +1,81 @@
-//! What the game keeps of a player beside what everyone may see: his statistics, what he wants, what his body does.
+//! A player: what everyone may see of them, and what the game keeps beside that, their [`Body`]: statistics, what they
+//! want, what their body does.
 
-use crate::football::duel::Lunge;
-use crate::state::{Player, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::Stat;
+use setpiece_scenario::Ai;
+use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
+use setpiece_scenario::vocabulary::{Role, Stat, Team};
 
 /// A tick long before every match.
 pub const NEVER: i32 = -100_000;
+
+/// A player: `team * 11 + index`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "u8")]
+pub struct PlayerId(pub u8);
+
+impl TryFrom<u8> for PlayerId {
+    type Error = &'static str;
+
+    fn try_from(id: u8) -> Result<PlayerId, &'static str> {
+        if usize::from(id) < PLAYERS_MAX { Ok(PlayerId(id)) } else { Err("a player's id is below 22") }
+    }
+}
+
+impl PlayerId {
+    /// The id of a team's player.
+    pub fn new(team: Team, index: usize) -> PlayerId {
+        PlayerId((team.index() * TEAM_MAX + index) as u8)
+    }
+
+    /// As an index into [`Match::players`](super::Match::players).
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// His team.
+    pub const fn team(self) -> Team {
+        if self.index() < TEAM_MAX { Team::Left } else { Team::Right }
+    }
+
+    /// His place in the team, source order.
+    pub const fn in_team(self) -> usize {
+        self.index() % TEAM_MAX
+    }
+}
+
+/// A player: what everyone may see of him. What `football` needs beside it stands in his `body`.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Player {
+    /// Is on the pitch: of the squad and not sent off.
+    pub active: bool,
+    /// His role.
+    pub role: Role,
+    /// Who plays him without an agent.
+    pub ai: Ai,
+    /// Whether an agent may be given him.
+    pub controllable: bool,
+    /// World metres.
+    pub pos: Vec2,
+    /// m/s.
+    pub vel: Vec2,
+    /// The way he faces, world radians.
+    pub heading_rad: f32,
+    /// 0 fresh to 1 exhausted.
+    pub fatigue: f32,
+    /// Cards so far.
+    pub yellow_cards: u8,
+    /// 0..1.
+    pub difficulty: f32,
+    /// What `football` and `control` keep of him.
+    pub body: Body,
+}
 
 /// A player's inner state.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
     /// Raw statistics by [`Stat::index`], 0..1.
-    #[serde(with = "crate::snapshot::floats")]
+    #[serde(with = "crate::floats")]
     pub stats: [f32; Stat::ALL.len()],
     /// 0.3 + 0.7 · difficulty: the share of his statistics that he shows.
     pub level: f32,
@@ -142,6 +205,19 @@ pub struct Swing {
     pub mate: Option<PlayerId>,
     /// Whether the player was running as it began.
     pub runs: bool,
+}
+
+/// A leg on its way to the ball.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Lunge {
+    /// The tick at which the foot is there.
+    pub at: i32,
+    /// Where the ball will be then, world metres.
+    pub place: Vec2,
+    /// Whether the ball is to be taken along, rather than poked away.
+    pub takes: bool,
+    /// Whether the player stops for it.
+    pub stops: bool,
 }
 
 /// What the bot has in mind for a player.

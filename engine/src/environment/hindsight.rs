@@ -1,7 +1,8 @@
 //! A new episode in an old state: what has happened is the snapshot's, what the scenario says is its own.
 
-use crate::football::{self, foul};
+use crate::football::foul;
 use crate::state::Match;
+use crate::step;
 use setpiece_scenario::vocabulary::{Rule, Team};
 
 /// The match of a new episode that begins where `past` stands.
@@ -10,7 +11,7 @@ use setpiece_scenario::vocabulary::{Rule, Team};
 /// - Of `fresh`, the start that the scenario draws: rules, limit, difficulty, roles and statistics, who plays whom, the random streams; nothing is held.
 ///
 /// Steps are counted anew; ticks go on, as everything under way is timed by them.
-pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
+pub(super) fn begin_from(past: &Match, fresh: &Match) -> Match {
     let mut game = past.clone();
     game.elapsed_at_start = past.elapsed_at_start.saturating_add(past.step);
     game.step = 0;
@@ -46,6 +47,6 @@ pub(crate) fn begin_from(past: &Match, fresh: &Match) -> Match {
     for team in [Team::Left, Team::Right] {
         foul::succeed(&mut game, team);
     }
-    football::go_on(&mut game);
+    step::go_on(&mut game);
     game
 }

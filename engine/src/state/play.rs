@@ -1,10 +1,9 @@
 //! What the game keeps of a match beside what everyone may see.
 
-use crate::football::advantage::Advantage;
-use crate::football::body::{KickKind, NEVER};
-use crate::football::forecast::Forecast;
-use crate::football::recent::Recent;
-use crate::state::PlayerId;
+use super::PlayerId;
+use super::player::{KickKind, NEVER};
+use super::recent::Recent;
+use crate::physics::Forecast;
 use glam::Vec2;
 use setpiece_scenario::Others;
 use setpiece_scenario::pitch::PLAYERS_MAX;
@@ -83,9 +82,9 @@ pub struct Acting {
     pub chosen: Option<Action>,
     /// What he played in the last step: his agent's action, else his behaviour's, else what is told of the bot.
     pub played: Option<Action>,
-    /// As [`AgentSlot::key`](crate::state::AgentSlot::key), for who is scripted.
+    /// As [`AgentSlot::key`](super::AgentSlot::key), for who is scripted.
     pub key: Option<KickKind>,
-    /// What he holds by that, as [`AgentSlot::sticky`](crate::state::AgentSlot::sticky).
+    /// What he holds by that, as [`AgentSlot::sticky`](super::AgentSlot::sticky).
     pub sticky: u16,
 }
 
@@ -113,6 +112,19 @@ pub struct Restart {
     pub team: Team,
     /// Where.
     pub spot: Vec2,
+}
+
+/// A foul that was let run.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Advantage {
+    /// Who committed it.
+    pub by: PlayerId,
+    /// On whom.
+    pub victim: PlayerId,
+    /// The free kick that it would be.
+    pub restart: Restart,
+    /// When, ticks.
+    pub tick: u32,
 }
 
 /// A kick under way.

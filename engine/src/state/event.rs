@@ -1,7 +1,7 @@
 //! Events: what happened during a step, in order.
 
+use super::PlayerId;
 use crate::in_place::clone_in_place;
-use crate::state::PlayerId;
 use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
 
@@ -29,6 +29,44 @@ pub struct Event {
     pub length_m: f32,
     /// The ball's speed, m/s.
     pub speed_mps: f32,
+}
+
+impl Event {
+    /// Done by a player.
+    #[must_use]
+    pub fn by(self, id: PlayerId) -> Event {
+        Event { by: Some(id), team: self.team.or(Some(id.team())), ..self }
+    }
+
+    /// Reaching or hurting a player.
+    #[must_use]
+    pub fn to(self, id: Option<PlayerId>) -> Event {
+        Event { to: id, ..self }
+    }
+
+    /// Of or for a team.
+    #[must_use]
+    pub fn team(self, team: Team) -> Event {
+        Event { team: Some(team), ..self }
+    }
+
+    /// Refined.
+    #[must_use]
+    pub fn qualified(self, qualifier: Qualifier) -> Event {
+        Event { qualifier: Some(qualifier), ..self }
+    }
+
+    /// Over a way of so many metres.
+    #[must_use]
+    pub fn length(self, length_m: f32) -> Event {
+        Event { length_m, ..self }
+    }
+
+    /// At a place.
+    #[must_use]
+    pub fn at(self, at: Vec3) -> Event {
+        Event { at, ..self }
+    }
 }
 
 /// The events of a step: a buffer that is reused.

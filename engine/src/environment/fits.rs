@@ -1,7 +1,7 @@
 //! Whether a match fits an environment: the same players take part, and the same agents.
 
-use super::error::SnapshotError;
 use crate::draw::Roster;
+use crate::snapshot::SnapshotError;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::Team;
@@ -11,7 +11,7 @@ use std::ops::Range;
 ///
 /// # Errors
 /// [`SnapshotError::Roster`].
-pub(crate) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
+pub(super) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
     let there = std::array::from_fn::<bool, PLAYERS_MAX, _>(|i| game.squad.has(PlayerId(i as u8)));
     if let Some(team) = Team::ALL.iter().find(|team| there[places(**team)] != roster.present[places(**team)]) {
         let (found, expected) = (players(&there, *team), players(&roster.present, *team));

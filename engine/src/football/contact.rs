@@ -1,10 +1,10 @@
 //! What a touch of the ball means: passes completed and cut out, shots blocked, offside.
 
-use crate::event::{Event, Events};
-use crate::football::play::Flight;
-use crate::football::{offside, report, restart, touch};
+use crate::football::{forecast, offside, report, whistle};
+use crate::state::event::{Event, Events};
+use crate::state::play::Flight;
 use crate::state::{Match, PlayerId};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
@@ -19,7 +19,7 @@ pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) 
         return false;
     }
     let placed = game.play.set_piece.is_some();
-    let kind = if placed { EventKind::Touch } else { touch::kind_of_touch(game.ball.pos.z) };
+    let kind = if placed { EventKind::Touch } else { kind_of_touch(game.ball.pos.z) };
     report::did(game, events, kind, by, None);
     if game.play.kick_off.is_some() {
         events.push(report::event(game, EventKind::Kickoff).by(by).qualified(Qualifier::Taken));
@@ -28,6 +28,26 @@ pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) 
     note(game, by, Touch::Played);
     game.play.kicked_by = (placed || kick && game.ball.pos.z < 1.2).then_some(by);
     true
+}
+
+/// The event of a touch, by its height.
+fn kind_of_touch(height_m: f32) -> EventKind {
+    if height_m > 1.5 { EventKind::Header } else { EventKind::Touch }
+}
+
+/// Touches the ball so that it leaves with a velocity.
+pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2, hop: f32) {
+    if !touched(game, events, id, false) {
+        return;
+    }
+    let velocity = velocity.clamp_length_max(14.0);
+    // A ball in the air is brought down.
+    let fall = if game.ball.pos.z > 0.3 { game.ball.vel.z.min(0.0) - 1.0 } else { 0.0 };
+    game.ball.vel = velocity.extend(if hop > 0.0 { hop } else { fall });
+    game.ball.pos.z = game.ball.pos.z.max(0.11);
+    // Rolling: the spin that belongs to the speed.
+    game.ball.spin = Vec3::new(-velocity.y, velocity.x, 0.0) / 0.11;
+    forecast::renew(game);
 }
 
 /// Records that a ball sprang off a player who did not see it coming: it takes them a while to get at it.
@@ -108,7 +128,7 @@ pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
     game.last_touch = Some(by);
     game.play.lead = by.team();
     game.players[by.index()].body.touched_at = game.tick as i32;
-    restart::end_kick_off(game);
+    whistle::end_kick_off(game);
     game.play.offside = match touch {
         Touch::Exempt => 0,
         Touch::Sprang if game.play.offside & team_bits(by.team().other()) != 0 => game.play.offside,

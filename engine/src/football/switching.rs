@@ -4,7 +4,6 @@
 //! the receiver of a pass, to the taker of a set piece. A match begins with certain places of the team, keepers too; a
 //! restart with the players nearest to the ball. In play no slot changes to a keeper.
 
-use crate::football::touch;
 use crate::state::{AgentSlot, Match, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -46,7 +45,7 @@ pub fn update(game: &mut Match) {
             }
             continue;
         }
-        let owner = game.owner.or_else(|| touch::controller(game)).filter(|id| id.team() == team);
+        let owner = game.on_ball().filter(|id| id.team() == team);
         if let Some(owner) = owner {
             hand_to(game, owner);
             continue;
@@ -146,7 +145,7 @@ pub fn sooner(game: &Match, slot: usize) -> Option<PlayerId> {
 
 /// Whether a team has the ball, or has passed it.
 fn has_ball(game: &Match, team: Team) -> bool {
-    let owner = game.owner.or_else(|| touch::controller(game)).or_else(|| game.play.pass.map(|pass| pass.by));
+    let owner = game.on_ball().or_else(|| game.play.pass.map(|pass| pass.by));
     owner.is_some_and(|id| id.team() == team)
 }
 

@@ -13,6 +13,7 @@ use crate::lower::script::Scripts;
 use crate::lower::{
     Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, roster, start,
 };
+use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem, ScriptApi, Severity};
 use crate::resolve::{Library, Prelude, flatten, load};
@@ -49,36 +50,6 @@ pub struct Outcome {
     pub inputs: Vec<String>,
     /// Where the parts of the scenario stand.
     pub origins: Origins,
-}
-
-/// Where the parts of a compiled scenario stand in the sources.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Origins {
-    /// The scenario's name.
-    pub scenario: Option<Span>,
-    /// Its parameters, in order.
-    pub params: Vec<Span>,
-    /// Its players, in order.
-    pub players: Vec<Span>,
-    /// Its rewards, in order.
-    pub rewards: Vec<Span>,
-    /// Its endings, in order.
-    pub endings: Vec<Span>,
-    /// Its records, in order.
-    pub records: Vec<Span>,
-    /// Its observation.
-    pub observation: Option<Span>,
-    /// Its requirements, in order: the written ones, then the implied.
-    pub requires: Vec<RequireOrigin>,
-}
-
-/// Where a requirement of the draw comes from.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct RequireOrigin {
-    /// The statement, or the part that implies it, where it is one part.
-    pub span: Option<Span>,
-    /// What makes an implied one hold.
-    pub help: Option<String>,
 }
 
 /// The formations of a text that need no argument; `None` if it declares nothing at all.

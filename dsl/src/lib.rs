@@ -9,11 +9,13 @@ pub mod compile;
 pub mod format;
 mod habit;
 mod lower;
+mod origins;
 pub mod parse;
 pub mod problem;
 pub mod report;
 mod resolve;
 pub mod source;
 
-pub use compile::{CAST_NAME, Cast, CompileOptions, Origins, Outcome, RequireOrigin, Whom, compile, parts};
+pub use compile::{CAST_NAME, Cast, CompileOptions, Outcome, Whom, compile, parts};
+pub use origins::{Origins, RequireOrigin};
 pub use resolve::Prelude;

@@ -26,7 +26,7 @@ pub(crate) mod value;
 
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
-use crate::compile::RequireOrigin;
+use crate::origins::RequireOrigin;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
 use crate::resolve::{Flat, Library, Named};

@@ -17,7 +17,7 @@ use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::football;
 use crate::check::types::Ty;
-use crate::compile::RequireOrigin;
+use crate::origins::RequireOrigin;
 use crate::problem::{Code, Problem};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};

@@ -4,9 +4,8 @@ mod cast;
 mod scripts;
 mod unused;
 
-pub use cast::{CAST_NAME, Cast, Whom};
-
 use crate::ast::{ItemKind, ScenarioItem, Span};
+use crate::cast::Cast;
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
@@ -74,7 +73,7 @@ pub fn parts(text: &str) -> Option<Vec<String>> {
 #[allow(clippy::needless_pass_by_value, reason = "a caller has no more use for the root, which the outcome holds")]
 pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> Outcome {
     let mut problems = Vec::new();
-    let texts: Vec<Source> = options.cast.iter().map(Cast::source).collect();
+    let texts: Vec<Source> = options.cast.iter().map(cast::source).collect();
     let (mut library, guests) = load(&root, loader, options.prelude, &texts, &mut problems);
     let mut scripts = Scripts::new(options.scripts);
     scripts::load(&mut library, &mut scripts, loader, &mut problems);

@@ -5,8 +5,8 @@ use super::{Lower, Stage, World, casting};
 use crate::ast::{
     Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
 };
+use crate::cast::Whom;
 use crate::check::types::Ty;
-use crate::compile::Whom;
 use crate::problem::{Code, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
 use setpiece_scenario::pitch::TEAM_MAX;

@@ -2,7 +2,7 @@
 
 use super::Lower;
 use super::mirror::Mirror;
-use super::start::of_team;
+use super::roster::of_team;
 use super::team::PlayerOptions;
 use crate::ast::{Expr, ExprKind, Field, Span};
 use crate::check::options::{self, AGENTS};

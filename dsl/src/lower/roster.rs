@@ -108,6 +108,11 @@ pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
     roster
 }
 
+/// The players of a team.
+pub(crate) fn of_team<'a, 'w>(roster: &'a [Rostered<'w>], team: Team) -> impl Iterator<Item = &'a Rostered<'w>> {
+    roster.iter().filter(move |player| player.team == team)
+}
+
 fn from_statements<'w>(world: &World<'w>, team: Team, flat: &FlatTeam<'w>) -> Vec<Rostered<'w>> {
     let mut players = Vec::new();
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {

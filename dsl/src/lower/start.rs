@@ -497,8 +497,3 @@ impl<'w> Lower<'_, 'w> {
         requires
     }
 }
-
-/// The players of a team.
-pub(crate) fn of_team<'a, 'w>(roster: &'a [Rostered<'w>], team: Team) -> impl Iterator<Item = &'a Rostered<'w>> {
-    roster.iter().filter(move |player| player.team == team)
-}

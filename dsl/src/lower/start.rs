@@ -1,10 +1,9 @@
 //! The start program: `let`s, places, the ball, rules and requirements.
 
 mod fields;
+mod football;
 mod kind;
 mod remap;
-
-pub(crate) use kind::NEAR_M;
 
 use super::agents::{lower_agents, side_with_agents};
 use super::behavior::BehaviorUse;
@@ -15,7 +14,6 @@ use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
 use super::value::{Frame, Scope, Value};
 use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
-use crate::check::football;
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
 use crate::problem::{Code, Problem};

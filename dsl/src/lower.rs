@@ -9,6 +9,7 @@ pub(crate) mod builder;
 pub(crate) mod casting;
 pub(crate) mod ending;
 pub(crate) mod expr;
+mod fields;
 pub(crate) mod hidden;
 pub(crate) mod interval;
 pub(crate) mod mirror;

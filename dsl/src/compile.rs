@@ -14,7 +14,7 @@ use crate::lower::{
 };
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
-use crate::problem::{Code, Problem, ScriptApi, Severity};
+use crate::problem::{Code, Problem, ScriptApi, has_errors, triage};
 use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
@@ -97,7 +97,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
             let mut found = Vec::new();
             compile_one(&library, &scripts, &[], item, doc, &effort, &mut found, &mut unused);
             // What is missing, a child may bring.
-            found.retain(|problem| !follows_from_gaps(problem.code) && problem.code != Code::UnknownName);
+            found.retain(|problem| !problem.code.may_be_echo() && problem.code != Code::UnknownName);
             problems.append(&mut found);
             if is_enough(&effort, item, &mut problems) {
                 break;
@@ -120,38 +120,8 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         unused.report(&root.items, &mut problems);
     }
 
-    problems.sort_by_key(|problem| {
-        let span = problem.labels.first().map(|label| label.span);
-        (span.map(|span| (span.file, span.start, span.end)), problem.code, problem.message.clone())
-    });
-    // A name whose declaration could not be read is told of there.
-    let lost: BTreeSet<&str> = library.files.iter().flat_map(|file| &file.lost).map(String::as_str).collect();
-    problems.retain(|problem| {
-        !matches!(problem.code, Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)
-            || !place(problem).is_some_and(|span| lost.contains(library.sources.text(span)))
-    });
-    problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
-    if problems.iter().any(|problem| matches!(problem.code.number(), 1..=4 | 6 | 101..=107 | 109 | 203 | 207..=210)) {
-        problems.retain(|problem| !follows_from_gaps(problem.code));
-    }
-    // The library is sound: what breaks in it follows from what the author wrote.
-    let is_library = |problem: &Problem| {
-        place(problem).and_then(|span| library.sources.get(span.file)).is_some_and(|file| file.name.starts_with("std/"))
-    };
-    if problems.iter().any(|problem| problem.severity() == Severity::Error && !is_library(problem)) {
-        problems.retain(|problem| !is_library(problem));
-    }
-    if has_errors(&problems) {
-        unused::retain(&mut problems, &library.sources);
-    }
-    let unread: Vec<Span> =
-        problems.iter().filter(|problem| problem.code.number() / 100 == 1).filter_map(place).collect();
-    problems.retain(|problem| {
-        let around = |inner: &Span, outer: Span| outer.holds(*inner) && outer != *inner;
-        // What holds a part that could not be read is not what the author wrote.
-        problem.code.number() / 100 == 1
-            || !place(problem).is_some_and(|span| unread.iter().any(|part| around(part, span)))
-    });
+    let lost = library.files.iter().flat_map(|file| &file.lost).map(String::as_str).collect();
+    let mut problems = triage(problems, &library.sources, &lost);
     if let Some((scenario, origins)) = &chosen
         && !has_errors(&problems)
         && let Err(excess) = bounds::check(scenario)
@@ -191,22 +161,6 @@ fn too_costly(name: &str, excess: Excess, origins: &Origins) -> Problem {
     Problem::new(Code::TooCostly, span, format!("`{name}` has {}", excess.message), label).help(excess.help)
 }
 
-fn place(problem: &Problem) -> Option<Span> {
-    problem.labels.first().map(|label| label.span)
-}
-
-fn has_errors(problems: &[Problem]) -> bool {
-    problems.iter().any(|problem| problem.severity() == Severity::Error)
-}
-
-/// Whether a problem may be nothing but the echo of a statement that could not be read.
-fn follows_from_gaps(code: Code) -> bool {
-    matches!(
-        code,
-        Code::UnusedName | Code::NoEnding | Code::NoBall | Code::BadAgents | Code::WrongRoster | Code::NothingToRemove
-    )
-}
-
 fn not_yet(what: &str, span: Span) -> Problem {
     Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), "").help("leave it out")
 }
@@ -227,7 +181,7 @@ fn pick<'a>(
         return found;
     }
     // A file that can't be read at all has its report already.
-    if candidates.is_empty() && problems.iter().any(|problem| problem.severity() == Severity::Error) {
+    if candidates.is_empty() && has_errors(problems) {
         return None;
     }
     let start = Span { file: FileId(0), start: 0, end: 0 };
@@ -362,7 +316,7 @@ fn compile_one<'a>(
 
 /// Points from a problem in what is inherited to what the scenario itself declares and is named there.
 fn told_by_child(world: &World<'_>, problem: Problem) -> Problem {
-    let Some(span) = place(&problem).filter(|span| world.flat.is_inherited(*span)) else { return problem };
+    let Some(span) = problem.place().filter(|span| world.flat.is_inherited(*span)) else { return problem };
     let text = world.library.sources.text(span);
     let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     // What a child hands in is what can't be drawn, not what the parent does with it.

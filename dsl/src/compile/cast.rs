@@ -3,7 +3,7 @@
 use crate::ast::{Field, FieldValue, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
 use crate::cast::{CAST_NAME, Cast};
 use crate::lower::casting::Casting;
-use crate::problem::{Code, Problem, Severity};
+use crate::problem::{Code, Problem};
 use crate::resolve::Library;
 use crate::source::{FileId, Source, Span};
 
@@ -64,5 +64,5 @@ fn is_whole(field: &Field, cast: &Cast) -> bool {
 }
 
 fn is_error_in(problem: &Problem, file: FileId) -> bool {
-    problem.severity() == Severity::Error && problem.labels.first().is_some_and(|label| label.span.file == file)
+    problem.is_error() && problem.place().is_some_and(|span| span.file == file)
 }

@@ -259,9 +259,9 @@ fn compile_one<'a>(
         counts: RefCell::default(),
     };
     world.params = param::lower_params(&world);
-    let told = world.problems.borrow().len();
+    let told = world.told();
     world.roster = roster::lower_roster(&world);
-    world.whole_roster = world.problems.borrow().len() == told;
+    world.whole_roster = world.told() == told;
     let start::LoweredStart { start, mut players, agents, side, lets, behaviors, origins: requires } =
         start::lower_start(&world);
     world.lets = lets;

@@ -123,6 +123,20 @@ impl World<'_> {
         self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
     }
 
+    /// How many problems were found so far: more of them afterwards say that what was read in between is wrong.
+    pub(crate) fn told(&self) -> usize {
+        self.problems.borrow().len()
+    }
+
+    /// Runs `f` to see what comes of it and tells nothing of what is wrong with it: whoever tries something out reads it
+    /// in earnest elsewhere, or has done so, and it is told there. What `f` refers to counts as used all the same.
+    pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
+        let told = self.told();
+        let result = f();
+        self.problems.borrow_mut().truncate(told);
+        result
+    }
+
     /// Notes that a declaration is referred to.
     pub(crate) fn mark_used(&self, declaration: Span) {
         self.used.borrow_mut().insert(declaration);

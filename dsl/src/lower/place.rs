@@ -233,7 +233,7 @@ impl<'w> Lower<'_, 'w> {
                 self.pair(&value)
             }
             PlaceKind::In(region) => {
-                let told = self.world.problems.borrow().len();
+                let told = self.world.told();
                 let drawn = self.region(region).and_then(|found| self.draw_in(&found, region.span));
                 self.mend_in(told, region);
                 drawn.unwrap_or_else(|| self.nowhere())

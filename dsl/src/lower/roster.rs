@@ -193,11 +193,8 @@ fn from_layouts<'w>(
             return None;
         };
         // The left team reports what is wrong with a layout; the right one has the same.
-        let kept = world.problems.borrow().len();
-        let players = formation_players(world, expr, team);
-        if team == Team::Right {
-            world.problems.borrow_mut().truncate(kept);
-        }
+        let read = || formation_players(world, expr, team);
+        let players = if team == Team::Left { read() } else { world.tentatively(read) };
         Some((players, expr.span))
     };
     for field in fields.iter().filter(|_| team == Team::Left) {

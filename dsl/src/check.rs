@@ -1,6 +1,5 @@
-//! What a checked scenario must meet: types and units, the tables of options, and football's own rules.
+//! What a checked scenario must meet: types and units, the language's own names, and the tables of options.
 
-pub(crate) mod football;
 pub(crate) mod names;
 pub(crate) mod options;
 pub(crate) mod types;

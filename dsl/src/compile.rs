@@ -4,17 +4,17 @@ mod cast;
 mod scripts;
 mod unused;
 
-pub use cast::{CAST_NAME, Cast, Whom};
-
 use crate::ast::{ItemKind, ScenarioItem, Span};
+use crate::cast::Cast;
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
 use crate::lower::{
     Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, roster, start,
 };
+use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
-use crate::problem::{Code, Problem, ScriptApi, Severity};
+use crate::problem::{Code, Problem, ScriptApi, has_errors, triage};
 use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
@@ -51,36 +51,6 @@ pub struct Outcome {
     pub origins: Origins,
 }
 
-/// Where the parts of a compiled scenario stand in the sources.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Origins {
-    /// The scenario's name.
-    pub scenario: Option<Span>,
-    /// Its parameters, in order.
-    pub params: Vec<Span>,
-    /// Its players, in order.
-    pub players: Vec<Span>,
-    /// Its rewards, in order.
-    pub rewards: Vec<Span>,
-    /// Its endings, in order.
-    pub endings: Vec<Span>,
-    /// Its records, in order.
-    pub records: Vec<Span>,
-    /// Its observation.
-    pub observation: Option<Span>,
-    /// Its requirements, in order: the written ones, then the implied.
-    pub requires: Vec<RequireOrigin>,
-}
-
-/// Where a requirement of the draw comes from.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct RequireOrigin {
-    /// The statement, or the part that implies it, where it is one part.
-    pub span: Option<Span>,
-    /// What makes an implied one hold.
-    pub help: Option<String>,
-}
-
 /// The formations of a text that need no argument; `None` if it declares nothing at all.
 pub fn parts(text: &str) -> Option<Vec<String>> {
     let source = Source { name: String::new(), text: text.into() };
@@ -103,7 +73,7 @@ pub fn parts(text: &str) -> Option<Vec<String>> {
 #[allow(clippy::needless_pass_by_value, reason = "a caller has no more use for the root, which the outcome holds")]
 pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> Outcome {
     let mut problems = Vec::new();
-    let texts: Vec<Source> = options.cast.iter().map(Cast::source).collect();
+    let texts: Vec<Source> = options.cast.iter().map(cast::source).collect();
     let (mut library, guests) = load(&root, loader, options.prelude, &texts, &mut problems);
     let mut scripts = Scripts::new(options.scripts);
     scripts::load(&mut library, &mut scripts, loader, &mut problems);
@@ -127,7 +97,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
             let mut found = Vec::new();
             compile_one(&library, &scripts, &[], item, doc, &effort, &mut found, &mut unused);
             // What is missing, a child may bring.
-            found.retain(|problem| !follows_from_gaps(problem.code) && problem.code != Code::UnknownName);
+            found.retain(|problem| !problem.code.may_be_echo() && problem.code != Code::UnknownName);
             problems.append(&mut found);
             if is_enough(&effort, item, &mut problems) {
                 break;
@@ -150,38 +120,8 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         unused.report(&root.items, &mut problems);
     }
 
-    problems.sort_by_key(|problem| {
-        let span = problem.labels.first().map(|label| label.span);
-        (span.map(|span| (span.file, span.start, span.end)), problem.code, problem.message.clone())
-    });
-    // A name whose declaration could not be read is told of there.
-    let lost: BTreeSet<&str> = library.files.iter().flat_map(|file| &file.lost).map(String::as_str).collect();
-    problems.retain(|problem| {
-        !matches!(problem.code, Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)
-            || !place(problem).is_some_and(|span| lost.contains(library.sources.text(span)))
-    });
-    problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
-    if problems.iter().any(|problem| matches!(problem.code.number(), 1..=4 | 6 | 101..=107 | 109 | 203 | 207..=210)) {
-        problems.retain(|problem| !follows_from_gaps(problem.code));
-    }
-    // The library is sound: what breaks in it follows from what the author wrote.
-    let is_library = |problem: &Problem| {
-        place(problem).and_then(|span| library.sources.get(span.file)).is_some_and(|file| file.name.starts_with("std/"))
-    };
-    if problems.iter().any(|problem| problem.severity() == Severity::Error && !is_library(problem)) {
-        problems.retain(|problem| !is_library(problem));
-    }
-    if has_errors(&problems) {
-        unused::retain(&mut problems, &library.sources);
-    }
-    let unread: Vec<Span> =
-        problems.iter().filter(|problem| problem.code.number() / 100 == 1).filter_map(place).collect();
-    problems.retain(|problem| {
-        let around = |inner: &Span, outer: Span| outer.holds(*inner) && outer != *inner;
-        // What holds a part that could not be read is not what the author wrote.
-        problem.code.number() / 100 == 1
-            || !place(problem).is_some_and(|span| unread.iter().any(|part| around(part, span)))
-    });
+    let lost = library.files.iter().flat_map(|file| &file.lost).map(String::as_str).collect();
+    let mut problems = triage(problems, &library.sources, &lost);
     if let Some((scenario, origins)) = &chosen
         && !has_errors(&problems)
         && let Err(excess) = bounds::check(scenario)
@@ -221,22 +161,6 @@ fn too_costly(name: &str, excess: Excess, origins: &Origins) -> Problem {
     Problem::new(Code::TooCostly, span, format!("`{name}` has {}", excess.message), label).help(excess.help)
 }
 
-fn place(problem: &Problem) -> Option<Span> {
-    problem.labels.first().map(|label| label.span)
-}
-
-fn has_errors(problems: &[Problem]) -> bool {
-    problems.iter().any(|problem| problem.severity() == Severity::Error)
-}
-
-/// Whether a problem may be nothing but the echo of a statement that could not be read.
-fn follows_from_gaps(code: Code) -> bool {
-    matches!(
-        code,
-        Code::UnusedName | Code::NoEnding | Code::NoBall | Code::BadAgents | Code::WrongRoster | Code::NothingToRemove
-    )
-}
-
 fn not_yet(what: &str, span: Span) -> Problem {
     Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), "").help("leave it out")
 }
@@ -257,7 +181,7 @@ fn pick<'a>(
         return found;
     }
     // A file that can't be read at all has its report already.
-    if candidates.is_empty() && problems.iter().any(|problem| problem.severity() == Severity::Error) {
+    if candidates.is_empty() && has_errors(problems) {
         return None;
     }
     let start = Span { file: FileId(0), start: 0, end: 0 };
@@ -335,9 +259,9 @@ fn compile_one<'a>(
         counts: RefCell::default(),
     };
     world.params = param::lower_params(&world);
-    let told = world.problems.borrow().len();
+    let told = world.told();
     world.roster = roster::lower_roster(&world);
-    world.whole_roster = world.problems.borrow().len() == told;
+    world.whole_roster = world.told() == told;
     let start::LoweredStart { start, mut players, agents, side, lets, behaviors, origins: requires } =
         start::lower_start(&world);
     world.lets = lets;
@@ -392,7 +316,7 @@ fn compile_one<'a>(
 
 /// Points from a problem in what is inherited to what the scenario itself declares and is named there.
 fn told_by_child(world: &World<'_>, problem: Problem) -> Problem {
-    let Some(span) = place(&problem).filter(|span| world.flat.is_inherited(*span)) else { return problem };
+    let Some(span) = problem.place().filter(|span| world.flat.is_inherited(*span)) else { return problem };
     let text = world.library.sources.text(span);
     let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     // What a child hands in is what can't be drawn, not what the parent does with it.

@@ -12,7 +12,7 @@ mod pieces;
 mod print;
 mod same;
 
-use crate::problem::{Problem, Severity};
+use crate::problem::{Problem, has_errors};
 use crate::source::{FileId, Source};
 
 /// Columns of a line.
@@ -29,7 +29,7 @@ pub const INDENT: usize = 4;
 pub fn format(source: &Source) -> Result<String, Vec<Problem>> {
     let mut problems = Vec::new();
     crate::parse::parse(source, FileId(0), &mut problems);
-    if problems.iter().any(|problem| problem.severity() == Severity::Error) {
+    if has_errors(&problems) {
         return Err(problems);
     }
     let Some(pieces) = pieces::pieces(&source.text) else { return Ok(source.text.to_string()) };

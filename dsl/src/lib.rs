@@ -4,16 +4,20 @@
 //! lowered, as a typed value is its registers and its type; see [`compile()`].
 
 pub mod ast;
+mod cast;
 mod check;
 pub mod compile;
 pub mod format;
 mod habit;
 mod lower;
+mod origins;
 pub mod parse;
 pub mod problem;
 pub mod report;
 mod resolve;
 pub mod source;
 
-pub use compile::{CAST_NAME, Cast, CompileOptions, Origins, Outcome, RequireOrigin, Whom, compile, parts};
+pub use cast::{CAST_NAME, Cast, Whom};
+pub use compile::{CompileOptions, Outcome, compile, parts};
+pub use origins::{Origins, RequireOrigin};
 pub use resolve::Prelude;

@@ -9,6 +9,7 @@ pub(crate) mod builder;
 pub(crate) mod casting;
 pub(crate) mod ending;
 pub(crate) mod expr;
+mod fields;
 pub(crate) mod hidden;
 pub(crate) mod interval;
 pub(crate) mod mirror;
@@ -26,7 +27,7 @@ pub(crate) mod value;
 
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
-use crate::compile::RequireOrigin;
+use crate::origins::RequireOrigin;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
 use crate::resolve::{Flat, Library, Named};
@@ -120,6 +121,20 @@ impl World<'_> {
     /// Whether there are enough problems of a kind: one that is costly to explain needn't be.
     pub(crate) fn is_full(&self, code: Code) -> bool {
         self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
+    }
+
+    /// How many problems were found so far: more of them afterwards say that what was read in between is wrong.
+    pub(crate) fn told(&self) -> usize {
+        self.problems.borrow().len()
+    }
+
+    /// Runs `f` to see what comes of it and tells nothing of what is wrong with it: whoever tries something out reads it
+    /// in earnest elsewhere, or has done so, and it is told there. What `f` refers to counts as used all the same.
+    pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
+        let told = self.told();
+        let result = f();
+        self.problems.borrow_mut().truncate(told);
+        result
     }
 
     /// Notes that a declaration is referred to.

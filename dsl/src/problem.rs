@@ -1,5 +1,9 @@
 //! Problems: facts that a stage finds, each with a stable code, spans and help.
 
+mod triage;
+
+pub(crate) use triage::triage;
+
 use crate::habit;
 use crate::source::{Source, Span};
 
@@ -93,6 +97,21 @@ impl Problem {
     pub fn severity(&self) -> Severity {
         self.code.severity()
     }
+
+    /// Whether no scenario comes out because of it.
+    pub(crate) fn is_error(&self) -> bool {
+        self.severity() == Severity::Error
+    }
+
+    /// Where it is: the primary label's place.
+    pub(crate) fn place(&self) -> Option<Span> {
+        self.labels.first().map(|label| label.span)
+    }
+}
+
+/// Whether no scenario comes out because of one of them.
+pub(crate) fn has_errors(problems: &[Problem]) -> bool {
+    problems.iter().any(Problem::is_error)
 }
 
 /// A similar name is looked for if the name is at most this long, bytes: comparing costs the product of both lengths.
@@ -269,7 +288,69 @@ codes! {
     NoThreads = 704 Error "threads can't be started";
 }
 
+/// Who finds a problem: the hundreds of its code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Whoever reads files and what a caller asks for: `SP00xx`.
+    Load,
+    /// The parser: `SP01xx`.
+    Syntax,
+    /// Whoever binds names: `SP02xx`.
+    Names,
+    /// The check of types and units: `SP03xx`.
+    Types,
+    /// Football's rules and ranges: `SP04xx`.
+    Football,
+    /// The check of scripts: `SP05xx`.
+    Scripts,
+    /// A dry run: `SP06xx`.
+    DryRun,
+    /// An episode: `SP07xx`.
+    Episode,
+}
+
 impl Code {
+    /// Who finds it.
+    pub const fn stage(self) -> Stage {
+        match self.number() / 100 {
+            0 => Stage::Load,
+            1 => Stage::Syntax,
+            2 => Stage::Names,
+            3 => Stage::Types,
+            4 => Stage::Football,
+            5 => Stage::Scripts,
+            6 => Stage::DryRun,
+            _ => Stage::Episode,
+        }
+    }
+
+    /// Whether what it is about is left out of the scenario, so that the rest may lack it: see [`Code::may_be_echo`].
+    pub const fn leaves_gap(self) -> bool {
+        match self.stage() {
+            Stage::Load => true,
+            // What is not supported yet has been read all the same.
+            Stage::Syntax => !matches!(self, Code::NotYet),
+            Stage::Names => matches!(
+                self,
+                Code::UnknownRole | Code::UnknownEvent | Code::UnknownParent | Code::ImportCycle | Code::ExtendsCycle
+            ),
+            Stage::Types | Stage::Football | Stage::Scripts | Stage::DryRun | Stage::Episode => false,
+        }
+    }
+
+    /// Whether it may be nothing but the echo of a statement that was left out: it tells of what is not there.
+    pub const fn may_be_echo(self) -> bool {
+        matches!(
+            self,
+            Code::UnusedName
+                | Code::NoEnding
+                | Code::NoBall
+                | Code::BadAgents
+                | Code::WrongRoster
+                | Code::NothingToRemove
+        )
+    }
+
     /// The code that a text names: `SP0203`, `sp0203` or `203`.
     pub fn from_text(text: &str) -> Option<Code> {
         let text = text.trim();

@@ -60,6 +60,24 @@ const MAY_SAY: &[(&str, &str)] = &[
     ("engine/src/judge/script/budget.rs", "thread_local!"),
 ];
 
+/// The rooms of the compiler (a file of `dsl/src` and the folder beside it), from the ground up, and the rooms that each
+/// may use: only such as stand above it in this list.
+const DSL_ARROWS: &[(&str, &[&str])] = &[
+    ("source", &[]),
+    ("habit", &[]),
+    ("check", &[]),
+    ("cast", &[]),
+    ("origins", &["source"]),
+    ("ast", &["source"]),
+    ("problem", &["source", "habit"]),
+    ("report", &["source", "problem"]),
+    ("parse", &["source", "habit", "check", "ast", "problem"]),
+    ("format", &["source", "problem", "parse"]),
+    ("resolve", &["source", "ast", "problem", "parse"]),
+    ("lower", &["source", "check", "cast", "origins", "ast", "problem", "parse", "resolve"]),
+    ("compile", &["source", "cast", "origins", "ast", "problem", "parse", "resolve", "lower"]),
+];
+
 /// Checks every rule and names each breach.
 pub(crate) fn tidy() -> Result<(), String> {
     let mut breaches = Vec::new();
@@ -94,12 +112,48 @@ pub(crate) fn tidy() -> Result<(), String> {
             }
         }
     }
+    dsl_arrows(&mut breaches)?;
     if breaches.is_empty() {
         println!("tidy: the house is in order");
         Ok(())
     } else {
         Err(format!("{} breaches\n  {}", breaches.len(), breaches.join("\n  ")))
     }
+}
+
+/// Holds the compiler's rooms to [`DSL_ARROWS`].
+fn dsl_arrows(breaches: &mut Vec<String>) -> Result<(), String> {
+    let folder = root().join("dsl/src");
+    for (at, (room, may_use)) in DSL_ARROWS.iter().enumerate() {
+        for used in *may_use {
+            if !DSL_ARROWS.iter().take(at).any(|(below, _)| below == used) {
+                breaches.push(format!("dsl: `{room}` may not be allowed `{used}`, which is not below it"));
+            }
+        }
+    }
+    for file in rust_files(&folder) {
+        let path = file.strip_prefix(&folder).map_err(|why| why.to_string())?.with_extension("");
+        let rooms: Vec<_> = path.iter().filter_map(|part| part.to_str()).collect();
+        // The crate's root names every room.
+        let Some(&own) = rooms.first().filter(|room| **room != "lib") else { continue };
+        let Some((_, may_use)) = DSL_ARROWS.iter().find(|(room, _)| *room == own) else {
+            breaches.push(format!("{}: `{own}` is no room of DSL_ARROWS", file.display()));
+            continue;
+        };
+        let text = read(&file)?;
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        // From the file of a room up to the crate's root, either way to write it.
+        let to_root = ["crate::".to_owned(), "super::".repeat(rooms.len())];
+        for (line, code) in code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//")) {
+            for used in to_root.iter().flat_map(|root| code.split(root.as_str()).skip(1)) {
+                let used = used.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+                if used != own && used != "super" && !may_use.contains(&used) {
+                    breaches.push(format!("{}:{}: `{own}` may not use `{used}`", file.display(), line + 1));
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 fn dependencies(breaches: &mut Vec<String>) -> Result<(), String> {

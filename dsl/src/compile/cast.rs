@@ -1,43 +1,20 @@
-//! Who plays players, whatever the text says: `ai`s that a caller brings from outside.
+//! Reads the `ai`s that a caller brings from outside, each as a text of its own.
 
 use crate::ast::{Field, FieldValue, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
+use crate::cast::{CAST_NAME, Cast};
 use crate::lower::casting::Casting;
-use crate::problem::{Code, Problem, Severity};
+use crate::problem::{Code, Problem};
 use crate::resolve::Library;
 use crate::source::{FileId, Source, Span};
-use setpiece_scenario::vocabulary::Team;
-
-/// An `ai` from outside.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cast {
-    /// Whose.
-    pub whom: Whom,
-    /// What stands behind `ai:`: `lazy`, `marker(3m)`, `script "f.rhai"`. It sees what the root file sees.
-    pub ai: String,
-}
-
-/// Whose `ai` it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Whom {
-    /// That of every player of a team who has none of his own.
-    Team(Team),
-    /// That of one player, by his team and his place in it.
-    Player(Team, usize),
-}
-
-impl Cast {
-    /// The text that is read in its place.
-    pub(super) fn source(&self) -> Source {
-        Source { name: CAST_NAME.to_owned(), text: format!("{BEFORE}{}{AFTER}", self.ai).into() }
-    }
-}
-
-/// How reports call the text of an `ai` from outside.
-pub const CAST_NAME: &str = "<ai>";
 
 /// What stands around the `ai` in its text.
 const BEFORE: &str = "scenario cast { team left { each all { ai: ";
 const AFTER: &str = " } } }";
+
+/// The text that is read in a cast's place.
+pub(super) fn source(cast: &Cast) -> Source {
+    Source { name: CAST_NAME.to_owned(), text: format!("{BEFORE}{}{AFTER}", cast.ai).into() }
+}
 
 /// Reads the texts of a cast, which lie in the files `guests`.
 pub(super) fn read<'a>(
@@ -87,5 +64,5 @@ fn is_whole(field: &Field, cast: &Cast) -> bool {
 }
 
 fn is_error_in(problem: &Problem, file: FileId) -> bool {
-    problem.severity() == Severity::Error && problem.labels.first().is_some_and(|label| label.span.file == file)
+    problem.is_error() && problem.place().is_some_and(|span| span.file == file)
 }

@@ -5,8 +5,8 @@ use crate::ast::{
 };
 use crate::lower::World;
 use crate::problem::{Code, Problem};
-use crate::source::{FileId, Sources};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::source::FileId;
+use std::collections::BTreeSet;
 
 /// What scenarios declare and use.
 #[derive(Default)]
@@ -123,30 +123,4 @@ impl Unused {
         }
         used
     }
-}
-
-/// Beside errors, what is named a second time is taken as used, as is what an error says was meant: the part that uses
-/// it may be the one that is wrong.
-pub(super) fn retain(problems: &mut Vec<Problem>, sources: &Sources) {
-    let words = |text: &str| -> BTreeMap<String, u32> {
-        let mut times = BTreeMap::new();
-        for word in text.split(|c: char| !(c.is_alphanumeric() || c == '_')) {
-            match times.get_mut(word) {
-                Some(times) => *times += 1,
-                None => drop(times.insert(word.to_owned(), 1)),
-            }
-        }
-        times
-    };
-    let helps = problems.iter().filter(|problem| problem.code != Code::UnusedName);
-    let meant: Vec<&str> = helps.filter_map(|problem| problem.help.as_deref()).collect();
-    let meant = words(&meant.join("\n"));
-    let mut of_files: BTreeMap<FileId, BTreeMap<String, u32>> = BTreeMap::new();
-    problems.retain(|problem| {
-        let Some(label) = problem.labels.first().filter(|_| problem.code == Code::UnusedName) else { return true };
-        let name = sources.text(label.span);
-        let text = || sources.get(label.span.file).map_or("", |file| &*file.text);
-        let of_file = of_files.entry(label.span.file).or_insert_with(|| words(text()));
-        of_file.get(name).is_none_or(|times| *times < 2) && !meant.contains_key(name)
-    });
 }

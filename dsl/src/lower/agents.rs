@@ -1,11 +1,11 @@
 //! `agents { }`: who is played by agents.
 
-use super::Lower;
 use super::mirror::Mirror;
-use super::start::of_team;
+use super::roster::of_team;
 use super::team::PlayerOptions;
+use super::{Lower, fields};
 use crate::ast::{Expr, ExprKind, Field, Span};
-use crate::check::options::{self, AGENTS};
+use crate::check::options::AGENTS;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::Team;
@@ -25,10 +25,10 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
     let mut at = [None, None];
     let mut switching = None;
     for field in lower.world.flat.agents.clone() {
-        if !options::is_known(lower, field, AGENTS, "`agents`") {
+        if !fields::is_known(lower, field, AGENTS, "`agents`") {
             continue;
         }
-        let Some(expr) = options::expression(lower, field) else { continue };
+        let Some(expr) = fields::expression(lower, field) else { continue };
         match field.key.node.as_str() {
             "others" => {
                 if let Some(other) = word(lower, field, expr, &[("bot", Others::Bot), ("hold", Others::Hold)]) {

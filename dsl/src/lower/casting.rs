@@ -3,7 +3,7 @@
 use super::World;
 use super::roster::Rostered;
 use crate::ast::{Field, Ident};
-use crate::compile::Whom;
+use crate::cast::Whom;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::Team;
 

@@ -166,11 +166,10 @@ fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
 }
 
 fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
-    let kept = world.problems.borrow().len();
+    // Where it is no constant its names are the scenario's, not those that are in sight here.
     let used = world.used.take();
     let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
-    let value = lower.expr(expr);
-    world.problems.borrow_mut().truncate(kept);
+    let value = world.tentatively(|| lower.expr(expr));
     *world.used.borrow_mut() = used;
     match value.repr {
         Repr::Text(_) => true,

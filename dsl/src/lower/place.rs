@@ -233,9 +233,13 @@ impl<'w> Lower<'_, 'w> {
                 self.pair(&value)
             }
             PlaceKind::In(region) => {
-                let told = self.world.problems.borrow().len();
-                let drawn = self.region(region).and_then(|found| self.draw_in(&found, region.span));
-                self.mend_in(told, region);
+                let value = self.expr(region);
+                if value.ty.is_place() {
+                    let text = self.world.text(region.span);
+                    self.report(self.mismatch(value.ty, Ty::Region, region.span).help(format!("write `at {text}`")));
+                    return self.nowhere();
+                }
+                let drawn = self.as_region(value, region).and_then(|found| self.draw_in(&found, region.span));
                 drawn.unwrap_or_else(|| self.nowhere())
             }
             PlaceKind::Relative { direction, of, by } => {
@@ -289,17 +293,6 @@ impl<'w> Lower<'_, 'w> {
                 let way = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
                 self.moved(p, way, length)
             }
-        }
-    }
-
-    /// Says `at` where a point was named behind `in`.
-    fn mend_in(&self, told: usize, region: &Expr) {
-        let text = self.world.text(region.span);
-        let start = "expected a region, found";
-        let mut problems = self.world.problems.borrow_mut();
-        let places = [Ty::Point, Ty::Player, Ty::Ball].map(|ty| format!("{start} `{text}` ({})", ty.noun()));
-        for problem in problems.iter_mut().skip(told).filter(|problem| places.contains(&problem.message)) {
-            problem.help = Some(format!("write `at {text}`"));
         }
     }
 

@@ -5,8 +5,8 @@ use super::{Lower, Stage, World, casting};
 use crate::ast::{
     Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
 };
+use crate::cast::Whom;
 use crate::check::types::Ty;
-use crate::compile::Whom;
 use crate::problem::{Code, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
 use setpiece_scenario::pitch::TEAM_MAX;
@@ -108,6 +108,11 @@ pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
     roster
 }
 
+/// The players of a team.
+pub(crate) fn of_team<'a, 'w>(roster: &'a [Rostered<'w>], team: Team) -> impl Iterator<Item = &'a Rostered<'w>> {
+    roster.iter().filter(move |player| player.team == team)
+}
+
 fn from_statements<'w>(world: &World<'w>, team: Team, flat: &FlatTeam<'w>) -> Vec<Rostered<'w>> {
     let mut players = Vec::new();
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
@@ -188,11 +193,8 @@ fn from_layouts<'w>(
             return None;
         };
         // The left team reports what is wrong with a layout; the right one has the same.
-        let kept = world.problems.borrow().len();
-        let players = formation_players(world, expr, team);
-        if team == Team::Right {
-            world.problems.borrow_mut().truncate(kept);
-        }
+        let read = || formation_players(world, expr, team);
+        let players = if team == Team::Left { read() } else { world.tentatively(read) };
         Some((players, expr.span))
     };
     for field in fields.iter().filter(|_| team == Team::Left) {

@@ -1,10 +1,9 @@
 //! The start program: `let`s, places, the ball, rules and requirements.
 
 mod fields;
+mod football;
 mod kind;
 mod remap;
-
-pub(crate) use kind::NEAR_M;
 
 use super::agents::{lower_agents, side_with_agents};
 use super::behavior::BehaviorUse;
@@ -15,9 +14,8 @@ use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
 use super::value::{Frame, Scope, Value};
 use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
-use crate::check::football;
 use crate::check::types::Ty;
-use crate::compile::RequireOrigin;
+use crate::origins::RequireOrigin;
 use crate::problem::{Code, Problem};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
@@ -496,9 +494,4 @@ impl<'w> Lower<'_, 'w> {
         }
         requires
     }
-}
-
-/// The players of a team.
-pub(crate) fn of_team<'a, 'w>(roster: &'a [Rostered<'w>], team: Team) -> impl Iterator<Item = &'a Rostered<'w>> {
-    roster.iter().filter(move |player| player.team == team)
 }

@@ -1,12 +1,12 @@
 //! Options of teams and players.
 
-use super::Lower;
 use super::behavior::BehaviorUse;
 use super::expr::path_of;
 use super::roster::Rostered;
 use super::value::Repr;
+use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
-use crate::check::options::{self, PLAYER, TEAM};
+use crate::check::options::{PLAYER, TEAM};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};
@@ -40,9 +40,9 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
     let world = lower.world;
     let mut found = None;
     for field in world.flat.teams.get(team.index()).into_iter().flat_map(|team| &team.fields) {
-        if options::is_known(lower, field, TEAM, "a team")
+        if fields::is_known(lower, field, TEAM, "a team")
             && field.key.node == "difficulty"
-            && let Some(expr) = options::expression(lower, field)
+            && let Some(expr) = fields::expression(lower, field)
         {
             found = Some(lower.drawing(&format!("{team} difficulty"), |lower| share(lower, expr, "`difficulty`")));
         }
@@ -92,7 +92,7 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
 }
 
 fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
-    if !options::is_known(lower, field, PLAYER, "a player") {
+    if !fields::is_known(lower, field, PLAYER, "a player") {
         return;
     }
     match (field.key.node.as_str(), &field.value) {
@@ -105,7 +105,7 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
         (key, FieldValue::Expr(expr)) => expression(lower, key, expr, options),
         ("stats", FieldValue::Script(script)) => not_a_group(lower, script.span),
         _ => {
-            options::expression(lower, field);
+            fields::expression(lower, field);
         }
     }
 }
@@ -213,7 +213,7 @@ fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOp
         );
         return;
     };
-    let Some(expr) = options::expression(lower, field) else { return };
+    let Some(expr) = fields::expression(lower, field) else { return };
     let reg = share(lower, expr, &format!("`{stat}`"));
     options.stats.retain(|(known, _)| *known != stat);
     options.stats.push((stat, reg));

@@ -162,12 +162,12 @@ impl<'w> Lower<'_, 'w> {
                     None => lower.expr(expr),
                 })
             });
-            let told = self.world.problems.borrow().len();
+            let told = self.world.told();
             if let (Some(domain), Some(value)) = (&param.domain, &value) {
                 self.check_domain(value, domain, expr, &param.name.node);
             }
             // What a wrong argument would do further on is no news.
-            let wrong = self.world.problems.borrow().len() > told;
+            let wrong = self.world.told() > told;
             let value = value.map(|value| if wrong { Value::error() } else { value });
             scope.bind(&param.name.node, Binding::Expr { expr, scope: home, ty, now: value, at: param.name.span });
         }
@@ -176,10 +176,8 @@ impl<'w> Lower<'_, 'w> {
     /// The type that a parameter's default has, for numbers.
     fn default_type(&mut self, param: &'w ParamDecl) -> Option<Ty> {
         let default = param.default.as_ref()?;
-        let kept = self.world.problems.borrow().len();
         let home = Scope::new(false, Frame::World);
-        let value = self.within(home, |lower| lower.expr(default));
-        self.world.problems.borrow_mut().truncate(kept);
+        let value = self.world.tentatively(|| self.within(home, |lower| lower.expr(default)));
         match value.ty {
             // `= 1` leaves open whether whole numbers are meant.
             Ty::Int => Some(Ty::Number),

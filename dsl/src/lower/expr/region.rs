@@ -18,7 +18,13 @@ const CORNERS_MAX: usize = 64;
 impl<'w> Lower<'_, 'w> {
     /// Lowers a region; `None` after a report.
     pub(crate) fn region(&mut self, expr: &'w Expr) -> Option<Rc<RegionValue>> {
-        match self.want(expr, Ty::Region).repr {
+        let value = self.expr(expr);
+        self.as_region(value, expr)
+    }
+
+    /// The region that a value is.
+    pub(crate) fn as_region(&mut self, value: Value<'w>, expr: &Expr) -> Option<Rc<RegionValue>> {
+        match self.convert(value, Ty::Region, expr).repr {
             Repr::Region(region) => Some(region),
             _ => None,
         }

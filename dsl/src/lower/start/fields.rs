@@ -1,10 +1,10 @@
 //! What a scenario says in braces about its start: its kind, the ball, the rules.
 
 use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind, Span};
-use crate::check::options::{self, BALL, START};
+use crate::check::options::{BALL, START};
 use crate::check::types::Ty;
-use crate::lower::Lower;
 use crate::lower::value::Repr;
+use crate::lower::{Lower, fields};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{
     BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S, STEPS_PER_S,
@@ -20,8 +20,8 @@ impl<'w> Lower<'_, 'w> {
         let Some(stmt) = self.world.flat.start else { return (None, None) };
         let ScenarioStmtKind::Start { fields, .. } = &stmt.kind else { return (None, None) };
         let (mut score, mut elapsed) = (None, None);
-        for field in options::known_fields(self, fields, START, "`start`") {
-            let Some(expr) = options::expression(self, field) else { continue };
+        for field in fields::known_fields(self, fields, START, "`start`") {
+            let Some(expr) = fields::expression(self, field) else { continue };
             if field.key.node == "elapsed" {
                 let reg = self.want_reg(expr, Ty::DURATION);
                 self.check_range(reg, (0.0, LONGEST_S), "`elapsed`", expr.span, "`0 steps..1000000 steps`");
@@ -66,8 +66,8 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn ball_fields(&mut self, ball: &'w BallStmt, start: &mut BallStart) {
-        for field in options::known_fields(self, &ball.fields, BALL, "the ball") {
-            let Some(expr) = options::expression(self, field) else { continue };
+        for field in fields::known_fields(self, &ball.fields, BALL, "the ball") {
+            let Some(expr) = fields::expression(self, field) else { continue };
             let name = format!("ball {}", field.key.node);
             self.drawing(&name, |lower| match field.key.node.as_str() {
                 "velocity" => {
@@ -160,7 +160,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn rule_value(&mut self, rule: Rule, field: &'w Field) -> Option<Reg> {
-        let expr = options::expression(self, field)?;
+        let expr = fields::expression(self, field)?;
         match (rule, &expr.kind) {
             (Rule::Physics, ExprKind::Name(name)) if name == "gated" || name == "full" => {
                 Some(self.code.bool(name == "full"))

@@ -214,7 +214,7 @@ impl Lower<'_, '_> {
 }
 
 /// How far from its line the ball of a corner or throw-in may be said to lie; it is put on the line.
-pub(crate) const NEAR_M: f64 = 1.5;
+pub(super) const NEAR_M: f64 = 1.5;
 
 /// Whether `at …` says where it is: a corner's tells which of the two.
 fn has_place(kind: StartKind) -> bool {

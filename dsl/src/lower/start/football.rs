@@ -2,10 +2,10 @@
 //!
 //! What is constant is checked now; what is drawn or depends on parameters becomes a requirement of the draw.
 
+use super::kind::NEAR_M;
 use crate::ast::Span;
 use crate::lower::Lower;
 use crate::lower::roster::Rostered;
-use crate::lower::start::NEAR_M;
 use crate::lower::team::PlayerOptions;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
@@ -21,7 +21,7 @@ const DRAWN_GAP_M: f64 = 0.6;
 type Situation = Vec<(Reg, Reg)>;
 
 /// Checks the places of players and ball.
-pub(crate) fn check_places(
+pub(super) fn check_places(
     lower: &mut Lower<'_, '_>,
     places: &[(Reg, Reg)],
     options: &[PlayerOptions],

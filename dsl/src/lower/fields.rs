@@ -1,0 +1,46 @@
+//! Fields in braces: which keys are known, and the value of one.
+
+use super::Lower;
+use crate::ast::{Expr, Field, FieldValue};
+use crate::problem::{Code, Problem};
+
+/// The fields of a list that are known; reports the others.
+pub(super) fn known_fields<'w>(
+    lower: &Lower<'_, 'w>,
+    fields: &'w [Field],
+    known: &[&str],
+    whose: &str,
+) -> Vec<&'w Field> {
+    fields.iter().filter(|field| is_known(lower, field, known, whose)).collect()
+}
+
+/// Whether a field's key is known; reports it if not.
+pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], whose: &str) -> bool {
+    let key = field.key.node.as_str();
+    if known.contains(&key) {
+        return true;
+    }
+    let problem =
+        Problem::new(Code::UnknownOption, field.key.span, format!("{whose} has no option `{key}`"), "not known");
+    let near = crate::problem::nearest(key, known.iter().copied()).is_some();
+    lower.report(if near {
+        problem.did_you_mean(key, known.iter().copied())
+    } else {
+        problem.help(format!("it has `{}`", known.join("`, `")))
+    });
+    false
+}
+
+/// The expression of a field; reports a group or a script.
+pub(super) fn expression<'w>(lower: &Lower<'_, 'w>, field: &'w Field) -> Option<&'w Expr> {
+    let span = match &field.value {
+        FieldValue::Expr(expr) => return Some(expr),
+        FieldValue::Fields(_, span) => *span,
+        FieldValue::Script(script) => script.span,
+    };
+    lower.report(
+        Problem::new(Code::WrongType, span, format!("`{}` is one value", field.key.node), "")
+            .help(format!("write `{}: …`", field.key.node)),
+    );
+    None
+}

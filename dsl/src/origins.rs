@@ -1,0 +1,33 @@
+//! Where the parts of a compiled scenario come from.
+
+use crate::source::Span;
+
+/// Where the parts of a compiled scenario stand in the sources.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origins {
+    /// The scenario's name.
+    pub scenario: Option<Span>,
+    /// Its parameters, in order.
+    pub params: Vec<Span>,
+    /// Its players, in order.
+    pub players: Vec<Span>,
+    /// Its rewards, in order.
+    pub rewards: Vec<Span>,
+    /// Its endings, in order.
+    pub endings: Vec<Span>,
+    /// Its records, in order.
+    pub records: Vec<Span>,
+    /// Its observation.
+    pub observation: Option<Span>,
+    /// Its requirements, in order: the written ones, then the implied.
+    pub requires: Vec<RequireOrigin>,
+}
+
+/// Where a requirement of the draw comes from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RequireOrigin {
+    /// The statement, or the part that implies it, where it is one part.
+    pub span: Option<Span>,
+    /// What makes an implied one hold.
+    pub help: Option<String>,
+}

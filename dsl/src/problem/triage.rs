@@ -1,0 +1,82 @@
+//! What of everything that was found is told: one mistake, one report.
+//!
+//! Each step drops what may be nothing but the echo of another problem; no step changes what is told.
+
+use super::{Code, Problem, Stage, has_errors};
+use crate::source::{FileId, Sources, Span};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The problems that are told, by file, place and code.
+///
+/// - `lost`: names whose declarations could not be read.
+pub(crate) fn triage(mut problems: Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) -> Vec<Problem> {
+    problems.sort_by_key(|problem| {
+        let place = problem.place().map(|span| (span.file, span.start, span.end));
+        (place, problem.code, problem.message.clone())
+    });
+    drop_lost_names(&mut problems, sources, lost);
+    problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
+    if problems.iter().any(|problem| problem.code.leaves_gap()) {
+        problems.retain(|problem| !problem.code.may_be_echo());
+    }
+    drop_library(&mut problems, sources);
+    if has_errors(&problems) {
+        drop_likely_used(&mut problems, sources);
+    }
+    drop_around_unread(&mut problems);
+    problems
+}
+
+/// A name whose declaration could not be read is told of there.
+fn drop_lost_names(problems: &mut Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) {
+    problems.retain(|problem| {
+        !matches!(problem.code, Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)
+            || !problem.place().is_some_and(|span| lost.contains(sources.text(span)))
+    });
+}
+
+/// The library is sound: what breaks in it follows from what the author wrote.
+fn drop_library(problems: &mut Vec<Problem>, sources: &Sources) {
+    let is_library = |problem: &Problem| {
+        problem.place().and_then(|span| sources.get(span.file)).is_some_and(|file| file.name.starts_with("std/"))
+    };
+    if problems.iter().any(|problem| problem.is_error() && !is_library(problem)) {
+        problems.retain(|problem| !is_library(problem));
+    }
+}
+
+/// Beside errors, what is named a second time is taken as used, as is what an error says was meant: the part that uses
+/// it may be the one that is wrong.
+fn drop_likely_used(problems: &mut Vec<Problem>, sources: &Sources) {
+    let words = |text: &str| -> BTreeMap<String, u32> {
+        let mut times = BTreeMap::new();
+        for word in text.split(|c: char| !(c.is_alphanumeric() || c == '_')) {
+            match times.get_mut(word) {
+                Some(times) => *times += 1,
+                None => drop(times.insert(word.to_owned(), 1)),
+            }
+        }
+        times
+    };
+    let helps = problems.iter().filter(|problem| problem.code != Code::UnusedName);
+    let meant: Vec<&str> = helps.filter_map(|problem| problem.help.as_deref()).collect();
+    let meant = words(&meant.join("\n"));
+    let mut of_files: BTreeMap<FileId, BTreeMap<String, u32>> = BTreeMap::new();
+    problems.retain(|problem| {
+        let Some(span) = problem.place().filter(|_| problem.code == Code::UnusedName) else { return true };
+        let name = sources.text(span);
+        let text = || sources.get(span.file).map_or("", |file| &*file.text);
+        let of_file = of_files.entry(span.file).or_insert_with(|| words(text()));
+        of_file.get(name).is_none_or(|times| *times < 2) && !meant.contains_key(name)
+    });
+}
+
+/// What holds a part that could not be read is not what the author wrote.
+fn drop_around_unread(problems: &mut Vec<Problem>) {
+    let is_syntax = |problem: &Problem| problem.code.stage() == Stage::Syntax;
+    let unread: Vec<Span> = problems.iter().filter(|problem| is_syntax(problem)).filter_map(Problem::place).collect();
+    problems.retain(|problem| {
+        let is_around = |span: Span| unread.iter().any(|part| span.holds(*part) && span != *part);
+        is_syntax(problem) || !problem.place().is_some_and(is_around)
+    });
+}

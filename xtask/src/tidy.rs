@@ -1,4 +1,7 @@
-//! The rules of the house that a machine can hold: who may use whom, where files and clocks are read, file lengths.
+//! The rules of the house that a machine can check: which room may use which, where files and clocks
+//! are read, file lengths, words.
+
+mod words;
 
 use crate::ci::root;
 use std::fs;
@@ -91,6 +94,7 @@ pub(crate) fn tidy() -> Result<(), String> {
             }
         }
     }
+    words::check(&mut breaches)?;
     if breaches.is_empty() {
         println!("tidy: the house is in order");
         Ok(())

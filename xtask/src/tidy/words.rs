@@ -23,6 +23,9 @@ const PHRASES: &[&str] = &[
     "nobody can have been",
     "so much nearer",
     "same dearer",
+    "goes on with other",
+    "in leaps that",
+    "that it can't be met",
 ];
 
 /// The most that a folder may hold. A file belongs to the longest prefix that fits, and `""` takes the rest.
@@ -42,7 +45,7 @@ const AT_MOST: &[(&str, usize)] = &[
     // Generated from `scenario/`.
     ("docs/pitchc.schema.json", 27),
     ("dsl/", 178),
-    ("engine/", 318),
+    ("engine/", 322),
     ("examples/", 1),
     ("fuzz/", 2),
     ("grammar/", 0),

@@ -39,7 +39,7 @@ fn main() -> ExitCode {
                 "cargo xtask transfer  [--scenario NAME]… [--steps N] [--episodes N] [--recorded] [--seed S]: agents in both games"
             );
             println!("cargo xtask schema  write docs/pitchc.schema.json");
-            println!("cargo xtask tidy    the rules of the house: who may use whom, file lengths");
+            println!("cargo xtask tidy    the rules of the house: which room may use which, file lengths, words");
             println!(
                 "cargo xtask fuzz    [TARGET…] [--seconds N] [--seed S] [--keep]: random inputs; see fuzz/README.md"
             );

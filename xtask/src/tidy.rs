@@ -1,6 +1,8 @@
-//! The rules of the house that a machine can hold: who may use whom, where files and clocks are read, file lengths.
+//! The rules of the house that a machine can check: which room may use which, where files and clocks
+//! are read, file lengths, words.
 
 mod rooms;
+mod words;
 
 use crate::ci::root;
 use std::fs;
@@ -113,6 +115,7 @@ pub(crate) fn tidy() -> Result<(), String> {
         }
     }
     dsl_arrows(&mut breaches)?;
+    words::check(&mut breaches)?;
     if breaches.is_empty() {
         println!("tidy: the house is in order");
         Ok(())

@@ -17,25 +17,25 @@ use setpiece_scenario::vocabulary::{Role, Team};
 pub(crate) struct Rostered<'w> {
     /// `team * 11 + index`.
     pub(crate) id: u8,
-    /// His team.
+    /// Their team.
     pub(crate) team: Team,
-    /// His role.
+    /// Their role.
     pub(crate) role: Role,
-    /// His name, if any.
+    /// Their name, if any.
     pub(crate) name: Option<&'w Ident>,
-    /// His statement.
+    /// Their statement.
     pub(crate) span: Span,
-    /// Where he starts; when his team kicks off, if there are layouts.
+    /// Where they start; when their team kicks off, if there are layouts.
     pub(crate) stand: Stand<'w>,
-    /// In which scope the rest of him is read.
+    /// In which scope the rest of the player is read.
     pub(crate) scope: Scope<'w>,
-    /// Where he stands when the others kick off, if there are layouts.
+    /// Where they stand when the others kick off, if there are layouts.
     pub(crate) receiving: Option<Stand<'w>>,
-    /// Where he looks.
+    /// Where they look.
     pub(crate) facing: Option<&'w Facing>,
-    /// How far his place is moved.
+    /// How far their place is moved.
     pub(crate) jitter: Option<&'w Expr>,
-    /// Whether he plays.
+    /// Whether they play.
     pub(crate) when: Option<&'w Expr>,
     /// Options: what stands later wins.
     pub(crate) fields: Vec<&'w Field>,
@@ -44,14 +44,14 @@ pub(crate) struct Rostered<'w> {
 /// Where a player stands in a layout.
 #[derive(Clone)]
 pub(crate) enum Stand<'w> {
-    /// At a place, read in a scope; in the zone of his role without one.
+    /// At a place, read in a scope; in the zone of the role without one.
     At(Option<&'w Place>, Scope<'w>),
     /// As in one formation or another.
     Either(&'w Expr, Box<Stand<'w>>, Box<Stand<'w>>),
 }
 
 impl Rostered<'_> {
-    /// What a report of his place points at.
+    /// What a report of the place points at.
     pub(crate) fn place_span(&self) -> Span {
         match self.stand {
             Stand::At(Some(place), _) => place.span,
@@ -59,7 +59,7 @@ impl Rostered<'_> {
         }
     }
 
-    /// The name of the stream of his draws: his label, else his team and index.
+    /// The name of the stream of the draws: the label, else the team and index.
     pub(crate) fn stream(&self) -> String {
         match self.name {
             Some(name) => format!("player {}", name.node),
@@ -532,7 +532,7 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
             );
         }
         if let Some(value) = world.declaration(&name.node) {
-            // Of the two the author wrote the one that stands in his own scenario.
+            // Of the two the author wrote the one that stands in their own scenario.
             let (again, first) = if world.flat.is_own(name.span) { (name.span, value) } else { (value, name.span) };
             world.report(
                 Problem::declared_twice(&format!("`{}`", name.node), again, first)

@@ -1,9 +1,9 @@
 //! One match and its judge, as an agent meets them.
 //!
-//! Sets the judge into the order of a step ([`step`]): it judges the state as ten ticks of play have left it, before the
-//! restart that a stop calls for. What is observed afterwards therefore shows the restart; what was judged is the
-//! state before it. Holds what lives as long as an episode; a clone goes on as the original does, and [`snapshot`] makes
-//! bytes of it; [`hindsight`] begins a new one in an old state.
+//! Sets the judge into the order of a step ([`step`]): it judges the state as ten ticks of play have left it, before
+//! the restart that a stop calls for. What is observed afterwards therefore shows the restart; what was judged is the
+//! state before it. Holds what lives as long as an episode; a clone goes on as the original does, and [`snapshot`]
+//! makes bytes of it; [`hindsight`] begins a new one in an old state.
 
 mod error;
 mod fits;

@@ -1,12 +1,12 @@
 //! The game: players, touches, kicks, the referee.
 //!
 //! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
-//! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. What it all changes is [`crate::state`]. Inside:
-//! [`movement`] (with `stride`), [`separation`] and [`mod@frame`] move bodies; [`reach`] says who is at the ball first;
-//! [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and [`shot`]) and [`keeper`]
-//! play it, and it may [`bounce`] off a body; [`contact`] says what that means; [`referee`], [`offside`] and [`foul`] have
-//! the [`whistle`] stop play, [`advantage`] lets it run, and [`mod@restart`] goes on; [`set_piece`] and [`lineup`] say who
-//! stands where, [`switching`] whom each agent plays.
+//! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. What it all changes is [`crate::state`].
+//! Inside: [`movement`] (with `stride` and [`pace`]), [`separation`] and [`mod@frame`] move bodies; [`reach`] says
+//! who is at the ball first; [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with
+//! [`pass`] and [`shot`]) and [`keeper`] play it, and it may [`bounce`] off a body; [`contact`] says what that means;
+//! [`referee`], [`offside`] and [`foul`] have the [`whistle`] stop play, [`advantage`] lets it run, and
+//! [`mod@restart`] goes on; [`set_piece`] and [`lineup`] say who stands where, [`switching`] whom each agent plays.
 
 pub mod advantage;
 pub mod begin;
@@ -27,6 +27,7 @@ pub mod lineup;
 pub mod movement;
 pub mod noise;
 pub mod offside;
+pub mod pace;
 pub mod pass;
 pub mod pass_target;
 pub mod possession;

@@ -1,8 +1,8 @@
 //! The football game that runs a compiled scenario: everything with a tick.
 //!
 //! - [`draw`]: a scenario, its parameters and a seed become one concrete [`start::Drawn`].
-//! - [`state::Match`]: one simulation, plain data, and its events; [`physics`], [`football`] and [`control`] move it on,
-//!   in the order of [`step`].
+//! - [`state::Match`]: one simulation, plain data, and its events; [`physics`], [`football`] and [`control`] move
+//!   it on, in the order of [`step`].
 //! - [`judge`]: rewards and endings, from the state and its events.
 //! - [`observe`]: the state written into the caller's buffers.
 //! - [`environment`]: one match and its judge, as an agent meets them; [`batch`]: many.

@@ -1,7 +1,7 @@
 //! The match: one simulation, plain data. A copy of it is a snapshot.
 //!
-//! Holds what the game knows, and no rule of it: [`crate::football`] and [`crate::control`] change it. Inside: [`player`],
-//! [`play`] (what the game keeps beside what everyone may see) with [`recent`], and [`event`].
+//! Holds what the game knows, and no rule of it: [`crate::football`] and [`crate::control`] change it. Inside:
+//! [`player`], [`play`] (what the game keeps beside what everyone may see) with [`recent`], and [`event`].
 
 pub mod event;
 pub mod play;

@@ -1,7 +1,7 @@
 //! The order of a step, and of what comes before the first and after each.
 //!
-//! Stands above [`football`](crate::football) and [`control`], of which neither calls the other's turn. Whoever judges a
-//! step does so between [`play`] and [`go_on`].
+//! Stands above [`football`](crate::football) and [`control`], of which neither calls the other's turn. Whoever
+//! judges a step does so between [`play`] and [`go_on`].
 
 use crate::control;
 use crate::football::{begin, clock, fatigue, forecast, reach, recent, restart, switching, tick};
@@ -49,8 +49,8 @@ pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: 
     clock::end_step(game, events);
 }
 
-/// Goes on after a step that has been judged: play that was stopped is restarted (ball and players are placed; dead time
-/// costs no step), and every agent gets its player of the step to come.
+/// Goes on after a step that has been judged: play that was stopped is restarted (ball and players are placed; dead
+/// time costs no step), and every agent gets its player of the step to come.
 pub fn go_on(game: &mut Match) {
     if game.dead {
         restart::apply(game);

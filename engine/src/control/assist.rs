@@ -1,7 +1,7 @@
 //! GRF's magnet: a controlled player runs to a ball that is his, whatever direction is held. Whoever is scripted and no
 //! agent's does what is written.
 
-use crate::football::movement::SPRINT_MPS;
+use crate::football::pace::SPRINT_MPS;
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;

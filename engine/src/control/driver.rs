@@ -1,7 +1,7 @@
 //! An agent's actions become what its player wants.
 
 use crate::control::{assist, sticky};
-use crate::football::movement::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
+use crate::football::pace::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
 use crate::football::{kick, reach, slide};
 use crate::state::event::Events;
 use crate::state::player::{Intent, KickKind, KickPlan};

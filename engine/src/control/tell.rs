@@ -7,7 +7,7 @@
 
 use crate::control::behavior::steer::{Gait, rest, towards};
 use crate::control::{agents, sticky};
-use crate::football::{movement, pass_target, shot};
+use crate::football::{pace, pass_target, shot};
 use crate::state::player::{Intent, KickKind, KickPlan, Pose};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -121,7 +121,7 @@ fn wish(game: &Match, id: PlayerId) -> (Vec2, f32) {
         Intent::Go(to, speed) => {
             let way = to - player.pos;
             let distance = way.length();
-            if distance < THERE_M { (Vec2::ZERO, 0.0) } else { (way, speed.min(distance * movement::ARRIVAL_PER_S)) }
+            if distance < THERE_M { (Vec2::ZERO, 0.0) } else { (way, speed.min(distance * pace::ARRIVAL_PER_S)) }
         }
         Intent::Ball(speed) => for_ball(game, id, speed),
     }

@@ -1,7 +1,7 @@
 //! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
 
 use crate::football::contact;
-use crate::football::movement::{RUN_MPS, SPRINT_MPS};
+use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::{Match, Player, PlayerId};

@@ -1,6 +1,6 @@
 //! Tiredness: running uses freshness up.
 
-use crate::football::movement::DT;
+use crate::football::pace::DT;
 use crate::state::Match;
 use setpiece_scenario::vocabulary::{Rule, Stat};
 

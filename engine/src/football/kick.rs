@@ -2,8 +2,8 @@
 //!
 //! Leaves the choice of a pass's target to `pass_target`, how the ball leaves the foot to `pass` and `shot`.
 
-use crate::football::movement::{RUN_MPS, SPRINT_MPS};
-use crate::football::shot::Struck;
+use crate::football::pace::{RUN_MPS, SPRINT_MPS};
+use crate::football::pass::Struck;
 use crate::football::{contact, forecast, noise, offside, pass, pass_target, report, shot, switching, whistle};
 use crate::math;
 use crate::state::event::Events;

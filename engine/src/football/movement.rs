@@ -4,6 +4,7 @@
 //! all of them. Leaves to `control` where he wants to go.
 
 use crate::football::dribble::{LIES_MPS, SOLE_M, SPRINTS_MPS};
+use crate::football::pace::{DT, WITH_BALL};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
 use crate::state::player::{Intent, Pose};
@@ -12,19 +13,6 @@ use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
-
-/// Speed with the dribble key, m/s.
-pub const DRIBBLE_MPS: f32 = 3.5;
-/// Speed without sprint, m/s.
-pub const RUN_MPS: f32 = 5.0;
-/// Speed asked for when sprinting, m/s: above everyone's top speed.
-pub const SPRINT_MPS: f32 = 8.0;
-/// Speed with the dribble key and the ball, m/s. Measured.
-pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
-/// Speed without sprint with the ball, m/s. Measured.
-pub const RUN_WITH_BALL_MPS: f32 = 5.12;
-/// Top speed with the ball against that without. Measured.
-pub const WITH_BALL: f32 = 0.955;
 
 /// How fast somebody speeds up with the ball against that without. Fitted to the starts of the Academy.
 const BURST_WITH_BALL: f32 = 0.95;
@@ -35,11 +23,6 @@ const STOPPING_M: f32 = 1.1;
 /// How near somebody has come to the ball who waits there for a start, metres: to play it elsewhere, and straight on; chosen.
 const AT_M: f32 = 0.75;
 const RIGHT_AT_M: f32 = 0.4;
-
-/// Length of a tick, seconds.
-pub const DT: f32 = 0.01;
-/// Metres of distance to m/s of speed wanted.
-pub const ARRIVAL_PER_S: f32 = 2.6;
 
 /// Who does more in a tick than run.
 #[derive(Clone, Copy, Debug, Default)]

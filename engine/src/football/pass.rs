@@ -3,7 +3,6 @@
 //! Its target is `pass_target`'s, its way `kick`'s.
 
 use crate::football::noise;
-use crate::football::shot::Struck;
 use crate::math;
 use crate::physics::constants::MAGNUS;
 use crate::state::player::{KickKind, KickPlan};
@@ -40,6 +39,15 @@ const THROW_MPS: f32 = 17.4;
 const THROW_UP_PER_S: f32 = 0.115;
 /// How far a throw-in is aimed at most, metres; chosen.
 const THROW_M: f32 = 30.0;
+
+/// A ball as it leaves the foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Struck {
+    /// m/s.
+    pub velocity: Vec3,
+    /// rad/s.
+    pub spin: Vec3,
+}
 
 /// A pass along a way of so many metres; its side spin bends it back to the way.
 ///

@@ -1,7 +1,7 @@
 //! Bodies don't pass through each other: circles of 0.36 m are pushed apart. Who is pushed plays worse for a moment, and
 //! may fall.
 
-use crate::football::movement::{DT, SPRINT_MPS};
+use crate::football::pace::{DT, SPRINT_MPS};
 use crate::football::{frame, reach, stumble};
 use crate::math;
 use crate::rows::{ROWS, WIDTH};

@@ -1,6 +1,7 @@
 //! Where a shot goes and how hard.
 
-use crate::football::{noise, pass};
+use crate::football::noise;
+use crate::football::pass::{self, Struck};
 use crate::math;
 use crate::state::player::KickPlan;
 use crate::state::{Match, Player, PlayerId};
@@ -41,15 +42,6 @@ const RUN_MPS: f32 = 6.0;
 const LEAST_HARD: f32 = 0.07;
 /// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.
 const GIVEN: f32 = 1.015;
-
-/// A ball as it leaves the foot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Struck {
-    /// m/s.
-    pub velocity: Vec3,
-    /// rad/s.
-    pub spin: Vec3,
-}
 
 /// The point that a shot is meant for now: the bot's, or what the held direction means.
 pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {

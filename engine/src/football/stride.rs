@@ -3,7 +3,7 @@
 //! Every lane computes both sides of what would be a branch for one man and keeps one. The curves are fitted to the
 //! measured ones (speed step by step from a standstill, ticks to turn, length of a stop).
 
-use crate::football::movement::{ARRIVAL_PER_S, DT};
+use crate::football::pace::{ARRIVAL_PER_S, DT};
 use crate::rows::{Lane, WIDTH};
 use setpiece_scenario::pitch::{RIM_X_M, RIM_Y_M};
 use wide::f32x4;

@@ -1,7 +1,7 @@
 //! The whistle: play stops, and it goes on.
 //!
-//! Knows no reason for either: those are `referee`'s, `offside`'s, `foul`'s and `advantage`'s. Where ball and players are
-//! then is `restart`'s.
+//! Knows no reason for either: those are `referee`'s, `offside`'s, `foul`'s and `advantage`'s. Where ball and players
+//! are then is `restart`'s.
 
 use crate::football::report;
 use crate::state::Match;

@@ -4,7 +4,7 @@ use super::actor::Frame;
 use super::steer::{Gait, rest, towards};
 use crate::control::driver::may_play;
 use crate::control::{agents, sticky};
-use crate::football::movement::RUN_MPS;
+use crate::football::pace::RUN_MPS;
 use crate::football::shot;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;

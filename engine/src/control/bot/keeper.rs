@@ -1,7 +1,7 @@
 //! The keeper's feet: where they stand, when they come out. (Their hands are `football::keeper`'s.)
 
 use crate::control::bot::{GOAL, View, send};
-use crate::football::movement::{RUN_MPS, SPRINT_MPS};
+use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::math::share;
 use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId};

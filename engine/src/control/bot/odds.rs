@@ -1,7 +1,7 @@
 //! How likely a ball comes to where it is played. (GRF's figures.)
 
 use crate::control::bot::View;
-use crate::football::movement::SPRINT_MPS;
+use crate::football::pace::SPRINT_MPS;
 use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;

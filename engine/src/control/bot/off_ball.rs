@@ -3,7 +3,7 @@
 
 use crate::control::bot::formation::{Outlook, mindset};
 use crate::control::bot::{View, mark, send, support};
-use crate::football::movement::SPRINT_MPS;
+use crate::football::pace::SPRINT_MPS;
 use crate::math::{self, ease, share};
 use crate::state::player::Intent;
 use crate::state::{Match, PlayerId};

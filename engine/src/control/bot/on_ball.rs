@@ -2,7 +2,7 @@
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, dribbling, odds};
-use crate::football::movement::SPRINT_MPS;
+use crate::football::pace::SPRINT_MPS;
 use crate::football::{kick, noise};
 use crate::math::{self, ease, share};
 use crate::state::play::ticks_since;

@@ -2,7 +2,7 @@
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
-use crate::football::movement::SPRINT_MPS;
+use crate::football::pace::SPRINT_MPS;
 use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;

@@ -4,7 +4,7 @@
 use crate::control::bot::View;
 use crate::control::bot::formation::mindset;
 use crate::football::block::HALF;
-use crate::football::movement::SPRINT_MPS;
+use crate::football::pace::SPRINT_MPS;
 use crate::math::{self, ease, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;

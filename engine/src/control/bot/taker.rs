@@ -2,9 +2,9 @@
 
 use crate::control::bot::GOAL;
 use crate::football::kick;
-use crate::football::movement::SPRINT_MPS;
 use crate::football::noise;
 use crate::football::offside;
+use crate::football::pace::SPRINT_MPS;
 use crate::math;
 use crate::state::play::SetPiece;
 use crate::state::player::{Intent, KickKind, KickPlan};

@@ -1,0 +1,19 @@
+//! How fast players run and want to run, and the length of a tick.
+
+/// Speed with the dribble key, m/s.
+pub const DRIBBLE_MPS: f32 = 3.5;
+/// Speed without sprint, m/s.
+pub const RUN_MPS: f32 = 5.0;
+/// Speed asked for when sprinting, m/s: above everyone's top speed.
+pub const SPRINT_MPS: f32 = 8.0;
+/// Speed with the dribble key and the ball, m/s. Measured.
+pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
+/// Speed without sprint with the ball, m/s. Measured.
+pub const RUN_WITH_BALL_MPS: f32 = 5.12;
+/// Top speed with the ball against that without. Measured.
+pub const WITH_BALL: f32 = 0.955;
+
+/// Length of a tick, seconds.
+pub const DT: f32 = 0.01;
+/// Metres of distance to m/s of speed wanted.
+pub const ARRIVAL_PER_S: f32 = 2.6;

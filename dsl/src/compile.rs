@@ -243,14 +243,10 @@ fn compile_one<'a>(
         library,
         flat: &flat,
         params: Vec::new(),
-        lets: Vec::new(),
         mirror,
         casting,
         roster: Vec::new(),
         whole_roster: false,
-        agents: None,
-        rules_off: Vec::new(),
-        longest: None,
         scripts: RefCell::default(),
         scripts_loaded: scripts,
         problems: RefCell::default(),
@@ -262,26 +258,22 @@ fn compile_one<'a>(
     let told = world.told();
     world.roster = roster::lower_roster(&world);
     world.whole_roster = world.told() == told;
-    let start::LoweredStart { start, mut players, agents, side, lets, behaviors, origins: requires } =
+    let start::LoweredStart { start, mut players, agents, step, behaviors, origins: requires } =
         start::lower_start(&world);
-    world.lets = lets;
-    world.agents = side;
-    world.rules_off = start::rules_off(&start);
-    world.longest = start::longest(&start);
     hidden::check_scenario(&world);
     let mut rewards = Vec::new();
     let mut reward_spans = Vec::new();
     for (name, used, stmt) in &flat.rewards {
-        if let Some(reward) = reward::lower_use(&world, name, used, stmt.span) {
+        if let Some(reward) = reward::lower_use(&step, name, used, stmt.span) {
             rewards.push(reward);
             reward_spans.push(stmt.span);
         }
     }
-    let endings = ending::lower_endings(&world);
-    let records = record::lower_records(&world);
-    let observation = observation::lower_observation(&world);
-    let library_rewards = reward::lower_library(&world);
-    let behaviors = behavior::lower_behaviors(&world, &behaviors, &mut players);
+    let endings = ending::lower_endings(&step);
+    let records = record::lower_records(&step);
+    let observation = observation::lower_observation(&step);
+    let library_rewards = reward::lower_library(&step);
+    let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
     unused.declare(&world);
 
     let origins = Origins {

@@ -21,6 +21,7 @@ pub(crate) mod reward;
 pub(crate) mod roster;
 pub(crate) mod script;
 pub(crate) mod start;
+pub(crate) mod step;
 pub(crate) mod team;
 pub(crate) mod triangles;
 pub(crate) mod value;
@@ -37,11 +38,12 @@ use interval::Interval;
 use mirror::Mirror;
 use param::ParamInfo;
 use roster::Rostered;
-use setpiece_scenario::vocabulary::{EventKind, Rule, Team};
+use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
-use start::{LetSlot, StartState};
+use start::StartState;
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
+use step::StepWorld;
 use value::{Frame, Repr, Scope, Value};
 
 /// What every program of a scenario is lowered against.
@@ -52,8 +54,6 @@ pub(crate) struct World<'w> {
     pub(crate) flat: &'w Flat<'w>,
     /// Its parameters.
     pub(crate) params: Vec<ParamInfo<'w>>,
-    /// Its `let`s, once the start is lowered.
-    pub(crate) lets: Vec<LetSlot<'w>>,
     /// Whether it is seen in a mirror.
     pub(crate) mirror: Mirror,
     /// Who plays players, whatever the text says.
@@ -62,12 +62,6 @@ pub(crate) struct World<'w> {
     pub(crate) roster: Vec<Rostered<'w>>,
     /// Whether the list of players was read without a mistake.
     pub(crate) whole_roster: bool,
-    /// The one team that has agents.
-    pub(crate) agents: Option<Team>,
-    /// The rules that are off, whatever its parameters are.
-    pub(crate) rules_off: Vec<Rule>,
-    /// How long an episode lasts at most, seconds, if that is known.
-    pub(crate) longest: Option<f64>,
     /// Scripts that are embedded so far.
     pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
     /// Scripts as they were loaded.
@@ -211,6 +205,8 @@ impl Stage {
 pub(crate) struct Lower<'c, 'w> {
     /// The scenario around it.
     pub(crate) world: &'c World<'w>,
+    /// What is known of the start, in a program of a step.
+    step: Option<&'c StepWorld<'c, 'w>>,
     /// The program.
     pub(crate) code: Builder,
     /// Its kind.
@@ -244,10 +240,26 @@ const DEPTH_MAX: u32 = 200;
 const INLINED_MAX: u32 = 10_000;
 
 impl<'c, 'w> Lower<'c, 'w> {
-    /// An empty program.
-    pub(crate) fn new(world: &'c World<'w>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
+    /// An empty program of what is known now.
+    pub(crate) fn constant(world: &'c World<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+        Lower::new(world, None, Stage::Constant, scope)
+    }
+
+    /// An empty program of what is drawn or computed at the start.
+    pub(crate) fn start(world: &'c World<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+        Lower::new(world, None, Stage::Start, scope)
+    }
+
+    /// An empty program of a step, or of what is kept from step to step.
+    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
+        debug_assert!(stage.is_step() || stage == Stage::Init);
+        Lower::new(step.world, Some(step), stage, scope)
+    }
+
+    fn new(world: &'c World<'w>, step: Option<&'c StepWorld<'c, 'w>>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
         Lower {
             world,
+            step,
             code: Builder::new(),
             stage,
             scope,
@@ -446,7 +458,7 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// Whether a condition never holds, whatever happens in the match.
     pub(crate) fn never_holds(&self, reg: Reg) -> bool {
-        interval::never_holds(&self.code, reg, &self.world.ranges(), self.world.longest)
+        interval::never_holds(&self.code, reg, &self.world.ranges(), self.longest())
     }
 
     /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`

@@ -9,9 +9,7 @@ use crate::cast::Cast;
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
-use crate::lower::{
-    Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, roster, start,
-};
+use crate::lower::{Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, start};
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem, ScriptApi, has_errors, triage};
@@ -19,8 +17,6 @@ use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
 use setpiece_scenario::bounds::{self, Excess, Part};
-use std::cell::RefCell;
-use std::collections::BTreeSet;
 use unused::Unused;
 
 /// What a caller may choose.
@@ -239,25 +235,7 @@ fn compile_one<'a>(
     if mirror == Mirror::Ends {
         flat.teams.swap(0, 1);
     }
-    let mut world = World {
-        library,
-        flat: &flat,
-        params: Vec::new(),
-        mirror,
-        casting,
-        roster: Vec::new(),
-        whole_roster: false,
-        scripts: RefCell::default(),
-        scripts_loaded: scripts,
-        problems: RefCell::default(),
-        used: RefCell::new(BTreeSet::new()),
-        effort,
-        counts: RefCell::default(),
-    };
-    world.params = param::lower_params(&world);
-    let told = world.told();
-    world.roster = roster::lower_roster(&world);
-    world.whole_roster = world.told() == told;
+    let world = World::new(library, &flat, mirror, casting, scripts, effort);
     let start::LoweredStart { start, mut players, agents, step, behaviors, origins: requires } =
         start::lower_start(&world);
     hidden::check_scenario(&world);

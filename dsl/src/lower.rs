@@ -25,148 +25,22 @@ pub(crate) mod step;
 pub(crate) mod team;
 pub(crate) mod triangles;
 pub(crate) mod value;
+mod world;
+
+pub(crate) use world::{Effort, MAX_LOWERED, World};
 
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
-use crate::resolve::{Flat, Library, Named};
 use builder::Builder;
-use casting::Casting;
 use interval::Interval;
 use mirror::Mirror;
-use param::ParamInfo;
-use roster::Rostered;
 use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
 use start::StartState;
-use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, BTreeSet};
 use step::StepWorld;
 use value::{Frame, Repr, Scope, Value};
-
-/// What every program of a scenario is lowered against.
-pub(crate) struct World<'w> {
-    /// The files and their names.
-    pub(crate) library: &'w Library,
-    /// The scenario.
-    pub(crate) flat: &'w Flat<'w>,
-    /// Its parameters.
-    pub(crate) params: Vec<ParamInfo<'w>>,
-    /// Whether it is seen in a mirror.
-    pub(crate) mirror: Mirror,
-    /// Who plays players, whatever the text says.
-    pub(crate) casting: &'w [Casting<'w>],
-    /// Its players.
-    pub(crate) roster: Vec<Rostered<'w>>,
-    /// Whether the list of players was read without a mistake.
-    pub(crate) whole_roster: bool,
-    /// Scripts that are embedded so far.
-    pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
-    /// Scripts as they were loaded.
-    pub(crate) scripts_loaded: &'w script::Scripts<'w>,
-    /// What was found so far.
-    pub(crate) problems: RefCell<Vec<Problem>>,
-    /// Declarations that something refers to.
-    pub(crate) used: RefCell<BTreeSet<Span>>,
-    /// What may still be lowered.
-    pub(crate) effort: &'w Effort,
-    /// How many problems of each code were found.
-    pub(crate) counts: RefCell<BTreeMap<Code, usize>>,
-}
-
-/// One compilation may lower this much: expressions of every scenario of a file, each as often as it is used, and the
-/// instructions that they become. The largest scenarios of the library take some thousand.
-pub(crate) const MAX_LOWERED: usize = 400_000;
-
-/// What one compilation may still lower.
-pub(crate) struct Effort(Cell<usize>);
-
-impl Effort {
-    /// That of a compilation that begins.
-    pub(crate) fn new() -> Effort {
-        Effort(Cell::new(MAX_LOWERED))
-    }
-
-    /// Takes some of it; `false` once it is spent.
-    pub(crate) fn spend(&self, amount: usize) -> bool {
-        self.0.set(self.0.get().saturating_sub(amount));
-        !self.is_spent()
-    }
-
-    /// Whether nothing is left.
-    pub(crate) fn is_spent(&self) -> bool {
-        self.0.get() == 0
-    }
-}
-
-impl World<'_> {
-    /// Reports a problem, unless there are enough of its kind.
-    pub(crate) fn report(&self, problem: Problem) {
-        let mut counts = self.counts.borrow_mut();
-        let count = counts.entry(problem.code).or_default();
-        *count += 1;
-        if *count <= MAX_PROBLEMS {
-            self.problems.borrow_mut().push(problem);
-        }
-    }
-
-    /// Whether there are enough problems of a kind: one that is costly to explain needn't be.
-    pub(crate) fn is_full(&self, code: Code) -> bool {
-        self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
-    }
-
-    /// How many problems were found so far: more of them afterwards say that what was read in between is wrong.
-    pub(crate) fn told(&self) -> usize {
-        self.problems.borrow().len()
-    }
-
-    /// Runs `f` to see what comes of it and tells nothing of what is wrong with it: whoever tries something out reads it
-    /// in earnest elsewhere, or has done so, and it is told there. What `f` refers to counts as used all the same.
-    pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
-        let told = self.told();
-        let result = f();
-        self.problems.borrow_mut().truncate(told);
-        result
-    }
-
-    /// Notes that a declaration is referred to.
-    pub(crate) fn mark_used(&self, declaration: Span) {
-        self.used.borrow_mut().insert(declaration);
-    }
-
-    /// Where the scenario declares a value of this name, players aside.
-    pub(crate) fn declaration(&self, name: &str) -> Option<Span> {
-        let flat = self.flat;
-        let known = match flat.named(name)? {
-            Named::Param(at) => &flat.params.get(at)?.decl.name,
-            Named::Let(at) => &flat.lets.get(at)?.name,
-            Named::Tuple(at, index) => flat.tuples.get(at)?.0.get(index)?,
-            Named::Const(at) => &flat.consts.get(at)?.name,
-            Named::Region(at) => &flat.regions.get(at)?.name,
-        };
-        Some(known.span)
-    }
-
-    /// Whether the scenario has a value or player of this name.
-    pub(crate) fn declares(&self, name: &str) -> bool {
-        self.declaration(name).is_some()
-            || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
-    }
-
-    /// The ranges of the parameters, in order.
-    pub(crate) fn ranges(&self) -> Vec<Option<Interval>> {
-        self.params.iter().filter(|param| param.bound.is_none()).map(ParamInfo::interval).collect()
-    }
-
-    /// The author's text of a span, shortened to one line.
-    pub(crate) fn text(&self, span: Span) -> String {
-        let text = self.library.sources.text(span);
-        let words: Vec<&str> = text.split_whitespace().collect();
-        words.join(" ")
-    }
-}
 
 /// What kind of program is written, which decides what it may read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

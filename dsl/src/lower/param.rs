@@ -63,7 +63,7 @@ pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
 }
 
 /// Checks every parameter of the scenario; the world has none yet.
-pub(crate) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
+pub(super) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
     let mut index = 0;
     let mut params = Vec::new();
     for param in &world.flat.params {

@@ -77,7 +77,7 @@ impl Rostered<'_> {
 }
 
 /// Lists both teams' players.
-pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
+pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
     let mut roster = Vec::new();
     for team in Team::ALL {
         let Some(flat) = world.flat.teams.get(team.index()) else { continue };

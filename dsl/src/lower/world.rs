@@ -40,7 +40,11 @@ pub(crate) struct World<'w> {
     /// What may still be lowered.
     pub(crate) effort: &'w Effort,
     /// How many problems of each code were found.
-    pub(crate) counts: RefCell<BTreeMap<Code, usize>>,
+    counts: RefCell<BTreeMap<Code, usize>>,
+    /// How many problems were found, those that are not told among them.
+    found: Cell<usize>,
+    /// Whether something is tried out.
+    is_tentative: Cell<bool>,
 }
 
 /// One compilation may lower this much: expressions of every scenario of a file, each as often as it is used, and the
@@ -92,13 +96,15 @@ impl<'w> World<'w> {
             used: RefCell::default(),
             effort,
             counts: RefCell::default(),
+            found: Cell::default(),
+            is_tentative: Cell::default(),
         };
         // A default is a constant: it reads no other parameter and no player.
         world.params = lower_params(&world);
-        let told = world.told();
+        let found = world.found();
         // Who plays is read against the parameters; where they stand belongs to the start.
         world.roster = lower_roster(&world);
-        world.whole_roster = world.told() == told;
+        world.whole_roster = world.found() == found;
         world
     }
 }
@@ -106,6 +112,10 @@ impl<'w> World<'w> {
 impl World<'_> {
     /// Reports a problem, unless there are enough of its kind.
     pub(crate) fn report(&self, problem: Problem) {
+        self.found.set(self.found.get() + 1);
+        if self.is_tentative.get() {
+            return;
+        }
         let mut counts = self.counts.borrow_mut();
         let count = counts.entry(problem.code).or_default();
         *count += 1;
@@ -114,22 +124,22 @@ impl World<'_> {
         }
     }
 
-    /// Whether there are enough problems of a kind: one that is costly to explain needn't be.
+    /// Whether one more problem of a kind would not be told: one that is costly to explain needn't be.
     pub(crate) fn is_full(&self, code: Code) -> bool {
-        self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
+        self.is_tentative.get() || self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
     }
 
     /// How many problems were found so far: more of them afterwards say that what was read in between is wrong.
-    pub(crate) fn told(&self) -> usize {
-        self.problems.borrow().len()
+    pub(crate) fn found(&self) -> usize {
+        self.found.get()
     }
 
     /// Runs `f` to see what comes of it and tells nothing of what is wrong with it: whoever tries something out reads it
     /// in earnest elsewhere, or has done so, and it is told there. What `f` refers to counts as used all the same.
     pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
-        let told = self.told();
+        let outer = self.is_tentative.replace(true);
         let result = f();
-        self.problems.borrow_mut().truncate(told);
+        self.is_tentative.set(outer);
         result
     }
 

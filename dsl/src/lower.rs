@@ -290,15 +290,10 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// "expected a length, found `3s` (a duration)".
     pub(crate) fn mismatch(&self, found: Ty, wanted: Ty, span: Span) -> Problem {
-        let text = self.world.text(span);
-        let what = if text.is_empty() || text.chars().count() > 40 {
-            found.noun()
-        } else {
-            format!("`{text}` ({})", found.noun())
-        };
+        let problem = self.expected(&wanted.noun(), found, span);
         let both_numbers = found.dim().is_some() && wanted.dim().is_some();
         let code = if both_numbers { Code::WrongUnit } else { Code::WrongType };
-        let problem = Problem::new(code, span, format!("expected {}, found {what}", wanted.noun()), found.noun());
+        let problem = Problem { code, ..problem };
         match (found, wanted) {
             (Ty::LENGTH, Ty::Number) => {
                 problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")
@@ -314,6 +309,17 @@ impl<'c, 'w> Lower<'c, 'w> {
                 None => problem,
             },
         }
+    }
+
+    /// The same of what has no type of its own: `wanted` is in words.
+    pub(crate) fn expected(&self, wanted: &str, found: Ty, span: Span) -> Problem {
+        let text = self.world.text(span);
+        let what = if text.is_empty() || text.chars().count() > 40 {
+            found.noun()
+        } else {
+            format!("`{text}` ({})", found.noun())
+        };
+        Problem::new(Code::WrongType, span, format!("expected {wanted}, found {what}"), found.noun())
     }
 
     /// +1 or -1 where the own frame is read, `None` where it is the world's.

@@ -9,9 +9,7 @@ use crate::cast::Cast;
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
 use crate::lower::script::Scripts;
-use crate::lower::{
-    Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, roster, start,
-};
+use crate::lower::{Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, start};
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem, ScriptApi, has_errors, triage};
@@ -19,8 +17,6 @@ use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
 use setpiece_scenario::bounds::{self, Excess, Part};
-use std::cell::RefCell;
-use std::collections::BTreeSet;
 use unused::Unused;
 
 /// What a caller may choose.
@@ -239,49 +235,23 @@ fn compile_one<'a>(
     if mirror == Mirror::Ends {
         flat.teams.swap(0, 1);
     }
-    let mut world = World {
-        library,
-        flat: &flat,
-        params: Vec::new(),
-        lets: Vec::new(),
-        mirror,
-        casting,
-        roster: Vec::new(),
-        whole_roster: false,
-        agents: None,
-        rules_off: Vec::new(),
-        longest: None,
-        scripts: RefCell::default(),
-        scripts_loaded: scripts,
-        problems: RefCell::default(),
-        used: RefCell::new(BTreeSet::new()),
-        effort,
-        counts: RefCell::default(),
-    };
-    world.params = param::lower_params(&world);
-    let told = world.told();
-    world.roster = roster::lower_roster(&world);
-    world.whole_roster = world.told() == told;
-    let start::LoweredStart { start, mut players, agents, side, lets, behaviors, origins: requires } =
+    let world = World::new(library, &flat, mirror, casting, scripts, effort);
+    let start::LoweredStart { start, mut players, agents, step, behaviors, origins: requires } =
         start::lower_start(&world);
-    world.lets = lets;
-    world.agents = side;
-    world.rules_off = start::rules_off(&start);
-    world.longest = start::longest(&start);
     hidden::check_scenario(&world);
     let mut rewards = Vec::new();
     let mut reward_spans = Vec::new();
     for (name, used, stmt) in &flat.rewards {
-        if let Some(reward) = reward::lower_use(&world, name, used, stmt.span) {
+        if let Some(reward) = reward::lower_use(&step, name, used, stmt.span) {
             rewards.push(reward);
             reward_spans.push(stmt.span);
         }
     }
-    let endings = ending::lower_endings(&world);
-    let records = record::lower_records(&world);
-    let observation = observation::lower_observation(&world);
-    let library_rewards = reward::lower_library(&world);
-    let behaviors = behavior::lower_behaviors(&world, &behaviors, &mut players);
+    let endings = ending::lower_endings(&step);
+    let records = record::lower_records(&step);
+    let observation = observation::lower_observation(&step);
+    let library_rewards = reward::lower_library(&step);
+    let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
     unused.declare(&world);
 
     let origins = Origins {

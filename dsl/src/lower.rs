@@ -21,158 +21,26 @@ pub(crate) mod reward;
 pub(crate) mod roster;
 pub(crate) mod script;
 pub(crate) mod start;
+pub(crate) mod step;
 pub(crate) mod team;
 pub(crate) mod triangles;
 pub(crate) mod value;
+mod world;
+
+pub(crate) use world::{Effort, MAX_LOWERED, World};
 
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
-use crate::resolve::{Flat, Library, Named};
 use builder::Builder;
-use casting::Casting;
 use interval::Interval;
 use mirror::Mirror;
-use param::ParamInfo;
-use roster::Rostered;
-use setpiece_scenario::vocabulary::{EventKind, Rule, Team};
+use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
-use start::{LetSlot, StartState};
-use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, BTreeSet};
+use start::StartState;
+use step::StepWorld;
 use value::{Frame, Repr, Scope, Value};
-
-/// What every program of a scenario is lowered against.
-pub(crate) struct World<'w> {
-    /// The files and their names.
-    pub(crate) library: &'w Library,
-    /// The scenario.
-    pub(crate) flat: &'w Flat<'w>,
-    /// Its parameters.
-    pub(crate) params: Vec<ParamInfo<'w>>,
-    /// Its `let`s, once the start is lowered.
-    pub(crate) lets: Vec<LetSlot<'w>>,
-    /// Whether it is seen in a mirror.
-    pub(crate) mirror: Mirror,
-    /// Who plays players, whatever the text says.
-    pub(crate) casting: &'w [Casting<'w>],
-    /// Its players.
-    pub(crate) roster: Vec<Rostered<'w>>,
-    /// Whether the list of players was read without a mistake.
-    pub(crate) whole_roster: bool,
-    /// The one team that has agents.
-    pub(crate) agents: Option<Team>,
-    /// The rules that are off, whatever its parameters are.
-    pub(crate) rules_off: Vec<Rule>,
-    /// How long an episode lasts at most, seconds, if that is known.
-    pub(crate) longest: Option<f64>,
-    /// Scripts that are embedded so far.
-    pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
-    /// Scripts as they were loaded.
-    pub(crate) scripts_loaded: &'w script::Scripts<'w>,
-    /// What was found so far.
-    pub(crate) problems: RefCell<Vec<Problem>>,
-    /// Declarations that something refers to.
-    pub(crate) used: RefCell<BTreeSet<Span>>,
-    /// What may still be lowered.
-    pub(crate) effort: &'w Effort,
-    /// How many problems of each code were found.
-    pub(crate) counts: RefCell<BTreeMap<Code, usize>>,
-}
-
-/// One compilation may lower this much: expressions of every scenario of a file, each as often as it is used, and the
-/// instructions that they become. The largest scenarios of the library take some thousand.
-pub(crate) const MAX_LOWERED: usize = 400_000;
-
-/// What one compilation may still lower.
-pub(crate) struct Effort(Cell<usize>);
-
-impl Effort {
-    /// That of a compilation that begins.
-    pub(crate) fn new() -> Effort {
-        Effort(Cell::new(MAX_LOWERED))
-    }
-
-    /// Takes some of it; `false` once it is spent.
-    pub(crate) fn spend(&self, amount: usize) -> bool {
-        self.0.set(self.0.get().saturating_sub(amount));
-        !self.is_spent()
-    }
-
-    /// Whether nothing is left.
-    pub(crate) fn is_spent(&self) -> bool {
-        self.0.get() == 0
-    }
-}
-
-impl World<'_> {
-    /// Reports a problem, unless there are enough of its kind.
-    pub(crate) fn report(&self, problem: Problem) {
-        let mut counts = self.counts.borrow_mut();
-        let count = counts.entry(problem.code).or_default();
-        *count += 1;
-        if *count <= MAX_PROBLEMS {
-            self.problems.borrow_mut().push(problem);
-        }
-    }
-
-    /// Whether there are enough problems of a kind: one that is costly to explain needn't be.
-    pub(crate) fn is_full(&self, code: Code) -> bool {
-        self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
-    }
-
-    /// How many problems were found so far: more of them afterwards say that what was read in between is wrong.
-    pub(crate) fn told(&self) -> usize {
-        self.problems.borrow().len()
-    }
-
-    /// Runs `f` to see what comes of it and tells nothing of what is wrong with it: whoever tries something out reads it
-    /// in earnest elsewhere, or has done so, and it is told there. What `f` refers to counts as used all the same.
-    pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
-        let told = self.told();
-        let result = f();
-        self.problems.borrow_mut().truncate(told);
-        result
-    }
-
-    /// Notes that a declaration is referred to.
-    pub(crate) fn mark_used(&self, declaration: Span) {
-        self.used.borrow_mut().insert(declaration);
-    }
-
-    /// Where the scenario declares a value of this name, players aside.
-    pub(crate) fn declaration(&self, name: &str) -> Option<Span> {
-        let flat = self.flat;
-        let known = match flat.named(name)? {
-            Named::Param(at) => &flat.params.get(at)?.decl.name,
-            Named::Let(at) => &flat.lets.get(at)?.name,
-            Named::Tuple(at, index) => flat.tuples.get(at)?.0.get(index)?,
-            Named::Const(at) => &flat.consts.get(at)?.name,
-            Named::Region(at) => &flat.regions.get(at)?.name,
-        };
-        Some(known.span)
-    }
-
-    /// Whether the scenario has a value or player of this name.
-    pub(crate) fn declares(&self, name: &str) -> bool {
-        self.declaration(name).is_some()
-            || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
-    }
-
-    /// The ranges of the parameters, in order.
-    pub(crate) fn ranges(&self) -> Vec<Option<Interval>> {
-        self.params.iter().filter(|param| param.bound.is_none()).map(ParamInfo::interval).collect()
-    }
-
-    /// The author's text of a span, shortened to one line.
-    pub(crate) fn text(&self, span: Span) -> String {
-        let text = self.library.sources.text(span);
-        let words: Vec<&str> = text.split_whitespace().collect();
-        words.join(" ")
-    }
-}
 
 /// What kind of program is written, which decides what it may read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -211,6 +79,8 @@ impl Stage {
 pub(crate) struct Lower<'c, 'w> {
     /// The scenario around it.
     pub(crate) world: &'c World<'w>,
+    /// What is known of the start, in a program of a step.
+    step: Option<&'c StepWorld<'c, 'w>>,
     /// The program.
     pub(crate) code: Builder,
     /// Its kind.
@@ -244,10 +114,26 @@ const DEPTH_MAX: u32 = 200;
 const INLINED_MAX: u32 = 10_000;
 
 impl<'c, 'w> Lower<'c, 'w> {
-    /// An empty program.
-    pub(crate) fn new(world: &'c World<'w>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
+    /// An empty program of what is known now.
+    pub(crate) fn constant(world: &'c World<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+        Lower::new(world, None, Stage::Constant, scope)
+    }
+
+    /// An empty program of what is drawn or computed at the start.
+    pub(crate) fn start(world: &'c World<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+        Lower::new(world, None, Stage::Start, scope)
+    }
+
+    /// An empty program of a step, or of what is kept from step to step.
+    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
+        debug_assert!(stage.is_step() || stage == Stage::Init);
+        Lower::new(step.world, Some(step), stage, scope)
+    }
+
+    fn new(world: &'c World<'w>, step: Option<&'c StepWorld<'c, 'w>>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
         Lower {
             world,
+            step,
             code: Builder::new(),
             stage,
             scope,
@@ -404,15 +290,10 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// "expected a length, found `3s` (a duration)".
     pub(crate) fn mismatch(&self, found: Ty, wanted: Ty, span: Span) -> Problem {
-        let text = self.world.text(span);
-        let what = if text.is_empty() || text.chars().count() > 40 {
-            found.noun()
-        } else {
-            format!("`{text}` ({})", found.noun())
-        };
+        let problem = self.expected(&wanted.noun(), found, span);
         let both_numbers = found.dim().is_some() && wanted.dim().is_some();
         let code = if both_numbers { Code::WrongUnit } else { Code::WrongType };
-        let problem = Problem::new(code, span, format!("expected {}, found {what}", wanted.noun()), found.noun());
+        let problem = Problem { code, ..problem };
         match (found, wanted) {
             (Ty::LENGTH, Ty::Number) => {
                 problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")
@@ -428,6 +309,17 @@ impl<'c, 'w> Lower<'c, 'w> {
                 None => problem,
             },
         }
+    }
+
+    /// The same of what has no type of its own: `wanted` is in words.
+    pub(crate) fn expected(&self, wanted: &str, found: Ty, span: Span) -> Problem {
+        let text = self.world.text(span);
+        let what = if text.is_empty() || text.chars().count() > 40 {
+            found.noun()
+        } else {
+            format!("`{text}` ({})", found.noun())
+        };
+        Problem::new(Code::WrongType, span, format!("expected {wanted}, found {what}"), found.noun())
     }
 
     /// +1 or -1 where the own frame is read, `None` where it is the world's.
@@ -446,7 +338,7 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// Whether a condition never holds, whatever happens in the match.
     pub(crate) fn never_holds(&self, reg: Reg) -> bool {
-        interval::never_holds(&self.code, reg, &self.world.ranges(), self.world.longest)
+        interval::never_holds(&self.code, reg, &self.world.ranges(), self.longest())
     }
 
     /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`

@@ -249,3 +249,12 @@ fn a_similar_name_is_looked_for_among_so_many() {
     let long = "a".repeat(100_000);
     assert_eq!(nearest(&long, [long.as_str()]), None);
 }
+
+#[test]
+fn what_is_tried_out_takes_no_room_of_what_is_told() {
+    let head = format!("reward r(x = nope) {{ give x }}\n{HEAD}");
+    let uses = repeated(&head, 600, |i| format!("reward r(x: 1) as \"r{i}\"\n"), "end lost when another\n}");
+    let found = outcome(&uses);
+    let told = |name: &str| found.problems.iter().any(|problem| problem.message.contains(name));
+    assert!(told("`another`"), "{:#?}", found.problems.iter().take(3).collect::<Vec<_>>());
+}

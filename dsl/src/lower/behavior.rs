@@ -8,8 +8,9 @@ mod act;
 mod statement;
 
 use super::builder::Layout;
+use super::step::StepWorld;
 use super::value::{Binding, Frame, Scope, Value};
-use super::{Lower, Stage, World, param};
+use super::{Lower, Stage, param};
 use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -56,13 +57,13 @@ pub(crate) struct Draw {
 
 /// Lowers every behaviour that a player uses, and tells the players.
 pub(crate) fn lower_behaviors<'w>(
-    world: &World<'w>,
+    step: &StepWorld<'_, 'w>,
     uses: &[(u8, BehaviorUse<'w>)],
     players: &mut [PlayerSlot],
 ) -> Vec<Behavior> {
     let mut behaviors: Vec<Behavior> = Vec::new();
     for (player, used) in uses {
-        let mut writer = Writer::new(world);
+        let mut writer = Writer::new(step);
         let name = match used {
             BehaviorUse::Named { item, args, scope, span } => {
                 writer.lower.scope = scope.clone();
@@ -81,17 +82,18 @@ pub(crate) fn lower_behaviors<'w>(
             behaviors.push(behavior);
             behaviors.len() - 1
         });
-        let slot = world.roster.iter().position(|rostered| rostered.id == *player);
+        let slot = step.world.roster.iter().position(|rostered| rostered.id == *player);
         if let Some(slot) = slot.and_then(|at| players.get_mut(at)) {
             slot.ai = Ai::Behavior(index as u32);
         }
     }
-    check_unused(world);
+    check_unused(step);
     behaviors
 }
 
 /// Checks the behaviours of the root that no player of this scenario uses: their mistakes are told all the same.
-fn check_unused(world: &World<'_>) {
+fn check_unused(step: &StepWorld<'_, '_>) {
+    let world = step.world;
     let root = FileId(0);
     let items = world.library.files.first().map_or(&[][..], |file| &file.items);
     for item in items {
@@ -99,7 +101,7 @@ fn check_unused(world: &World<'_>) {
         if behavior.name.span.file != root || world.used.borrow().contains(&behavior.name.span) {
             continue;
         }
-        let mut writer = Writer::new(world);
+        let mut writer = Writer::new(step);
         let mut scope = Scope::new(false, Frame::Own);
         for decl in &behavior.params {
             let value = writer.some_value(decl);
@@ -157,8 +159,8 @@ struct Call {
 }
 
 impl<'c, 'w> Writer<'c, 'w> {
-    fn new(world: &'c World<'w>) -> Writer<'c, 'w> {
-        let mut lower = Lower::new(world, Stage::Behavior, Scope::new(false, Frame::Own));
+    fn new(step: &'c StepWorld<'c, 'w>) -> Writer<'c, 'w> {
+        let mut lower = Lower::in_step(step, Stage::Behavior, Scope::new(false, Frame::Own));
         let us = lower.code.us();
         lower.team = Some(us);
         let (nodes, watches, states, calls) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());

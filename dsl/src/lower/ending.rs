@@ -1,7 +1,8 @@
 //! Endings: one program, and its conditions in order.
 
+use super::step::StepWorld;
 use super::value::{Frame, Scope};
-use super::{Lower, Stage, World, script};
+use super::{Lower, Stage, script};
 use crate::ast::{EndCondition, ItemKind};
 use crate::problem::{Code, Problem, nearest};
 use crate::resolve::FlatEnding;
@@ -9,10 +10,11 @@ use setpiece_scenario::vocabulary::Verdict;
 use setpiece_scenario::{Ending, Endings, Reg};
 
 /// Lowers the endings but for the limit.
-pub(crate) fn lower_endings(world: &World<'_>) -> Endings {
+pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
+    let world = step.world;
     let scope = Scope::new(true, Frame::World);
-    let mut lower = Lower::new(world, Stage::Ending, scope);
-    if let Some(team) = world.agents {
+    let mut lower = Lower::in_step(step, Stage::Ending, scope);
+    if let Some(team) = step.agents {
         let team = lower.code.constant(team.index() as f64);
         lower.team = Some(team);
     }

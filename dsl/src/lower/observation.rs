@@ -1,7 +1,8 @@
 //! `observe vector { … }`: the scenario's own observation.
 
+use super::step::StepWorld;
 use super::value::{Frame, Repr, Scope};
-use super::{Lower, Stage, World};
+use super::{Lower, Stage};
 use crate::ast::Expr;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -12,9 +13,10 @@ use setpiece_scenario::{BinaryOp, Observation, ObservedValue, Reg};
 const NUMBERS_MAX: usize = 10_000;
 
 /// Lowers the observation, if the scenario declares one.
-pub(crate) fn lower_observation(world: &World<'_>) -> Option<Observation> {
+pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation> {
+    let world = step.world;
     let (observed, span) = world.flat.observed?;
-    let mut lower = Lower::new(world, Stage::Observation, Scope::new(true, Frame::Own));
+    let mut lower = Lower::in_step(step, Stage::Observation, Scope::new(true, Frame::Own));
     let us = lower.code.us();
     lower.team = Some(us);
     let mut values: Vec<(String, Reg)> = Vec::new();

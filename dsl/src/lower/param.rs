@@ -2,7 +2,7 @@
 
 use super::interval::Interval;
 use super::value::{Frame, Repr, Scope, Value};
-use super::{Lower, Stage, World};
+use super::{Lower, World};
 use crate::ast::{Domain, Expr, Ident, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -63,7 +63,7 @@ pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
 }
 
 /// Checks every parameter of the scenario; the world has none yet.
-pub(crate) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
+pub(super) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
     let mut index = 0;
     let mut params = Vec::new();
     for param in &world.flat.params {
@@ -119,7 +119,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         }
         return info;
     }
-    let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+    let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
     let value = match declared {
         Some(ty) => lower.want(expr, ty),
         None => lower.expr(expr),
@@ -168,7 +168,7 @@ fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
 fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
     // Where it is no constant its names are the scenario's, not those that are in sight here.
     let used = world.used.take();
-    let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+    let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
     let value = world.tentatively(|| lower.expr(expr));
     *world.used.borrow_mut() = used;
     match value.repr {
@@ -189,7 +189,7 @@ fn in_fractions(domain: Option<&Domain>) -> bool {
 }
 
 fn constant<'w>(world: &World<'w>, expr: &'w Expr, ty: Ty) -> Option<f64> {
-    let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+    let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
     let value: Value<'w> = lower.want(expr, ty);
     match value.repr {
         Repr::One(reg) => {
@@ -262,7 +262,7 @@ fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: S
     match domain {
         Some(Domain::List(values, _)) => {
             for value in values {
-                let mut lower = Lower::new(world, Stage::Constant, Scope::new(false, Frame::World));
+                let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
                 if let Repr::Text(word) = lower.want(value, Ty::String).repr {
                     words.push(word);
                 }

@@ -3,8 +3,9 @@
 //! `count of EVENT`, `max of E` and their like are sums in cells, so that they may stand anywhere in a record:
 //! `(count of pass completed by left) / (count of pass by left)`. `series of E` keeps every step's value and stands alone.
 
+use super::step::StepWorld;
 use super::value::{Frame, Repr, Scope, Value};
-use super::{Lower, Stage, World};
+use super::{Lower, Stage};
 use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
@@ -12,13 +13,13 @@ use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Record, Reg};
 
 /// Lowers the records.
-pub(crate) fn lower_records(world: &World<'_>) -> Vec<Record> {
-    world.flat.records.iter().filter_map(|binding| lower_record(world, binding)).collect()
+pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
+    step.world.flat.records.iter().filter_map(|binding| lower_record(step, binding)).collect()
 }
 
-fn lower_record<'w>(world: &World<'w>, binding: &'w Binding) -> Option<Record> {
-    let mut lower = Lower::new(world, Stage::Record, Scope::new(true, Frame::World));
-    if let Some(team) = world.agents {
+fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Record> {
+    let mut lower = Lower::in_step(step, Stage::Record, Scope::new(true, Frame::World));
+    if let Some(team) = step.agents {
         let team = lower.code.constant(team.index() as f64);
         lower.team = Some(team);
     }

@@ -4,6 +4,7 @@ mod never;
 mod state;
 mod writer;
 
+use super::step::StepWorld;
 use super::value::{Frame, Scope};
 use super::{Lower, Stage, World};
 use crate::ast::{
@@ -74,7 +75,8 @@ impl<'w> Written<'w> {
 }
 
 /// Lowers a reward that a scenario uses.
-pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, span: Span) -> Option<Reward> {
+pub(crate) fn lower_use<'w>(step: &StepWorld<'_, 'w>, name: &str, used: &'w RewardUse, span: Span) -> Option<Reward> {
+    let world = step.world;
     if world.effort.is_spent() {
         return None;
     }
@@ -82,10 +84,10 @@ pub(crate) fn lower_use<'w>(world: &World<'w>, name: &str, used: &'w RewardUse, 
         check_weight(world, weight, name);
     }
     match &used.what {
-        RewardUseKind::Script(script) => Some(lower_script(world, name, script, used.weight.as_ref())),
+        RewardUseKind::Script(script) => Some(lower_script(step, name, script, used.weight.as_ref())),
         RewardUseKind::Inline { .. } | RewardUseKind::Named(_) => {
             let (written, doc) = written(world, used, span)?;
-            Some(lower_written(world, name, doc, &written, used.weight.as_ref()))
+            Some(lower_written(step, name, doc, &written, used.weight.as_ref()))
         }
     }
 }
@@ -142,8 +144,8 @@ fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
 }
 
 /// A reward that is a script: one term, `script`.
-fn lower_script<'w>(world: &World<'w>, name: &str, script: &'w ScriptRef, weight: Option<&'w Expr>) -> Reward {
-    let mut lower = Lower::new(world, Stage::Reward, Scope::new(true, Frame::World));
+fn lower_script<'w>(step: &StepWorld<'_, 'w>, name: &str, script: &'w ScriptRef, weight: Option<&'w Expr>) -> Reward {
+    let mut lower = Lower::in_step(step, Stage::Reward, Scope::new(true, Frame::World));
     let weight = weight.map(|weight| lower.want_reg(weight, Ty::Number));
     let hooks = Writer::script_alone(&mut lower, script, weight);
     let (step, _) = lower.code.finish(&[]);
@@ -153,7 +155,8 @@ fn lower_script<'w>(world: &World<'w>, name: &str, script: &'w ScriptRef, weight
 }
 
 /// Every named reward in sight whose parameters all have defaults, for `--reward NAME`.
-pub(crate) fn lower_library(world: &World<'_>) -> Vec<Reward> {
+pub(crate) fn lower_library(step: &StepWorld<'_, '_>) -> Vec<Reward> {
+    let world = step.world;
     let file = world.flat.item.name.span.file;
     let mut rewards = Vec::new();
     for (name, found) in world.library.visible(file) {
@@ -163,25 +166,26 @@ pub(crate) fn lower_library(world: &World<'_>) -> Vec<Reward> {
         }
         if item.params.iter().all(|param| param.default.is_some()) && !world.effort.is_spent() {
             let written = Written::named(world, item, &[], item.name.span);
-            rewards.push(lower_written(world, name, found.item.doc.clone(), &written, None));
+            rewards.push(lower_written(step, name, found.item.doc.clone(), &written, None));
         }
     }
     rewards
 }
 
 fn lower_written<'w>(
-    world: &World<'w>,
+    step: &StepWorld<'_, 'w>,
     name: &str,
     doc: String,
     written: &Written<'w>,
     weight: Option<&'w Expr>,
 ) -> Reward {
+    let world = step.world;
     let statements = written.statements();
     world.effort.spend(statements.len());
     check_names(world, written);
     let states = states(&statements);
 
-    let mut init = Lower::new(world, Stage::Init, Scope::new(false, Frame::Own));
+    let mut init = Lower::in_step(step, Stage::Init, Scope::new(false, Frame::Own));
     let us = init.code.us();
     init.team = Some(us);
     init.scope = written.bind(&mut init);
@@ -193,7 +197,7 @@ fn lower_written<'w>(
         }
     }
 
-    let mut lower = Lower::new(world, Stage::Reward, Scope::new(false, Frame::Own));
+    let mut lower = Lower::in_step(step, Stage::Reward, Scope::new(false, Frame::Own));
     let us = lower.code.us();
     lower.team = Some(us);
     // The first cells are the states', as in the program that sets them.

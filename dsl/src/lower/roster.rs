@@ -1,7 +1,7 @@
 //! Who plays: formations and players of both teams as one list.
 
 use super::value::{Frame, Repr, Scope, Value};
-use super::{Lower, Stage, World, casting};
+use super::{Lower, World, casting};
 use crate::ast::{
     Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
 };
@@ -77,7 +77,7 @@ impl Rostered<'_> {
 }
 
 /// Lists both teams' players.
-pub(crate) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
+pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
     let mut roster = Vec::new();
     for team in Team::ALL {
         let Some(flat) = world.flat.teams.get(team.index()) else { continue };
@@ -269,7 +269,7 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<R
         }
         return players;
     }
-    let mut lower = Lower::new(world, Stage::Start, Scope::new(true, Frame::World));
+    let mut lower = Lower::start(world, Scope::new(true, Frame::World));
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
         && let crate::ast::ItemKind::Formation(item) = &found.item.kind
@@ -303,7 +303,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
         if !std::ptr::eq(link, item) {
             world.mark_used(link.name.span);
             // A parent's parameters are bound by the reference of its child.
-            let mut lower = Lower::new(world, Stage::Start, scope);
+            let mut lower = Lower::start(world, scope);
             scope = Scope::new(false, Frame::Own);
             let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
             lower.bind_params(&link.name.node, &link.params, args, link.name.span, &mut scope, false);

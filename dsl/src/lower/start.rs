@@ -10,6 +10,7 @@ use super::behavior::BehaviorUse;
 use super::builder::Layout;
 use super::place::Found;
 use super::roster::Rostered;
+use super::step::{LetSlot, Part, StepWorld};
 use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
 use super::value::{Frame, Scope, Value};
 use super::{Lower, Stage, World};
@@ -20,10 +21,8 @@ use crate::problem::{Code, Problem};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
-use setpiece_scenario::vocabulary::{Rule, StartKind, Team};
-use setpiece_scenario::{
-    Agents, BallStart, Instr, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
-};
+use setpiece_scenario::vocabulary::{StartKind, Team};
+use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
 use std::collections::BTreeMap;
 
 /// What to do about what is defined by itself.
@@ -75,39 +74,16 @@ impl StartState<'_> {
     }
 }
 
-/// A `let` as step programs see it.
-pub(crate) struct LetSlot<'w> {
-    /// Its name.
-    pub(crate) name: &'w str,
-    /// Its value in the start program.
-    pub(crate) value: Value<'w>,
-    /// For each of its registers: a constant, or its place in the scenario's `let`s.
-    pub(crate) parts: Vec<(Reg, Part)>,
-}
-
-/// A register of a `let`, seen from a step program.
-#[derive(Clone, Copy)]
-pub(crate) enum Part {
-    /// Known now.
-    Constant(f64),
-    /// A parameter.
-    Param(u32),
-    /// Drawn or computed at reset.
-    Let(u32),
-}
-
 /// A lowered start and what belongs to it.
-pub(crate) struct LoweredStart<'w> {
+pub(crate) struct LoweredStart<'c, 'w> {
     /// The start.
     pub(crate) start: Start,
     /// The roster.
     pub(crate) players: Vec<PlayerSlot>,
     /// The agents.
     pub(crate) agents: Agents,
-    /// The one team that has agents, if it is one.
-    pub(crate) side: Option<Team>,
-    /// The `let`s for step programs.
-    pub(crate) lets: Vec<LetSlot<'w>>,
+    /// What the programs of a step know beside the world.
+    pub(crate) step: StepWorld<'c, 'w>,
     /// The behaviours that players use, by the players' ids.
     pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
     /// Where its requirements come from.
@@ -115,9 +91,9 @@ pub(crate) struct LoweredStart<'w> {
 }
 
 /// Lowers the start.
-pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
+pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> {
     let scope = Scope::new(true, Frame::World);
-    let mut lower = Lower::new(world, Stage::Start, scope);
+    let mut lower = Lower::start(world, scope);
     let n = world.roster.len();
     lower.start.places = vec![Found::Todo; n];
     lower.start.headings = vec![Found::Todo; n];
@@ -161,7 +137,7 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     requires.append(&mut implied);
 
     let behaviors = std::mem::take(&mut lower.start.behaviors);
-    let lets = lower.let_slots();
+    let (lets, let_regs) = lower.let_slots();
     let mut wanted: Vec<Reg> = Vec::new();
     let mut collect = |reg: Reg| {
         wanted.push(reg);
@@ -173,7 +149,7 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     });
     let start = Start {
         program: setpiece_scenario::Program::default(),
-        lets: lets.1,
+        lets: let_regs,
         ball,
         kind,
         taker,
@@ -198,29 +174,8 @@ pub(crate) fn lower_start<'w>(world: &World<'w>) -> LoweredStart<'w> {
     start.program = program;
     let players = players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
     let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
-    LoweredStart { start, players, agents, side, lets: lets.0, behaviors, origins }
-}
-
-/// The rules that are off, whatever the parameters are.
-pub(crate) fn rules_off(start: &Start) -> Vec<Rule> {
-    let value = |rule: &Rule| match start.rules.iter().rfind(|setting| setting.rule == *rule) {
-        Some(setting) => constant(start, setting.value),
-        None => Some(rule.default_value()),
-    };
-    Rule::ALL.iter().copied().filter(|rule| value(rule) == Some(0.0)).collect()
-}
-
-/// How long an episode lasts at most, seconds, if it begins at 0 and has a limit that is known.
-pub(crate) fn longest(start: &Start) -> Option<f64> {
-    let limit = start.limit.filter(|_| start.elapsed.is_none())?;
-    constant(start, limit)
-}
-
-fn constant(start: &Start, reg: Reg) -> Option<f64> {
-    match start.program.code.get(reg.index())? {
-        Instr::Const(value) => Some(*value),
-        _ => None,
-    }
+    let step = StepWorld::new(world, &start, lets, side);
+    LoweredStart { start, players, agents, step, behaviors, origins }
 }
 
 fn roster_span(world: &World<'_>, index: usize) -> Span {
@@ -368,22 +323,6 @@ impl<'w> Lower<'_, 'w> {
             self.start.lets.insert(&one.node, Some(value));
         }
         self.start.lets.get(name).cloned().flatten().unwrap_or_else(Value::error)
-    }
-
-    fn step_let(&mut self, name: &str) -> Value<'w> {
-        let world = self.world;
-        // They stand in the order of their names.
-        let slot = world.lets.binary_search_by(|slot| slot.name.cmp(name)).ok().and_then(|at| world.lets.get(at));
-        let Some(slot) = slot else { return Value::error() };
-        // A value's registers are gone through in the order of its parts.
-        let mut parts = slot.parts.iter();
-        let mut map = |reg: Reg| match parts.find(|(known, _)| *known == reg) {
-            Some((_, Part::Constant(value))) => self.code.constant(*value),
-            Some((_, Part::Param(index))) => self.code.param(*index),
-            Some((_, Part::Let(index))) => self.code.scenario_let(*index),
-            None => self.code.constant(0.0),
-        };
-        slot.value.map(&mut map)
     }
 
     fn let_slots(&mut self) -> (Vec<LetSlot<'w>>, Vec<Reg>) {

@@ -162,12 +162,12 @@ impl<'w> Lower<'_, 'w> {
                     None => lower.expr(expr),
                 })
             });
-            let told = self.world.told();
+            let found = self.world.found();
             if let (Some(domain), Some(value)) = (&param.domain, &value) {
                 self.check_domain(value, domain, expr, &param.name.node);
             }
             // What a wrong argument would do further on is no news.
-            let wrong = self.world.told() > told;
+            let wrong = self.world.found() > found;
             let value = value.map(|value| if wrong { Value::error() } else { value });
             scope.bind(&param.name.node, Binding::Expr { expr, scope: home, ty, now: value, at: param.name.span });
         }

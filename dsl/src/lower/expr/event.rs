@@ -167,8 +167,7 @@ impl<'w> Lower<'_, 'w> {
             (Ty::Player, Repr::One(reg)) => Some(Who::Player(*reg)),
             (Ty::Error, _) => None,
             (ty, _) => {
-                let mut problem = self.mismatch(ty, Ty::Player, expr.span);
-                problem.message = problem.message.replace("a player", "a team or a player");
+                let problem = self.expected("a team or a player", ty, expr.span);
                 self.report(problem.help("write, for example, `by left` or `by me`"));
                 None
             }

@@ -26,7 +26,7 @@ impl Lower<'_, '_> {
 
     /// The rule without which there is no such event, if the scenario switches it off whatever its parameters are.
     fn switched_off(&self, kind: EventKind) -> Option<Rule> {
-        let off = |rule: Rule| self.world.rules_off.contains(&rule).then_some(rule);
+        let off = |rule: Rule| self.is_off(rule).then_some(rule);
         // Fouls and handballs are what is punished.
         let offences = || off(Rule::Handball).and_then(|_| off(Rule::Fouls));
         match kind {
@@ -55,7 +55,7 @@ impl Lower<'_, '_> {
         match self.code.instr(reg)? {
             Instr::Const(index) if *index == 0.0 => Some(Team::Left),
             Instr::Const(index) if *index == 1.0 => Some(Team::Right),
-            Instr::Us => self.world.agents,
+            Instr::Us => self.side_with_agents(),
             Instr::Unary(UnaryOp::OtherTeam, team) => Some(match self.known_team(*team)? {
                 Team::Left => Team::Right,
                 Team::Right => Team::Left,
@@ -74,7 +74,7 @@ impl Lower<'_, '_> {
             .code
             .depends(guard, &|instr| matches!(instr, Instr::Each(each) if matches!(each.over, Over::Players { .. })));
         let limit =
-            self.world.longest.map(|seconds| format!("the episode is over after {:.0} steps", seconds * STEPS_PER_S));
+            self.longest().map(|seconds| format!("the episode is over after {:.0} steps", seconds * STEPS_PER_S));
         let all = [
             (reads(PLACES), Some("x lies between about -1 and 1, y between -0.42 and 0.42".to_owned())),
             (reads(&[Field::BallVx, Field::BallVy, Field::BallVz]), Some("no ball flies as fast".to_owned())),

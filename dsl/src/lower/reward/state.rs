@@ -130,8 +130,8 @@ impl<'w> Lower<'_, 'w> {
         let (written, _) = super::written(self.world, used, span)?;
         let loops = self.code.leave_loops();
         // Where both teams have agents, or none, it is kept for each of them.
-        self.per_agent |= self.world.agents.is_none();
-        let us = self.world.agents.map(|team| self.code.constant(team.index() as f64));
+        self.per_agent |= self.side_with_agents().is_none();
+        let us = self.side_with_agents().map(|team| self.code.constant(team.index() as f64));
         let us = us.unwrap_or_else(|| self.code.us());
         let outer = (self.event.take(), std::mem::replace(&mut self.when, When::Now), self.team.replace(us));
         let outer_scope = self.scope.clone();

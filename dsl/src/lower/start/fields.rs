@@ -201,8 +201,7 @@ impl<'w> Lower<'_, 'w> {
                 if value.ty == Ty::Bool || value.is_error() {
                     return Some(self.reg(&value));
                 }
-                let mut problem = self.mismatch(value.ty, Ty::Bool, expr.span);
-                problem.message = problem.message.replace("a condition", "`on` or `off`");
+                let problem = self.expected("`on` or `off`", value.ty, expr.span);
                 self.report(problem.help(format!("write `{rule}: on` or `{rule}: off`")));
                 None
             }

@@ -1,0 +1,181 @@
+//! What every program of a scenario is lowered against, and what is found on the way.
+
+use super::casting::Casting;
+use super::interval::Interval;
+use super::mirror::Mirror;
+use super::param::{ParamInfo, lower_params};
+use super::roster::{Rostered, lower_roster};
+use super::script::Scripts;
+use crate::ast::Span;
+use crate::parse::MAX_PROBLEMS;
+use crate::problem::{Code, Problem};
+use crate::resolve::{Flat, Library, Named};
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What every program of a scenario is lowered against.
+pub(crate) struct World<'w> {
+    /// The files and their names.
+    pub(crate) library: &'w Library,
+    /// The scenario.
+    pub(crate) flat: &'w Flat<'w>,
+    /// Its parameters.
+    pub(crate) params: Vec<ParamInfo<'w>>,
+    /// Whether it is seen in a mirror.
+    pub(crate) mirror: Mirror,
+    /// Who plays players, whatever the text says.
+    pub(crate) casting: &'w [Casting<'w>],
+    /// Its players.
+    pub(crate) roster: Vec<Rostered<'w>>,
+    /// Whether the list of players was read without a mistake.
+    pub(crate) whole_roster: bool,
+    /// Scripts that are embedded so far.
+    pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
+    /// Scripts as they were loaded.
+    pub(crate) scripts_loaded: &'w Scripts<'w>,
+    /// What was found so far.
+    pub(crate) problems: RefCell<Vec<Problem>>,
+    /// Declarations that something refers to.
+    pub(crate) used: RefCell<BTreeSet<Span>>,
+    /// What may still be lowered.
+    pub(crate) effort: &'w Effort,
+    /// How many problems of each code were found.
+    counts: RefCell<BTreeMap<Code, usize>>,
+    /// How many problems were found, those that are not told among them.
+    found: Cell<usize>,
+    /// Whether something is tried out.
+    is_tentative: Cell<bool>,
+}
+
+/// One compilation may lower this much: expressions of every scenario of a file, each as often as it is used, and the
+/// instructions that they become. The largest scenarios of the library take some thousand.
+pub(crate) const MAX_LOWERED: usize = 400_000;
+
+/// What one compilation may still lower.
+pub(crate) struct Effort(Cell<usize>);
+
+impl Effort {
+    /// That of a compilation that begins.
+    pub(crate) fn new() -> Effort {
+        Effort(Cell::new(MAX_LOWERED))
+    }
+
+    /// Takes some of it; `false` once it is spent.
+    pub(crate) fn spend(&self, amount: usize) -> bool {
+        self.0.set(self.0.get().saturating_sub(amount));
+        !self.is_spent()
+    }
+
+    /// Whether nothing is left.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.0.get() == 0
+    }
+}
+
+impl<'w> World<'w> {
+    /// Reads the parameters, then the players against them. Whoever has a world has all of it.
+    pub(crate) fn new(
+        library: &'w Library,
+        flat: &'w Flat<'w>,
+        mirror: Mirror,
+        casting: &'w [Casting<'w>],
+        scripts_loaded: &'w Scripts<'w>,
+        effort: &'w Effort,
+    ) -> World<'w> {
+        let mut world = World {
+            library,
+            flat,
+            params: Vec::new(),
+            mirror,
+            casting,
+            roster: Vec::new(),
+            whole_roster: false,
+            scripts: RefCell::default(),
+            scripts_loaded,
+            problems: RefCell::default(),
+            used: RefCell::default(),
+            effort,
+            counts: RefCell::default(),
+            found: Cell::default(),
+            is_tentative: Cell::default(),
+        };
+        // A default is a constant: it reads no other parameter and no player.
+        world.params = lower_params(&world);
+        let found = world.found();
+        // Who plays is read against the parameters; where they stand belongs to the start.
+        world.roster = lower_roster(&world);
+        world.whole_roster = world.found() == found;
+        world
+    }
+}
+
+impl World<'_> {
+    /// Reports a problem, unless there are enough of its kind.
+    pub(crate) fn report(&self, problem: Problem) {
+        self.found.set(self.found.get() + 1);
+        if self.is_tentative.get() {
+            return;
+        }
+        let mut counts = self.counts.borrow_mut();
+        let count = counts.entry(problem.code).or_default();
+        *count += 1;
+        if *count <= MAX_PROBLEMS {
+            self.problems.borrow_mut().push(problem);
+        }
+    }
+
+    /// Whether one more problem of a kind would not be told: one that is costly to explain needn't be.
+    pub(crate) fn is_full(&self, code: Code) -> bool {
+        self.is_tentative.get() || self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
+    }
+
+    /// How many problems were found so far: more of them afterwards say that what was read in between is wrong.
+    pub(crate) fn found(&self) -> usize {
+        self.found.get()
+    }
+
+    /// Runs `f` to see what comes of it and tells nothing of what is wrong with it: whoever tries something out reads it
+    /// in earnest elsewhere, or has done so, and it is told there. What `f` refers to counts as used all the same.
+    pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
+        let outer = self.is_tentative.replace(true);
+        let result = f();
+        self.is_tentative.set(outer);
+        result
+    }
+
+    /// Notes that a declaration is referred to.
+    pub(crate) fn mark_used(&self, declaration: Span) {
+        self.used.borrow_mut().insert(declaration);
+    }
+
+    /// Where the scenario declares a value of this name, players aside.
+    pub(crate) fn declaration(&self, name: &str) -> Option<Span> {
+        let flat = self.flat;
+        let known = match flat.named(name)? {
+            Named::Param(at) => &flat.params.get(at)?.decl.name,
+            Named::Let(at) => &flat.lets.get(at)?.name,
+            Named::Tuple(at, index) => flat.tuples.get(at)?.0.get(index)?,
+            Named::Const(at) => &flat.consts.get(at)?.name,
+            Named::Region(at) => &flat.regions.get(at)?.name,
+        };
+        Some(known.span)
+    }
+
+    /// Whether the scenario has a value or player of this name.
+    pub(crate) fn declares(&self, name: &str) -> bool {
+        self.declaration(name).is_some()
+            || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
+    }
+
+    /// The ranges of the parameters, in order.
+    pub(crate) fn ranges(&self) -> Vec<Option<Interval>> {
+        self.params.iter().filter(|param| param.bound.is_none()).map(ParamInfo::interval).collect()
+    }
+
+    /// The author's text of a span, shortened to one line.
+    pub(crate) fn text(&self, span: Span) -> String {
+        let text = self.library.sources.text(span);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        words.join(" ")
+    }
+}

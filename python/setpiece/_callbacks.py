@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from math import isfinite
@@ -73,12 +73,6 @@ def read_rewards(rewards: Rewards) -> tuple[list[str] | None, list[RewardFunctio
     return names, functions
 
 
-def rewards_of(names: list[str] | None, functions: Iterable[RewardFunction]) -> Rewards:
-    """Returns what `read_rewards` has read as it was given."""
-    given = [*functions]
-    return (given or None) if names is None else [*(names or [NONE]), *given]
-
-
 def copied(given: Rewards | Ends, memo: dict[int, Any]) -> Any:
     """Returns rewards or endings with copies of the functions; what some share, those copied with the memo share too.
 
@@ -98,16 +92,14 @@ def copied(given: Rewards | Ends, memo: dict[int, Any]) -> Any:
         ) from error
 
 
-def reward_names(rewards: Rewards) -> list[str] | None:
-    """Returns the names of rewards where there can be no functions."""
-    names, functions = read_rewards(rewards)
+def refuse_functions(functions: Sequence[RewardFunction]) -> None:
+    """Raises `ParameterError` for rewards in Python, where the scenario's rewards alone can pay."""
     if functions:
         raise ParameterError(
             f"`{_name(functions[0])}` can't pay here: many matches at once know the rewards of their file alone",
             name="rewards",
             help="put environments of `setpiece.make` (one agent each) into a `gymnasium.vector.SyncVectorEnv`",
         )
-    return names
 
 
 def read_ends(ends: Ends) -> list[EndFunction]:

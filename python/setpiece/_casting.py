@@ -5,14 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, NamedTuple
 
 from setpiece import _native
 from setpiece._errors import CompileError, ParameterError
 from setpiece._native import AgentInfo, Scenario
 from setpiece._opponents import BOT, SIDES, Opponent, ends_with, is_word, no_agent, read_opponents
-from setpiece._seats import Seats
+from setpiece._options import ParamValue
 from setpiece._source import Source, load, name_of, path_of, text_of
+
+if TYPE_CHECKING:
+    from setpiece._env_options import EnvOptions
+
+
+class Casting(NamedTuple):
+    """Who plays a team, or one player of it."""
+
+    team: int
+    """0 left, 1 right."""
+    place: int | None
+    """The player's place in the team; None for the whole team."""
+    ai: str
+    """What the scenario would write behind `ai:`."""
 
 
 def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
@@ -32,34 +46,24 @@ def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] |
     return {who: BOT if who in scripted else one for who, one in read_opponents(opponents).items()} or None
 
 
-def scripted_scenario(
-    scenario: Source,
-    ai: Mapping[str, str],
-    *,
-    params: Mapping[str, Any] | None = None,
-    left: Seats = None,
-    right: Seats = None,
-    switching: str | None = None,
-) -> Scenario:
-    """Returns a scenario whose players are played by behaviours.
+def scripted_scenario(scenario: Source, options: EnvOptions, params: Mapping[str, ParamValue]) -> Scenario:
+    """Returns a scenario whose players are played by the behaviors and scripts of `options`.
 
-    - `ai`: by side or agent, who plays, as `ai:` of the language says it: `"lazy"`, `"marker(3m)"`. A side's plays its
-      players who have no `ai` of their own, an agent's the player that the agent keeps.
-    - `params`, `left`, `right`, `switching`: those of `setpiece.make`, which agents depend on.
+    A side's behavior plays its players who have no `ai` of their own, an agent's the player that the agent keeps.
+    `params` are bound to find out the agents; the scenario is returned without them.
 
-    Raises `ParameterError` for a behaviour that the scenario hasn't got, for an agent that isn't there or changes
+    Raises `ParameterError` for a behavior that the scenario hasn't got, for an agent that isn't there or changes
     players, and for a compiled scenario, which is as it is.
     """
+    ai, outside = options.scripted, options.allow_outside
     if not ai:
-        return load(scenario)
-    sides = {who: word for who, word in ai.items() if who in SIDES}
-    casting: list[tuple[int, int | None, str]] = [(SIDES.index(side), None, word) for side, word in sides.items()]
+        return load(scenario, allow_outside=outside)
+    casting = [Casting(SIDES.index(who), None, word) for who, word in ai.items() if who in SIDES]
     named = {who: word for who, word in ai.items() if who not in SIDES}
     if named:
-        bound = load(scenario).with_params(**(params or {}))
-        agents = _native.agents(bound, left=left, right=right, switching=switching)
+        agents = _native.agents(load(scenario, allow_outside=outside).with_params(**params), options)
         casting += [one for who, word in named.items() if (one := _of_agent(who, word, agents, ai)) is not None]
-    words = ", ".join(f"`{word}`" for _, _, word in casting)
+    words = ", ".join(f"`{word}`" for word in (one.ai for one in casting))
     if isinstance(scenario, Scenario):
         raise ParameterError(
             f"a compiled scenario keeps who plays its players: {words} can't change them",
@@ -70,19 +74,17 @@ def scripted_scenario(
     text = text_of(scenario)
     try:
         if text is None:
-            return _native.load_cast(path_of(scenario), casting)
-        return _native.compile_cast(text, name_of(scenario), casting)
+            return _native.load_cast(path_of(scenario), casting, allow_outside=outside)
+        return _native.compile_cast(text, name_of(scenario), casting, allow_outside=outside)
     except CompileError as error:
         # A scenario that has errors of its own raises those here.
-        base = load(scenario)
+        base = load(scenario, allow_outside=outside)
         first = next(one for one in error.diagnostics if one.severity == "error")
         message = f"`{base.name}` can't be played with {words}: {first.message}"
         raise ParameterError(message, name="opponents", code=first.code, help=first.help) from None
 
 
-def _of_agent(
-    who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str, str]
-) -> tuple[int, int | None, str] | None:
+def _of_agent(who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str, str]) -> Casting | None:
     """Whose `ai` an agent's opponent is; None for a bot that is there anyway."""
     agent = next((agent for agent in agents if agent.id == who), None)
     if agent is None:
@@ -95,7 +97,7 @@ def _of_agent(
             name="opponents",
             help=f"let him keep his player (`switching='fixed'`), or give it the whole side: {SIDES[agent.team]!r}",
         )
-    return agent.team, agent.place, word
+    return Casting(agent.team, agent.place, word)
 
 
 def _ai(opponent: str | PathLike[str]) -> str:

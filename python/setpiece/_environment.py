@@ -5,46 +5,41 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from copy import deepcopy
+from dataclasses import replace
 from os import PathLike
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._callbacks import Callbacks, Ends, Rewards, read_ends, read_rewards
-from setpiece._casting import behaviors, revivable, scripted_scenario
-from setpiece._copy import copy_of, reduced
+from setpiece._casting import scripted_scenario
+from setpiece._env_options import RENDER_MODES, EnvArguments, EnvOptions
 from setpiece._errors import CallbackError, DrawError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
-from setpiece._opponents import Opponent, Table
+from setpiece._opponents import Table
 from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
     ResetOptions,
-    check_flag,
     check_number,
-    check_params,
     check_path,
     check_snapshot,
     read_reset_options,
 )
 from setpiece._record import When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
-from setpiece._seats import Seats
 from setpiece._source import Source
-from setpiece._spaces import (
-    Layout,
-    check_action_set,
-    check_observation,
-    check_scale,
-    check_size,
-    check_stack,
-    observation_layout,
-)
+from setpiece._spaces import Layout, check_observation, check_scale, observation_layout
 from setpiece._turn import Turn, one_thread
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+COPIED = ("spec", "_np_random", "_np_random_seed", "_playing", "_same_agents")
+"""Attributes that a copy or pickle has as they are."""
 
 
 class FootballEnv(gymnasium.Env[Any, Any]):
@@ -83,7 +78,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     change of the last 50 ms or so may wait for the next look.
     """
 
-    metadata = {"render_modes": ["ansi"], "render_fps": 10}
+    metadata = {"render_modes": [*RENDER_MODES], "render_fps": 10}
 
     scenario: Scenario
     """The scenario, with the parameters it was made with."""
@@ -94,67 +89,32 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self,
         scenario: Source,
         *,
-        left: Seats = None,
-        right: Seats = None,
-        opponents: Mapping[str, Opponent] | None = None,
-        observation: str = "simple115v2",
-        rewards: Rewards = None,
-        ends: Ends = None,
-        params: Mapping[str, ParamValue] | None = None,
-        seed: int | None = None,
-        events: bool = False,
-        copy: bool = True,
-        render_mode: str | None = None,
         watch: bool | Literal["now"] = False,
         on_reload: Callable[[Reload], object] | None = None,
-        action_set: str = "default",
-        bot_action: bool = False,
-        stack: int = 1,
-        size: tuple[int, int] = (96, 72),
-        scale: bool = False,
-        switching: Literal["auto", "fixed"] | None = None,
         record: str | PathLike[str] | None = None,
         record_when: When = "always",
+        **arguments: Unpack[EnvArguments],
     ) -> None:
         """Makes an environment; the arguments are those of `setpiece.make`."""
-        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
-            raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
-        self.render_mode = render_mode
+        options = EnvOptions.read(arguments)
         check_watch(watch)
-        self._record = read_record(record, record_when)
-        names, functions = read_rewards(rewards)
-        endings = read_ends(ends)
-        self._events = check_flag("events", events)
-        self._callbacks = Callbacks(functions, endings, show_events=self._events) if functions or endings else None
-        self._observation = check_observation(observation)
-        self._options: dict[str, Any] = {
-            "observation": self._observation,
-            "rewards": names,
-            "events": self._events or self._callbacks is not None,
-            "copy": check_flag("copy", copy),
-            "action_set": check_action_set(action_set),
-            "bot_action": check_flag("bot_action", bot_action),
-            "stack": check_stack(stack, self._observation),
-            "size": check_size(size),
-            "scale": check_scale(scale, self._observation),
-            "left": left,
-            "right": right,
-            "switching": switching,
-        }
-        self._scripted = behaviors(opponents)
-        self._opponents = revivable(opponents)
-        if watch and self._scripted:
+        if watch and options.scripted:
             raise ParameterError("a watched file says itself who plays: write it there", name="watch")
-        self._watcher = Watcher(scenario, watch, on_reload) if watch else None
-        self._bound = check_params(params) or {}
-        found = self._watcher.scenario if self._watcher else self._cast(scenario, self._bound)
+        self._record = read_record(record, record_when)
+        self._watcher = Watcher(scenario, watch, on_reload, allow_outside=options.allow_outside) if watch else None
+        found = self._watcher.scenario if self._watcher else scripted_scenario(scenario, options, options.params)
+        self._set_up(found, options)
+
+    def _set_up(self, scenario: Scenario, options: EnvOptions) -> None:
+        """Makes everything that isn't about files, before the first episode."""
+        self._options, self.render_mode = options, options.render_mode
+        self._callbacks = options.callbacks()
         # Whether another scenario must have the same agents, by name: PettingZoo's keep theirs.
         self._same_agents = False
-        self._enter(self._ready(found))
+        self._enter(self._ready(scenario))
         self.action_space, self.observation_space = self._match.action_space, self._match.observation_space
         if self._callbacks is not None and not self.agents:
             raise ParameterError("rewards and endings in Python judge an agent's step, and there is none", name="left")
-        self._first_seed = None if seed is None else check_number("seed", seed)
         self._seed: int | None = None
         self._index = 0
         self._params: dict[str, ParamValue] = {}
@@ -203,7 +163,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
             try:
                 if self._watcher is not None and self._watcher.at_once:
-                    self._take_over(self._watcher, *self._watcher.at_step(self._match, self._bound))
+                    self._take_over(self._watcher, *self._watcher.at_step(self._match, self._options.params))
                 match, table, given = self._match, self._match.table, action
                 if table is not None:
                     action = table.actions(action, self.look)
@@ -265,7 +225,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 views = self._match.views() if self._callbacks is not None else []
             episode = self._native.episode
             if episode is not None:
-                self._seed, self._index = episode[0], (episode[1] + 1) & NUMBER_MAX
+                self._seed, self._index = episode.seed, (episode.index + 1) & NUMBER_MAX
                 self._params = self._native.params
             self._playing = self._native.running
             if "setpiece" in info:
@@ -293,7 +253,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     @property
     def observation(self) -> str:
         """What the caller's agents see: a name of `setpiece.make`."""
-        return self._observation
+        return self._options.observation
 
     @property
     def observation_layout(self) -> Layout:
@@ -304,13 +264,12 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         Block(start=88, length=3, meaning='ball x, y, z', unit='normalised; z in metres')
         """
         with one_thread:
-            return observation_layout(self._native, self._observation, self._options["stack"])
+            return observation_layout(self._native, self._options.observation, self._options.stack)
 
     @property
     def action_set(self) -> str:
         """The caller's actions: `"default"`, `"v2"`, `"full"` or `"continuous"`."""
-        action_set: str = self._options["action_set"]
-        return action_set
+        return self._options.action_set
 
     def look(self, observation: str, scale: bool = False) -> Any:
         """Returns what all of `slots` see now in an observation of any kind, whatever the environment's own.
@@ -344,13 +303,49 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """
         return deepcopy(self)
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Makes copies and pickles of the scenario and a snapshot."""
-        return reduced(self)
+    def __getstate__(self) -> dict[str, Any]:
+        """Returns what copies and pickles are made of: the options, the scenario and a snapshot of the episode.
+
+        A copy doesn't watch or record.
+        """
+        begun = self._native.episode is not None
+        return {
+            # The scenario is bound already; another one that a `reset` gives has its own parameters.
+            "options": replace(self._options, params={}),
+            "scenario": self.scenario,
+            "snapshot": self.snapshot() if begun else None,
+            # Neither a stack of frames nor what opponents were shown follows from the snapshot.
+            "frames": self._native.frames() if begun else None,
+            "seen": None if self._table is None else self._table.seen,
+            "tally": None if self._callbacks is None else self._callbacks.tally,
+            "closed": self._turn.closed,
+            "attributes": {name: getattr(self, name) for name in COPIED},
+        }
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Makes the environment of a copy or pickle."""
+        self._record, self._watcher = None, None
+        self._set_up(state["scenario"], state["options"])
+        if state["snapshot"] is not None:
+            self.restore(state["snapshot"])
+            self._native.set_frames(state["frames"])
+        if self._table is not None:
+            self._table.seen = state["seen"]
+        if self._callbacks is not None:
+            self._callbacks.tally = state["tally"]
+        for name, value in state["attributes"].items():
+            setattr(self, name, value)
+        self._turn.closed = state["closed"]
 
     def __deepcopy__(self, memo: dict[int, Any]) -> FootballEnv:
         """A copy shares its opponents: they may be large, or hold what can't be copied."""
-        return copy_of(self, memo)
+        state = self.__getstate__()
+        options = state.pop("options").copied(memo)
+        spec = state["attributes"].pop("spec")
+        copy = type(self).__new__(type(self))
+        copy.__setstate__({**deepcopy(state, memo), "options": options})
+        copy.spec = spec
+        return copy
 
     @property
     def _native(self) -> _native.Environment:
@@ -367,19 +362,14 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _ready(self, scenario: Scenario, params: Mapping[str, ParamValue] | None = None) -> Match:
         """Makes a scenario ready under parameters; None: those that the environment was made with."""
-        bound = self._bound if params is None else params
-        return match_of(scenario.with_params(**bound), self._opponents, self._options)
-
-    def _cast(self, source: Source, params: Mapping[str, ParamValue]) -> Scenario:
-        """A scenario with the behaviours that play in this environment."""
-        seats = {name: self._options[name] for name in ("left", "right", "switching")}
-        return scripted_scenario(source, self._scripted, params=params, **seats)
+        bound = self._options.params if params is None else params
+        return match_of(scenario.with_params(**bound), self._options)
 
     def _begun(self, seed: int | None, wanted: ResetOptions) -> tuple[Any, dict[str, Any]]:
         """Begins an episode: see `reset`."""
         switched = None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
         if seed is None and self._seed is None:
-            seed = self._first_seed
+            seed = self._options.seed
         if seed is not None:
             seed = check_number("seed", seed)
         number, at = (self._seed, self._index) if seed is None else (seed, 0)
@@ -423,7 +413,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
         A native `reset` that refuses has forgotten what was played, and maybe bound the parameters.
         """
-        native = _native.Environment(self.scenario, **self._options) if switched is None else switched.native
+        native = _native.Environment(self.scenario, self._options) if switched is None else switched.native
         # No refusals: those come again, and end the episode.
         with one_thread, suppress(DrawError, ScriptError):
             _, info = native.reset(seed, episode, params, snapshot)
@@ -444,7 +434,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 name="scenario",
                 help="leave out `watch`",
             )
-        match = self._ready(self._cast(source, params or {}), params or {})
+        match = self._ready(scripted_scenario(source, self._options, params or {}), params or {})
         change = match.change(self._match, agents=self._same_agents, players=self._same_agents)
         if change is not None:
             raise ParameterError(
@@ -500,7 +490,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return self._native.drawing()
 
     def __repr__(self) -> str:
-        return f"FootballEnv({self.scenario.name}, observation={self._observation}, agents={', '.join(self.agents)})"
+        agents = ", ".join(self.agents)
+        return f"FootballEnv({self.scenario.name}, observation={self._options.observation}, agents={agents})"
 
     def __str__(self) -> str:
         return repr(self)

@@ -36,7 +36,7 @@ class Entry(str):
 
 @cache
 def _entries() -> tuple[Entry, ...]:
-    return tuple(Entry(name, title, players) for name, title, players in _native.library())
+    return tuple(Entry(one.name, one.title, one.players) for one in _native.library())
 
 
 def list() -> builtins.list[Entry]:

@@ -42,6 +42,7 @@ def make(
     switching: Literal["auto", "fixed"] | None = None,
     record: str | PathLike[str] | None = None,
     record_when: When = "always",
+    allow_outside: bool = False,
 ) -> FootballEnv:
     """Makes an environment of a scenario.
 
@@ -105,6 +106,8 @@ def make(
       `FileError` in its last `step`, and no more is recorded; no part of a replay is ever left. The last
       `info["setpiece"]` has `replay`, the path or None; `setpiece replay FILE` plays one again, and so does
       `setpiece.Replay`.
+    - `allow_outside`: whether imports and scripts of a scenario that is given as a path, a text or a dict may lie
+      outside of its folder, as in `setpiece.load`.
     - `bot_action`: whether `info["bot_action"]` tells, after `reset` and each `step`, what the bot would press now.
 
     Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`, `RewardError` or `ParameterError`.
@@ -116,34 +119,11 @@ def make(
     >>> sorted(info)
     ['action_mask', 'reward_terms', 'score']
     """
-    kwargs: dict[str, Any] = {
-        "scenario": scenario,
-        "left": left,
-        "right": right,
-        "opponents": opponents,
-        "observation": observation,
-        "rewards": rewards,
-        "ends": ends,
-        "params": params,
-        "seed": seed,
-        "events": events,
-        "copy": copy,
-        "watch": watch,
-        "on_reload": on_reload,
-        "action_set": action_set,
-        "bot_action": bot_action,
-        "stack": stack,
-        "size": size,
-        "scale": scale,
-        "switching": switching,
-        "record": record,
-        "record_when": record_when,
-    }
-    env = FootballEnv(**kwargs, render_mode=render_mode)
+    # Before any other name is bound: what the caller gave.
+    arguments: dict[str, Any] = {**locals()}
+    env = FootballEnv(**arguments)
     # So that `env.spec.make()` gives another one, as for environments that Gymnasium made.
     env.spec = EnvSpec(
-        id=f"setpiece/{env.scenario.name}-v0",
-        entry_point="setpiece._environment:FootballEnv",
-        kwargs={**kwargs, "render_mode": render_mode},
+        id=f"setpiece/{env.scenario.name}-v0", entry_point="setpiece._environment:FootballEnv", kwargs=arguments
     )
     return env

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gymnasium import spaces
 
 from setpiece import _native
 from setpiece._native import AgentInfo, Scenario
-from setpiece._opponents import Opponent, Table, native_action_set
+from setpiece._opponents import Table
 from setpiece._spaces import action_space, difference, observation_space
+
+if TYPE_CHECKING:
+    from setpiece._env_options import EnvOptions
 
 
 @dataclass(frozen=True)
@@ -65,15 +68,14 @@ class Match:
         return next((f"the {name} {why}" for name, pair in spaces_of.items() if (why := difference(*pair))), None)
 
 
-def match_of(scenario: Scenario, opponents: Mapping[str, Opponent] | None, options: Mapping[str, Any]) -> Match:
-    """Makes a scenario ready; `options` are those of the native environment."""
-    observation, action_set = options["observation"], options["action_set"]
-    native = _native.Environment(scenario, **{**options, "action_set": native_action_set(action_set, opponents)})
+def match_of(scenario: Scenario, options: EnvOptions) -> Match:
+    """Makes a scenario ready."""
+    native = _native.Environment(scenario, options)
     agents, table = native.agents, None
-    if opponents is not None:
-        table = Table(agents, opponents, _native.ACTION_SETS[action_set])
+    if options.opponents is not None:
+        table = Table(agents, options.opponents, _native.ACTION_SETS[options.action_set])
         agents = [agents[at] for at in table.mine]
         for kind in table.observations:
             native.look(*kind)
-    spaces_of = observation_space(native, observation, agents), action_space(len(agents), action_set)
+    spaces_of = observation_space(native, options.observation, agents), action_space(len(agents), options.action_set)
     return Match(scenario, scenario.digest, native, table, agents, *spaces_of)

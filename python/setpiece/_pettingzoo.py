@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from setpiece import _library
 from setpiece._callbacks import Ends, Rewards
@@ -42,6 +42,7 @@ def parallel_env(
     max_cycles: int | None = None,
     record: str | PathLike[str] | None = None,
     record_when: When = "always",
+    allow_outside: bool = False,
 ) -> ParallelFootballEnv:
     """Makes a PettingZoo `ParallelEnv` of a scenario: any number of agents on each side, each with a player of its own.
 
@@ -75,28 +76,14 @@ def parallel_env(
     >>> rewards["right_CB_1"]
     0.0
     """
+    # Before any other name is bound: what the caller gave, but for what isn't the environment's.
+    arguments: dict[str, Any] = {**locals()}
+    for name in ("max_cycles", "record", "record_when"):
+        del arguments[name]
     need("pettingzoo", "pettingzoo", "`parallel_env`")
     from setpiece._parallel import ParallelFootballEnv
 
-    env = FootballEnv(
-        scenario,
-        left=left,
-        right=right,
-        switching="fixed",
-        opponents=opponents,
-        observation=observation,
-        rewards=rewards,
-        ends=ends,
-        params=params,
-        seed=seed,
-        events=events,
-        render_mode=render_mode,
-        action_set=action_set,
-        bot_action=bot_action,
-        stack=stack,
-        size=size,
-        scale=scale,
-    )
+    env = FootballEnv(switching="fixed", **arguments)
     return ParallelFootballEnv(env, max_cycles, read_record(record, record_when))
 
 

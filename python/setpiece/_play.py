@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece._callbacks import Rewards
-from setpiece._casting import behaviors, revivable, scripted_scenario
+from setpiece._casting import scripted_scenario
+from setpiece._env_options import EnvOptions
 from setpiece._environment import FootballEnv
 from setpiece._errors import OpponentError, ParameterError
 from setpiece._native import ACTION_SETS
@@ -93,8 +94,8 @@ def play(
         raise ParameterError(f"`on_error` is {on_error!r}; it can be 'raise' or 'lose'", name="on_error")
     clock = _Clock()
     agents = {side: _opponent(agent, clock) for side, agent in zip(SIDES, (left_agent, right_agent), strict=True)}
-    scripted = behaviors(agents)
-    chosen = scripted_scenario(scenario, scripted)
+    options = EnvOptions.read({"opponents": agents})
+    chosen = scripted_scenario(scenario, options, {})
     seated = {agent.team for agent in FootballEnv(chosen, left=left, right=right).slots}
     if left is None and right is None and seated != {0, 1}:
         left = right = 1
@@ -105,7 +106,7 @@ def play(
     env = FootballEnv(
         chosen, left=left, right=right, observation="raw", params=params, rewards=rewards, action_set="v2"
     )
-    table = Table(env.slots, revivable(agents) or {}, ACTION_SETS["v2"])
+    table = Table(env.slots, options.opponents or {}, ACTION_SETS["v2"])
     return _played(env, table, seed, clock, on_error)
 
 

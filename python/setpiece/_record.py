@@ -51,9 +51,10 @@ class Record:
         """
         wanted = self._wants(score)
         self._ended += 1
-        if not wanted or self._failed or native.episode is None:
+        episode = native.episode
+        if not wanted or self._failed or episode is None:
             return None
-        seed, index = native.episode
+        seed, index = episode.seed, episode.index
         try:
             replay = native.replay()
         except ReplayError:

@@ -39,10 +39,17 @@ class Watcher:
     last: Reload | None
     """What became of the last change; None before the first."""
 
-    def __init__(self, source: Source, watch: bool | Literal["now"], on_reload: Callable[[Reload], object] | None):
+    def __init__(
+        self,
+        source: Source,
+        watch: bool | Literal["now"],
+        on_reload: Callable[[Reload], object] | None,
+        *,
+        allow_outside: bool,
+    ) -> None:
         if isinstance(source, Scenario) or text_of(source) is not None:
             raise ParameterError("a `Scenario`, a text or a dict has no file to watch: give its path", name="watch")
-        self._live = Live(path_of(source))
+        self._live = Live(path_of(source), allow_outside=allow_outside)
         self._on_reload = on_reload
         self._waiting: Scenario | None = None
         self.scenario, self.last = self._live.scenario, None

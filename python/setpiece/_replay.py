@@ -23,7 +23,6 @@ from setpiece._vocabulary import Action
 
 BAD_REPLAY = "SP0014"
 
-Act = tuple[int, tuple[float, float, float] | None]
 Pressed = Action | NDArray[np.float32]
 """What an agent does in a step: a key, or the four numbers of continuous actions."""
 
@@ -146,7 +145,9 @@ class Replay:
             info = moment.info
         return info
 
-    def _moment(self, step: int, observed: Any, acts: list[Act], rewards: list[float], info: dict[str, Any]) -> Moment:
+    def _moment(
+        self, step: int, observed: Any, acts: list[_native.RecordedAct], rewards: list[float], info: dict[str, Any]
+    ) -> Moment:
         ids = [agent.id for agent in self.agents]
         return Moment(
             step=step,
@@ -170,12 +171,11 @@ class Replay:
         return ReplayError(f"`{self.path}`: {why}", code=BAD_REPLAY)
 
 
-def _pressed(act: Act) -> Pressed:
+def _pressed(act: _native.RecordedAct) -> Pressed:
     """What an agent did in a step, as `FootballEnv.step` takes it."""
-    number, steer = act
+    number, steer = act.action, act.steer
     if steer is None:
         return Action(number)
-    x, y, power = steer
     # The middle of the part of -1..1 that means this key.
     kind = (2 * _native.KINDS.index(Action(number).name.lower()) + 1) / len(_native.KINDS) - 1
-    return np.array([x, y, kind, power], np.float32)
+    return np.array([steer.x, steer.y, kind, steer.power], np.float32)

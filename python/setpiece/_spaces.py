@@ -49,9 +49,9 @@ class Observing(Protocol):
     @property
     def observation_shape(self) -> list[int]: ...
     @property
-    def blocks(self) -> list[tuple[int, int, str, str]]: ...
+    def blocks(self) -> list[_native.BlockInfo]: ...
     @property
-    def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]] | None: ...
+    def bounds(self) -> _native.Bounds | None: ...
 
 
 class Block(NamedTuple):
@@ -152,10 +152,11 @@ def observation_space(
         parts = [one_observation_space(native, observation, agent.team) for agent in agents]
         return parts[0] if n_agents == 1 else spaces.Tuple(parts)
     shape = tuple(native.observation_shape) if n_agents == 1 else (n_agents, *native.observation_shape)
-    if native.bounds is None:
+    bounds = native.bounds
+    if bounds is None:
         return spaces.Box(0, 255, shape, np.uint8)
     # A stack repeats the bounds, and every agent has the same.
-    low, high = (np.tile(bound, (*shape[:-1], shape[-1] // len(bound))) for bound in native.bounds)
+    low, high = (np.tile(bound, (*shape[:-1], shape[-1] // len(bound))) for bound in (bounds.low, bounds.high))
     return spaces.Box(low, high, dtype=np.float32)
 
 
@@ -203,7 +204,7 @@ def observation_layout(native: Observing, observation: str, stack: int) -> Layou
         planes = ("own team", "opponents", "the ball", "the controlled player")
         blocks = [Block(i, 1, meaning, "0 or 255") for i, meaning in enumerate(planes)]
     else:
-        blocks = [Block(*block) for block in native.blocks]
+        blocks = [Block(one.start, one.length, one.meaning, one.unit) for one in native.blocks]
     width = blocks[-1].start + blocks[-1].length if blocks else 0
     if stack == 1:
         return tuple(blocks)

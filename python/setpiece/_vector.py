@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import gymnasium
 import numpy as np
@@ -16,29 +16,23 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._actions import array_of
-from setpiece._callbacks import Rewards, reward_names
-from setpiece._casting import behaviors, revivable, scripted_scenario
+from setpiece._callbacks import Rewards, refuse_functions
+from setpiece._casting import scripted_scenario
 from setpiece._crowd import Crowd
 from setpiece._endings import endings
+from setpiece._env_options import RENDER_MODES, EnvOptions, VectorArguments
 from setpiece._environment import FootballEnv
 from setpiece._errors import ActionError, ParameterError, UnavailableError
-from setpiece._opponents import Opponent, Table, native_action_set
-from setpiece._options import ParamValue, check_flag, check_keys, check_number, check_params
+from setpiece._opponents import Opponent, Table
+from setpiece._options import ParamValue, check_keys, check_number, check_params
 from setpiece._rows import Picker
 from setpiece._seats import Seats
 from setpiece._source import Source
-from setpiece._spaces import (
-    Layout,
-    action_space,
-    check_action_set,
-    check_observation,
-    check_scale,
-    check_size,
-    check_stack,
-    observation_layout,
-    observation_space,
-)
+from setpiece._spaces import Layout, action_space, observation_layout, observation_space
 from setpiece._turn import Turn, one_thread
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 ENVS_MAX = 65_536
 """Most environments of a vector."""
@@ -71,7 +65,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
       counts its episodes from there, so a vector plays what `num_envs` single environments would.
     """
 
-    metadata = {"render_modes": ["ansi"], "render_fps": 10, "autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata = {"render_modes": [*RENDER_MODES], "render_fps": 10, "autoreset_mode": AutoresetMode.NEXT_STEP}
 
     def __init__(
         self,
@@ -80,64 +74,39 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         *,
         threads: int | None = None,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
-        observation: str = "simple115v2",
-        rewards: Rewards = None,
-        params: Mapping[str, ParamValue] | None = None,
-        seed: int | None = None,
-        copy: bool = True,
-        action_set: str = "default",
-        stack: int = 1,
-        size: tuple[int, int] = (96, 72),
-        scale: bool = False,
-        left: Seats = None,
-        right: Seats = None,
-        opponents: Mapping[str, Opponent] | None = None,
-        switching: Literal["auto", "fixed"] | None = None,
-        render_mode: str | None = None,
         record: str | PathLike[str] | None = None,
+        **arguments: Unpack[VectorArguments],
     ) -> None:
         """Makes the environments; the arguments are those of `setpiece.make_vec`."""
-        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
-            raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
+        options = EnvOptions.read(arguments, VectorArguments)
+        refuse_functions(options.reward_functions)
         if record is not None:
             raise UnavailableError(
                 "a vector records no replays",
                 name="record",
                 help="play the episode of its `seed` and `index` with `setpiece.make(…, record=…)`",
             )
-        self.render_mode = render_mode
+        self.render_mode = options.render_mode
         self.num_envs = _count("num_envs", num_envs, ENVS_MAX)
         threads = (
             min(os.cpu_count() or 1, self.num_envs) if threads is None else _count("threads", threads, THREADS_MAX)
         )
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
-        scripted, played = behaviors(opponents), revivable(opponents)
-        bound = check_params(params) or {}
-        cast = scripted_scenario(scenario, scripted, params=bound, left=left, right=right, switching=switching)
-        self.scenario = cast.with_params(**bound)
-        self._observation = check_observation(observation)
-        self._stack = check_stack(stack, self._observation)
+        self._options = options
+        self.scenario = scripted_scenario(scenario, options, options.params).with_params(**options.params)
         self._batch = _native.Batch(
             self.scenario,
             self.num_envs,
-            threads,
-            observation=self._observation,
-            rewards=reward_names(rewards),
-            action_set=native_action_set(check_action_set(action_set), played),
+            options,
+            threads=threads,
             next_step=self.autoreset_mode == AutoresetMode.NEXT_STEP,
-            stack=self._stack,
-            size=check_size(size),
-            scale=check_scale(scale, self._observation),
-            left=left,
-            right=right,
-            switching=switching,
         )
-        agents, self._n_actions = self._batch.agents, _native.ACTION_SETS[action_set]
+        agents, self._n_actions = self._batch.agents, _native.ACTION_SETS[options.action_set]
         mine = [*range(len(agents))]
         self._crowd = None
-        if played is not None:
-            table = Table(agents, played, self._n_actions)
+        if options.opponents is not None:
+            table = Table(agents, options.opponents, self._n_actions)
             self._crowd, mine = Crowd(table, self.num_envs), table.mine
             for kind in table.observations:
                 self._batch.look(*kind)
@@ -148,14 +117,12 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self._pick: Any = mine[0] if len(mine) == 1 else slice(mine[0], mine[-1] + 1) if run else mine
         self._part = Picker(len(agents), mine[0] if len(mine) == 1 else mine)
         self.agents = tuple(agents[at].id for at in mine)
-        self.single_observation_space = observation_space(self._batch, self._observation, [agents[at] for at in mine])
-        self.single_action_space = action_space(len(mine), action_set)
+        self.single_observation_space = observation_space(self._batch, options.observation, [agents[at] for at in mine])
+        self.single_action_space = action_space(len(mine), options.action_set)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._arrays = self._batch.arrays()
         self._view = self._of_agents(self._arrays.observations)
-        self._copy = check_flag("copy", copy)
-        self._first_seed = None if seed is None else check_number("seed", seed)
         self._turn = Turn()
         self._begun = False
         self._over = np.ones(self.num_envs, bool)
@@ -178,7 +145,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         with self._turn:
             mask, params, episode = self._read_options(options)
             if seed is None and not self._begun:
-                seed = self._first_seed
+                seed = self._options.seed
                 if seed is None:
                     seed = int(self.np_random.integers(2**62))
             seeds = self._seeds(seed)
@@ -229,7 +196,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def observation_layout(self) -> Layout:
         """How one agent's observation lies: the blocks of its last axis."""
         with one_thread:
-            return observation_layout(self._batch, self._observation, self._stack)
+            return observation_layout(self._batch, self._options.observation, self._options.stack)
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns what `infos["action_mask"]` shows now."""
@@ -292,7 +259,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _shown(self) -> Any:
         shown = self._of_agents(self._arrays.observations) if isinstance(self._pick, list) else self._view
-        return shown.copy() if self._copy else shown
+        return shown.copy() if self._options.copy else shown
 
     def _outcomes(self) -> tuple[Any, NDArray[np.bool_], NDArray[np.bool_]]:
         arrays = self._arrays
@@ -354,6 +321,7 @@ def make_vec(
     switching: Literal["auto", "fixed"] | None = None,
     render_mode: str | None = None,
     record: str | PathLike[str] | None = None,
+    allow_outside: bool = False,
 ) -> FootballVectorEnv:
     """Makes `num_envs` environments of a scenario that are stepped together.
 
@@ -374,32 +342,15 @@ def make_vec(
     >>> observations.shape, rewards.shape, infos["action_mask"].shape
     ((4, 115), (4,), (4, 19))
     """
-    kwargs: dict[str, Any] = {
-        "scenario": scenario,
-        "threads": threads,
-        "autoreset_mode": autoreset_mode,
-        "observation": observation,
-        "rewards": rewards,
-        "params": params,
-        "seed": seed,
-        "copy": copy,
-        "action_set": action_set,
-        "stack": stack,
-        "size": size,
-        "scale": scale,
-        "left": left,
-        "right": right,
-        "opponents": opponents,
-        "switching": switching,
-        "render_mode": render_mode,
-        "record": record,
-    }
-    envs = FootballVectorEnv(num_envs=num_envs, **kwargs)
+    # Before any other name is bound: what the caller gave, but for the number, which Gymnasium gives again.
+    arguments: dict[str, Any] = {**locals()}
+    del arguments["num_envs"]
+    envs = FootballVectorEnv(num_envs=num_envs, **arguments)
     envs.spec = EnvSpec(
         id=f"setpiece/{envs.scenario.name}-v0",
         entry_point="setpiece._vector:one_of",
         vector_entry_point="setpiece._vector:FootballVectorEnv",
-        kwargs=kwargs,
+        kwargs=arguments,
     )
     return envs
 

@@ -26,7 +26,7 @@ from setpiece._errors import ParameterError
 from setpiece._make import make
 from setpiece._native import Scenario
 from setpiece._optional import need
-from setpiece._options import check_number
+from setpiece._options import check_flag, check_number
 from setpiece._source import Source, load
 from setpiece._vector import make_vec as make_batch
 
@@ -184,7 +184,7 @@ def make_vec(
     envs: VectorEnv[Any, Any, Any]
     # A file that is watched, or played by behaviours, has to stay one.
     if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")):
-        scenario = load(scenario)
+        scenario = load(scenario, allow_outside=check_flag("allow_outside", kwargs.get("allow_outside", False)))
     alone = any(kwargs.get(name) for name in ALONE) or bool(read_rewards(kwargs.get("rewards"))[1])
     if kwargs.get("observation") == "raw" or alone:
         envs = SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)

@@ -4,13 +4,13 @@
 //! few threads, without the interpreter.
 
 use crate::actions::{self, Act, ActionSet};
-use crate::environment::{AgentInfo, SMM_SIZE, agents_of, from_episode, players_of, prepare};
+use crate::environment::{AgentInfo, Prepared, SMM_SIZE, agents_of, from_episode, players_of, prepare};
 use crate::errors;
 use crate::info::{records, write_mask};
-use crate::observation::{self, Kind, Observer, Stack, Wanted, write_floats, write_map};
+use crate::observation::{self, BlockInfo, Kind, Observer, Shown, Stack, Wanted, write_floats, write_map};
+use crate::options::EnvOptions;
 use crate::params::bind;
 use crate::scenario::Scenario;
-use crate::seats::Seats;
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -47,6 +47,13 @@ struct Row<'a> {
     truncated: &'a mut bool,
     /// Whether the row shows the first moment of an episode that this step has begun.
     begun: &'a mut bool,
+}
+
+/// What is written into a row.
+#[derive(Clone, Copy)]
+struct View {
+    kind: Kind,
+    action_set: ActionSet,
 }
 
 enum Rows<'a> {
@@ -93,27 +100,17 @@ pub(crate) struct Arrays {
 #[pymethods]
 impl Batch {
     #[new]
-    #[allow(clippy::too_many_arguments, reason = "keyword arguments of one call in Python")]
-    #[pyo3(signature = (scenario, n, threads, *, observation, rewards, action_set, next_step,
-        stack, size, scale, left, right, switching))]
+    #[pyo3(signature = (scenario, n, options, *, threads, next_step))]
     fn new(
         py: Python<'_>,
         scenario: &Scenario,
         n: usize,
+        options: EnvOptions<'_>,
         threads: usize,
-        observation: &str,
-        rewards: Option<Vec<String>>,
-        action_set: &str,
         next_step: bool,
-        stack: usize,
-        size: (usize, usize),
-        scale: bool,
-        left: Option<&Bound<'_, PyAny>>,
-        right: Option<&Bound<'_, PyAny>>,
-        switching: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Batch> {
-        let (wanted, seats) = (Wanted { name: observation, size, scale }, Seats { left, right, switching });
-        let (engine, kind, action_set) = prepare(py, scenario, rewards, wanted, action_set, &seats)?;
+        let Prepared { engine, kind, action_set } = prepare(py, scenario, &options)?;
+        let Shown { stack, .. } = options.shown();
         if kind == Kind::Raw {
             let message = "raw observations are dicts, which a vector environment doesn't stack";
             return Err(errors::parameter(py, "observation", message));
@@ -154,15 +151,15 @@ impl Batch {
         self.lanes.lanes().first().map(|lane| self.kind.shape(&lane.engine, self.stack)).unwrap_or_default()
     }
 
-    /// The blocks of an observation of floats: (start, length, meaning, unit).
+    /// The blocks of an observation of floats.
     #[getter]
-    fn blocks(&self) -> Vec<(usize, usize, String, &'static str)> {
+    fn blocks(&self) -> Vec<BlockInfo> {
         self.lanes.lanes().first().map(|lane| observation::blocks(self.kind, &lane.engine)).unwrap_or_default()
     }
 
     /// Least and greatest value of every number of one observation of floats; none for others.
     #[getter]
-    fn bounds<'py>(&self, py: Python<'py>) -> Option<observation::Bounds<'py>> {
+    fn bounds(&self, py: Python<'_>) -> Option<observation::Bounds> {
         let (Kind::Floats(floats), Some(lane)) = (self.kind, self.lanes.lanes().first()) else { return None };
         Some(observation::bounds(py, floats, &lane.engine))
     }
@@ -223,11 +220,11 @@ impl Batch {
         if order.len() != self.lanes.lanes().len() {
             return Err(errors::parameter(py, "reset_mask", &format!("expected {} entries", self.lanes.lanes().len())));
         }
-        let (kind, set) = (self.kind, self.action_set);
+        let view = View { kind: self.kind, action_set: self.action_set };
         self.each(py, arrays, |at, lane, row, _| {
             let (which, seed, index) = order[at];
             if which {
-                lane.begin(seed, index, (kind, set, keep), row);
+                lane.begin(seed, index, view, keep, row);
             }
         })?;
         self.told(py)
@@ -237,7 +234,7 @@ impl Batch {
     fn step(&mut self, py: Python<'_>, arrays: &Arrays, action: &Bound<'_, PyAny>) -> PyResult<()> {
         self.read(action)?;
         let agents = self.acts.len() / self.lanes.lanes().len().max(1);
-        let (kind, set, next_step) = (self.kind, self.action_set, self.next_step);
+        let (view, next_step) = (View { kind: self.kind, action_set: self.action_set }, self.next_step);
         if !next_step && let Some(at) = self.lanes.lanes().iter().position(|lane| lane.over) {
             let message =
                 format!("the episode of environment {at} has ended: call `reset` with a `reset_mask` that names it");
@@ -245,7 +242,7 @@ impl Batch {
         }
         let acts = std::mem::take(&mut self.acts);
         let played = self.each(py, arrays, |at, lane, row, scratch| {
-            lane.step(&acts[at * agents..(at + 1) * agents], next_step, (kind, set), row, scratch);
+            lane.step(&acts[at * agents..(at + 1) * agents], next_step, view, row, scratch);
         });
         self.acts = acts;
         played?;
@@ -280,7 +277,7 @@ impl Batch {
         let held = self.action_set.held();
         let look = |lane: &mut Lane| {
             let kind = wanted.of(py, &lane.engine)?;
-            Observer::new(py, kind, &lane.engine, (1, true), held).observe(py, &mut lane.engine, true)
+            Observer::new(py, kind, &lane.engine, Shown::FRESH, held).observe(py, &mut lane.engine, true)
         };
         self.lanes.lanes_mut().iter_mut().map(look).collect()
     }
@@ -408,13 +405,7 @@ fn chunks<T>(values: &mut [T], n: usize) -> Vec<&mut [T]> {
 
 impl Lane {
     /// Begins an episode and shows its first moment.
-    fn begin(
-        &mut self,
-        seed: Option<u64>,
-        index: Option<u64>,
-        (kind, set, keep): (Kind, ActionSet, bool),
-        mut row: Row<'_>,
-    ) {
+    fn begin(&mut self, seed: Option<u64>, index: Option<u64>, view: View, keep: bool, mut row: Row<'_>) {
         if let Err(why) = self.engine.reset(seed, index) {
             self.fault = Some(why.into());
             self.over = true;
@@ -427,20 +418,13 @@ impl Lane {
             row.terms.fill(0.0);
             (*row.terminated, *row.truncated) = (false, false);
         }
-        self.show(kind, set, &mut row, true);
+        self.show(view, &mut row, true);
     }
 
     /// Plays a step, or begins the next episode.
-    fn step(
-        &mut self,
-        acts: &[Act],
-        next_step: bool,
-        (kind, set): (Kind, ActionSet),
-        mut row: Row<'_>,
-        scratch: &mut Scratch,
-    ) {
+    fn step(&mut self, acts: &[Act], next_step: bool, view: View, mut row: Row<'_>, scratch: &mut Scratch) {
         if self.over && next_step {
-            return self.begin(None, None, (kind, set, false), row);
+            return self.begin(None, None, view, false, row);
         }
         let mut pressed = [Action::Idle; setpiece::scenario::pitch::PLAYERS_MAX];
         for (agent, (act, action)) in acts.iter().zip(&mut pressed).enumerate() {
@@ -465,17 +449,17 @@ impl Lane {
             out.copy_from_slice(self.engine.terms(agent));
         }
         self.over = result.terminated || result.truncated;
-        self.show(kind, set, &mut row, false);
+        self.show(view, &mut row, false);
     }
 
     /// Writes what is seen of the match as it stands.
-    fn show(&mut self, kind: Kind, set: ActionSet, row: &mut Row<'_>, first: bool) {
+    fn show(&mut self, view: View, row: &mut Row<'_>, first: bool) {
         let n_agents = self.engine.n_agents();
         // The buffers have the sizes that the engine asked for: what can't be written is left as it is.
-        let _ = observe(&mut self.engine, &mut self.film, kind, &mut row.observation, n_agents, first);
-        let size = set.masked().len();
+        let _ = observe(&mut self.engine, &mut self.film, view.kind, &mut row.observation, n_agents, first);
+        let size = view.action_set.masked().len();
         for (agent, mask) in row.mask.chunks_exact_mut(size).enumerate() {
-            write_mask(set, &self.engine, agent, mask);
+            write_mask(view.action_set, &self.engine, agent, mask);
         }
         for (out, goals) in row.score.iter_mut().zip(self.engine.score()) {
             *out = goals.into();

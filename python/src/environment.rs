@@ -3,11 +3,12 @@
 use crate::actions::{self, Act, ActionSet};
 use crate::errors;
 use crate::info::{InfoOptions, InfoWriter};
-use crate::observation::{self, Kind, Observer, Wanted};
+use crate::observation::{self, BlockInfo, Kind, Observer, Shown, Wanted};
+use crate::options::EnvOptions;
 use crate::params::{bind, to_python};
 use crate::replay::Replay;
 use crate::scenario::Scenario;
-use crate::seats::{Seats, read as read_seats};
+use crate::seats::read as read_seats;
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -40,6 +41,15 @@ pub(crate) struct AgentInfo {
     place: Option<usize>,
 }
 
+/// Which episode of a scenario is played.
+#[pyclass(frozen, get_all, module = "setpiece._native")]
+pub(crate) struct EpisodeKey {
+    /// The seed of its series.
+    seed: u64,
+    /// Its place in the series.
+    index: u64,
+}
+
 /// One match of a scenario, judged and observed: what `setpiece.FootballEnv` is made of.
 #[pyclass(module = "setpiece._native")]
 pub(crate) struct Environment {
@@ -58,33 +68,10 @@ pub(crate) struct Environment {
 #[pymethods]
 impl Environment {
     #[new]
-    #[allow(
-        clippy::too_many_arguments,
-        clippy::fn_params_excessive_bools,
-        reason = "keyword arguments of one call in Python"
-    )]
-    #[pyo3(signature = (scenario, *, observation, rewards, events, copy, action_set, bot_action,
-        stack, size, scale, left, right, switching))]
-    fn new(
-        py: Python<'_>,
-        scenario: &Scenario,
-        observation: &str,
-        rewards: Option<Vec<String>>,
-        events: bool,
-        copy: bool,
-        action_set: &str,
-        bot_action: bool,
-        stack: usize,
-        size: (usize, usize),
-        scale: bool,
-        left: Option<&Bound<'_, PyAny>>,
-        right: Option<&Bound<'_, PyAny>>,
-        switching: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Environment> {
-        let (wanted, seats) = (Wanted { name: observation, size, scale }, Seats { left, right, switching });
-        let (engine, kind, action_set) = prepare(py, scenario, rewards, wanted, action_set, &seats)?;
-        let info = InfoOptions { actions: action_set, events, bot_action };
-        Ok(Environment::around(py, engine, (kind, stack, copy), info))
+    fn new(py: Python<'_>, scenario: &Scenario, options: EnvOptions<'_>) -> PyResult<Environment> {
+        let Prepared { engine, kind, action_set } = prepare(py, scenario, &options)?;
+        let info = InfoOptions { actions: action_set, events: options.events, bot_action: options.bot_action };
+        Ok(Environment::around(py, engine, kind, options.shown(), info))
     }
 
     /// The agents, left before right.
@@ -111,15 +98,15 @@ impl Environment {
         self.kind.shape(&self.engine, self.stack)
     }
 
-    /// The blocks of an observation of floats: (start, length, meaning, unit).
+    /// The blocks of an observation of floats.
     #[getter]
-    fn blocks(&self) -> Vec<(usize, usize, String, &'static str)> {
+    fn blocks(&self) -> Vec<BlockInfo> {
         observation::blocks(self.kind, &self.engine)
     }
 
     /// Least and greatest value of every number of one observation of floats: two float32 `(n,)`; none for others.
     #[getter]
-    fn bounds<'py>(&self, py: Python<'py>) -> Option<observation::Bounds<'py>> {
+    fn bounds(&self, py: Python<'_>) -> Option<observation::Bounds> {
         let Kind::Floats(floats) = self.kind else { return None };
         Some(observation::bounds(py, floats, &self.engine))
     }
@@ -128,7 +115,7 @@ impl Environment {
     #[pyo3(signature = (observation, scale = false))]
     fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Bound<'py, PyAny>> {
         let kind = Wanted { name: observation, size: SMM_SIZE, scale }.of(py, &self.engine)?;
-        let mut observer = Observer::new(py, kind, &self.engine, (1, true), self.action_set.held());
+        let mut observer = Observer::new(py, kind, &self.engine, Shown::FRESH, self.action_set.held());
         observer.observe(py, &mut self.engine, true)
     }
 
@@ -202,8 +189,9 @@ impl Environment {
 
     /// Seed and index of the episode; None before the first.
     #[getter]
-    fn episode(&self) -> Option<(u64, u64)> {
-        self.engine.has_begun().then(|| (self.engine.seed(), self.engine.index()))
+    fn episode(&self) -> Option<EpisodeKey> {
+        let engine = &self.engine;
+        engine.has_begun().then(|| EpisodeKey { seed: engine.seed(), index: engine.index() })
     }
 
     /// Whether each agent has nobody left to play: his player was sent off.
@@ -294,19 +282,14 @@ impl Environment {
 }
 
 impl Environment {
-    /// An engine with everything around it: how it is observed (kind, stack, fresh arrays) and told of.
-    pub(crate) fn around(
-        py: Python<'_>,
-        engine: Engine,
-        (kind, stack, copy): (Kind, usize, bool),
-        info: InfoOptions,
-    ) -> Environment {
+    /// An engine with everything around it: how it is observed and told of.
+    pub(crate) fn around(py: Python<'_>, engine: Engine, kind: Kind, shown: Shown, info: InfoOptions) -> Environment {
         let action_set = info.actions;
         Environment {
             kind,
-            stack,
+            stack: shown.stack,
             action_set,
-            observer: Observer::new(py, kind, &engine, (stack, copy), action_set.held()),
+            observer: Observer::new(py, kind, &engine, shown, action_set.held()),
             info: InfoWriter::new(py, &engine, info),
             acts: vec![Act::IDLE; engine.n_agents()],
             actions: vec![Action::Idle; engine.n_agents()],
@@ -367,15 +350,8 @@ pub(crate) fn agents_of(engine: &Engine) -> Vec<AgentInfo> {
 
 /// The agents that a scenario would have, left before right.
 #[pyfunction]
-#[pyo3(signature = (scenario, *, left, right, switching))]
-pub(crate) fn agents(
-    py: Python<'_>,
-    scenario: &Scenario,
-    left: Option<&Bound<'_, PyAny>>,
-    right: Option<&Bound<'_, PyAny>>,
-    switching: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Vec<AgentInfo>> {
-    let agents = read_seats(py, &Seats { left, right, switching })?;
+pub(crate) fn agents(py: Python<'_>, scenario: &Scenario, options: EnvOptions<'_>) -> PyResult<Vec<AgentInfo>> {
+    let agents = read_seats(py, &options.seats())?;
     let options = EnvironmentOptions { agents, ..EnvironmentOptions::default() };
     let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
     Ok(agents_of(&engine))
@@ -388,21 +364,23 @@ pub(crate) fn players_of(engine: &Engine) -> (usize, usize) {
     (count(Team::Left), count(Team::Right))
 }
 
-/// The engine of a scenario with its agents, what is observed and how it is acted, checked.
-pub(crate) fn prepare(
-    py: Python<'_>,
-    scenario: &Scenario,
-    rewards: Option<Vec<String>>,
-    wanted: Wanted<'_>,
-    action_set: &str,
-    seats: &Seats<'_, '_>,
-) -> PyResult<(Engine, Kind, ActionSet)> {
-    let options = EnvironmentOptions { rewards, agents: read_seats(py, seats)?, ..EnvironmentOptions::default() };
-    let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
-    let kind = wanted.of(py, &engine)?;
-    let action_set = ActionSet::from_name(action_set)
-        .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{action_set}`")))?;
-    Ok((engine, kind, action_set))
+/// An engine, and how it is observed and acted.
+pub(crate) struct Prepared {
+    pub(crate) engine: Engine,
+    pub(crate) kind: Kind,
+    pub(crate) action_set: ActionSet,
+}
+
+/// Makes the engine of a scenario with its agents, what is observed and how it is acted, validated.
+pub(crate) fn prepare(py: Python<'_>, scenario: &Scenario, options: &EnvOptions<'_>) -> PyResult<Prepared> {
+    let (rewards, agents) = (options.rewards.clone(), read_seats(py, &options.seats())?);
+    let engine =
+        Engine::new(scenario.inner().clone(), EnvironmentOptions { rewards, agents, ..EnvironmentOptions::default() })
+            .map_err(|error| from_engine(py, error))?;
+    let kind = options.wanted().of(py, &engine)?;
+    let action_set = ActionSet::from_name(&options.action_set)
+        .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{}`", options.action_set)))?;
+    Ok(Prepared { engine, kind, action_set })
 }
 
 pub(crate) fn from_snapshot(py: Python<'_>, why: SnapshotError) -> PyErr {

@@ -9,6 +9,7 @@ mod given;
 mod info;
 mod live;
 mod observation;
+mod options;
 mod params;
 mod replay;
 mod scenario;
@@ -28,15 +29,17 @@ mod _native {
     #[pymodule_export]
     use crate::batch::{Arrays, Batch};
     #[pymodule_export]
-    use crate::environment::{AgentInfo, Environment, agents};
+    use crate::environment::{AgentInfo, Environment, EpisodeKey, agents};
     #[pymodule_export]
     use crate::live::Live;
     #[pymodule_export]
+    use crate::observation::{BlockInfo, Bounds};
+    #[pymodule_export]
     use crate::params::Param;
     #[pymodule_export]
-    use crate::replay::Replay;
+    use crate::replay::{RecordedAct, RecordedSteer, Replay};
     #[pymodule_export]
-    use crate::scenario::{Scenario, compile, compile_cast, library, load, load_cast, restore};
+    use crate::scenario::{LibraryEntry, Scenario, compile, compile_cast, library, load, load_cast, restore};
     #[pymodule_export]
     use crate::write::{write, write_new};
 

@@ -18,8 +18,9 @@ pub(crate) struct Live {
 #[pymethods]
 impl Live {
     #[new]
-    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Live> {
-        let opened = py.detach(|| Facade::open(&path, false));
+    #[pyo3(signature = (path, *, allow_outside = false))]
+    fn new(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Live> {
+        let opened = py.detach(|| Facade::open(&path, allow_outside));
         let inner = opened.map_err(|error| errors::from_facade(py, &error))?;
         if !inner.is_watching() {
             let message = format!("`{}` is no file: there is nothing to watch", path.display());

@@ -93,6 +93,33 @@ impl Wanted<'_> {
     }
 }
 
+/// How observations are handed out.
+#[derive(Clone, Copy)]
+pub(crate) struct Shown {
+    /// How many of the newest observations are shown at once.
+    pub(crate) stack: usize,
+    /// Whether every call returns a new array.
+    pub(crate) copy: bool,
+}
+
+impl Shown {
+    /// One observation, in a new array.
+    pub(crate) const FRESH: Shown = Shown { stack: 1, copy: true };
+}
+
+/// A block of numbers on the last axis of an observation of floats.
+#[pyclass(frozen, get_all, module = "setpiece._native")]
+pub(crate) struct BlockInfo {
+    /// The first of its numbers.
+    start: usize,
+    /// How many there are.
+    length: usize,
+    /// What they are.
+    meaning: String,
+    /// The unit they are in.
+    unit: &'static str,
+}
+
 /// Writes the observation of one agent as floats.
 pub(crate) fn write_floats(
     floats: Floats,
@@ -179,7 +206,7 @@ impl Observer {
         py: Python<'_>,
         kind: Kind,
         engine: &Engine,
-        (stack, copy): (usize, bool),
+        Shown { stack, copy }: Shown,
         held_actions: usize,
     ) -> Observer {
         let (shape, planes) = (kind.shape(engine, stack), kind.planes(engine));
@@ -294,20 +321,26 @@ pub(crate) fn from_observe(py: Python<'_>, why: ObserveError) -> PyErr {
     errors::raise_plain(py, "SetpieceError", &why.to_string())
 }
 
-/// The blocks of an observation of floats: start, length, meaning, unit; none for others.
-pub(crate) fn blocks(kind: Kind, engine: &Engine) -> Vec<(usize, usize, String, &'static str)> {
+/// The blocks of an observation of floats; none for others.
+pub(crate) fn blocks(kind: Kind, engine: &Engine) -> Vec<BlockInfo> {
     let Kind::Floats(floats) = kind else { return Vec::new() };
     let blocks = engine.layout(floats).blocks.into_iter();
-    blocks.map(|block| (block.start, block.len, block.meaning, block.unit)).collect()
+    blocks
+        .map(|block| BlockInfo { start: block.start, length: block.len, meaning: block.meaning, unit: block.unit })
+        .collect()
 }
 
-/// Least and greatest value of every number of one observation of floats, two float32 `(n,)`.
-pub(crate) type Bounds<'py> = (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>);
+/// Least and greatest value of every number of one observation of floats, float32 `(n,)`.
+#[pyclass(frozen, get_all, module = "setpiece._native")]
+pub(crate) struct Bounds {
+    low: Py<PyArray1<f32>>,
+    high: Py<PyArray1<f32>>,
+}
 
 /// The bounds of an observation of floats.
-pub(crate) fn bounds<'py>(py: Python<'py>, floats: Floats, engine: &Engine) -> Bounds<'py> {
+pub(crate) fn bounds(py: Python<'_>, floats: Floats, engine: &Engine) -> Bounds {
     let (low, high) = engine.layout(floats).bounds();
-    (low.to_pyarray(py), high.to_pyarray(py))
+    Bounds { low: low.to_pyarray(py).unbind(), high: high.to_pyarray(py).unbind() }
 }
 
 fn raw_to_python<'py>(py: Python<'py>, raw: &Raw, held: usize) -> PyResult<Bound<'py, PyDict>> {

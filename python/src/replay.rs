@@ -4,7 +4,7 @@ use crate::actions::ActionSet;
 use crate::environment::{Environment, SMM_SIZE};
 use crate::errors;
 use crate::info::InfoOptions;
-use crate::observation::Wanted;
+use crate::observation::{Shown, Wanted};
 use crate::scenario::Scenario;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -13,8 +13,25 @@ use setpiece::replay::{REPLAY_MAX_BYTES, Replay as Recording};
 use setpiece::scenario::Action;
 use std::path::PathBuf;
 
-/// What an agent did in a step: an action's number; x and y of the way, and the power, where it steered.
-type Numbers = (usize, Option<(f32, f32, f32)>);
+/// What an agent did in a step.
+#[pyclass(frozen, get_all, module = "setpiece._native")]
+pub(crate) struct RecordedAct {
+    /// The action's number.
+    action: usize,
+    /// How it steered; None where it pressed keys.
+    steer: Option<Py<RecordedSteer>>,
+}
+
+/// How an agent with continuous actions steered.
+#[pyclass(frozen, get_all, module = "setpiece._native")]
+pub(crate) struct RecordedSteer {
+    /// The way to run.
+    x: f32,
+    /// The way to run.
+    y: f32,
+    /// The power of a kick.
+    power: f32,
+}
 
 /// A recorded episode.
 #[pyclass(frozen, module = "setpiece._native")]
@@ -90,11 +107,13 @@ impl Replay {
 
     /// What the agents did, agent by agent, step by step.
     #[getter]
-    fn acts(&self) -> Vec<Numbers> {
-        let numbers = |(action, steer): (Action, Option<setpiece::engine::state::Steer>)| {
-            (action.index(), steer.map(|steer| (steer.way.x, steer.way.y, steer.power)))
+    fn acts(&self, py: Python<'_>) -> PyResult<Vec<RecordedAct>> {
+        let act = |(action, steer): (Action, Option<setpiece::engine::state::Steer>)| {
+            let steer =
+                steer.map(|steer| Py::new(py, RecordedSteer { x: steer.way.x, y: steer.way.y, power: steer.power }));
+            Ok(RecordedAct { action: action.index(), steer: steer.transpose()? })
         };
-        self.inner.acts().map(numbers).collect()
+        self.inner.acts().map(act).collect()
     }
 
     /// An environment that it can be played in with `replayed`, before its start.
@@ -102,6 +121,6 @@ impl Replay {
         let engine = self.inner.environment().map_err(|error| errors::from_facade(py, &error))?;
         let kind = Wanted { name: observation, size: SMM_SIZE, scale: false }.of(py, &engine)?;
         let info = InfoOptions { actions: self.set(), events: true, bot_action: false };
-        Ok(Environment::around(py, engine, (kind, 1, true), info))
+        Ok(Environment::around(py, engine, kind, Shown::FRESH, info))
     }
 }

@@ -173,46 +173,75 @@ fn text_name(name: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
     name.map_or_else(|| Ok("<text>".to_owned()), |name| given::text("name", name))
 }
 
-/// A cast as Python writes it: of a team (0 left, 1 right) or its player at a place, what stands behind `ai:`.
-type Casting<'py> = Vec<(usize, Option<usize>, Bound<'py, PyAny>)>;
+/// Who plays players, as the package hands it over: its `Casting`.
+#[derive(FromPyObject)]
+pub(crate) struct Casting<'py> {
+    /// 0 left, 1 right.
+    team: usize,
+    /// The place of one player; none for the whole team.
+    place: Option<usize>,
+    /// What stands behind `ai:`.
+    ai: Bound<'py, PyAny>,
+}
 
-fn cast_of(casting: Casting<'_>) -> PyResult<Vec<Cast>> {
-    let whom = |team: usize, place: Option<usize>| {
+fn cast_of(casting: Vec<Casting<'_>>) -> PyResult<Vec<Cast>> {
+    let cast = |Casting { team, place, ai }: Casting<'_>| {
         let team = if team == 0 { Team::Left } else { Team::Right };
-        place.map_or(Whom::Team(team), |place| Whom::Player(team, place))
-    };
-    let cast = |(team, place, ai): (usize, Option<usize>, Bound<'_, PyAny>)| {
-        Ok(Cast { whom: whom(team, place), ai: given::text("opponents", &ai)? })
+        let whom = place.map_or(Whom::Team(team), |place| Whom::Player(team, place));
+        Ok(Cast { whom, ai: given::text("opponents", &ai)? })
     };
     casting.into_iter().map(cast).collect()
 }
 
 /// Loads a scenario as `load` does, its players played by a cast.
 #[pyfunction]
-pub(crate) fn load_cast(py: Python<'_>, name_or_path: &Bound<'_, PyAny>, casting: Casting<'_>) -> PyResult<Scenario> {
+#[pyo3(signature = (name_or_path, casting, *, allow_outside = false))]
+pub(crate) fn load_cast(
+    py: Python<'_>,
+    name_or_path: &Bound<'_, PyAny>,
+    casting: Vec<Casting<'_>>,
+    allow_outside: bool,
+) -> PyResult<Scenario> {
     let (name_or_path, cast) = (given::path("scenario", name_or_path)?, cast_of(casting)?);
-    let loaded = py.detach(|| setpiece::load_cast(&name_or_path, &cast));
+    let loaded = py.detach(|| setpiece::load_with(&name_or_path, &LoadOptions { cast: &cast, allow_outside }));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
 /// Compiles a text as `compile` does, its players played by a cast.
 #[pyfunction]
+#[pyo3(signature = (text, name, casting, *, allow_outside = false))]
 pub(crate) fn compile_cast(
     text: &Bound<'_, PyAny>,
     name: &Bound<'_, PyAny>,
-    casting: Casting<'_>,
+    casting: Vec<Casting<'_>>,
+    allow_outside: bool,
 ) -> PyResult<Scenario> {
     let py = text.py();
     let (text, name, cast) = (given::text("text", text)?, given::text("name", name)?, cast_of(casting)?);
-    let loaded = py.detach(|| setpiece::compile_text_cast(&text, &name, &cast));
+    let options = LoadOptions { cast: &cast, allow_outside };
+    let loaded = py.detach(|| setpiece::compile_text_with(&text, &name, &options));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
-/// Name, title and players per side of every scenario of the library, by name.
+/// A scenario of the library.
+#[pyclass(frozen, get_all, module = "setpiece._native")]
+pub(crate) struct LibraryEntry {
+    /// Its name.
+    name: String,
+    /// The first line of its documentation.
+    title: String,
+    /// Players of the left and the right team.
+    players: (usize, usize),
+}
+
+/// Every scenario of the library, by name.
 #[pyfunction]
-pub(crate) fn library(py: Python<'_>) -> Vec<(String, String, (usize, usize))> {
-    let entries = py.detach(setpiece::list);
-    entries.into_iter().map(|entry| (entry.name, entry.title, entry.players.into())).collect()
+pub(crate) fn library(py: Python<'_>) -> Vec<LibraryEntry> {
+    let entry = |entry: setpiece::Entry| {
+        let setpiece::Entry { name, title, players, .. } = entry;
+        LibraryEntry { name, title, players: players.into() }
+    };
+    py.detach(setpiece::list).into_iter().map(entry).collect()
 }
 
 /// The scenario of a compiled file's text: how a pickled one comes back.

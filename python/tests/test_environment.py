@@ -654,3 +654,21 @@ def test_parameters_are_a_mapping(maker: Callable[..., Any]) -> None:
 def test_pixels_are_not_there_yet() -> None:
     with pytest.raises(setpiece.UnavailableError, match="pixels are not in this version"):
         setpiece.make(THREE, observation="pixels")
+
+
+def test_a_copy_goes_over_to_scenarios_that_lack_the_first_ones_parameters() -> None:
+    env = setpiece.make("academy_corner", params={"difficulty": 0.9})
+    bare = "scenario s extends academy { ball at (0, 0) team left { CM at (0.1, 0) } }"
+    for copy in (env.unwrapped.clone(), pickle.loads(pickle.dumps(env))):
+        assert copy.scenario.params["difficulty"].default == 0.9
+        copy.reset(seed=1, options={"scenario": bare})
+        for again in (copy.clone(), pickle.loads(pickle.dumps(copy))):
+            assert again.scenario.name == "s"
+            assert again.step(0)[4]["score"] == [0, 0]
+
+
+def test_a_vector_refuses_what_only_single_environments_take() -> None:
+    with pytest.raises(TypeError, match="unexpected keyword argument 'events'"):
+        gymnasium.make_vec("setpiece/academy_corner-v0", 2, vectorization_mode="vector_entry_point", events=True)
+    with pytest.raises(TypeError, match="unexpected keyword argument 'observations'"):
+        setpiece.FootballEnv("academy_corner", observations="raw")  # type: ignore[call-arg]

@@ -1,3 +1,4 @@
+import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -188,3 +189,20 @@ def test_an_on_reload_can_not_play_the_environment_that_tells_it(pitch_file: Cal
     with pytest.raises(setpiece.CallbackError, match="InUseError"):
         wait_for_reload(env, None)
     assert length(env) == 7
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="counts what Linux lists in /proc")
+def test_a_watching_environment_holds_neither_threads_nor_files(tmp_path: Path) -> None:
+    def held() -> tuple[int, int]:
+        return len(os.listdir("/proc/self/task")), len(os.listdir("/proc/self/fd"))  # noqa: PTH208
+
+    path = tmp_path / "s.pitch"
+    path.write_text("scenario s extends academy { ball at (0, 0) team left { CM at (0.1, 0) } }\n")
+    before = held()
+    env = setpiece.make(path, watch="now")
+    env.reset(seed=1)
+    for _ in range(3):
+        env.step(0)
+    assert held() == before
+    env.close()
+    assert held() == before

@@ -1,21 +1,29 @@
 //! Watching: says when a scenario's files have changed.
 //!
-//! Every look asks the system for each file's stamp (size, times, identity) through all links, so that it doesn't
-//! matter how a file came to change: saved in place or by renaming, behind a link, in a folder that was made again. A
-//! look costs about a microsecond a file, and a watcher holds no thread and no open file. Where a stamp is another
-//! one, the content is compared: a save without a change says nothing.
+//! Every look asks the system for each file's stamp (size, times, identity) through all links, so
+//! that it doesn't matter how a file came to change: saved in place or by renaming, behind a link,
+//! in a folder that was made again. A look costs about a microsecond per file. Where a stamp differs
+//! the content is compared: a save without a change is no change.
+//!
+//! The system's events (`events.rs`) only end a wait early. They cost a thread and a few descriptors,
+//! from the first wait until the watcher is dropped: a watcher that is never waited for has neither.
 
+mod events;
+
+use self::events::Events;
 use crate::error::{Error, FileFault};
 use crate::files::{most_bytes, read_file};
 use setpiece_scenario::file::fnv1a;
 use std::path::{Path, PathBuf};
-use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 
 /// How long a file has been left alone before it is read: a save may take several writes.
 const DEBOUNCE: Duration = Duration::from_millis(50);
-/// How often the files are looked at.
+/// How often the files are looked at where events don't cover them all.
 const LOOK_EVERY: Duration = Duration::from_millis(10);
+/// How often the files are looked at where events cover them: the system may drop an event, and a
+/// folder on the way may have been replaced.
+const LOOK_ANYWAY: Duration = Duration::from_millis(100);
 /// How long a second save may leave the stamp as it was: the coarsest clock of a file system in use (FAT's).
 const COARSE: Duration = Duration::from_secs(2);
 
@@ -24,6 +32,8 @@ const COARSE: Duration = Duration::from_secs(2);
 pub struct Watcher {
     files: Vec<Watched>,
     looked: Option<Instant>,
+    /// What ends a wait early; none before the first wait.
+    events: Option<Events>,
 }
 
 /// A file and what is known of it.
@@ -77,28 +87,42 @@ impl Watcher {
     /// than 50 ms may wait for the next call.
     pub fn changed(&mut self, timeout: Duration) -> bool {
         let begun = Instant::now();
+        // Environments ask in every step, without waiting.
+        let mut due = !timeout.is_zero() || self.looked.is_none_or(|looked| looked.elapsed() >= LOOK_EVERY);
         loop {
-            // Environments ask in every step.
-            if self.looked.is_none_or(|looked| looked.elapsed() >= LOOK_EVERY) {
+            let left = timeout.saturating_sub(begun.elapsed());
+            // Before the look: what changes in between is then heard.
+            let every = if left.is_zero() { Duration::ZERO } else { self.listen() };
+            if due {
                 self.looked = Some(Instant::now());
                 // Every file is looked at, whichever has changed.
                 if self.files.iter_mut().fold(false, |changed, file| file.look() | changed) {
                     return true;
                 }
             }
-            let left = timeout.saturating_sub(begun.elapsed());
             if left.is_zero() {
                 return false;
             }
-            sleep(left.min(LOOK_EVERY));
+            let ready = self.files.iter().filter_map(Watched::ready_in).min().unwrap_or(every);
+            if let Some(events) = &self.events {
+                events.wait(left.min(every).min(ready));
+            }
+            due = true;
         }
+    }
+
+    /// Listens to the events of the files' folders. Returns how long a wait without an event may be.
+    fn listen(&mut self) -> Duration {
+        let events = self.events.get_or_insert_with(Events::new);
+        let is_complete = events.follow(self.files.iter().map(|file| file.path.as_path()));
+        if is_complete { LOOK_ANYWAY } else { LOOK_EVERY }
     }
 }
 
 impl Watched {
     fn new(path: &Path) -> Watched {
         let stamp = Stamp::of(path);
-        let (since, young) = (Instant::now(), stamp.is_some_and(|stamp| !stamp.is_older_than(COARSE)));
+        let (since, young) = (Instant::now(), stamp.is_some_and(|stamp| stamp.age() < COARSE));
         Watched { path: path.to_owned(), stamp, since, young, content: Content::of(path) }
     }
 
@@ -109,17 +133,28 @@ impl Watched {
             (self.stamp, self.since, self.young) = (stamp, Instant::now(), true);
         }
         let Some(stamp) = stamp.filter(|_| self.young) else { return false };
-        let left_alone = |time: Duration| self.since.elapsed() >= time || stamp.is_older_than(time);
-        if !left_alone(DEBOUNCE) {
+        let left_alone = self.left_alone(stamp);
+        if left_alone < DEBOUNCE {
             return false;
         }
-        self.young = !left_alone(COARSE);
+        self.young = left_alone < COARSE;
         let content = Content::of(&self.path);
         let changed = content != Content::Gone && content != self.content;
         if changed {
             self.content = content;
         }
         changed
+    }
+
+    /// How long a changed file has still to be left alone before it is read; none where there is no change.
+    fn ready_in(&self) -> Option<Duration> {
+        let stamp = self.stamp.filter(|_| self.young)?;
+        DEBOUNCE.checked_sub(self.left_alone(stamp)).filter(|left| !left.is_zero())
+    }
+
+    /// How long nobody has written to the file.
+    fn left_alone(&self, stamp: Stamp) -> Duration {
+        self.since.elapsed().max(stamp.age())
     }
 }
 
@@ -136,9 +171,9 @@ impl Stamp {
         Some(Stamp { length: meta.len(), modified: meta.modified().ok(), identity })
     }
 
-    /// Whether the file was last written so long ago, by the system's clock.
-    fn is_older_than(self, time: Duration) -> bool {
-        self.modified.and_then(|modified| modified.elapsed().ok()).is_some_and(|age| age >= time)
+    /// How long ago the file was last written, by the system's clock; zero where that is unknown.
+    fn age(self) -> Duration {
+        self.modified.and_then(|modified| modified.elapsed().ok()).unwrap_or_default()
     }
 }
 

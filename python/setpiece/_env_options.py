@@ -1,0 +1,140 @@
+"""What an environment is made with: one value, validated once and handed down."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal, TypedDict
+
+from setpiece._callbacks import Callbacks, EndFunction, Ends, RewardFunction, Rewards, copied, read_ends, read_rewards
+from setpiece._casting import behaviors, revivable
+from setpiece._errors import ParameterError
+from setpiece._opponents import Opponent, native_action_set
+from setpiece._options import ParamValue, check_flag, check_number, check_params
+from setpiece._seats import Seats
+from setpiece._spaces import check_action_set, check_observation, check_scale, check_size, check_stack
+
+RENDER_MODES = ("ansi",)
+
+
+class VectorArguments(TypedDict, total=False):
+    """The arguments that `setpiece.make` and `setpiece.make_vec` share; what they mean is said in `setpiece.make`."""
+
+    left: Seats
+    right: Seats
+    opponents: Mapping[str, Opponent] | None
+    observation: str
+    rewards: Rewards
+    params: Mapping[str, ParamValue] | None
+    seed: int | None
+    copy: bool
+    render_mode: str | None
+    action_set: str
+    stack: int
+    size: tuple[int, int]
+    scale: bool
+    switching: Literal["auto", "fixed"] | None
+    allow_outside: bool
+
+
+class EnvArguments(VectorArguments, total=False):
+    """The arguments of a single environment, but for its files: `watch`, `on_reload`, `record`, `record_when`."""
+
+    ends: Ends
+    events: bool
+    bot_action: bool
+
+
+@dataclass(frozen=True)
+class EnvOptions:
+    """Validated arguments of an environment or a vector; the native module reads its attributes.
+
+    What depends on the scenario (names of players, rewards and parameters) is validated where a scenario is made ready.
+    """
+
+    left: Seats
+    right: Seats
+    switching: Literal["auto", "fixed"] | None
+    scripted: dict[str, str]
+    """The behaviors and scripts among the opponents: by side or agent, the text of `ai:`."""
+    opponents: dict[str, Opponent] | None
+    """The opponents of a scenario that has its behaviors already."""
+    observation: str
+    reward_names: list[str] | None
+    """Names of the scenario's rewards; None for its own choice."""
+    reward_functions: Sequence[RewardFunction]
+    ends: Sequence[EndFunction]
+    params: dict[str, ParamValue]
+    seed: int | None
+    events: bool
+    """Whether the caller's `info` lists events."""
+    copy: bool
+    render_mode: str | None
+    action_set: str
+    native_action_set: str
+    """The actions of all agents: opponents may have one more than the caller."""
+    bot_action: bool
+    stack: int
+    size: tuple[int, int]
+    scale: bool
+    allow_outside: bool
+
+    @classmethod
+    def read(cls, arguments: Mapping[str, Any], known: type = EnvArguments) -> EnvOptions:
+        """Validates arguments; those left out have the defaults of `setpiece.make`.
+
+        Raises `ParameterError` for a wrong value, `TypeError` for a name that isn't among the `known` ones.
+        """
+        for name in arguments:
+            if name not in known.__annotations__:
+                raise TypeError(f"unexpected keyword argument '{name}'")
+        given = arguments.get
+        render_mode = given("render_mode")
+        if render_mode is not None and render_mode not in RENDER_MODES:
+            raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
+        reward_names, reward_functions = read_rewards(given("rewards"))
+        ends = read_ends(given("ends"))
+        observation = check_observation(given("observation", "simple115v2"))
+        action_set = check_action_set(given("action_set", "default"))
+        opponents, seed = revivable(given("opponents")), given("seed")
+        return cls(
+            left=given("left"),
+            right=given("right"),
+            switching=given("switching"),
+            scripted=behaviors(given("opponents")),
+            opponents=opponents,
+            observation=observation,
+            reward_names=reward_names,
+            reward_functions=reward_functions,
+            ends=ends,
+            params=check_params(given("params")) or {},
+            seed=None if seed is None else check_number("seed", seed),
+            events=check_flag("events", given("events", False)),
+            copy=check_flag("copy", given("copy", True)),
+            render_mode=render_mode,
+            action_set=action_set,
+            native_action_set=native_action_set(action_set, opponents),
+            bot_action=check_flag("bot_action", given("bot_action", False)),
+            stack=check_stack(given("stack", 1), observation),
+            size=check_size(given("size", (96, 72))),
+            scale=check_scale(given("scale", False), observation),
+            allow_outside=check_flag("allow_outside", given("allow_outside", False)),
+        )
+
+    @property
+    def needs_events(self) -> bool:
+        """Whether the native `info` lists events: for the caller, or for rewards and endings in Python."""
+        return self.events or bool(self.reward_functions or self.ends)
+
+    def callbacks(self) -> Callbacks | None:
+        """Returns the rewards and endings in Python with a memory of their own, None where there are none."""
+        if not self.reward_functions and not self.ends:
+            return None
+        return Callbacks(self.reward_functions, self.ends, show_events=self.events)
+
+    def copied(self, memo: dict[int, Any]) -> EnvOptions:
+        """Returns options with copies of the functions, and the same opponents.
+
+        Raises `CallbackError` for a function that can't be copied.
+        """
+        return replace(self, reward_functions=copied(self.reward_functions, memo), ends=copied(self.ends, memo))

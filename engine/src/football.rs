@@ -12,6 +12,7 @@ pub mod advantage;
 pub mod begin;
 pub mod block;
 pub mod bounce;
+mod carry;
 pub mod clock;
 pub mod contact;
 mod dribble;

@@ -3,7 +3,7 @@
 
 use glam::Vec2;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::state::Match;
+use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::vocabulary::Action;
 
 /// A ball that is faster has been kicked, m/s.
@@ -20,12 +20,17 @@ fn written(body: &str) -> Environment {
     Environment::new(scenario, EnvironmentOptions::default()).unwrap()
 }
 
-/// The matches at the ends of an episode's steps; `key` names the action of a step.
+/// The matches at the ends of an episode's first 40 steps; `key` names the action of a step.
 fn played(environment: &mut Environment, episode: u64, key: impl Fn(usize) -> Action) -> Vec<Match> {
+    played_for(40, environment, episode, key)
+}
+
+/// The same for so many steps.
+fn played_for(steps: usize, environment: &mut Environment, episode: u64, key: impl Fn(usize) -> Action) -> Vec<Match> {
     let mut scratch = Scratch::default();
     environment.reset(Some(1), Some(episode)).unwrap();
     let mut matches = Vec::new();
-    while environment.is_running() && matches.len() < 40 {
+    while environment.is_running() && matches.len() < steps {
         environment.step(&[key(matches.len())], &mut scratch).unwrap();
         matches.push(environment.state().clone());
     }
@@ -137,6 +142,29 @@ fn a_defender_plants_their_feet_for_a_dribbler() {
     }
     speeds.sort_by(f32::total_cmp);
     assert!(speeds.len() > 15 && speeds[speeds.len() / 2] < 2.0, "{speeds:?}");
+}
+
+#[test]
+fn a_defender_stops_for_a_ball_that_rolls_up() {
+    let mut environment = met(0.6);
+    let stops = |episode: &u64| {
+        let matches = played(&mut environment, *episode, |step| if step == 1 { Action::Sprint } else { Action::Right });
+        matches.iter().any(|game| game.players[12].body.lunge.is_some_and(|lunge| lunge.stops))
+    };
+    let stopped = (0..20).filter(stops).count();
+    assert!(stopped >= 10, "{stopped} of 20");
+}
+
+#[test]
+fn a_sprinter_gets_past_a_keeper_who_comes_out_and_is_often_stopped_by_them() {
+    let mut environment = library("academy_run_to_score_with_keeper");
+    let passes = |episode: &u64| {
+        let matches =
+            played_for(90, &mut environment, *episode, |step| if step == 1 { Action::Sprint } else { Action::Right });
+        matches.iter().any(|game| game.players[1].pos.x > 35.0 && game.owner == Some(PlayerId(1)))
+    };
+    let past = (0..40).filter(passes).count();
+    assert!((6..34).contains(&past), "{past} of 40");
 }
 
 const PASSER: &str = "ball at (-0.44, 0)

@@ -1,13 +1,11 @@
 //! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
 
-use crate::football::contact;
-use crate::football::pace::{RUN_MPS, SPRINT_MPS};
-use crate::math;
+use crate::football::pace::SPRINTS_FROM_MPS;
+use crate::football::{carry, contact};
 use crate::state::event::Events;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
-use setpiece_scenario::vocabulary::Stat;
 
 /// How near a foot the ball must be for a dribbling touch, metres.
 const FOOT_M: f32 = 0.65;
@@ -15,8 +13,6 @@ const FOOT_M: f32 = 0.65;
 pub(super) const SOLE_M: f32 = 1.0;
 /// Whoever wants to be slower than this with the ball stops it, m/s.
 pub(super) const STOPS_MPS: f32 = 0.3;
-/// Faster than this nobody gets the sole on it, m/s.
-pub(super) const SPRINTS_MPS: f32 = 6.0;
 /// How far ahead the ball is touched walking and sprinting, so fast, m/s; metres. Measured.
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
@@ -35,32 +31,8 @@ const RUN_INTO: f32 = 0.4;
 const BESIDE: f32 = 0.8;
 /// A slower ball lies still, m/s; chosen.
 pub(super) const LIES_MPS: f32 = 1.0;
-/// With what power of the way to where it is to be met again a touch's pace goes. (GRF's.)
-const WAY_TO_PACE: f32 = 0.7;
-/// How close the ball is kept: the divisor of a touch's way without any skill, what all of it adds (GRF's), and the divisor
-/// for which the paces here hold.
-const CLOSEST: [f32; 2] = [0.38, 0.02];
-const CLOSE: f32 = 0.394;
-/// From how near opponents annoy a dribbler, and how much further the most annoyed sends the ball, metres. (GRF's.)
-const ANNOYS_M: std::ops::Range<f32> = 0.5..1.5;
-const ANNOYED_M: f32 = 3.0;
 /// How far ahead of a standing player the ball is laid, metres. Measured.
 pub(super) const LAID_M: f32 = 0.4;
-/// How far ahead of a runner's place the ball is to be met again, metres, and how much further for each m/s; in how many seconds at no pace, and how many more
-/// at a sprint (GRF's); how long the step of a touch lasts, and from it to the next touch, seconds.
-const FRONT_M: f32 = 0.34;
-const FRONT_S: f32 = 0.08;
-const AGAIN_S: [f32; 2] = [0.25, 0.6];
-const STEP_S: f32 = 0.12;
-const TOUCH_S: f32 = 0.2;
-/// By how much a runner speeds up in the step of a touch, m/s; how much faster than at its end a walker and a sprinter want
-/// to be (GRF's); and who is slower keeps the ball close, m/s.
-const SPEEDS_UP_MPS: f32 = 1.0;
-const HASTE_MPS: [f32; 2] = [0.6, 1.2];
-const CLOSE_MPS: f32 = 4.2;
-/// How much harder a ball is pushed at a sprint, and from which pace on wholly, m/s. (GRF's.)
-const HARDER: f32 = 0.18;
-const FASTEST_MPS: f32 = 7.2;
 /// How whoever turns with the ball brakes, m/s²; chosen.
 const TURN_MPS2: f32 = 14.0;
 /// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
@@ -79,7 +51,7 @@ const ROLL_MPS2: f32 = 1.75;
 /// carries it on lets it come, one who turns it does not wait.
 pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
     let (ball, own, wish) = (game.ball.vel.truncate(), player.vel, player.body.dribble);
-    if wish.length_squared() < STOPS_MPS * STOPS_MPS && own.length_squared() < SPRINTS_MPS * SPRINTS_MPS {
+    if wish.length_squared() < STOPS_MPS * STOPS_MPS && own.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS {
         return SOLE_M;
     }
     let along = ball.dot(own) > ALONG * ball.length() * own.length() && wish.dot(own) > 0.0;
@@ -129,8 +101,7 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     }
     let care = Care { lines: minds_lines(game, id), lies: rolling < LIES_MPS };
     let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
-    let closer = libm::powf(CLOSE / (CLOSEST[0] + CLOSEST[1] * player.skill(Stat::Dribble)), WAY_TO_PACE);
-    contact::push(game, events, id, longer(velocity, annoyance_m(game, id, speed)) * closer, 0.0);
+    contact::push(game, events, id, carry::as_skilled(game, id, velocity, speed), 0.0);
     if player.body.kick.is_none() {
         note_turn(game, id, ahead);
     }
@@ -192,13 +163,12 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
         // A ball that lies is pushed off, and run after.
         return ahead * (PUSHED_OFF * speed + RUN_INTO * pace);
     }
-    // Whoever does not turn comes to the ball's line rather than the ball to theirs.
-    let beside = if turns { Vec2::ZERO } else { (to_ball - ahead * to_ball.dot(ahead)) * BESIDE };
     if !turns && cut.is_none() {
-        return straight_on(player, to_ball - beside, ahead, speed);
+        // Whoever does not turn comes to the ball's line rather than the ball to theirs.
+        let beside = (to_ball - ahead * to_ball.dot(ahead)) * BESIDE;
+        return carry::straight_on(player, to_ball - beside, ahead, speed);
     }
-    let place = cut.unwrap_or(free + beside);
-    let way = place - to_ball;
+    let way = cut.unwrap_or(free) - to_ball;
     let distance = way.length();
     let average = distance / time;
     // By a line it must stop there; else it rolls on until they meet it.
@@ -208,50 +178,6 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
         libm::sqrtf(2.0 * 1.7 * distance)
     };
     if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
-}
-
-/// The velocity with which a ball is pushed straight on: it is to be met again where the run leads in a while. (GRF's.)
-fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32) -> Vec2 {
-    let own = player.vel.dot(ahead).max(0.0);
-    let wanted = speed.min(player.body.speed_top_mps);
-    let end = (own + SPEEDS_UP_MPS).min(wanted);
-    let over = if speed > SPRINTS_MPS {
-        HASTE_MPS[1]
-    } else if speed > CLOSE_MPS {
-        HASTE_MPS[0]
-    } else {
-        0.0
-    };
-    let pace = wanted.clamp(end, end + over);
-    let share = (pace / SPRINT_MPS).min(1.0);
-    let until_s = AGAIN_S[0] + AGAIN_S[1] * share * share;
-    let way = ahead * (0.5 * (own + end) * STEP_S + pace * until_s + FRONT_M + FRONT_S * pace) - to_ball;
-    let closest = CLOSEST[0] + CLOSEST[1] * player.skill(Stat::Dribble);
-    let fast = 1.0 + HARDER * ((pace - RUN_MPS) / (FASTEST_MPS - RUN_MPS)).clamp(0.0, 1.0);
-    way.normalize_or_zero() * libm::powf(way.length() / ((until_s + TOUCH_S) * closest * 1.1), WAY_TO_PACE) * fast
-}
-
-/// The velocity of a touch that is to send the ball so much further, metres. (GRF's: a touch's pace goes with this power of
-/// the way to where it is to be met again.)
-pub(super) fn longer(velocity: Vec2, further_m: f32) -> Vec2 {
-    let speed = velocity.length();
-    if further_m <= 0.0 || speed < STOPS_MPS {
-        return velocity;
-    }
-    let until_s = 0.45 + 0.6 * (speed / 8.0).min(1.0) * (speed / 8.0).min(1.0);
-    let way_m = 0.41 * until_s * libm::powf(speed, 1.0 / WAY_TO_PACE);
-    velocity * libm::powf((way_m + further_m) / way_m, WAY_TO_PACE)
-}
-
-/// How much further a player who runs at so many m/s sends the ball with an opponent close by, metres: the less, the calmer
-/// and the better balanced they are. (GRF's.)
-fn annoyance_m(game: &Match, id: PlayerId, speed: f32) -> f32 {
-    let player = game.player(id);
-    let rivals = game.team(id.team().other());
-    let near = rivals.fold(f32::MAX, |near, (_, rival)| near.min(rival.pos.distance_squared(player.pos))).sqrt();
-    let close = 1.0 - ((near - ANNOYS_M.start) / (ANNOYS_M.end - ANNOYS_M.start)).clamp(0.0, 1.0);
-    let nervous = 1.0 - (0.5 * player.skill(Stat::Calmness) + 0.3 * player.skill(Stat::Balance));
-    ANNOYED_M * close * nervous * math::smooth((speed / 8.0).min(1.0))
 }
 
 /// The way of a touch, cut; none where it doesn't take the ball off the pitch, or only into a goal.

@@ -3,6 +3,7 @@
 //! A lunge is settled on some ticks before its foot meets the ball, at the place where the ball will be if nobody touches
 //! it. A touch in between leaves the foot beside the ball, or in the air.
 
+use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS};
 use crate::football::{bounce, contact, first_touch, noise, reach, report, slide, touch};
 use crate::math;
 use crate::state::event::Events;
@@ -36,20 +37,20 @@ const fn motion(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f3
 
 /// Pokes, the fastest first.
 const POKES: [Motion; 5] = [
-    motion(6.0, [12, 39], [0.77, 0.0], [0.47, 0.17]),
-    motion(1.8, [9, 26], [0.61, 0.0], [0.56, 0.26]),
-    motion(1.8, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
+    motion(SPRINTS_FROM_MPS, [12, 39], [0.77, 0.0], [0.47, 0.17]),
+    motion(DRIBBLES_FROM_MPS, [9, 26], [0.61, 0.0], [0.56, 0.26]),
+    motion(DRIBBLES_FROM_MPS, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
     motion(0.0, [11, 28], [0.9, 0.0], [0.59, 0.41]),
     motion(0.0, [15, 35], [0.0, 1.05], [0.59, 0.41]),
 ];
 /// Ways to take the ball along.
 const TAKES: [Motion; 3] = [
-    motion(6.0, [12, 24], [0.2, 0.0], [0.42, 0.15]),
-    motion(1.8, [12, 25], [0.2, 0.0], [0.44, 0.2]),
+    motion(SPRINTS_FROM_MPS, [12, 24], [0.2, 0.0], [0.42, 0.15]),
+    motion(DRIBBLES_FROM_MPS, [12, 25], [0.2, 0.0], [0.44, 0.2]),
     motion(0.0, [12, 37], [0.45, 0.0], [0.45, 0.32]),
 ];
 /// A ball that rolls up is stopped: long before it is there. (GRF's.)
-const TRAP: Motion = Motion { stops: true, ..motion(1.8, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
+const TRAP: Motion = Motion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
 /// Which share of their pace a player keeps until they have stopped for a ball.
 const STOPPING: f32 = 0.5;
 /// A slower ball is not stopped, m/s. (GRF's.)
@@ -143,15 +144,9 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let takes = first && slow && (sooner || hidden <= HIDDEN[1]) && player.role != Role::GK;
     let ways = if takes { &TAKES[..] } else { &[] };
     let rolls = game.ball.vel.truncate().length_squared() > TRAPPED_MPS * TRAPPED_MPS;
-    if first
-        && sooner
-        && player.role != Role::GK
-        && rolls
-        && pace >= TRAP.from_mps
-        && !game.is_driven(id)
-        && seen
-        && lunges(game, id, &TRAP, true, seen)
-    {
+    // An agent's player takes the ball as the keys say: `first_touch`.
+    let traps = first && sooner && seen && rolls && pace >= TRAP.from_mps && !game.is_driven(id);
+    if traps && lunges(game, id, &TRAP, true, seen) {
         return;
     }
     let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { &POKES[..] };

@@ -1,6 +1,6 @@
 //! The first touch of a free ball: taken down, kept or lost, or headed on.
 
-use crate::football::{contact, dribble, forecast, noise};
+use crate::football::{carry, contact, dribble, forecast, noise};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
@@ -111,7 +111,7 @@ pub(super) fn contested(game: &mut Match, id: PlayerId) -> Vec3 {
     let to_ball = ball.pos.truncate() - player.pos;
     let care = dribble::Care { lines: dribble::minds_lines(game, id), lies: false };
     let on = dribble::ahead(&player, to_ball, ahead, speed.min(player.body.speed_top_mps), &care);
-    let on = dribble::longer(on, far);
+    let on = carry::longer(on, far);
     let up = ball.vel.z * high + 4.0 * high;
     on.extend(0.5 + up).lerp(ball.vel, kept)
 }

@@ -3,8 +3,8 @@
 //! Decides where a player's body goes: what each wants to run is one man's, and [`super::stride`] does the running for
 //! all of them. Leaves to `control` where he wants to go.
 
-use crate::football::dribble::{LIES_MPS, SOLE_M, SPRINTS_MPS};
-use crate::football::pace::{DT, WITH_BALL};
+use crate::football::dribble::{LIES_MPS, SOLE_M};
+use crate::football::pace::{DT, SPRINTS_FROM_MPS, WITH_BALL};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
 use crate::state::player::{Intent, Pose};
@@ -155,7 +155,8 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
             to_ball * (0.4 / distance.max(0.4))
         };
         let resting = distance < 0.8 && ball_vel.length_squared() < 2.0 * 2.0;
-        let lays_it = has_ball && distance < STOPPING_M && player.vel.length_squared() < SPRINTS_MPS * SPRINTS_MPS;
+        let lays_it =
+            has_ball && distance < STOPPING_M && player.vel.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
         if wish == Vec2::ZERO && (resting || lays_it) {
             return Vec2::ZERO;
         }

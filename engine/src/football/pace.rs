@@ -13,6 +13,13 @@ pub const RUN_WITH_BALL_MPS: f32 = 5.12;
 /// Top speed with the ball against that without. Measured.
 pub const WITH_BALL: f32 = 0.955;
 
+/// From this speed on a runner dribbles rather than stands, m/s. (GRF's gaits.)
+pub const DRIBBLES_FROM_MPS: f32 = 1.8;
+/// From this speed on a runner walks rather than dribbles, m/s. (GRF's gaits.)
+pub const WALKS_FROM_MPS: f32 = 4.2;
+/// From this speed on a runner sprints, m/s. (GRF's gaits.)
+pub const SPRINTS_FROM_MPS: f32 = 6.0;
+
 /// Length of a tick, seconds.
 pub const DT: f32 = 0.01;
 /// Metres of distance to m/s of speed wanted.

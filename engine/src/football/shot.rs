@@ -1,6 +1,7 @@
 //! Where a shot goes and how hard.
 
 use crate::football::noise;
+use crate::football::pace::WALKS_FROM_MPS;
 use crate::football::pass::{self, Struck};
 use crate::math;
 use crate::state::player::KickPlan;
@@ -34,8 +35,6 @@ const LIFTS: f32 = 1.25;
 /// the measured heights.
 const EASIEST_MPS: f32 = 3.5;
 const LEFT_MPS: f32 = 3.8;
-/// Slower than this nobody runs yet, m/s. (GRF's.)
-const SLOW_MPS: f32 = 4.2;
 /// The pace beyond which a run makes aiming no harder, m/s; fitted to how far shots on the run go astray.
 const RUN_MPS: f32 = 6.0;
 /// How hard the easiest shot is. Fitted to the measured directions.
@@ -58,7 +57,7 @@ fn aim(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
 
 /// Whether somebody runs, rather than sets off or stands.
 pub fn runs(player: &Player) -> bool {
-    player.vel.length_squared() >= SLOW_MPS * SLOW_MPS
+    player.vel.length_squared() >= WALKS_FROM_MPS * WALKS_FROM_MPS
 }
 
 /// The middle of the goal that a side attacks.

@@ -4,6 +4,7 @@
 //! meeting outweigh their balance. (GRF's rule; its motions are measured.)
 
 use crate::football::foul;
+use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::player::Pose;
@@ -20,12 +21,13 @@ const BALL_M: f32 = 0.7;
 /// Shares of all that counts from which on somebody stumbles, and falls. (GRF's.)
 const STUMBLES: f32 = 0.48;
 const FALLS: f32 = 0.58;
+/// How bad a foul it is to bring somebody down with a leg that is out, and how much worse from behind; chosen, so that it is
+/// worth no card.
+const SEVERITY: f32 = 1.05;
+const FROM_BEHIND: f32 = 0.3;
 /// Within this distance of the ball a fall may be a foul, metres. (GRF's.)
 const FOUL_M: f32 = 2.0;
-/// How fast somebody is who stands, and who sprints, m/s; how fast each gait counts as. (GRF's.)
-const STANDS_MPS: f32 = 1.8;
-const WALKS_MPS: f32 = 4.2;
-const SPRINTS_MPS: f32 = 6.0;
+/// What each gait counts: standing, dribbling, walking, sprinting. (GRF's.)
 const PACES: [f32; 4] = [0.0, 0.44, 0.63, 1.0];
 /// How a push goes: shares of both runs in it.
 const OWN_RUN: f32 = 0.1;
@@ -96,7 +98,8 @@ fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f
 
 /// What a gait counts.
 fn pace(mps: f32) -> f32 {
-    PACES[usize::from(mps >= STANDS_MPS) + usize::from(mps >= WALKS_MPS) + usize::from(mps >= SPRINTS_MPS)]
+    let gaits = [DRIBBLES_FROM_MPS, WALKS_FROM_MPS, SPRINTS_FROM_MPS];
+    PACES[gaits.iter().filter(|&&from_mps| mps >= from_mps).count()]
 }
 
 /// A player stumbles or falls over another.
@@ -118,7 +121,7 @@ fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerI
     if let Some(kick) = &mut tripped.body.kick {
         kick.swing = None;
     }
-    let Motion(ticks, mps) = match (falls, speed >= SPRINTS_MPS) {
+    let Motion(ticks, mps) = match (falls, speed >= SPRINTS_FROM_MPS) {
         (true, true) => FALLEN_SPRINTING,
         (true, false) => FALLEN,
         (false, _) => stumble(speed, cos),
@@ -128,14 +131,14 @@ fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerI
     let near = player.pos.distance_squared(game.ball.pos.truncate()) < FOUL_M * FOUL_M;
     if falls && lunges && near && by.team() != id.team() && game.possession == Some(id.team()) {
         let behind = player.body.facing.dot((player.pos - other.pos).normalize_or_zero()).max(0.0);
-        foul::call_or_let_run(game, events, by, id, 1.05 + 0.3 * behind);
+        foul::call_or_let_run(game, events, by, id, SEVERITY + FROM_BEHIND * behind);
     }
 }
 
 /// How somebody stumbles who is pushed so far back or on.
 fn stumble(speed: f32, cos: f32) -> Motion {
-    let sprints = speed >= SPRINTS_MPS;
-    if speed < STANDS_MPS {
+    let sprints = speed >= SPRINTS_FROM_MPS;
+    if speed < DRIBBLES_FROM_MPS {
         STANDING
     } else if cos > ON {
         PUSHED_ON

@@ -5,18 +5,18 @@ use setpiece_scenario::vocabulary::Team;
 /// An `ai` from outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cast {
-    /// Whose.
-    pub whom: Whom,
+    /// Which players it plays.
+    pub target: CastTarget,
     /// What stands behind `ai:`: `lazy`, `marker(3m)`, `script "f.rhai"`. It sees what the root file sees.
     pub ai: String,
 }
 
-/// Whose `ai` it is.
+/// The players that an `ai` from outside plays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Whom {
-    /// That of every player of a team who has none of his own.
+pub enum CastTarget {
+    /// Every player of a team without an `ai` of their own.
     Team(Team),
-    /// That of one player, by his team and his place in it.
+    /// One player, by team and by place in it.
     Player(Team, usize),
 }
 

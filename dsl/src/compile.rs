@@ -143,7 +143,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     Outcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
 }
 
-/// What a scenario costs more than any may, told where most of it stands.
+/// What a scenario costs above its limits, reported where most of it stands.
 fn too_costly(name: &str, excess: Excess, origins: &Origins) -> Problem {
     let span = match excess.part {
         Part::Reward(at) => origins.rewards.get(at).copied(),
@@ -279,13 +279,13 @@ fn compile_one<'a>(
         observation,
         behaviors,
     };
-    problems.extend(world.problems.take().into_iter().map(|problem| told_by_child(&world, problem)));
+    problems.extend(world.problems.take().into_iter().map(|problem| located_in_child(&world, problem)));
     unused.use_all(world.used.take());
     (scenario, origins)
 }
 
 /// Points from a problem in what is inherited to what the scenario itself declares and is named there.
-fn told_by_child(world: &World<'_>, problem: Problem) -> Problem {
+fn located_in_child(world: &World<'_>, problem: Problem) -> Problem {
     let Some(span) = problem.place().filter(|span| world.flat.is_inherited(*span)) else { return problem };
     let text = world.library.sources.text(span);
     let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();

@@ -17,7 +17,7 @@ pub mod report;
 mod resolve;
 pub mod source;
 
-pub use cast::{CAST_NAME, Cast, Whom};
+pub use cast::{CAST_NAME, Cast, CastTarget};
 pub use compile::{CompileOptions, Outcome, compile, parts};
 pub use origins::{Origins, RequireOrigin};
 pub use resolve::Prelude;

@@ -5,7 +5,7 @@ use crate::{diagnostics, errors, given};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMappingProxy};
 use setpiece::scenario::{self as compiled, Bindings, Team};
-use setpiece::{Cast, LoadOptions, Loaded, Whom};
+use setpiece::{Cast, CastTarget, LoadOptions, Loaded};
 use std::sync::Arc;
 
 /// A compiled scenario: what `setpiece.load` and `setpiece.compile` return. It never changes.
@@ -187,8 +187,8 @@ pub(crate) struct Casting<'py> {
 fn cast_of(casting: Vec<Casting<'_>>) -> PyResult<Vec<Cast>> {
     let cast = |Casting { team, place, ai }: Casting<'_>| {
         let team = if team == 0 { Team::Left } else { Team::Right };
-        let whom = place.map_or(Whom::Team(team), |place| Whom::Player(team, place));
-        Ok(Cast { whom, ai: given::text("opponents", &ai)? })
+        let target = place.map_or(CastTarget::Team(team), |place| CastTarget::Player(team, place));
+        Ok(Cast { target, ai: given::text("opponents", &ai)? })
     };
     casting.into_iter().map(cast).collect()
 }

@@ -79,7 +79,7 @@ def test_a_watch_holds_neither_threads_nor_files(pitch_file: Callable[[str], Pat
         return len([*Path("/proc/self/fd").iterdir()]), len([*Path("/proc/self/task").iterdir()])
 
     if not Path("/proc/self/task").exists():
-        pytest.skip("only Linux tells")
+        pytest.skip("open descriptors are listed in /proc, which only Linux has")
     before = held()
     envs = [setpiece.make(pitch_file(PITCH.format(name="mine")), watch=True) for _ in range(3)]
     assert held() == before

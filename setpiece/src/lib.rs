@@ -27,7 +27,7 @@ pub mod watch;
 pub use error::Error;
 pub use live::Live;
 pub use load::{
-    Cast, Checked, Entry, LoadOptions, Loaded, Whom, bind, check, check_with, compile_text, compile_text_cast,
+    Cast, CastTarget, Checked, Entry, LoadOptions, Loaded, bind, check, check_with, compile_text, compile_text_cast,
     compile_text_with, list, load, load_cast, load_file, load_with,
 };
 pub use setpiece_dsl as dsl;

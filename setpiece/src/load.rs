@@ -6,7 +6,7 @@ use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
-pub use setpiece_dsl::{Cast, Whom};
+pub use setpiece_dsl::{Cast, CastTarget};
 use setpiece_dsl::{CompileOptions, Origins, Prelude, compile};
 use setpiece_scenario::file::{self, binary};
 use setpiece_scenario::{Bindings, Scenario, Team};
@@ -106,8 +106,12 @@ pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> 
     // What can be played: bases that others extend are no answer.
     let known = list();
     let names = || known.iter().map(|entry| entry.name.as_str());
-    // A name cut short is like nothing, and yet says enough.
-    let begun = || names().find(|name| name_or_path.len() >= BEGUN_LEAST && name.starts_with(name_or_path));
+    // A name cut short is similar to nothing, and yet says enough, with or without its underscores.
+    let joined = |name: &str| name.replace('_', "");
+    let begun = || {
+        let beginning = joined(name_or_path);
+        names().find(|name| beginning.len() >= BEGUN_LEAST && joined(name).starts_with(&beginning))
+    };
     let similar = nearest(name_or_path, names()).or_else(begun).map(str::to_owned);
     Err(Error::Unknown { name: name_or_path.to_owned(), similar })
 }

@@ -205,6 +205,7 @@ fn the_compact_form_is_the_same_scenario_and_its_faults_are_told() {
 fn a_name_or_file_that_is_not_there_is_one_clear_error() {
     fails(&["run", "academy_3_vs_1"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
     fails(&["run", "academy_3_vs_1_with_keper"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
+    fails(&["run", "academy_3_vs1"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
     let stderr = fails(&["run", "academ"], 1, &["SP0005"]);
     assert!(!stderr.contains("`academy`"), "a base that nobody plays: {stderr}");
     fails(&["run", "nothing/of/the/kind.pitch"], 1, &["SP0001"]);

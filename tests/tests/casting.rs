@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::scenario::{Ai, Scenario, Team};
-use setpiece::{Cast, Error, Whom, compile_text_cast, load_cast};
+use setpiece::{Cast, CastTarget, Error, compile_text_cast, load_cast};
 
 const TEXT: &str = r"
 /// Runs at the ball.
@@ -18,8 +18,8 @@ scenario first extends academy {
 scenario second extends first { mirror: ends }
 ";
 
-fn cast(casts: &[(Whom, &str)]) -> Result<Scenario, Error> {
-    let casts: Vec<Cast> = casts.iter().map(|(whom, ai)| Cast { whom: *whom, ai: (*ai).to_owned() }).collect();
+fn cast(casts: &[(CastTarget, &str)]) -> Result<Scenario, Error> {
+    let casts: Vec<Cast> = casts.iter().map(|(target, ai)| Cast { target: *target, ai: (*ai).to_owned() }).collect();
     compile_text_cast(TEXT, "<text>", &casts).map(|loaded| Scenario::clone(&loaded.scenario))
 }
 
@@ -35,18 +35,18 @@ fn a_cast_gives_a_team_and_single_players_their_ai() {
     let plain = cast(&[]).unwrap();
     let teams = |found: &Scenario| ais(found).into_iter().map(|(_, ai)| ai).collect::<Vec<_>>();
     assert_eq!(ais(&plain), [(Left, Bot), (Left, Hold), (Left, Bot), (Right, Bot), (Right, Bot)]);
-    let side = cast(&[(Whom::Team(Left), "lazy")]).unwrap();
+    let side = cast(&[(CastTarget::Team(Left), "lazy")]).unwrap();
     assert_eq!(teams(&side), [Lazy, Hold, Lazy, Bot, Bot], "a player keeps an `ai` of his own");
-    let single = cast(&[(Whom::Player(Left, 1), "chaser(2m)"), (Whom::Player(Right, 0), "lazy")]).unwrap();
+    let single = cast(&[(CastTarget::Player(Left, 1), "chaser(2m)"), (CastTarget::Player(Right, 0), "lazy")]).unwrap();
     assert_eq!(teams(&single), [Bot, Behavior(0), Bot, Lazy, Bot]);
     assert_eq!(single.behaviors.len(), 1);
-    let both = cast(&[(Whom::Team(Left), "chaser"), (Whom::Player(Left, 0), "bot")]).unwrap();
+    let both = cast(&[(CastTarget::Team(Left), "chaser"), (CastTarget::Player(Left, 0), "bot")]).unwrap();
     assert_eq!(teams(&both), [Bot, Hold, Behavior(0), Bot, Bot]);
 }
 
 #[test]
 fn a_cast_changes_nothing_else() {
-    let (plain, mut cast) = (cast(&[]).unwrap(), cast(&[(Whom::Player(Team::Right, 1), "lazy")]).unwrap());
+    let (plain, mut cast) = (cast(&[]).unwrap(), cast(&[(CastTarget::Player(Team::Right, 1), "lazy")]).unwrap());
     let changed = cast.players.iter_mut().find(|player| player.ai == Ai::Lazy).unwrap();
     changed.ai = Ai::Bot;
     assert_eq!(cast, plain);
@@ -64,18 +64,22 @@ fn a_cast_that_is_none_is_told() {
         ("", ""),
         ("script \"nowhere.rhai\"", "nowhere.rhai"),
     ] {
-        let Err(Error::Compile(failure)) = cast(&[(Whom::Team(Team::Left), ai)]) else { panic!("{ai} was taken") };
+        let Err(Error::Compile(failure)) = cast(&[(CastTarget::Team(Team::Left), ai)]) else {
+            panic!("{ai} was taken")
+        };
         let told = failure.problems.iter().any(|problem| problem.message.contains(message));
         assert!(told, "{ai}: {:?}", failure.problems);
     }
-    let Err(Error::Compile(_)) = cast(&[(Whom::Player(Team::Left, 7), "lazy")]) else { panic!("nobody was cast") };
+    let Err(Error::Compile(_)) = cast(&[(CastTarget::Player(Team::Left, 7), "lazy")]) else {
+        panic!("nobody was cast")
+    };
 }
 
 /// What a cast is read in has names of its own, which hide none of the text's.
 #[test]
 fn a_behavior_may_have_any_name() {
     let text = TEXT.replace("chaser", "cast");
-    let cast = [Cast { whom: Whom::Team(Team::Left), ai: "cast".to_owned() }];
+    let cast = [Cast { target: CastTarget::Team(Team::Left), ai: "cast".to_owned() }];
     let scenario = compile_text_cast(&text, "<text>", &cast).unwrap().scenario;
     assert_eq!(scenario.behaviors.len(), 1);
 }
@@ -86,7 +90,7 @@ fn a_compiled_file_keeps_who_plays() {
     let path = folder.path().join("duel.pitchc");
     let text = setpiece::scenario::file::to_json(&cast(&[]).unwrap()).unwrap();
     std::fs::write(&path, text).unwrap();
-    let lazy = [Cast { whom: Whom::Team(Team::Left), ai: "lazy".to_owned() }];
+    let lazy = [Cast { target: CastTarget::Team(Team::Left), ai: "lazy".to_owned() }];
     let error = load_cast(&path, &lazy).unwrap_err();
     assert!(matches!(error, Error::Cast { .. }), "{error}");
     assert!(error.help().is_some());

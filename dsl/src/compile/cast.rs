@@ -26,7 +26,7 @@ pub(super) fn read<'a>(
     let mut casting = Vec::new();
     for (cast, file) in cast.iter().zip(guests) {
         match the_statement(library, *file).filter(|(_, field)| is_whole(field, cast)) {
-            Some((who, field)) => casting.push(Casting { whom: cast.whom, who, field }),
+            Some((who, field)) => casting.push(Casting { target: cast.target, who, field }),
             None if problems.iter().any(|problem| is_error_in(problem, *file)) => {}
             None => {
                 let start = BEFORE.len() as u32;

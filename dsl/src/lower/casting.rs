@@ -3,7 +3,7 @@
 use super::World;
 use super::roster::Rostered;
 use crate::ast::{Field, Ident};
-use crate::cast::Whom;
+use crate::cast::CastTarget;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::Team;
 
@@ -11,7 +11,7 @@ use setpiece_scenario::vocabulary::Team;
 #[derive(Clone, Copy)]
 pub(crate) struct Casting<'w> {
     /// Whose.
-    pub(crate) whom: Whom,
+    pub(crate) target: CastTarget,
     /// The `all`.
     pub(crate) who: &'w Ident,
     /// The `ai`.
@@ -21,7 +21,7 @@ pub(crate) struct Casting<'w> {
 /// Gives single players theirs: it stands behind what they have of their own, and wins.
 pub(super) fn apply<'w>(world: &World<'w>, players: &mut [Rostered<'w>], team: Team) {
     for cast in world.casting {
-        let Whom::Player(side, place) = cast.whom else { continue };
+        let CastTarget::Player(side, place) = cast.target else { continue };
         if side != team {
             continue;
         }

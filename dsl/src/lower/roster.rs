@@ -5,7 +5,7 @@ use super::{Lower, World, casting};
 use crate::ast::{
     Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
 };
-use crate::cast::Whom;
+use crate::cast::CastTarget;
 use crate::check::types::Ty;
 use crate::problem::{Code, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
@@ -90,7 +90,7 @@ pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
         let side = world
             .casting
             .iter()
-            .filter(|cast| cast.whom == Whom::Team(*team))
+            .filter(|cast| cast.target == CastTarget::Team(*team))
             .map(|cast| (cast.who, std::slice::from_ref(cast.field)));
         let each: Vec<_> = flat.each.iter().copied().chain(side).collect();
         apply_each(world, &mut players, &each, *team, &|who| world.flat.is_own(who));

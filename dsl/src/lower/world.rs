@@ -41,7 +41,7 @@ pub(crate) struct World<'w> {
     pub(crate) effort: &'w Effort,
     /// How many problems of each code were found.
     counts: RefCell<BTreeMap<Code, usize>>,
-    /// How many problems were found, those that are not told among them.
+    /// How many problems were found, also those that are not reported.
     found: Cell<usize>,
     /// Whether something is tried out.
     is_tentative: Cell<bool>,
@@ -124,7 +124,7 @@ impl World<'_> {
         }
     }
 
-    /// Whether one more problem of a kind would not be told: one that is costly to explain needn't be.
+    /// Whether another problem of this kind wouldn't be reported, so that its explanation can be skipped.
     pub(crate) fn is_full(&self, code: Code) -> bool {
         self.is_tentative.get() || self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
     }
@@ -134,8 +134,8 @@ impl World<'_> {
         self.found.get()
     }
 
-    /// Runs `f` to see what comes of it and tells nothing of what is wrong with it: whoever tries something out reads it
-    /// in earnest elsewhere, or has done so, and it is told there. What `f` refers to counts as used all the same.
+    /// Runs `f` and reports no problem that it finds. The caller only tries something out that is also compiled elsewhere,
+    /// where its problems are reported. Names that `f` refers to count as used.
     pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
         let outer = self.is_tentative.replace(true);
         let result = f();

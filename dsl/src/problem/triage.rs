@@ -1,12 +1,12 @@
-//! What of everything that was found is told: one mistake, one report.
+//! Chooses which of the problems that were found are reported: one mistake, one report.
 //!
-//! Each step drops what may be nothing but the echo of another problem; no step changes what is told.
+//! Each step drops problems that may only be the echo of another one. No step changes a report.
 
 use super::{Code, Problem, Stage, has_errors};
 use crate::source::{FileId, Sources, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The problems that are told, by file, place and code.
+/// The problems to report, by file, place and code.
 ///
 /// - `lost`: names whose declarations could not be read.
 pub(crate) fn triage(mut problems: Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) -> Vec<Problem> {
@@ -27,7 +27,7 @@ pub(crate) fn triage(mut problems: Vec<Problem>, sources: &Sources, lost: &BTree
     problems
 }
 
-/// A name whose declaration could not be read is told of there.
+/// A name whose declaration can't be read is reported at the declaration.
 fn drop_lost_names(problems: &mut Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) {
     problems.retain(|problem| {
         !matches!(problem.code, Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)

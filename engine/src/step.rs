@@ -17,15 +17,21 @@ use setpiece_scenario::vocabulary::Action;
 /// The match that a drawn start begins with, ready for its first step.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = begin::begin(drawn);
-    prepare(&mut game);
+    // Each agent's first action is for the player that the start gives it, wherever the ball is. (GRF's.)
+    look_ahead(&mut game);
     game
 }
 
 /// Before a step: who can be at the ball first, and which player each agent has in it.
 pub fn prepare(game: &mut Match) {
+    look_ahead(game);
+    switching::update(game);
+}
+
+/// Finds out where the ball goes, and who can be at it first.
+fn look_ahead(game: &mut Match) {
     forecast::refresh(game);
     reach::assess(game);
-    switching::update(game);
 }
 
 /// Plays one step of 100 ms: `actions[i]` is slot i's, in the own frame of its team. Stops early when play stops
@@ -47,6 +53,9 @@ pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: 
         scratch.laps().end(Phase::Movement);
     }
     clock::end_step(game, events);
+    if from == 0 && !game.dead {
+        switching::update(game);
+    }
 }
 
 /// Goes on after a step that has been judged: play that was stopped is restarted (ball and players are placed; dead

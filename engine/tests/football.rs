@@ -52,7 +52,9 @@ impl Bench {
     /// Plays a step; the events stay readable until the next.
     fn step(&mut self, action: Action) {
         self.events.clear();
-        step::prepare(&mut self.game);
+        if self.game.step > 0 {
+            step::prepare(&mut self.game);
+        }
         step::play(&mut self.game, &[action], &mut self.events, &mut self.scratch);
     }
 

@@ -43,19 +43,21 @@ fn kicked_at(matches: &[Match], from: usize) -> Option<usize> {
 }
 
 #[test]
-fn the_ball_of_a_start_is_touched_when_chance_will_have_it_or_pushed_straight_on_at_once() {
-    let first_touch = |key: Action| -> Vec<usize> {
-        let mut environment = library("academy_3_vs_1_with_keeper");
+fn the_ball_of_a_start_is_pushed_off_at_once_from_close_by_and_else_touched_when_chance_will_have_it() {
+    let first_touch = |scenario: &str, key: Action| -> Vec<usize> {
+        let mut environment = library(scenario);
         let step = |episode| {
             let matches = played(&mut environment, episode, |_| key);
             matches.iter().position(|game| game.last_touch.is_some()).unwrap()
         };
         (0..40).map(step).collect()
     };
-    let aside = first_touch(Action::BottomRight);
-    assert!(aside.contains(&1) && aside.contains(&2) && aside.contains(&3), "{aside:?}");
-    assert!(aside.iter().all(|step| (1..=4).contains(step)), "{aside:?}");
-    assert!(first_touch(Action::Right).iter().all(|&step| step == 0));
+    let further = first_touch("academy_run_to_score", Action::BottomRight);
+    assert!(further.contains(&2) && further.contains(&3), "{further:?}");
+    assert!(further.iter().all(|step| (1..=4).contains(step)), "{further:?}");
+    for key in [Action::BottomRight, Action::Right] {
+        assert!(first_touch("academy_3_vs_1_with_keeper", key).iter().all(|&step| step == 0));
+    }
 }
 
 #[test]
@@ -66,7 +68,7 @@ fn a_kick_waits_until_the_turn_with_the_ball_is_played_out() {
         (0..12).filter_map(|episode| kicked_at(&played(&mut environment, episode, key), press)).collect()
     };
     // Before the player is at the ball the kick is their first touch; after a touch that turns their run it comes later.
-    let (before, after) = (leaves(3), leaves(7));
+    let (before, after) = (leaves(3), leaves(8));
     assert!(before.iter().all(|step| (5..=7).contains(step)) && before.len() == 12, "{before:?}");
     assert!(after.iter().all(|step| *step >= 10) && after.len() >= 6, "{after:?}");
 }
@@ -164,7 +166,7 @@ fn a_sprinter_gets_past_a_keeper_who_comes_out_and_is_often_stopped_by_them() {
         matches.iter().any(|game| game.players[1].pos.x > 35.0 && game.owner == Some(PlayerId(1)))
     };
     let past = (0..40).filter(passes).count();
-    assert!((6..34).contains(&past), "{past} of 40");
+    assert!((3..34).contains(&past), "{past} of 40");
 }
 
 const PASSER: &str = "ball at (-0.44, 0)

@@ -22,7 +22,7 @@ mod view;
 
 pub use view::View;
 
-use crate::state::player::Intent;
+use crate::state::player::{Aim, Intent};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::HALF_LENGTH_M;
@@ -94,6 +94,9 @@ fn hold(game: &mut Match, view: &View, id: PlayerId) {
 
 /// One player's decision.
 fn decide(game: &mut Match, view: &View, id: PlayerId) {
+    if game.player(id).body.lunge.is_some_and(|lunge| lunge.aim == Aim::Kick) {
+        return;
+    }
     let has_ball = view.owner == Some(id);
     if game.player(id).role == Role::GK && !has_ball && keeper::stands(game, view, id) {
         return;

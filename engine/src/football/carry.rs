@@ -1,7 +1,7 @@
 //! How hard a dribbler pushes the ball on: by pace and skill, and harder with opponents close by.
 
 use crate::football::dribble;
-use crate::football::pace::{RUN_MPS, SPRINT_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
+use crate::football::pace::{DRIBBLE_MPS, RUN_MPS, SPRINT_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
@@ -24,9 +24,12 @@ const FRONT_S: f32 = 0.08;
 const AGAIN_S: [f32; 2] = [0.25, 0.6];
 const STEP_S: f32 = 0.12;
 const TOUCH_S: f32 = 0.2;
-/// By how much a runner speeds up in the step of a touch, m/s; how much faster than at its end a walker and a sprinter want
-/// to be. (GRF's.)
+/// How fast whoever stands comes out of the step of a touch, and how much less faster one does for each m/s of their run
+/// below that; by how much a runner speeds up in it, m/s. (GRF's gaits.)
+const OFF_MPS: f32 = DRIBBLE_MPS;
+const GETS_OFF: f32 = 0.5;
 const SPEEDS_UP_MPS: f32 = 1.0;
+/// How much faster than at the end of that step a walker and a sprinter want to be, m/s. (GRF's.)
 const HASTE_MPS: [f32; 2] = [0.6, 1.2];
 /// How much harder a ball is pushed at a sprint, and from which pace on wholly, m/s. (GRF's.)
 const HARDER: f32 = 0.18;
@@ -43,7 +46,7 @@ pub(super) fn as_skilled(game: &Match, id: PlayerId, velocity: Vec2, speed: f32)
 pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     let wanted = speed.min(player.body.speed_top_mps);
-    let end = (own + SPEEDS_UP_MPS).min(wanted);
+    let end = (own + if own < OFF_MPS { OFF_MPS - GETS_OFF * own } else { SPEEDS_UP_MPS }).min(wanted);
     let over = if speed > SPRINTS_FROM_MPS {
         HASTE_MPS[1]
     } else if speed > WALKS_FROM_MPS {

@@ -1,8 +1,9 @@
 //! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
 
-use crate::football::pace::SPRINTS_FROM_MPS;
+use crate::football::pace::{SETS_OFF_MPS, SPRINTS_FROM_MPS};
 use crate::football::{carry, contact};
 use crate::state::event::Events;
+use crate::state::play::ticks_since;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
@@ -17,16 +18,23 @@ pub(super) const STOPS_MPS: f32 = 0.3;
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
 const CARRIED_M: [f32; 2] = [0.36, 0.62];
-/// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far away, metres. Measured.
+/// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far away, by who walks and by
+/// who sprints, metres. Measured.
 const SLOW: f32 = 0.5;
-const EARLY_M: f32 = 0.62;
+const EARLY_M: [f32; 2] = [0.72, 0.56];
+/// From how far whoever comes up to a sprint pushes the ball on, metres: below so many m/s, so many ticks after their last
+/// touch. Measured.
+const SPEEDING_M: f32 = 0.8;
+const SPEEDING_MPS: f32 = 6.8;
+const SPEEDING_TICKS: i32 = 45;
+/// For how many ticks a player who has pushed off the ball of a start follows it at that pace, and how many ticks later
+/// they touch it again at the soonest. Measured.
+const OFF_TICKS: i32 = 22;
+const OFF_AGAIN_TICKS: i32 = 31;
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
 /// A player with an agent minds a line until they are as near to it, metres; chosen.
 const AT_LINE_M: f32 = 0.65;
-/// How fast a ball is pushed off that lies still: shares of the speed that is wanted and of the runner's. Measured.
-const PUSHED_OFF: f32 = 0.6;
-const RUN_INTO: f32 = 0.4;
 /// How much of what the ball is beside a dribbler's line stays in a touch; chosen.
 const BESIDE: f32 = 0.8;
 /// A slower ball lies still, m/s; chosen.
@@ -58,8 +66,16 @@ pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
     if !along {
         return FOOT_M;
     }
-    // A ball that is slow for where the run is to lead is pushed on early.
-    if ball.length() < SLOW * wish.length() { EARLY_M } else { carried_m(own.length()) }
+    let sprints = wish.length_squared() > SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
+    let waited = ticks_since(game.tick, player.body.touched_at) >= SPEEDING_TICKS;
+    if sprints && waited && own.length_squared() < SPEEDING_MPS * SPEEDING_MPS {
+        SPEEDING_M
+    } else if ball.length() < SLOW * wish.length() {
+        // A ball that is slow for where the run is to lead is pushed on early.
+        EARLY_M[usize::from(sprints)]
+    } else {
+        carried_m(own.length())
+    }
 }
 
 /// How far ahead of a runner at so many m/s the ball is when it is touched, metres. Measured.
@@ -106,6 +122,26 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
         note_turn(game, id, ahead);
     }
     true
+}
+
+/// Pushes the ball of a start off, for a player who has no agent yet: they follow it at that pace for a while.
+pub(super) fn set_off(game: &mut Match, events: &mut Events, id: PlayerId) {
+    let player = *game.player(id);
+    let to_ball = game.ball.pos.truncate() - player.pos;
+    let speed = player.body.dribble.length();
+    let ahead = player.body.dribble.normalize_or(player.body.facing);
+    let velocity = carry::straight_on(&player, to_ball, ahead, speed);
+    contact::push(game, events, id, carry::as_skilled(game, id, velocity, speed), 0.0);
+    let now = game.tick as i32;
+    let player = &mut game.players[id.index()];
+    player.vel = ahead * SETS_OFF_MPS;
+    player.body.ready_at = now + OFF_AGAIN_TICKS;
+}
+
+/// Whether a player still follows the ball of a start that they have pushed off: nothing else rests as long.
+pub(super) fn sets_off(player: &Player, now: i32) -> bool {
+    let (touched, ready) = (player.body.touched_at, player.body.ready_at);
+    ready == touched + OFF_AGAIN_TICKS && now < touched + OFF_TICKS
 }
 
 /// Lays the ball where the player will come to a stand, a little ahead; false where it comes to rest there anyway.
@@ -159,11 +195,7 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
     let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
     let cut = if care.lines { within_lines(player.pos, free) } else { None };
-    if care.lies && cut.is_none() {
-        // A ball that lies is pushed off, and run after.
-        return ahead * (PUSHED_OFF * speed + RUN_INTO * pace);
-    }
-    if !turns && cut.is_none() {
+    if (care.lies || !turns) && cut.is_none() {
         // Whoever does not turn comes to the ball's line rather than the ball to theirs.
         let beside = (to_ball - ahead * to_ball.dot(ahead)) * BESIDE;
         return carry::straight_on(player, to_ball - beside, ahead, speed);

@@ -3,12 +3,12 @@
 //! A lunge is settled on some ticks before its foot meets the ball, at the place where the ball will be if nobody touches
 //! it. A touch in between leaves the foot beside the ball, or in the air.
 
-use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS};
-use crate::football::{bounce, contact, first_touch, noise, reach, report, slide, touch};
+use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
+use crate::football::{bounce, contact, first_touch, forecast, kick, noise, possession, reach, report, slide, touch};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::Lunge;
+use crate::state::player::{Aim, Intent, Lunge};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, Role};
@@ -44,13 +44,22 @@ const POKES: [Motion; 5] = [
     motion(0.0, [15, 35], [0.0, 1.05], [0.59, 0.41]),
 ];
 /// Ways to take the ball along.
-const TAKES: [Motion; 3] = [
+const TAKES: [Motion; 4] = [
     motion(SPRINTS_FROM_MPS, [12, 24], [0.2, 0.0], [0.42, 0.15]),
-    motion(DRIBBLES_FROM_MPS, [12, 25], [0.2, 0.0], [0.44, 0.2]),
-    motion(0.0, [12, 37], [0.45, 0.0], [0.45, 0.32]),
+    motion(DRIBBLES_FROM_MPS, [20, 47], [0.45, 0.0], [0.3, 0.25]),
+    motion(DRIBBLES_FROM_MPS, [10, 29], [0.0, 0.0], [0.35, 0.3]),
+    motion(0.0, [13, 55], [0.45, 0.0], [0.45, 0.32]),
 ];
 /// A ball that rolls up is stopped: long before it is there. (GRF's.)
 const TRAP: Motion = Motion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
+/// A carrier's ball that they have again no sooner than this is stopped like one that nobody has, seconds. (GRF's.)
+const LOOSE_S: f32 = 0.4;
+/// Kicks at a ball that a rival still dribbles. (Measured of GRF's motions.)
+const KICKS: [Motion; 3] = [
+    motion(WALKS_FROM_MPS, [41, 69], [0.25, 0.0], [0.35, 0.3]),
+    motion(DRIBBLES_FROM_MPS, [27, 61], [0.2, 0.0], [0.35, 0.3]),
+    motion(0.0, [35, 73], [0.6, 0.0], [0.35, 0.3]),
+];
 /// Which share of their pace a player keeps until they have stopped for a ball.
 const STOPPING: f32 = 0.5;
 /// A slower ball is not stopped, m/s. (GRF's.)
@@ -145,15 +154,24 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let ways = if takes { &TAKES[..] } else { &[] };
     let rolls = game.ball.vel.truncate().length_squared() > TRAPPED_MPS * TRAPPED_MPS;
     // An agent's player takes the ball as the keys say: `first_touch`.
-    let traps = first && sooner && seen && rolls && pace >= TRAP.from_mps && !game.is_driven(id);
-    if traps && lunges(game, id, &TRAP, true, seen) {
+    let loose = other.body.meet_s > LOOSE_S && !possession::has_ball(game, rival);
+    let traps = first && (sooner || loose) && seen && rolls && pace >= TRAP.from_mps && !game.is_driven(id);
+    let kicks = first && (sooner || loose) && player.body.kick.is_some() && !game.is_driven(id);
+    if let Some(way) = KICKS.iter().find(|way| kicks && pace >= way.from_mps)
+        && lunges(game, id, way, Aim::Kick, seen)
+    {
+        // The leg swings on the way: where to is settled.
+        game.players[id.index()].body.intent = Intent::Run(player.vel);
+        return;
+    }
+    if traps && lunges(game, id, &TRAP, Aim::Take, seen) {
         return;
     }
     let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { &POKES[..] };
-    for (ways, takes) in [(ways, true), (pokes, false)] {
+    for (ways, aim) in [(ways, Aim::Take), (pokes, Aim::Poke)] {
         let Some(gait) = ways.iter().find(|way| pace >= way.from_mps).map(|way| way.from_mps) else { continue };
         for way in ways.iter().filter(|way| way.from_mps == gait) {
-            if lunges(game, id, way, takes, seen) {
+            if lunges(game, id, way, aim, seen) {
                 return;
             }
         }
@@ -178,14 +196,14 @@ fn comes_late(game: &Match, id: PlayerId, player: &Player, carrier: &Player) -> 
 }
 
 /// Reaches for the ball in a way, if that meets it where it will be.
-fn lunges(game: &mut Match, id: PlayerId, way: &Motion, takes: bool, seen: bool) -> bool {
+fn lunges(game: &mut Match, id: PlayerId, way: &Motion, aim: Aim, seen: bool) -> bool {
     let ball = ball_in(game, seen, way.ticks as u32);
     let player = &mut game.players[id.index()];
     if ball.z >= LOW_M || !reaches(player, ball.truncate(), way) {
         return false;
     }
     let now = game.tick as i32;
-    player.body.lunge = Some(Lunge { at: now + way.ticks, place: ball.truncate(), takes, stops: way.stops });
+    player.body.lunge = Some(Lunge { at: now + way.ticks, place: ball.truncate(), aim, stops: way.stops });
     player.body.ready_at = now + way.lasts;
     true
 }
@@ -222,21 +240,28 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
     }
     let left = math::smooth(math::smooth(off));
     let before = game.ball.vel;
+    if let (Aim::Kick, Some(plan)) = (lunge.aim, game.player(id).body.kick) {
+        game.players[id.index()].body.kick = None;
+        kick::launch(game, events, id, plan);
+        game.ball.vel = game.ball.vel.lerp(before, left);
+        forecast::renew(game);
+        return;
+    }
     let taken = first_touch::contested(game, id);
-    let velocity = if lunge.takes {
-        taken
-    } else {
+    let velocity = if lunge.aim == Aim::Poke {
         let tackler = game.player(id);
         let away = (ball.truncate() - tackler.pos).normalize_or_zero();
         let poked = if tackler.role == Role::GK { KEEPER_MPS } else { POKED_MPS };
         taken * 0.5 + (away * poked).extend(0.5 + noise::roll(game))
+    } else {
+        taken
     };
     let velocity = velocity.lerp(before, left);
     if let Some(rival) = rival {
         report::did(game, events, EventKind::Tackle, id, Some(rival));
     }
     contact::push(game, events, id, velocity.truncate(), velocity.z);
-    if !lunge.takes {
+    if lunge.aim == Aim::Poke {
         // A poke is no deliberate kick: the keeper may pick it up.
         game.play.kicked_by = None;
     }

@@ -70,7 +70,11 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
         (true, _) => {
             let on = dribble::ahead(&player, to_ball, ahead, wish.length().min(5.5), &care);
             // A hard one runs ahead no faster than the player can follow.
-            if hard { on.clamp_length_max(player.vel.dot(ahead).max(0.0) + FOLLOWED_MPS) } else { on * 0.85 }
+            if hard {
+                on.clamp_length_max(player.vel.dot(ahead).max(0.0) + FOLLOWED_MPS)
+            } else {
+                on * if lies { 1.0 } else { 0.85 }
+            }
         }
         // Towards the foot, where it comes to rest.
         (false, true) => {

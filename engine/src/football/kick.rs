@@ -297,7 +297,7 @@ fn can_kick(game: &Match, id: PlayerId) -> bool {
 }
 
 /// Kicks.
-fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
+pub(super) fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     let set_piece = game.play.set_piece;
     let from_hands = game.play.hands.is_some();
     let from = game.ball.pos.truncate();

@@ -3,8 +3,8 @@
 //! Decides where a player's body goes: what each wants to run is one man's, and [`super::stride`] does the running for
 //! all of them. Leaves to `control` where he wants to go.
 
-use crate::football::dribble::{LIES_MPS, SOLE_M};
-use crate::football::pace::{DT, SPRINTS_FROM_MPS, WITH_BALL};
+use crate::football::dribble::{self, LIES_MPS, SOLE_M};
+use crate::football::pace::{DT, SETS_OFF_MPS, SPRINTS_FROM_MPS, WITH_BALL};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
 use crate::state::player::{Intent, Pose};
@@ -91,7 +91,7 @@ pub fn advance(game: &mut Match) -> Busy {
         }
         let four = &mut fours[row];
         (four.want_x[at], four.want_y[at], four.pace[at]) = (want.x, want.y, pace);
-        take(four, at, player, has_ball);
+        take(four, at, player, has_ball, now);
         runners.push(id);
     }
     stride::run(&mut fours, ball.x, ball.y);
@@ -110,11 +110,17 @@ fn is_at(player: &Player, ball: Vec2) -> bool {
 }
 
 /// Puts a player into his lane.
-fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool) {
+fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool, now: i32) {
     let body = &player.body;
     (four.x[at], four.y[at]) = (player.pos.x, player.pos.y);
     (four.vx[at], four.vy[at]) = (player.vel.x, player.vel.y);
-    four.top[at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
+    four.top[at] = if dribble::sets_off(player, now) {
+        SETS_OFF_MPS
+    } else if has_ball {
+        WITH_BALL * body.speed_top_mps
+    } else {
+        body.speed_top_mps
+    };
     four.lag[at] = f32::from(body.lag_ticks);
     four.turn[at] = 0.85 + 0.2 * player.skill(Stat::Agility);
     let burst = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];

@@ -6,7 +6,7 @@ use crate::football::{frame, reach, stumble};
 use crate::math;
 use crate::rows::{ROWS, WIDTH};
 use crate::state::event::Events;
-use crate::state::player::Pose;
+use crate::state::player::{Aim, Pose};
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -141,7 +141,7 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
 
 /// How much better somebody stands whose leg is out for the ball. (GRF's.)
 fn tackles(player: &Player) -> f32 {
-    let pokes = player.body.lunge.is_some_and(|lunge| !lunge.takes);
+    let pokes = player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke);
     let stat = if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
     if pokes || stat == Stat::SlidingTackle { TACKLES[0] + TACKLES[1] * player.skill(stat) } else { 0.0 }
 }

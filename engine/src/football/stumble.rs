@@ -7,7 +7,7 @@ use crate::football::foul;
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
 use crate::state::event::Events;
-use crate::state::player::Pose;
+use crate::state::player::{Aim, Pose};
 use crate::state::{Match, Player, PlayerId};
 use setpiece_scenario::vocabulary::Stat;
 
@@ -127,7 +127,7 @@ fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerI
         (false, _) => stumble(speed, cos),
     };
     tripped.body.strike_pose(Pose::Stumbling { to_dmps: (mps * 10.0) as u8 }, ticks);
-    let lunges = other.body.lunge.is_some_and(|lunge| !lunge.takes) || other.body.pose == Pose::Sliding;
+    let lunges = other.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke) || other.body.pose == Pose::Sliding;
     let near = player.pos.distance_squared(game.ball.pos.truncate()) < FOUL_M * FOUL_M;
     if falls && lunges && near && by.team() != id.team() && game.possession == Some(id.team()) {
         let behind = player.body.facing.dot((player.pos - other.pos).normalize_or_zero()).max(0.0);

@@ -16,11 +16,13 @@ use setpiece_scenario::vocabulary::Rule;
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
 /// The ticks in which the ball of a start is pushed straight on by who stands there. Measured.
 const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
+/// From how far at most, metres. Measured.
+const PUSH_OFF_M: f32 = 0.76;
 /// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast ball that meets a body less
 /// than 1.3.
 pub(super) const NEAR_M: f32 = 1.3;
 /// From how far somebody may reach for the ball, metres: as far as they run until their foot is there.
-const ABOUT_M: f32 = 3.5;
+const ABOUT_M: f32 = 4.5;
 /// For how many ticks before a bot's kick its leg is on the way. (Measured of GRF's motions.)
 const SWING_TICKS: i32 = 28;
 /// How near the ball must be to whoever stumbles and keeps it, metres, and how many ticks after their last touch. (GRF's.)
@@ -85,7 +87,11 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     let near = libm::sqrtf(distance);
     let contested = owner.is_some_and(|rival| rival.team() != id.team());
     if !contested && near <= first_touch::reach_m(game, id) && !about_to_kick(game, id) {
-        first_touch::take(game, events, id);
+        if PUSH_OFF_TICKS.contains(&game.tick) && waits_at_ball(game, game.player(id)) && !game.is_driven(id) {
+            dribble::set_off(game, events, id);
+        } else {
+            first_touch::take(game, events, id);
+        }
     }
 }
 
@@ -143,12 +149,18 @@ fn swings(game: &Match, id: PlayerId) -> bool {
 
 /// Whether a player stands at the ball of a start and only has to push it straight on: they do so at once.
 fn pushes_off(game: &Match, player: &Player) -> bool {
-    let to_ball = game.ball.pos.truncate() - player.pos;
     let wish = player.body.dribble;
-    game.last_touch.is_none()
-        && PUSH_OFF_TICKS.contains(&game.tick)
+    let to_ball = game.ball.pos.truncate() - player.pos;
+    PUSH_OFF_TICKS.contains(&game.tick)
+        && waits_at_ball(game, player)
         && wish.dot(to_ball) > 0.9 * wish.length() * to_ball.length()
         && wish != Vec2::ZERO
+}
+
+/// Whether a player stands at the ball of a start, so near that one step takes them to it.
+pub fn waits_at_ball(game: &Match, player: &Player) -> bool {
+    let to_ball = game.ball.pos.truncate() - player.pos;
+    game.last_touch.is_none() && to_ball.length_squared() < PUSH_OFF_M * PUSH_OFF_M
 }
 
 /// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as his kick.

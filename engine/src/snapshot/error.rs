@@ -1,7 +1,7 @@
 //! What can be wrong with a snapshot.
 
 /// The version of snapshots that this build takes and restores.
-pub const SNAPSHOT_VERSION: u32 = 12;
+pub const SNAPSHOT_VERSION: u32 = 13;
 
 /// Why a snapshot can't be taken, restored or begun from.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

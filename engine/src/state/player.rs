@@ -207,6 +207,17 @@ pub struct Swing {
     pub runs: bool,
 }
 
+/// What a foot does with a ball that it reaches for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Aim {
+    /// Pokes it away.
+    Poke,
+    /// Takes it along.
+    Take,
+    /// Kicks it as the player has planned.
+    Kick,
+}
+
 /// A leg on its way to the ball.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Lunge {
@@ -214,8 +225,8 @@ pub struct Lunge {
     pub at: i32,
     /// Where the ball will be then, world metres.
     pub place: Vec2,
-    /// Whether the ball is to be taken along, rather than poked away.
-    pub takes: bool,
+    /// What the foot does there.
+    pub aim: Aim,
     /// Whether the player stops for it.
     pub stops: bool,
 }

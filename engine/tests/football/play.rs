@@ -4,7 +4,7 @@ use crate::Bench;
 use crate::layouts::{Layout, drawn, set_level};
 use glam::Vec2;
 use setpiece_engine::football::contact;
-use setpiece_engine::state::player::Lunge;
+use setpiece_engine::state::player::{Aim, Lunge};
 use setpiece_engine::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
 
@@ -188,10 +188,51 @@ fn a_kick_pressed_before_the_ball_comes_is_the_first_touch() {
 }
 
 #[test]
+fn an_agent_gets_the_player_at_the_ball_after_the_first_step() {
+    let mut bench = Bench::new(Layout::EmptyGoalClose, 0);
+    assert_eq!(bench.game.agents[0].player, Some(PlayerId(0)), "the start gives it the keeper");
+    bench.step(Action::Right);
+    bench.step(Action::Right);
+    assert_eq!(bench.game.agents[0].player, Some(PlayerId(1)));
+}
+
+#[test]
+fn whoever_waits_at_the_ball_of_a_start_pushes_it_off_and_follows_it_before_they_run() {
+    let mut start = drawn(Layout::EmptyGoalClose, 0);
+    start.players[1].as_mut().unwrap().pos.x = start.ball_pos.x - 0.7;
+    let mut bench = Bench::of(&start);
+    bench.game.players[1].body.ready_at = 25;
+    let at = |bench: &Bench| (bench.game.ball.vel.x, bench.game.player(PlayerId(1)).vel.x);
+    bench.step(Action::Right);
+    let (ball, _) = at(&bench);
+    assert!((2.3..3.0).contains(&ball), "the ball is pushed off at {ball} m/s");
+    for _ in 0..2 {
+        bench.step(Action::Sprint);
+        let (_, runs) = at(&bench);
+        assert!((2.2..2.6).contains(&runs), "the player follows at {runs} m/s");
+    }
+    for _ in 0..6 {
+        bench.step(Action::Right);
+    }
+    let (_, runs) = at(&bench);
+    assert!(runs > 5.0, "the player sprints at {runs} m/s");
+}
+
+#[test]
+fn a_defender_reaches_for_the_ball_that_a_sprinter_pushes_ahead() {
+    let mut bench = Bench::new(Layout::ThreeVersusOne, 0);
+    let stopped = (0..40).any(|_| {
+        bench.step(Action::Sprint);
+        bench.game.players.iter().any(|player| player.body.lunge.is_some_and(|lunge| lunge.aim != Aim::Poke))
+    });
+    assert!(stopped, "nobody reaches for the ball of a sprinter");
+}
+
+#[test]
 fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
     let mut bench = Bench::new(Layout::Eleven, 3);
     let far = PlayerId(0);
-    let lunge = Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, takes: false, stops: false };
+    let lunge = Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, aim: Aim::Poke, stops: false };
     bench.game.players[far.index()].body.lunge = Some(lunge);
     bench.step(Action::BuiltinAi);
     assert_eq!(bench.game.player(far).body.lunge, None);

@@ -7,8 +7,7 @@ use setpiece_engine::football::{contact, foul, keeper, stumble};
 use setpiece_engine::physics::Ball;
 use setpiece_engine::state::PlayerId;
 use setpiece_engine::state::event::Event;
-use setpiece_engine::state::player::Lunge;
-use setpiece_engine::state::player::Pose;
+use setpiece_engine::state::player::{Aim, Lunge, Pose};
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Rule, Team};
 
 /// Sends the ball on its way as if a player had touched it last, and plays until play stops.
@@ -276,7 +275,7 @@ fn meeting(mps: f32, lunges: bool) -> ([Pose; 2], bool) {
     (bench.game.owner, bench.game.last_touch, bench.game.possession) =
         (Some(LEFT_MAN), Some(LEFT_MAN), Some(Team::Left));
     bench.game.players[right].body.lunge =
-        lunges.then_some(Lunge { at: now + 10, place: spot, takes: false, stops: false });
+        lunges.then_some(Lunge { at: now + 10, place: spot, aim: Aim::Poke, stops: false });
     stumble::meet(&mut bench.game, &mut bench.events, [LEFT_MAN, RIGHT_MAN], 0.72);
     ([left, right].map(|i| bench.game.players[i].body.pose), bench.seen(EventKind::Foul).is_some())
 }

@@ -1,6 +1,6 @@
 //! The keeper's feet: where they stand, when they come out. (Their hands are `football::keeper`'s.)
 
-use crate::control::bot::{GOAL, View, send};
+use crate::control::bot::{GOAL, View, on_ball, press, send};
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::math::share;
 use crate::state::player::{Intent, Pose};
@@ -52,6 +52,10 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
         let body = &mut game.players[id.index()].body;
         body.intent = Intent::Ball(SPRINT_MPS);
         body.dribble = Vec2::ZERO;
+        let first = game.play.chaser[view.team.index()] == Some(id);
+        if first && view.rival(game).is_some_and(|rival| press::is_sooner(game, id, rival)) {
+            on_ball::before_touch(game, view, id);
+        }
         return true;
     }
     let (spot, speed) = post(game, view, id);

@@ -34,6 +34,8 @@ const BESIDE_M: f32 = 0.2;
 const PAST_M: f32 = 5.0;
 /// By what share of the other's time to the ball somebody must be there sooner. (GRF's.)
 const SOONER: f32 = 0.85;
+/// From which chance of the ball on whoever is first of their team goes on for it. (GRF's.)
+const KEEPS_ON: f32 = 0.8;
 /// How far from a carrier's middle a player goes round them, metres.
 const ROUND_M: f32 = 0.9;
 
@@ -73,25 +75,37 @@ pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
     let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
     let may = !view.best && player.body.mind.mark.is_none() && player.role != Role::GK;
     let near = |to: Vec2| view.board.nearest::<2>(view.team, to, None).any(|near| near == id);
-    if may && gap < hunt_m(game, player) && near(other.pos + other.vel * 0.1) {
+    if !may || gap >= hunt_m(game, player) {
+        return Pursuit::None;
+    }
+    if first == Some(id) && chance(game, id, rival) > KEEPS_ON {
+        return Pursuit::Fetch;
+    }
+    if near(other.pos + other.vel * 0.1) {
         return Pursuit::Hunt(rival);
     }
     Pursuit::None
 }
 
 /// Whether a player will be at the ball so much sooner than the opponent who has it that it is theirs to have. (GRF's.)
-fn is_sooner(game: &Match, id: PlayerId, rival: PlayerId) -> bool {
+pub(super) fn is_sooner(game: &Match, id: PlayerId, rival: PlayerId) -> bool {
     let time_s = |id: PlayerId| game.player(id).body.meet_s + 0.01;
     time_s(id) < SOONER * time_s(rival)
+}
+
+/// A player's chance of the ball against the opponent who has it: the other's time to it against their own. (GRF's.)
+fn chance(game: &Match, id: PlayerId, rival: PlayerId) -> f32 {
+    let time_s = |id: PlayerId| game.player(id).body.meet_s + 0.2;
+    time_s(rival) / time_s(id)
 }
 
 /// Goes for a ball that is the team's to have.
 pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
     let player = *game.player(id);
-    let to_ball = player.body.meet - player.pos;
+    let way = on_ball::set_off(game, id).unwrap_or((player.body.meet - player.pos).clamp_length_max(2.0));
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
-    body.dribble = to_ball.clamp_length_max(2.0);
+    body.dribble = way;
     on_ball::before_touch(game, view, id);
 }
 

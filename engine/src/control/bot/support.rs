@@ -25,6 +25,8 @@ const MAKES_WAY: f32 = 1.06;
 /// A run forward lasts this many steps, and is thought of every so many.
 const RUN_STEPS: u32 = 40;
 const RUN_EVERY: u32 = 5;
+/// In which step first: in the one before, a start may have given an agent whoever will run.
+const RUN_AT: u32 = 1;
 /// How good a chance of a run must be, and how much less good for whoever reads the game; GRF's .5 for the average.
 const RUNS_FROM: f32 = 0.65;
 const READS: f32 = 0.2;
@@ -161,7 +163,7 @@ pub fn assign(game: &mut Match, view: &View) {
         game.play.recent.helper[view.team.index()] = view.board.nearest::<1>(view.team, to, Some(main)).next();
     }
     let agents = game.agents.iter().filter(|slot| slot.team == view.team).count();
-    if !game.step.is_multiple_of(RUN_EVERY) || agents > 1 || !view.best {
+    if game.step % RUN_EVERY != RUN_AT || agents > 1 || !view.best {
         return;
     }
     if game.team(view.team).any(|(_, player)| player.body.mind.run_until_step > game.step) {

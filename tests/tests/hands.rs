@@ -68,9 +68,9 @@ fn a_kick_waits_until_the_turn_with_the_ball_is_played_out() {
         (0..12).filter_map(|episode| kicked_at(&played(&mut environment, episode, key), press)).collect()
     };
     // Before the player is at the ball the kick is their first touch; after a touch that turns their run it comes later.
-    let (before, after) = (leaves(3), leaves(8));
+    let (before, after) = (leaves(3), leaves(7));
     assert!(before.iter().all(|step| (5..=7).contains(step)) && before.len() == 12, "{before:?}");
-    assert!(after.iter().all(|step| *step >= 10) && after.len() >= 6, "{after:?}");
+    assert!(after.iter().all(|step| *step >= 10) && after.len() >= 5, "{after:?}");
 }
 
 const PASSED: &str = "ball at (0.7, 0.26)

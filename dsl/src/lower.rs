@@ -32,6 +32,7 @@ pub(crate) use world::{Effort, MAX_LOWERED, World};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
+use crate::problem::facts::{Chance, Instead, Types};
 use crate::problem::{Code, Problem};
 use builder::Builder;
 use interval::Interval;
@@ -192,7 +193,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         let text = self.world.text(item);
         if self.inlining.contains(&item) {
             self.report(
-                Problem::new(Code::Recursion, at, format!("`{text}` uses itself"), "closes the circle")
+                Problem::legacy(Code::Recursion, at, format!("`{text}` uses itself"), "closes the circle")
                     .label(item, "declared here")
                     .help(start::NO_CIRCLE),
             );
@@ -201,7 +202,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         if self.inlined > INLINED_MAX {
             if self.inlined == INLINED_MAX + 1 {
                 self.report(
-                    Problem::new(Code::Impossible, at, format!("`{text}` makes the program too large"), "")
+                    Problem::legacy(Code::Impossible, at, format!("`{text}` makes the program too large"), "")
                         .help("use it less often, or name its value with a `let`"),
                 );
             }
@@ -257,10 +258,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         }
         match (wanted, &value.repr) {
             (Ty::Point, _) if self.is_nobody(expr) => {
-                return self.fail(
-                    Problem::new(Code::Impossible, expr.span, "`nobody` has no place", "nobody is there")
-                        .help("name a player, or write `nearest(us, to: ball)`"),
-                );
+                return self.fail(Problem::new(expr.span, Types::NobodyHasNoPlace));
             }
             (Ty::Point, _) if value.ty.is_place() => {
                 let place = self.place_of(&value, expr.span);
@@ -290,36 +288,12 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// "expected a length, found `3s` (a duration)".
     pub(crate) fn mismatch(&self, found: Ty, wanted: Ty, span: Span) -> Problem {
-        let problem = self.expected(&wanted.noun(), found, span);
-        let both_numbers = found.dim().is_some() && wanted.dim().is_some();
-        let code = if both_numbers { Code::WrongUnit } else { Code::WrongType };
-        let problem = Problem { code, ..problem };
-        match (found, wanted) {
-            (Ty::LENGTH, Ty::Number) => {
-                problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")
-            }
-            (Ty::Number, Ty::Int) => problem.help("write a whole number"),
-            (_, Ty::Number) if both_numbers => problem.help("divide by a value of the same unit to get a plain number"),
-            (_, wanted) if found.is_plain() && both_numbers => match wanted.example() {
-                Some(example) => problem.help(format!("write the unit: `{example}`")),
-                None => problem,
-            },
-            (_, wanted) => match wanted.example() {
-                Some(example) => problem.help(format!("write, for example, `{example}`")),
-                None => problem,
-            },
-        }
+        self.mismatch_with(found, wanted, span, Instead::Usual)
     }
 
-    /// The same of what has no type of its own: `wanted` is in words.
-    pub(crate) fn expected(&self, wanted: &str, found: Ty, span: Span) -> Problem {
-        let text = self.world.text(span);
-        let what = if text.is_empty() || text.chars().count() > 40 {
-            found.noun()
-        } else {
-            format!("`{text}` ({})", found.noun())
-        };
-        Problem::new(Code::WrongType, span, format!("expected {wanted}, found {what}"), found.noun())
+    /// The same with a better form to write.
+    pub(crate) fn mismatch_with(&self, found: Ty, wanted: Ty, span: Span, instead: Instead) -> Problem {
+        Problem::new(span, Types::Mismatch { wanted, found, text: self.world.text(span), instead })
     }
 
     /// +1 or -1 where the own frame is read, `None` where it is the world's.
@@ -349,7 +323,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             Some(_) => {
                 let text = self.world.text(span);
                 self.report(
-                    Problem::new(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
+                    Problem::legacy(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
                         .help(format!("write a value in {shown}")),
                 );
                 return false;
@@ -374,7 +348,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         }
         if self.interval(speed).is_some_and(|(low, _)| low > greatest) {
             let message = format!("{what} is never faster than {greatest} m/s");
-            self.report(Problem::new(Code::OutOfRange, span, message, "").help("write a smaller velocity"));
+            self.report(Problem::legacy(Code::OutOfRange, span, message, "").help("write a smaller velocity"));
             return;
         }
         let limit = self.code.constant(greatest);
@@ -403,10 +377,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             matches!(instr, setpiece_scenario::Instr::Random { .. } | setpiece_scenario::Instr::EpisodeIndex)
         };
         if self.code.depends(reg, &drawn) {
-            self.report(
-                Problem::new(Code::NotConstant, span, format!("{what} can't be drawn"), "differs between episodes")
-                    .help("compute it from parameters and constants"),
-            );
+            self.report(Problem::new(span, Chance::Drawn { what: what.to_owned() }));
         }
     }
 }

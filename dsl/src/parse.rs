@@ -59,7 +59,7 @@ pub fn parse(source: &Source, id: FileId, problems: &mut Vec<Problem>) -> ast::F
         Err(error) => {
             let at = reader.offset_of(&error.location);
             reader.push(
-                Problem::new(Code::TooDeep, reader.at(at), "this is nested too deeply", "too deep from here")
+                Problem::legacy(Code::TooDeep, reader.at(at), "this is nested too deeply", "too deep from here")
                     .help("give parts of it names with `let` or `fn`"),
             );
             Vec::new()
@@ -67,7 +67,7 @@ pub fn parse(source: &Source, id: FileId, problems: &mut Vec<Problem>) -> ast::F
     };
     let (mut found, lost) = reader.finish();
     found.extend(scan.problems);
-    found.sort_by_key(|problem| (problem.labels.first().map_or(0, |label| label.span.start), problem.code));
+    found.sort_by_key(|problem| (problem.place().start, problem.code()));
     problems.extend(found);
     ast::File { id, items, lost }
 }

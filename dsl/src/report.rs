@@ -90,8 +90,7 @@ fn colour_sequence(text: &str) -> usize {
 /// Problems by file, place and code.
 fn sorted(problems: &[Problem]) -> Vec<&Problem> {
     let mut sorted: Vec<&Problem> = problems.iter().collect();
-    sorted
-        .sort_by_key(|problem| (problem.labels.first().map(|label| (label.span.file, label.span.start)), problem.code));
+    sorted.sort_by_key(|problem| (problem.place().file, problem.place().start, problem.code()));
     sorted
 }
 

@@ -179,7 +179,7 @@ proptest! {
 #[test]
 fn what_cannot_be_read_is_left_alone_with_its_reports() {
     let problems = format(&source("scenario s { ball at (0.6, 0 }")).unwrap_err();
-    assert_eq!(problems[0].code.to_string(), "SP0104");
+    assert_eq!(problems[0].code().to_string(), "SP0104");
 }
 
 /// Each with what becomes of it.

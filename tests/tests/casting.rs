@@ -67,7 +67,7 @@ fn a_cast_that_is_none_is_told() {
         let Err(Error::Compile(failure)) = cast(&[(CastTarget::Team(Team::Left), ai)]) else {
             panic!("{ai} was taken")
         };
-        let told = failure.problems.iter().any(|problem| problem.message.contains(message));
+        let told = failure.problems.iter().any(|problem| problem.words().message.contains(message));
         assert!(told, "{ai}: {:?}", failure.problems);
     }
     let Err(Error::Compile(_)) = cast(&[(CastTarget::Player(Team::Left, 7), "lazy")]) else {

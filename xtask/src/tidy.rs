@@ -71,7 +71,7 @@ const DSL_ARROWS: &[(&str, &[&str])] = &[
     ("cast", &[]),
     ("origins", &["source"]),
     ("ast", &["source"]),
-    ("problem", &["source", "habit"]),
+    ("problem", &["source", "habit", "check"]),
     ("report", &["source", "problem"]),
     ("parse", &["source", "habit", "check", "ast", "problem"]),
     ("format", &["source", "problem", "parse"]),

@@ -48,7 +48,7 @@ pub(super) fn load(
     for script in named {
         let ScriptSource::File(path) = &script.source else { continue };
         if let Some(limit) = scripts.limit() {
-            let problem = Problem::new(Code::TooMuch, path.span, limit, "one too many");
+            let problem = Problem::legacy(Code::TooMuch, path.span, limit, "one too many");
             problems.push(problem.help("join some of the scripts: a file may hold several hooks"));
             break;
         }

@@ -4,7 +4,8 @@ use crate::ast::{
     Ident, Item, ItemKind, RewardItem, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind, Span,
 };
 use crate::lower::World;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Whole;
 use crate::source::FileId;
 use std::collections::BTreeSet;
 
@@ -116,10 +117,10 @@ impl Unused {
     fn check(&self, what: &str, name: &Ident, cure: &str, problems: &mut Vec<Problem>) -> bool {
         let used = self.used.contains(&name.span);
         if !used && !name.node.starts_with('_') {
-            problems.push(
-                Problem::new(Code::UnusedName, name.span, format!("{what} `{}` is never used", name.node), "not read")
-                    .help(format!("{cure}, leave it out, or begin its name with `_`")),
-            );
+            problems.push(Problem::new(
+                name.span,
+                Whole::Unused { what: what.to_owned(), name: name.node.clone(), cure: cure.to_owned() },
+            ));
         }
         used
     }

@@ -7,6 +7,7 @@ use super::{Lower, fields};
 use crate::ast::{Expr, ExprKind, Field, Span};
 use crate::check::options::AGENTS;
 use crate::check::types::Ty;
+use crate::problem::facts::Instead;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Agents, Others, SideAgents, Switching};
@@ -61,7 +62,7 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
     });
     if let Some(at) = switching.filter(|_| agents.switching == Switching::Auto && listed && !counted) {
         lower.report(
-            Problem::new(Code::BadAgents, at, "an agent that is listed by name keeps his player", "")
+            Problem::legacy(Code::BadAgents, at, "an agent that is listed by name keeps his player", "")
                 .help("leave `switching` out, or ask for a number of agents: `left: 1`"),
         );
     }
@@ -81,7 +82,7 @@ fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&s
         let text = lower.world.text(expr.span);
         let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
         lower.report(
-            Problem::new(Code::OutOfRange, expr.span, format!("`{}` is never `{text}`", field.key.node), "")
+            Problem::legacy(Code::OutOfRange, expr.span, format!("`{}` is never `{text}`", field.key.node), "")
                 .help(format!("write `{}`", known.join("` or `"))),
         );
     }
@@ -108,9 +109,7 @@ fn lower_side<'w>(
         _ => {
             let value = lower.expr(expr);
             if !value.is_error() && !value.ty.fits(Ty::Int) {
-                let mut problem = lower.mismatch(value.ty, Ty::Int, expr.span);
-                problem.help = Some("write a number, `all`, or a list of names: `[striker, winger]`".to_owned());
-                lower.report(problem);
+                lower.report(lower.mismatch_with(value.ty, Ty::Int, expr.span, Instead::Agents));
                 return None;
             }
             let reg = lower.reg(&value);
@@ -134,7 +133,7 @@ fn listed<'w>(
     let Some(index) = index else {
         let names: Vec<&str> = players.iter().filter_map(|player| player.name.map(|name| name.node.as_str())).collect();
         let message = format!("no player of the {team} team is called `{text}`");
-        let problem = Problem::new(Code::BadAgents, name.span, message, "not known");
+        let problem = Problem::legacy(Code::BadAgents, name.span, message, "not known");
         lower.report(if crate::problem::nearest(&text, names.iter().copied()).is_some() {
             problem.did_you_mean(&text, names)
         } else if names.is_empty() {
@@ -146,14 +145,14 @@ fn listed<'w>(
     };
     if controllable.get(index) == Some(&false) {
         lower.report(
-            Problem::new(Code::BadAgents, name.span, format!("`{text}` is not `controllable`"), "")
+            Problem::legacy(Code::BadAgents, name.span, format!("`{text}` is not `controllable`"), "")
                 .help("leave him out of the list, or leave `controllable: off` out of his options"),
         );
         return None;
     }
     if known.contains(&(index as u8)) {
         lower.report(
-            Problem::new(Code::BadAgents, name.span, format!("`{text}` is listed twice"), "")
+            Problem::legacy(Code::BadAgents, name.span, format!("`{text}` is listed twice"), "")
                 .help("leave one of them out"),
         );
         return None;
@@ -174,7 +173,7 @@ fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Sp
     }
     let name = world.flat.item.name.span;
     let message = format!("{most} of the {team} team's players are asked for, {controllable} can be controlled");
-    let problem = |span: Span| Problem::new(Code::BadAgents, span, message, "");
+    let problem = |span: Span| Problem::legacy(Code::BadAgents, span, message, "");
     lower.report(match at {
         None => problem(name).help("without `agents { … }` one player of the left team is controlled"),
         Some(at) if world.flat.is_inherited(at) => {

@@ -118,7 +118,7 @@ pub(crate) fn report_names(items: &[Item], problems: &mut Vec<Problem>) {
         let ItemKind::Behavior(BehaviorItem { name, .. }) = &item.kind else { continue };
         if Primitive::from_name(&name.node).is_some() {
             problems.push(
-                Problem::new(
+                Problem::legacy(
                     Code::ReservedName,
                     name.span,
                     format!("`{}` is something that every behavior can do", name.node),
@@ -172,9 +172,14 @@ impl<'c, 'w> Writer<'c, 'w> {
     fn run(&mut self, item: &'w BehaviorItem, args: &'w [Arg], span: Span) {
         if self.calls.iter().any(|call| call.name == item.name.span) {
             self.lower.report(
-                Problem::new(Code::Recursion, span, format!("`{}` uses itself", item.name.node), "closes the circle")
-                    .label(item.name.span, "declared here")
-                    .help("what is done again and again stands in a `repeat`"),
+                Problem::legacy(
+                    Code::Recursion,
+                    span,
+                    format!("`{}` uses itself", item.name.node),
+                    "closes the circle",
+                )
+                .label(item.name.span, "declared here")
+                .help("what is done again and again stands in a `repeat`"),
             );
             return;
         }
@@ -183,7 +188,7 @@ impl<'c, 'w> Writer<'c, 'w> {
         if deep || self.nodes.len() > NODES_MAX || self.watches.len() > WATCHES_MAX {
             if !self.too_large {
                 let message = format!("`{}` makes the behavior too large", item.name.node);
-                self.lower.report(Problem::new(Code::Impossible, span, message, "").help("call fewer behaviors"));
+                self.lower.report(Problem::legacy(Code::Impossible, span, message, "").help("call fewer behaviors"));
             }
             self.too_large = true;
             return;
@@ -277,7 +282,7 @@ impl<'c, 'w> Writer<'c, 'w> {
 
     /// Reports an assignment to what is no state.
     fn not_a_state(&self, name: &Ident) {
-        let problem = Problem::new(
+        let problem = Problem::legacy(
             Code::UnknownName,
             name.span,
             format!("no `state` is called `{}`", name.node),

@@ -27,7 +27,7 @@ pub(super) fn apply<'w>(world: &World<'w>, players: &mut [Rostered<'w>], team: T
         }
         match players.get_mut(place) {
             Some(player) => player.fields.push(cast.field),
-            None => world.report(Problem::new(
+            None => world.report(Problem::legacy(
                 Code::UnknownName,
                 cast.who.span,
                 format!("the {team} team has no player {place}"),

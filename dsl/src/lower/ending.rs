@@ -25,7 +25,7 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
     if list.is_empty() && world.flat.limit.is_none() {
         let name = &world.flat.item.name;
         world.report(
-            Problem::new(Code::NoEnding, name.span, format!("an episode of `{}` never ends", name.node), "")
+            Problem::legacy(Code::NoEnding, name.span, format!("an episode of `{}` never ends", name.node), "")
                 .help("write, for example, `end limit 400 steps`"),
         );
     }
@@ -47,7 +47,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
     {
         let name = &label.name.node;
         lower.report(
-            Problem::new(
+            Problem::legacy(
                 Code::LikelyTypo,
                 label.name.span,
                 format!("`{name}` is a label, no verdict"),
@@ -82,8 +82,12 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
                     .map(|(name, _)| name)
                     .collect();
                 let name = &reference.name.node;
-                let problem =
-                    Problem::new(Code::UnknownName, reference.name.span, format!("no `ending` is called `{name}`"), "");
+                let problem = Problem::legacy(
+                    Code::UnknownName,
+                    reference.name.span,
+                    format!("no `ending` is called `{name}`"),
+                    "",
+                );
                 let near = nearest(name, known.iter().copied()).is_some();
                 lower.report(if near {
                     problem.did_you_mean(name, known)
@@ -100,7 +104,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
         }
         (None, None) => {
             lower.report(
-                Problem::new(Code::Syntax, ending.span, "the ending doesn't say when", "")
+                Problem::legacy(Code::Syntax, ending.span, "the ending doesn't say when", "")
                     .help("write, for example, `end success when goal by left`"),
             );
             return None;

@@ -2,6 +2,7 @@
 
 use super::Lower;
 use crate::ast::{Expr, Field, FieldValue};
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 
 /// The fields of a list that are known; reports the others.
@@ -21,7 +22,7 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
         return true;
     }
     let problem =
-        Problem::new(Code::UnknownOption, field.key.span, format!("{whose} has no option `{key}`"), "not known");
+        Problem::legacy(Code::UnknownOption, field.key.span, format!("{whose} has no option `{key}`"), "not known");
     let near = crate::problem::nearest(key, known.iter().copied()).is_some();
     lower.report(if near {
         problem.did_you_mean(key, known.iter().copied())
@@ -38,9 +39,6 @@ pub(super) fn expression<'w>(lower: &Lower<'_, 'w>, field: &'w Field) -> Option<
         FieldValue::Fields(_, span) => *span,
         FieldValue::Script(script) => script.span,
     };
-    lower.report(
-        Problem::new(Code::WrongType, span, format!("`{}` is one value", field.key.node), "")
-            .help(format!("write `{}: …`", field.key.node)),
-    );
+    lower.report(Problem::new(span, Types::OneValue { option: field.key.node.clone() }));
     None
 }

@@ -69,7 +69,7 @@ fn warn(world: &World<'_>, name: &str, at: Span, hidden: impl FnOnce() -> Option
     }
     let Some(Hidden { what, at: before }) = hidden().filter(|hidden| hidden.at != Some(at)) else { return };
     let problem =
-        Problem::new(Code::HidingName, at, format!("`{name}` hides {what} of this name"), "hides it from here");
+        Problem::legacy(Code::HidingName, at, format!("`{name}` hides {what} of this name"), "hides it from here");
     let problem = match before {
         Some(before) => problem.label(before, "hidden here"),
         None => problem,

@@ -32,7 +32,7 @@ impl Mirror {
             "none" | "off" => Mirror::Off,
             other => {
                 problems.push(
-                    Problem::new(Code::OutOfRange, word.span, format!("`mirror` is never `{other}`"), "")
+                    Problem::legacy(Code::OutOfRange, word.span, format!("`mirror` is never `{other}`"), "")
                         .help("write `mirror: flanks`, `mirror: ends` or `mirror: none`"),
                 );
                 Mirror::Off

@@ -5,6 +5,7 @@ use super::value::{Frame, Repr, Scope};
 use super::{Lower, Stage};
 use crate::ast::Expr;
 use crate::check::types::Ty;
+use crate::problem::facts::Instead;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Observation, ObservedValue, Reg};
@@ -25,7 +26,7 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
         if let Some(label) = label.as_ref().filter(|label| values.iter().any(|(known, _)| *known == label.node)) {
             let message = format!("`{}` is observed twice", label.node);
             world.report(
-                Problem::new(Code::DuplicateName, label.span, message, "named again here")
+                Problem::legacy(Code::DuplicateName, label.span, message, "named again here")
                     .help("choose another label: `… as \"label\"`"),
             );
         }
@@ -33,7 +34,7 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
     }
     if observed.is_empty() || values.len() > NUMBERS_MAX {
         world.report(
-            Problem::new(Code::WrongArguments, span, format!("an observation has 1 to {NUMBERS_MAX} numbers"), "")
+            Problem::legacy(Code::WrongArguments, span, format!("an observation has 1 to {NUMBERS_MAX} numbers"), "")
                 .help("write, for example, `observe vector { ball.x, ball.y, distance(me, ball) / 10m }`"),
         );
     }
@@ -62,8 +63,7 @@ impl<'w> Lower<'_, 'w> {
             (Repr::One(reg), Ty::Bool | Ty::Team | Ty::Mode | Ty::Role) => vec![(name.to_owned(), *reg)],
             (Repr::One(reg), ty) if ty.dim().is_some() => vec![(name.to_owned(), *reg)],
             _ => {
-                let problem = self.mismatch(value.ty, Ty::Number, expr.span);
-                self.report(problem.help("an observation holds numbers, quantities, conditions, places and vectors"));
+                self.report(self.mismatch_with(value.ty, Ty::Number, expr.span, Instead::Observed));
                 Vec::new()
             }
         }

@@ -5,6 +5,7 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, World};
 use crate::ast::{Domain, Expr, Ident, Span};
 use crate::check::types::Ty;
+use crate::problem::facts::{Chance, Types};
 use crate::problem::{Code, Problem};
 use crate::resolve::FlatParam;
 use setpiece_scenario::Param;
@@ -50,7 +51,7 @@ pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
     match Type::from_name(ty.node.trim_end_matches('?')) {
         Some(Type::Behavior) | None => {
             let known: Vec<&str> = Type::ALL.iter().filter(|ty| **ty != Type::Behavior).map(|ty| ty.name()).collect();
-            let problem = Problem::new(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "");
+            let problem = Problem::legacy(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "");
             world.report(if crate::problem::nearest(&ty.node, known.iter().copied()).is_some() {
                 problem.did_you_mean(&ty.node, known)
             } else {
@@ -100,7 +101,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
             return info;
         }
         world.report(
-            Problem::new(
+            Problem::legacy(
                 Code::WrongArguments,
                 decl.name.span,
                 format!("parameter `{}` has no value", decl.name.node),
@@ -133,11 +134,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         return info;
     }
     let Some(ty) = info.ty.param() else {
-        let message = format!("a parameter can't be {}", value.ty.noun());
-        world.report(
-            Problem::new(Code::WrongType, expr.span, message, "")
-                .help("a parameter is a number, a quantity, a condition, a team or a word; use `let` for others"),
-        );
+        world.report(Problem::new(expr.span, Types::NoParameter { ty: value.ty }));
         return info;
     };
     info.param.ty = ty;
@@ -156,13 +153,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
 }
 
 fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
-    Problem::new(
-        Code::NotConstant,
-        expr.span,
-        format!("`{}` is not known before the start", world.text(expr.span)),
-        "a default must be a constant",
-    )
-    .help("use `let` for what is drawn or computed")
+    Problem::new(expr.span, Chance::DefaultNotConstant { text: world.text(expr.span) })
 }
 
 fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
@@ -214,7 +205,7 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
             if least > greatest {
                 let span = low.span.to(high.span);
                 world.report(
-                    Problem::new(
+                    Problem::legacy(
                         Code::OutOfRange,
                         span,
                         format!("the range `{}` is empty", world.text(span)),
@@ -241,7 +232,7 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
             None => String::new(),
         };
         world.report(
-            Problem::new(
+            Problem::legacy(
                 Code::OutOfRange,
                 default,
                 format!("`{}` is outside `{allowed}`", world.text(default)),
@@ -269,10 +260,7 @@ fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: S
             }
         }
         Some(Domain::Range(low, high)) => {
-            world.report(
-                Problem::new(Code::WrongType, low.span.to(high.span), "words have no range".to_owned(), "")
-                    .help("list them: `in [\"wing\", \"centre\"]`"),
-            );
+            world.report(Problem::new(low.span.to(high.span), Types::WordsHaveNoRange));
             return;
         }
         None => words.push(default.to_owned()),
@@ -280,7 +268,7 @@ fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: S
     match words.iter().position(|word| word == default) {
         Some(index) => info.param.default = index as f64,
         None => world.report(
-            Problem::new(
+            Problem::legacy(
                 Code::OutOfRange,
                 at,
                 format!("`{default}` is none of the words `{}` may be", info.param.name),

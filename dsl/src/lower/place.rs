@@ -6,6 +6,7 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
 use crate::check::types::Ty;
+use crate::problem::facts::Instead;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
@@ -77,7 +78,7 @@ impl<'w> Lower<'_, 'w> {
             return (self.code.select(c, a.0, b.0), self.code.select(c, a.1, b.1));
         }
         self.report(
-            Problem::new(
+            Problem::legacy(
                 Code::NoPlace,
                 span,
                 format!("`{}` may be nobody, who has no place", self.world.text(span)),
@@ -111,7 +112,7 @@ impl<'w> Lower<'_, 'w> {
 
     fn cyclic(&self, asked: Span) {
         self.report(
-            Problem::new(
+            Problem::legacy(
                 Code::CyclicPlace,
                 asked,
                 "this place depends on itself",
@@ -221,12 +222,13 @@ impl<'w> Lower<'_, 'w> {
                 let value = self.expr(point);
                 if value.ty == Ty::Region {
                     let text = self.world.text(point.span);
-                    self.report(self.mismatch(value.ty, Ty::Point, point.span).help(format!("write `in {text}`")));
+                    let instead = Instead::In { text };
+                    self.report(self.mismatch_with(value.ty, Ty::Point, point.span, instead));
                     return self.nowhere();
                 }
                 if value.ty.dim().is_some() {
-                    let help = "a point stands in brackets: `at (0.5, 0.1)`";
-                    self.report(self.mismatch(value.ty, Ty::Point, point.span).help(help));
+                    let instead = Instead::PointInBrackets;
+                    self.report(self.mismatch_with(value.ty, Ty::Point, point.span, instead));
                     return self.nowhere();
                 }
                 let value = self.convert(value, Ty::Point, point);
@@ -236,7 +238,8 @@ impl<'w> Lower<'_, 'w> {
                 let value = self.expr(region);
                 if value.ty.is_place() {
                     let text = self.world.text(region.span);
-                    self.report(self.mismatch(value.ty, Ty::Region, region.span).help(format!("write `at {text}`")));
+                    let instead = Instead::At { text };
+                    self.report(self.mismatch_with(value.ty, Ty::Region, region.span, instead));
                     return self.nowhere();
                 }
                 let drawn = self.as_region(value, region).and_then(|found| self.draw_in(&found, region.span));
@@ -362,9 +365,8 @@ impl<'w> Lower<'_, 'w> {
             let angle = self.reg(&value);
             self.turned_angle(angle)
         } else if value.ty.is_plain() {
-            let mut problem = self.mismatch(value.ty, Ty::ANGLE, facing.target.span);
-            problem.help = Some(format!("write an angle, `{}deg`, or a point", self.world.text(facing.target.span)));
-            self.fail(problem);
+            let instead = Instead::Facing { text: self.world.text(facing.target.span) };
+            self.report(self.mismatch_with(value.ty, Ty::ANGLE, facing.target.span, instead));
             return self.code.constant(0.0);
         } else {
             let target = self.convert(value, Ty::Point, &facing.target);
@@ -374,7 +376,7 @@ impl<'w> Lower<'_, 'w> {
             let same = target == here || constant(target).is_some_and(|known| constant(here) == Some(known));
             if same && !self.code.is_unknown(here.0) {
                 self.report(
-                    Problem::new(Code::Impossible, facing.target.span, "nobody can face the spot he stands on", "")
+                    Problem::legacy(Code::Impossible, facing.target.span, "nobody can face the spot he stands on", "")
                         .help("face another place, or an angle: `facing 90deg`"),
                 );
             }

@@ -8,6 +8,7 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
+use crate::problem::facts::Instead;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Record, Reg};
@@ -52,8 +53,7 @@ impl<'w> Lower<'_, 'w> {
             (Repr::One(reg), Ty::Bool | Ty::Team) => Some(vec![*reg]),
             (Repr::One(reg), ty) if ty.dim().is_some() => Some(vec![*reg]),
             _ => {
-                let problem = self.mismatch(value.ty, Ty::Number, expr.span);
-                self.report(problem.help("a record holds a number, a length, a duration, a place or a condition"));
+                self.report(self.mismatch_with(value.ty, Ty::Number, expr.span, Instead::Recorded));
                 None
             }
         }
@@ -69,7 +69,7 @@ impl<'w> Lower<'_, 'w> {
                 format!("`{} of …` looks at the whole episode", kind.node)
             };
             let help = if alone { "write `record NAME = series of …`" } else { "it belongs to a `record`" };
-            return self.fail(Problem::new(Code::WrongScope, span, message, "").help(help));
+            return self.fail(Problem::legacy(Code::WrongScope, span, message, "").help(help));
         }
         let loops = self.code.leave_loops();
         let event = self.event.take();
@@ -126,8 +126,8 @@ impl<'w> Lower<'_, 'w> {
         match value.repr {
             Repr::One(reg) if value.ty.dim().is_some() => Some(vec![reg]),
             _ => {
-                let problem = self.mismatch(value.ty, Ty::Number, of.span);
-                self.report(problem.help(format!("`{kind} of` takes a number, a length, a duration, …")));
+                let instead = Instead::Measured { kind: kind.to_owned() };
+                self.report(self.mismatch_with(value.ty, Ty::Number, of.span, instead));
                 None
             }
         }

@@ -11,6 +11,7 @@ use crate::ast::{
     Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
 };
 use crate::check::types::Ty;
+use crate::problem::facts::Chance;
 use crate::problem::{Code, Problem};
 use crate::resolve::reward_chain;
 use crate::source::FileId;
@@ -124,7 +125,7 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
         .filter(|(_, found)| matches!(found.item.kind, ItemKind::Reward(_)))
         .map(|(name, _)| name)
         .collect();
-    let problem = Problem::new(Code::UnknownName, span, format!("no reward is called `{name}`"), "not known");
+    let problem = Problem::legacy(Code::UnknownName, span, format!("no reward is called `{name}`"), "not known");
     let near = crate::problem::nearest(name, known.iter().copied()).is_some();
     world.report(if near {
         problem.did_you_mean(name, known)
@@ -137,7 +138,7 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
 fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
     if matches!(weight.kind, ExprKind::Number { value: 0.0, .. }) {
         world.report(
-            Problem::new(Code::NeverPays, weight.span, format!("reward `{name}` never pays"), "times 0")
+            Problem::legacy(Code::NeverPays, weight.span, format!("reward `{name}` never pays"), "times 0")
                 .help("write another weight, or leave the reward out"),
         );
     }
@@ -219,10 +220,7 @@ fn lower_written<'w>(
     for arg in hooks.iter_mut().flat_map(|hook| &mut hook.args) {
         arg.regs.iter_mut().for_each(|reg| *reg = layout.reg(*reg));
         if arg.regs.iter().any(|reg| !fixed.get(reg.index()).copied().unwrap_or_default()) {
-            world.report(
-                Problem::new(Code::NotConstant, written.span, format!("`{}` changes within an episode", arg.name), "")
-                    .help("a script's parameter is fixed for an episode; what changes it reads from `now`"),
-            );
+            world.report(Problem::new(written.span, Chance::ScriptParameterChanges { name: arg.name.clone() }));
         }
     }
     init.cells = step.cells;

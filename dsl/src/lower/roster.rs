@@ -7,6 +7,7 @@ use crate::ast::{
 };
 use crate::cast::CastTarget;
 use crate::check::types::Ty;
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
 use setpiece_scenario::pitch::TEAM_MAX;
@@ -141,14 +142,14 @@ const WRITTEN_MAX: usize = 4 * TEAM_MAX;
 fn has_room(world: &World<'_>, players: &[Rostered<'_>], span: Span, team: Team) -> bool {
     if players.len() >= WRITTEN_MAX {
         let message = format!("more than {WRITTEN_MAX} players are written for the {team} team");
-        let problem = Problem::new(Code::TooManyPlayers, span, message, "one too many");
+        let problem = Problem::legacy(Code::TooManyPlayers, span, message, "one too many");
         world.report(problem.help(format!("a team has at most {TEAM_MAX} players: leave the others out")));
     }
     players.len() < WRITTEN_MAX
 }
 
 fn not_a_formation(span: Span) -> Problem {
-    Problem::new(Code::WrongType, span, "expected a formation", "").help("write the name of a `formation`")
+    Problem::new(span, Types::NoFormation)
 }
 
 fn from_layouts<'w>(
@@ -160,7 +161,7 @@ fn from_layouts<'w>(
 ) -> Vec<Rostered<'w>> {
     if let Some((_, at)) = flat.players.first() {
         world.report(
-            Problem::new(
+            Problem::legacy(
                 Code::DuplicateOption,
                 *at,
                 "a team whose players come from `kickoff` has no players of its own",
@@ -172,7 +173,7 @@ fn from_layouts<'w>(
     }
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
         world.report(
-            Problem::new(Code::DuplicateOption, field.key.span, "the layouts of `kickoff` are the formation", "")
+            Problem::legacy(Code::DuplicateOption, field.key.span, "the layouts of `kickoff` are the formation", "")
                 .help("leave it out")
                 .label(span, "given here"),
         );
@@ -182,7 +183,7 @@ fn from_layouts<'w>(
         let Some(field) = field else {
             if team == Team::Left {
                 world.report(
-                    Problem::new(Code::WrongArguments, span, format!("`kickoff` lacks the `{key}` layout"), "")
+                    Problem::legacy(Code::WrongArguments, span, format!("`kickoff` lacks the `{key}` layout"), "")
                         .help("write `kickoff left { kicking: grf_kicking, receiving: grf_receiving }`"),
                 );
             }
@@ -200,7 +201,7 @@ fn from_layouts<'w>(
     for field in fields.iter().filter(|_| team == Team::Left) {
         if !matches!(field.key.node.as_str(), "kicking" | "receiving") {
             world.report(
-                Problem::new(
+                Problem::legacy(
                     Code::UnknownOption,
                     field.key.span,
                     format!("`kickoff` has no option `{}`", field.key.node),
@@ -230,7 +231,7 @@ fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], a
         };
         if let Some(player) = other.iter().find(more) {
             world.report(
-                Problem::new(
+                Problem::legacy(
                     Code::WrongRoster,
                     at,
                     "the second layout says more of a player than where he stands",
@@ -246,7 +247,7 @@ fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], a
         players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
     };
     world.report(
-        Problem::new(
+        Problem::legacy(
             Code::WrongRoster,
             at,
             format!("the layouts differ: `{}` and `{}`", roles(one), roles(other)),
@@ -318,7 +319,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
                 TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),
                 TeamStmtKind::Absent(role) => absent.push(role.clone()),
                 TeamStmtKind::Field(field) => world.report(
-                    Problem::new(
+                    Problem::legacy(
                         Code::UnknownOption,
                         field.key.span,
                         format!("a formation has no option `{}`", field.key.node),
@@ -347,7 +348,7 @@ fn copies<'w>(
         && count.node != 1
     {
         world.report(
-            Problem::new(
+            Problem::legacy(
                 Code::DuplicateName,
                 name.span,
                 format!("`{}` would name {} players", name.node, count.node),
@@ -358,7 +359,7 @@ fn copies<'w>(
     }
     if let Some(none) = player.count.as_ref().filter(|count| count.node == 0) {
         world.report(
-            Problem::new(Code::OutOfRange, none.span, format!("`0 {}` is nobody", player.role.node), "")
+            Problem::legacy(Code::OutOfRange, none.span, format!("`0 {}` is nobody", player.role.node), "")
                 .help("leave the line out; whether a player takes part with a parameter says `when …`"),
         );
     }
@@ -393,8 +394,13 @@ fn adjust<'w>(
         // A team is said to have no keeper by `GK absent`, whether a formation brings one or not.
         if before == players.len() && before > 0 && role.node != Role::GK {
             world.report(
-                Problem::new(Code::NothingToRemove, role.span, format!("no `{}` is there to be absent", role.node), "")
-                    .help("leave it out"),
+                Problem::legacy(
+                    Code::NothingToRemove,
+                    role.span,
+                    format!("no `{}` is there to be absent", role.node),
+                    "",
+                )
+                .help("leave it out"),
             );
         }
     }
@@ -411,7 +417,7 @@ fn adjust<'w>(
                     .flatten()
                     .collect();
                 world.report(
-                    Problem::new(
+                    Problem::legacy(
                         Code::UnknownName,
                         who.span,
                         format!("no player of this team is called `{}`", who.node),
@@ -423,7 +429,7 @@ fn adjust<'w>(
             }
             n => {
                 world.report(
-                    Problem::new(
+                    Problem::legacy(
                         Code::AmbiguousName,
                         who.span,
                         format!("the team has {n} players `{}`", who.node),
@@ -463,7 +469,7 @@ fn apply_each<'w>(
         if role.is_none() && !matches!(who.node.as_str(), "all" | "outfield") {
             let known = ["all", "outfield"].into_iter().chain(Role::ALL.iter().map(|role| role.name()));
             world.report(
-                Problem::new(Code::UnknownRole, who.span, format!("`each` knows no `{}`", who.node), "")
+                Problem::legacy(Code::UnknownRole, who.span, format!("`each` knows no `{}`", who.node), "")
                     .did_you_mean(&who.node, known),
             );
             continue;
@@ -481,7 +487,7 @@ fn apply_each<'w>(
         }
         if !anyone && !players.is_empty() && is_own(who.span) {
             world.report(
-                Problem::new(Code::UnknownRole, who.span, format!("the {team} team has no `{}`", who.node), "")
+                Problem::legacy(Code::UnknownRole, who.span, format!("the {team} team has no `{}`", who.node), "")
                     .help("leave it out, or write `each outfield`"),
             );
         }
@@ -495,7 +501,7 @@ fn apply_each<'w>(
 fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
     if let Some(extra) = players.get(TEAM_MAX) {
         world.report(
-            Problem::new(
+            Problem::legacy(
                 Code::TooManyPlayers,
                 extra.span,
                 format!("the {team} team has more than {TEAM_MAX} players"),
@@ -507,9 +513,14 @@ fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
     let keepers: Vec<&Rostered<'_>> = players.iter().filter(|p| p.role == Role::GK && p.when.is_none()).collect();
     if let [first, second, ..] = keepers.as_slice() {
         world.report(
-            Problem::new(Code::TwoKeepers, second.span, format!("the {team} team has two keepers"), "the second one")
-                .label(first.span, "the first one")
-                .help("give one of them another role"),
+            Problem::legacy(
+                Code::TwoKeepers,
+                second.span,
+                format!("the {team} team has two keepers"),
+                "the second one",
+            )
+            .label(first.span, "the first one")
+            .help("give one of them another role"),
         );
     }
 }
@@ -521,7 +532,7 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
         let first = earlier.into_iter().find(|other| other.node == name.node && other.span != name.span);
         if let Some(first) = first {
             world.report(
-                Problem::new(
+                Problem::legacy(
                     Code::DuplicateName,
                     name.span,
                     format!("two players are called `{}`", name.node),

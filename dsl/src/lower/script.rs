@@ -4,6 +4,7 @@ use super::value::{Binding, Repr, Value};
 use super::{Lower, World};
 use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span};
 use crate::check::types::Ty;
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem, ScriptApi};
 use crate::resolve::{MAX_FILES, MAX_IMPORTED_BYTES};
 use crate::source::{FileId, LoadError, Source, SourceLoader};
@@ -83,15 +84,7 @@ impl<'w> Lower<'_, 'w> {
             match script_type(&value) {
                 Some(ty) => args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() }),
                 None if !every => {}
-                None => self.report(
-                    Problem::new(
-                        Code::WrongType,
-                        decl.name.span,
-                        format!("a script's parameter can't be {}", value.ty.noun()),
-                        "",
-                    )
-                    .help("it can be a number of any unit, a truth value, a player, a team or a point"),
-                ),
+                None => self.report(Problem::new(decl.name.span, Types::NoScriptParameter { ty: value.ty })),
             }
         }
         args
@@ -124,7 +117,7 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, o
                     (path.node.clone(), source.clone(), (*file, 0))
                 }
                 Err(error) => {
-                    let problem = Problem::new(Code::FileMissing, path.span, error.message.clone(), "named here");
+                    let problem = Problem::legacy(Code::FileMissing, path.span, error.message.clone(), "named here");
                     world.report(match error.similar.first() {
                         Some(similar) => problem.help(format!("did you mean `{similar}`?")),
                         None => problem,
@@ -167,7 +160,7 @@ fn check(world: &World<'_>, source: &Source, (file, offset): (FileId, u32), hook
             start: offset + found.range.start as u32,
             end: offset + found.range.end.max(found.range.start) as u32,
         };
-        let problem = Problem::new(found.code, span, found.message, "");
+        let problem = Problem::legacy(found.code, span, found.message, "");
         world.report(match found.help {
             Some(help) => problem.help(help),
             None => problem,

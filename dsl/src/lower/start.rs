@@ -17,6 +17,7 @@ use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
+use crate::problem::facts::Chance;
 use crate::problem::{Code, Problem};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
@@ -232,15 +233,7 @@ impl<'w> Lower<'_, 'w> {
         match self.stage {
             Stage::Start => {}
             Stage::Constant => {
-                return self.fail(
-                    Problem::new(
-                        Code::NotConstant,
-                        asked,
-                        format!("`{name}` is computed at reset"),
-                        "a constant is known before",
-                    )
-                    .help("use `let` for what is drawn or computed"),
-                );
+                return self.fail(Problem::new(asked, Chance::ComputedAtReset { name: name.to_owned() }));
             }
             Stage::Init | Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior => {
                 return self.step_let(name);
@@ -250,7 +243,7 @@ impl<'w> Lower<'_, 'w> {
             Some(Some(value)) => return value.clone(),
             Some(None) => {
                 return self.fail(
-                    Problem::new(Code::Recursion, asked, format!("`{name}` uses itself"), "closes the circle")
+                    Problem::legacy(Code::Recursion, asked, format!("`{name}` uses itself"), "closes the circle")
                         .help(NO_CIRCLE),
                 );
             }
@@ -398,7 +391,7 @@ impl<'w> Lower<'_, 'w> {
             } else {
                 format!("{what} is `{text}`: {steps:.3} steps")
             };
-            self.report(Problem::new(Code::OutOfRange, span, message, "not a whole number of steps").help(
+            self.report(Problem::legacy(Code::OutOfRange, span, message, "not a whole number of steps").help(
                 match steps.round() {
                     steps if steps > 1.0 => format!("write `{steps} steps`; a step is 0.1 s"),
                     _ => "write `1 step`; a step is 0.1 s".to_owned(),
@@ -419,15 +412,7 @@ impl<'w> Lower<'_, 'w> {
             });
             let words = label.as_ref().map_or_else(|| self.world.text(condition.span), |label| label.node.clone());
             if self.interval(met) == Some((0.0, 0.0)) && probability.is_none() {
-                self.report(
-                    Problem::new(
-                        Code::ImpossibleToDraw,
-                        condition.span,
-                        format!("`{words}` is never met"),
-                        "always false",
-                    )
-                    .help("move the players, or drop the requirement"),
-                );
+                self.report(Problem::new(condition.span, Chance::NeverMet { label: words.clone() }));
             }
             requires.push(Require { condition: met, probability, label: words });
         }

@@ -8,6 +8,7 @@ use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{PLAYER, TEAM};
 use crate::check::types::Ty;
+use crate::problem::facts::{Chance, Types};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};
 use setpiece_scenario::vocabulary::{Stat, Team};
@@ -111,7 +112,7 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
 }
 
 fn not_a_group(lower: &Lower<'_, '_>, span: crate::ast::Span) {
-    lower.report(Problem::new(Code::WrongType, span, "`stats` is a group", "").help("write `stats: { speed: 0.9 }`"));
+    lower.report(Problem::new(span, Types::StatsIsAGroup));
 }
 
 fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options: &mut PlayerOptions) {
@@ -128,10 +129,7 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
         "velocity" => {
             let value = lower.want(expr, Ty::Velocity);
             if let Repr::Three(..) = value.repr {
-                lower.report(
-                    Problem::new(Code::WrongType, expr.span, "a player runs along the ground", "")
-                        .help("write two coordinates: `(5m/s, 0m/s)`"),
-                );
+                lower.report(Problem::new(expr.span, Types::PlayersDontFly));
             }
             let velocity = lower.pair(&value);
             let zero = lower.code.constant(0.0);
@@ -143,16 +141,13 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
             match lower.code.constant_of(reg) {
                 Some(value) => options.controllable = value != 0.0,
                 None if lower.code.is_unknown(reg) => {}
-                None => lower.report(
-                    Problem::new(Code::NotConstant, expr.span, "`controllable` must be `on` or `off`", "")
-                        .help("the number of agents can't change with a parameter's value here"),
-                ),
+                None => lower.report(Problem::new(expr.span, Chance::ControllableUnknown)),
             }
         }
         _ => match &expr.kind {
             ExprKind::Name(name) if name == "allowed" => options.overlap = true,
             _ => lower.report(
-                Problem::new(Code::OutOfRange, expr.span, "`overlap` can only be `allowed`", "")
+                Problem::legacy(Code::OutOfRange, expr.span, "`overlap` can only be `allowed`", "")
                     .help("write `overlap: allowed`"),
             ),
         },
@@ -165,10 +160,7 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
         _ => (path_of(expr), &[]),
     };
     let Some(name) = path else {
-        lower.report(
-            Problem::new(Code::WrongType, expr.span, "expected who plays him", "")
-                .help("write `ai: bot`, `ai: hold`, `ai: lazy`, a behavior or `ai: script \"file.rhai\"`"),
-        );
+        lower.report(Problem::new(expr.span, Types::NoAi));
         return;
     };
     let built_in = [("bot", Ai::Bot), ("hold", Ai::Hold), ("lazy", Ai::Lazy)];
@@ -192,7 +184,7 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
         library.visible(expr.span.file).filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)));
     let known: Vec<&str> = behaviors.map(|(name, _)| name).chain(built_in.iter().map(|(name, _)| *name)).collect();
     let problem =
-        Problem::new(Code::UnknownName, expr.span, format!("no player's `ai` is called `{name}`"), "not known");
+        Problem::legacy(Code::UnknownName, expr.span, format!("no player's `ai` is called `{name}`"), "not known");
     lower.report(if crate::problem::nearest(&name, known.iter().copied()).is_some() {
         problem.did_you_mean(&name, known)
     } else {
@@ -203,7 +195,7 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
 fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
     let Some(stat) = Stat::from_name(&field.key.node) else {
         lower.report(
-            Problem::new(
+            Problem::legacy(
                 Code::UnknownOption,
                 field.key.span,
                 format!("no statistic is called `{}`", field.key.node),

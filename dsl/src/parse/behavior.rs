@@ -135,7 +135,7 @@ impl Reader<'_> {
             if twice {
                 let help = "join the conditions: `until a or b`";
                 let message = "a `do` has each of its clauses once";
-                self.push(Problem::new(Code::DuplicateOption, span, message, "given again here").help(help));
+                self.push(Problem::legacy(Code::DuplicateOption, span, message, "given again here").help(help));
             }
         }
         Some(stmt)

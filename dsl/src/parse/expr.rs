@@ -3,6 +3,7 @@
 use super::MAX_OPERATORS;
 use super::reader::{Node, Nodes, Reader};
 use crate::ast::{Arg, BinaryOp, Expr, ExprKind, Ident, Spanned, UnaryOp};
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 use crate::source::Span;
 use setpiece_grammar::Rule;
@@ -33,7 +34,7 @@ impl Reader<'_> {
         if self.operators + weight > MAX_OPERATORS {
             let message = format!("an expression has more than {MAX_OPERATORS} operators");
             self.push(
-                Problem::new(Code::TooDeep, span, message, "too long")
+                Problem::legacy(Code::TooDeep, span, message, "too long")
                     .help("give parts of it names with `let` or `fn`"),
             );
             return broken(span);
@@ -112,7 +113,7 @@ impl Reader<'_> {
                 }
                 let all = first.span.to(end);
                 self.push(
-                    Problem::new(Code::ComparisonChain, op_span, "comparisons don't chain", "a second comparison")
+                    Problem::legacy(Code::ComparisonChain, op_span, "comparisons don't chain", "a second comparison")
                         .label(first.span.to(last), "the first one")
                         .help("join two comparisons by `and`: `a < b and b < c`"),
                 );
@@ -204,7 +205,7 @@ impl Reader<'_> {
         if self.operators + weight > MAX_OPERATORS {
             let message = format!("an expression has more than {MAX_OPERATORS} operators");
             self.push(
-                Problem::new(Code::TooDeep, span, message, "too long")
+                Problem::legacy(Code::TooDeep, span, message, "too long")
                     .help("give parts of it names with `let` or `fn`"),
             );
             return broken(span);
@@ -275,12 +276,8 @@ impl Reader<'_> {
         let text = number.as_str();
         let value = text.parse::<f64>().unwrap_or(f64::INFINITY);
         if !value.is_finite() {
-            let message =
-                format!("a number of {} digits is too large", text.bytes().filter(u8::is_ascii_digit).count());
-            self.push(
-                Problem::new(Code::OutOfRange, span, message, "above 1e308")
-                    .help("the pitch is 110m by 72m: write less"),
-            );
+            let digits = text.bytes().filter(u8::is_ascii_digit).count();
+            self.push(Problem::new(span, Types::TooManyDigits { digits }));
             return broken(span);
         }
         let unit = nodes.next().and_then(|unit| match unit.as_str() {

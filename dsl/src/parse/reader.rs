@@ -115,7 +115,7 @@ impl<'t> Reader<'t> {
 
     /// Reports a problem, unless one that explains it was told before.
     pub(super) fn push(&mut self, problem: Problem) {
-        let start = problem.labels.first().map_or(0, |label| label.span.start as usize);
+        let start = problem.place().start as usize;
         if !self.is_told(&(start..start + 1)) && self.problems.len() < MAX_PROBLEMS {
             self.problems.push(problem);
         }
@@ -201,7 +201,7 @@ impl<'t> Reader<'t> {
         if taken == MAX_LIST {
             let message = format!("there are more than {MAX_LIST} {what} here");
             self.push(
-                Problem::new(Code::TooMuch, more, message, "one too many")
+                Problem::legacy(Code::TooMuch, more, message, "one too many")
                     .help("what repeats can be computed, or named once and used again"),
             );
         }
@@ -280,7 +280,7 @@ impl<'t> Reader<'t> {
     pub(super) fn nested<T>(&mut self, at: Span, read: impl FnOnce(&mut Self) -> T) -> Option<T> {
         if self.blocks >= MAX_BLOCKS {
             let message = format!("blocks are nested more than {MAX_BLOCKS} deep");
-            self.push(Problem::new(Code::TooDeep, at, message, "one too many").help("split the reward in two"));
+            self.push(Problem::legacy(Code::TooDeep, at, message, "one too many").help("split the reward in two"));
             return None;
         }
         self.blocks += 1;
@@ -305,7 +305,7 @@ fn disjoint(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
 
 /// A reserved word used as a name.
 pub(super) fn reserved(name: &str, span: Span, whose: &str) -> Problem {
-    Problem::new(
+    Problem::legacy(
         Code::ReservedName,
         span,
         format!("`{name}` is a word of the language and can't be a name"),

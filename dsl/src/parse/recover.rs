@@ -193,7 +193,7 @@ impl Reader<'_> {
             return None;
         }
         let message = format!("`{word}` can't stand in {}", context.name());
-        Some(Problem::new(Code::Syntax, span, message, "not here").help(format!("it belongs in {}", owner.name())))
+        Some(Problem::legacy(Code::Syntax, span, message, "not here").help(format!("it belongs in {}", owner.name())))
     }
 }
 

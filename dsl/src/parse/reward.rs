@@ -42,7 +42,7 @@ impl Reader<'_> {
                     format!("put `{head} {{` on its own line, with the `give` inside it")
                 };
                 self.push(
-                    Problem::new(
+                    Problem::legacy(
                         Code::BlockAfterGive,
                         block.span.head(self.original()),
                         "a `give` has no block",

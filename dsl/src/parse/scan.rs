@@ -78,7 +78,7 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
 /// What is said of a text with too many words: it is not read.
 fn too_much<'t>(at: usize, file: FileId) -> Scan<'t> {
     let message = format!("a file has more than {MAX_TOKENS} words and signs");
-    let problem = Problem::new(Code::TooMuch, span(file, at, at + 1), message, "one too many")
+    let problem = Problem::legacy(Code::TooMuch, span(file, at, at + 1), message, "one too many")
         .help("move parts of it into other files and import them, or compute them from parameters");
     Scan { text: Cow::Borrowed(""), comments: Vec::new(), told: everything(), problems: vec![problem] }
 }
@@ -400,7 +400,7 @@ impl Scanner<'_> {
 
     fn problem(&mut self, at: usize, len: usize, code: Code, message: &str, label: &str, help: &str) {
         if self.scan.problems.len() < MAX_PROBLEMS {
-            self.scan.problems.push(Problem::new(code, span(self.file, at, at + len), message, label).help(help));
+            self.scan.problems.push(Problem::legacy(code, span(self.file, at, at + len), message, label).help(help));
         }
     }
 }

@@ -61,7 +61,7 @@ impl Reader<'_> {
         let Ok(count) = node.as_str().parse() else {
             let message = format!("`{}` players are too many", node.as_str().get(..20).unwrap_or(node.as_str()));
             self.push(
-                Problem::new(Code::TooManyPlayers, span, message, "a team has at most 11")
+                Problem::legacy(Code::TooManyPlayers, span, message, "a team has at most 11")
                     .help("write a number up to 11"),
             );
             return None;

@@ -11,6 +11,7 @@ use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
     RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
 };
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::{Role, Team};
 use std::collections::btree_map::Entry;
@@ -366,16 +367,10 @@ impl<'a> Adding<'a, '_> {
                     }
                     known.domain = param.domain.as_ref().or(known.domain);
                 } else if let Some(ty) = &param.ty {
-                    self.problems.push(
-                        Problem::new(
-                            Code::WrongType,
-                            ty.span,
-                            format!("`{}` has another type in the parent", param.name.node),
-                            "a child can change the default, not the type",
-                        )
-                        .label(known.decl.span, "declared here")
-                        .help("leave the type out, or choose another name"),
-                    );
+                    self.problems.push(Problem::new(
+                        ty.span,
+                        Types::OtherTypeInParent { name: param.name.node.clone(), parent: known.decl.span },
+                    ));
                 }
             }
             Some(_) => {}
@@ -396,7 +391,7 @@ impl<'a> Adding<'a, '_> {
         for arg in &reference.args {
             let Some(name) = arg_name(arg) else {
                 self.problems.push(
-                    Problem::new(
+                    Problem::legacy(
                         Code::WrongArguments,
                         arg.span,
                         format!("`{}` takes its arguments by name", reference.name.node),
@@ -409,7 +404,7 @@ impl<'a> Adding<'a, '_> {
             if let Some(first) = given.get(name) {
                 let message = format!("`{name}` is given twice");
                 self.problems.push(
-                    Problem::new(Code::WrongArguments, arg.span, message, "given again here")
+                    Problem::legacy(Code::WrongArguments, arg.span, message, "given again here")
                         .help("leave one of them out")
                         .label(*first, "first given here"),
                 );
@@ -424,7 +419,7 @@ impl<'a> Adding<'a, '_> {
             let known = places.keys().copied();
             let span = arg.key.as_ref().map_or(arg.span, |key| key.span);
             let message = format!("`{}` has no parameter `{name}`", reference.name.node);
-            self.problems.push(Problem::new(Code::UnknownName, span, message, "").did_you_mean(name, known));
+            self.problems.push(Problem::legacy(Code::UnknownName, span, message, "").did_you_mean(name, known));
         }
     }
 
@@ -453,7 +448,7 @@ impl<'a> Adding<'a, '_> {
     fn team(&mut self, team: &'a Ident, body: &'a [TeamStmt]) {
         let Some(index) = Team::from_name(&team.node).map(Team::index) else {
             self.problems.push(
-                Problem::new(Code::UnknownName, team.span, format!("no team is called `{}`", team.node), "")
+                Problem::legacy(Code::UnknownName, team.span, format!("no team is called `{}`", team.node), "")
                     .help("write `team left` or `team right`"),
             );
             return;
@@ -465,7 +460,7 @@ impl<'a> Adding<'a, '_> {
                 .find(|other| matches!(&other.kind, TeamStmtKind::Player(player) if player.role.node == role.node));
             if let Some(placed) = placed {
                 self.problems.push(
-                    Problem::new(
+                    Problem::legacy(
                         Code::AbsentPlayer,
                         role.span,
                         format!("`{}` is absent and placed", role.node),
@@ -505,7 +500,7 @@ impl<'a> Adding<'a, '_> {
                 RewardUseKind::Script(_) => "script …",
             };
             self.problems.push(
-                Problem::new(
+                Problem::legacy(
                     Code::DuplicateName,
                     stmt.span,
                     format!("reward `{name}` is given twice"),
@@ -540,7 +535,7 @@ impl<'a> Adding<'a, '_> {
         let name = label.bare();
         if let Some(first) = self.earlier("end", name, span) {
             self.problems.push(
-                Problem::new(
+                Problem::legacy(
                     Code::DuplicateName,
                     label.name.span,
                     format!("ending `{name}` is given twice"),

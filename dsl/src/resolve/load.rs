@@ -233,7 +233,7 @@ impl Loading<'_> {
                 Err(error) => {
                     self.missing += 1;
                     self.library.inputs.extend(error.awaited);
-                    let problem = Problem::new(Code::FileMissing, path.span, error.message, "imported here");
+                    let problem = Problem::legacy(Code::FileMissing, path.span, error.message, "imported here");
                     self.problems.push(match error.similar.first() {
                         Some(similar) => problem.help(format!("did you mean `{similar}`?")),
                         None => problem,
@@ -254,7 +254,7 @@ impl Loading<'_> {
             let imported = match known {
                 Some(known) if self.stack.contains(&known) => {
                     self.problems.push(
-                        Problem::new(
+                        Problem::legacy(
                             Code::ImportCycle,
                             path.span,
                             format!("`{}` imports itself, by way of this line", path.node),
@@ -302,7 +302,7 @@ impl Library {
         let (first, second) = (self.item(*places.first()?)?, self.item(*places.get(1)?)?);
         let of = |item: &NamedItem<'_>| self.sources.get(item.name.span.file).map_or("", |file| file.name.as_str());
         Some(
-            Problem::new(
+            Problem::legacy(
                 Code::AmbiguousName,
                 span,
                 format!("`{name}` is declared in `{}` and in `{}`", of(&first), of(&second)),
@@ -395,7 +395,7 @@ impl Library {
 }
 
 fn too_much(message: String, at: Span) -> Problem {
-    Problem::new(Code::TooMuch, at, message, "one too many").help("import less, or join some of the files")
+    Problem::legacy(Code::TooMuch, at, message, "one too many").help("import less, or join some of the files")
 }
 
 /// What is nearer hides what is farther.

@@ -69,7 +69,7 @@ pub(super) fn chain<'a, T>(
                 .map(|(name, _)| name)
                 .chain(given);
             let message = format!("no {noun} is called `{}`", name.node);
-            let problem = Problem::new(Code::UnknownParent, name.span, message, "extends this");
+            let problem = Problem::legacy(Code::UnknownParent, name.span, message, "extends this");
             problems.push(match library.find(name.span.file, &name.node) {
                 Some(other) => problem.help(format!("`{}` is {}", name.node, other.item.kind.noun())),
                 None => problem.did_you_mean(&name.node, candidates),
@@ -82,7 +82,7 @@ pub(super) fn chain<'a, T>(
             let first = circle.map(|reference| &reference.name).chain([name]).min_by_key(|name| name.span);
             let name = first.unwrap_or(name);
             problems.push(
-                Problem::new(
+                Problem::legacy(
                     Code::ExtendsCycle,
                     name.span,
                     format!("`{}` extends itself", name.node),
@@ -96,7 +96,7 @@ pub(super) fn chain<'a, T>(
             let message = format!("a {noun} has more than {MAX_PARENTS} parents");
             let at = extends(from).map_or(name.span, |parent| parent.name.span);
             problems.push(
-                Problem::new(Code::TooMuch, at, message, "too many")
+                Problem::legacy(Code::TooMuch, at, message, "too many")
                     .help("join some of them: a child may change everything that it inherits"),
             );
             break;

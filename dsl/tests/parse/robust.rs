@@ -7,7 +7,7 @@ fn check(text: &str) {
     let (file, problems) = read(text);
     for span in problems
         .iter()
-        .flat_map(|problem| &problem.labels)
+        .flat_map(|problem| problem.words().labels)
         .map(|label| label.span)
         .chain(file.items.iter().map(|item| item.span))
     {

@@ -50,7 +50,7 @@ impl<'w> Writer<'_, 'w> {
             .collect();
         known.extend(Primitive::ALL.iter().map(|primitive| primitive.name()));
         let message = format!("nothing that a player does is called `{}`", name.node);
-        let problem = Problem::new(Code::UnknownName, name.span, message, "not known");
+        let problem = Problem::legacy(Code::UnknownName, name.span, message, "not known");
         self.lower.report(if crate::problem::nearest(&name.node, known.iter().copied()).is_some() {
             problem.did_you_mean(&name.node, known)
         } else {
@@ -68,7 +68,7 @@ impl<'w> Writer<'_, 'w> {
             let (until, seconds) = writer.clauses(stmt);
             if primitive == Primitive::Wait && stmt.duration.is_none() {
                 writer.lower.report(
-                    Problem::new(Code::WrongArguments, span, "`wait` doesn't say for how long", "")
+                    Problem::legacy(Code::WrongArguments, span, "`wait` doesn't say for how long", "")
                         .help("write `do wait for 1s`; `do hold` stands until something else happens"),
                 );
             }
@@ -82,7 +82,7 @@ impl<'w> Writer<'_, 'w> {
         let runs: Vec<&str> = Primitive::ALL.iter().filter(|known| known.runs()).map(|known| known.name()).collect();
         let message = format!("{what} is not done `sprinting`");
         self.lower.report(
-            Problem::new(Code::WrongArguments, at, message, "not here")
+            Problem::legacy(Code::WrongArguments, at, message, "not here")
                 .help(format!("what can be: `{}`", runs.join("`, `"))),
         );
     }
@@ -112,8 +112,9 @@ impl<'w> Writer<'_, 'w> {
         if first.is_none() && !names.is_empty() && primitive != P::Shoot {
             let signature = signature(primitive.doc());
             let message = format!("`{primitive}` doesn't say {}", if *names == ["player"] { "who" } else { "where" });
-            self.lower
-                .report(Problem::new(Code::WrongArguments, span, message, "").help(format!("write `do {signature}`")));
+            self.lower.report(
+                Problem::legacy(Code::WrongArguments, span, message, "").help(format!("write `do {signature}`")),
+            );
             return None;
         }
         Some(match (primitive, first) {

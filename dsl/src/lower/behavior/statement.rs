@@ -5,6 +5,7 @@ use crate::ast::{BehaviorStmt, BehaviorStmtKind, Binding as Let, Chance, Expr, I
 use crate::check::types::Ty;
 use crate::lower::param;
 use crate::lower::value::{Binding, Scope, Value};
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{BinaryOp, Distribution, Node, Reg, Then, UnaryOp, Watch};
 
@@ -16,7 +17,7 @@ impl<'w> Writer<'_, 'w> {
             if self.states.iter().any(|known| known.name == state.name.node) {
                 let message = format!("state `{}` is declared twice", state.name.node);
                 self.lower.report(
-                    Problem::new(Code::DuplicateName, state.name.span, message, "declared again here")
+                    Problem::legacy(Code::DuplicateName, state.name.span, message, "declared again here")
                         .help("choose another name for one of them"),
                 );
                 continue;
@@ -33,10 +34,7 @@ impl<'w> Writer<'_, 'w> {
         let regs = value.regs();
         let held = value.is_held();
         if !held && !value.is_error() {
-            self.lower.report(
-                Problem::new(Code::WrongType, state.value.span, format!("a state can't be {}", value.ty.noun()), "")
-                    .help("keep numbers, players and points in states"),
-            );
+            self.lower.report(Problem::new(state.value.span, Types::NoState { ty: value.ty }));
         }
         let cells: Vec<u32> = regs.iter().map(|_| self.lower.code.new_cell()).collect();
         let read: Vec<Reg> = cells.iter().map(|&cell| self.lower.code.cell(cell)).collect();
@@ -107,7 +105,7 @@ impl<'w> Writer<'_, 'w> {
         match &statement.kind {
             BehaviorStmtKind::State(state) if !is_top => {
                 self.lower.report(
-                    Problem::new(Code::WrongScope, state.name.span, "a `state` stands at the top of a behavior", "")
+                    Problem::legacy(Code::WrongScope, state.name.span, "a `state` stands at the top of a behavior", "")
                         .help("move it above the block"),
                 );
             }
@@ -239,7 +237,7 @@ impl<'w> Writer<'_, 'w> {
     fn choose(&mut self, chances: &'w [Chance], statement: &'w BehaviorStmt) {
         if chances.is_empty() {
             self.lower.report(
-                Problem::new(Code::WrongArguments, statement.span, "`choose` has nothing to choose from", "")
+                Problem::legacy(Code::WrongArguments, statement.span, "`choose` has nothing to choose from", "")
                     .help("write, for example, `choose { 2: do shoot 1: do hold for 1s }`"),
             );
             return;

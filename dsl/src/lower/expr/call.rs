@@ -60,7 +60,7 @@ impl<'w> Lower<'_, 'w> {
         known.extend(Function::ALL.iter().map(|function| function.name()));
         let text = &name.node;
         let problem =
-            Problem::new(Code::UnknownFunction, name.span, format!("no function is called `{text}`"), "not known");
+            Problem::legacy(Code::UnknownFunction, name.span, format!("no function is called `{text}`"), "not known");
         let is_value = self.scope.find(text).is_some() || (self.scope.scenario && self.world.declares(text));
         let other = library.find(name.span.file, text).map(|found| found.item.kind.noun());
         let elsewhere = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
@@ -142,7 +142,7 @@ impl<'w> Lower<'_, 'w> {
                 (None, Some(default)) => (default, Scope::new(false, Frame::World)),
                 (None, None) => {
                     self.report(
-                        Problem::new(
+                        Problem::legacy(
                             Code::WrongArguments,
                             span,
                             format!("`{callee}` needs a value for `{}`", param.name.node),
@@ -216,7 +216,7 @@ impl<'w> Lower<'_, 'w> {
         for arg in args {
             if arg.binder.is_some() || arg.filter.is_some() {
                 self.report(
-                    Problem::new(
+                    Problem::legacy(
                         Code::WrongArguments,
                         arg.span,
                         format!("`{callee}` goes through no players"),
@@ -235,7 +235,7 @@ impl<'w> Lower<'_, 'w> {
                     let name = name.unwrap_or_default();
                     let Some(at) = names.iter().position(|known| *known == name) else {
                         let text = self.world.text(key.span);
-                        let problem = Problem::new(
+                        let problem = Problem::legacy(
                             Code::WrongArguments,
                             key.span,
                             format!("`{callee}` has no parameter `{text}`"),
@@ -258,7 +258,7 @@ impl<'w> Lower<'_, 'w> {
                     let first = first.span;
                     let name = names.get(at).copied().unwrap_or_default();
                     self.report(
-                        Problem::new(
+                        Problem::legacy(
                             Code::WrongArguments,
                             arg.span,
                             format!("`{name}` is given twice"),
@@ -282,8 +282,13 @@ impl<'w> Lower<'_, 'w> {
                         None => format!("write `{callee}({})`", names.join(", ")),
                     };
                     self.report(
-                        Problem::new(Code::WrongArguments, arg.span, format!("`{callee}` takes {takes}"), "too many")
-                            .help(help),
+                        Problem::legacy(
+                            Code::WrongArguments,
+                            arg.span,
+                            format!("`{callee}` takes {takes}"),
+                            "too many",
+                        )
+                        .help(help),
                     );
                     return None;
                 }
@@ -293,7 +298,7 @@ impl<'w> Lower<'_, 'w> {
         if let Some(name) = missing.and_then(|at| names.get(at)) {
             let signature = Function::from_name(callee).map(Function::doc);
             let problem =
-                Problem::new(Code::WrongArguments, span, format!("`{callee}` needs a value for `{name}`"), "");
+                Problem::legacy(Code::WrongArguments, span, format!("`{callee}` needs a value for `{name}`"), "");
             self.report(match signature {
                 Some(doc) => problem.help(format!("`{}`", crate::problem::signature(doc))),
                 None => problem,

@@ -5,6 +5,7 @@ use super::super::value::{Repr, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{EventExpr, Expr};
 use crate::check::types::Ty;
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::vocabulary::{EventField, EventKind, Landmark, Qualifier};
 use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
@@ -67,14 +68,19 @@ impl<'w> Lower<'_, 'w> {
         let name = event.name.node.as_str();
         let Some(kind) = EventKind::from_name(name) else {
             self.report(
-                Problem::new(Code::UnknownEvent, event.name.span, format!("no event is called `{name}`"), "not known")
-                    .did_you_mean(name, EventKind::ALL.iter().map(|kind| kind.name())),
+                Problem::legacy(
+                    Code::UnknownEvent,
+                    event.name.span,
+                    format!("no event is called `{name}`"),
+                    "not known",
+                )
+                .did_you_mean(name, EventKind::ALL.iter().map(|kind| kind.name())),
             );
             return None;
         };
         if !self.stage.is_step() {
             self.report(
-                Problem::new(
+                Problem::legacy(
                     Code::WrongScope,
                     event.span,
                     "nothing has happened yet",
@@ -89,14 +95,14 @@ impl<'w> Lower<'_, 'w> {
         }
         if self.stage == Stage::Observation {
             self.report(
-                Problem::new(Code::WrongScope, event.span, "an observation shows the state, not what happened", "")
+                Problem::legacy(Code::WrongScope, event.span, "an observation shows the state, not what happened", "")
                     .help("use the event in a reward, an ending or a record"),
             );
             return None;
         }
         if self.when == When::Prev {
             self.report(
-                Problem::new(Code::WrongScope, event.span, "events of the step before are forgotten", "")
+                Problem::legacy(Code::WrongScope, event.span, "events of the step before are forgotten", "")
                     .help("`since(…)` tells how long ago an event was"),
             );
             return None;
@@ -106,8 +112,13 @@ impl<'w> Lower<'_, 'w> {
             && let Some(by) = &event.by
         {
             self.report(
-                Problem::new(Code::WrongArguments, by.span, format!("nobody does `{name}`"), "`by` says nothing here")
-                    .help(format!("write `{name}` alone")),
+                Problem::legacy(
+                    Code::WrongArguments,
+                    by.span,
+                    format!("nobody does `{name}`"),
+                    "`by` says nothing here",
+                )
+                .help(format!("write `{name}` alone")),
             );
             return None;
         }
@@ -117,7 +128,7 @@ impl<'w> Lower<'_, 'w> {
             let receiving: Vec<&str> =
                 EventKind::ALL.iter().filter(|kind| kind.has_receiver()).map(|kind| kind.name()).collect();
             self.report(
-                Problem::new(
+                Problem::legacy(
                     Code::WrongArguments,
                     to.span,
                     format!("`{name}` reaches nobody"),
@@ -146,7 +157,7 @@ impl<'w> Lower<'_, 'w> {
             return Some(Some(qualifier.node));
         }
         let names: Vec<&str> = known.iter().map(|qualifier| qualifier.name()).collect();
-        let problem = Problem::new(
+        let problem = Problem::legacy(
             Code::UnknownEvent,
             qualifier.span,
             format!("`{}` is never `{}`", event.name.node, qualifier.node),
@@ -167,8 +178,8 @@ impl<'w> Lower<'_, 'w> {
             (Ty::Player, Repr::One(reg)) => Some(Who::Player(*reg)),
             (Ty::Error, _) => None,
             (ty, _) => {
-                let problem = self.expected("a team or a player", ty, expr.span);
-                self.report(problem.help("write, for example, `by left` or `by me`"));
+                let text = self.world.text(expr.span);
+                self.report(Problem::new(expr.span, Types::NeitherTeamNorPlayer { found: ty, text }));
                 None
             }
         }

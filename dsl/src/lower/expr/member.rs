@@ -5,6 +5,7 @@ use super::super::value::{Repr, Value};
 use crate::ast::{Expr, ExprKind, Ident, Span};
 use crate::check::names;
 use crate::check::types::Ty;
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role};
@@ -44,10 +45,7 @@ impl<'w> Lower<'_, 'w> {
         let value = self.expr(of);
         let name = member.node.as_str();
         if self.is_nobody(of) {
-            return self.fail(
-                Problem::new(Code::Impossible, span, format!("`nobody` has no `{name}`"), "nobody is there")
-                    .help("name a player, or write `nearest(us, to: ball)`"),
-            );
+            return self.fail(Problem::new(span, Types::NobodyHasNoProperty { property: name.to_owned() }));
         }
         match value.ty {
             Ty::Error => Value::error(),
@@ -82,7 +80,7 @@ impl<'w> Lower<'_, 'w> {
         let known: Vec<&str> =
             library.visible(span.file).map(|(name, _)| name).filter(|name| name.starts_with(&begins)).collect();
         let message = format!("`{file}` has no `{}`", member.node);
-        let problem = Problem::new(Code::UnknownName, member.span, message, "not known");
+        let problem = Problem::legacy(Code::UnknownName, member.span, message, "not known");
         Some(self.fail(if known.is_empty() || crate::problem::nearest(&dotted, known.iter().copied()).is_some() {
             problem.did_you_mean(&dotted, known)
         } else {
@@ -131,8 +129,12 @@ impl<'w> Lower<'_, 'w> {
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
         known.extend(["zone.CM", "score"]);
         let text = self.world.text(of);
-        let problem =
-            Problem::new(Code::UnknownMember, at, format!("`{text}` has no landmark or region `{name}`"), "not known");
+        let problem = Problem::legacy(
+            Code::UnknownMember,
+            at,
+            format!("`{text}` has no landmark or region `{name}`"),
+            "not known",
+        );
         let near = crate::problem::nearest(name, known.iter().copied()).is_some();
         self.fail(if near {
             problem.did_you_mean(name, known)
@@ -253,7 +255,7 @@ impl<'w> Lower<'_, 'w> {
     fn event_member(&mut self, event: Span, member: &'w Ident) -> Value<'w> {
         let Some(kind) = self.event else {
             return self.fail(
-                Problem::new(Code::WrongScope, event.to(member.span), "no event is known here", "")
+                Problem::legacy(Code::WrongScope, event.to(member.span), "no event is known here", "")
                     .help("`event` stands inside an `on` block, or in a `give … on …`"),
             );
         };
@@ -265,7 +267,8 @@ impl<'w> Lower<'_, 'w> {
         };
         if let Some(message) = nobody {
             let span = event.to(member.span);
-            return self.fail(Problem::new(Code::WrongArguments, span, message, "always nobody").help("leave it out"));
+            return self
+                .fail(Problem::legacy(Code::WrongArguments, span, message, "always nobody").help("leave it out"));
         }
         let (field, ty) = match name {
             "by" => (EventField::By, Ty::Player),
@@ -291,7 +294,7 @@ impl<'w> Lower<'_, 'w> {
 
     fn no_member(&self, of: Span, ty: Ty, at: Span, name: &str, known: &[&str]) -> Value<'w> {
         let text = self.world.text(of);
-        let problem = Problem::new(
+        let problem = Problem::legacy(
             Code::UnknownMember,
             at,
             format!("`{text}` ({}) has no property `{name}`", ty.noun()),

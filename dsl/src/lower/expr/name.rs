@@ -5,6 +5,7 @@ use super::super::{Lower, Stage};
 use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
+use crate::problem::facts::{Chance, Types, Use};
 use crate::problem::{Code, Problem};
 use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
@@ -42,7 +43,7 @@ impl<'w> Lower<'_, 'w> {
         if matches!(self.stage, Stage::Reward | Stage::Ending) {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
-        let problem = Problem::new(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known");
+        let problem = Problem::legacy(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known");
         self.fail(match self.of_the_scenario(name) {
             Some(help) => problem.help(help),
             None => problem.did_you_mean(name, candidates.iter().map(String::as_str)),
@@ -104,7 +105,7 @@ impl<'w> Lower<'_, 'w> {
             return value;
         }
         self.fail(
-            Problem::new(
+            Problem::legacy(
                 Code::WrongScope,
                 span,
                 format!("`{name}` changes within the step, but this is computed once per step"),
@@ -175,7 +176,7 @@ impl<'w> Lower<'_, 'w> {
         }
         self.world.mark_used(found.name.span);
         let noun = found.item.kind.noun();
-        let no_value = || Problem::new(Code::WrongType, span, format!("`{name}` is {noun}, not a value"), "");
+        let no_value = |cure| Problem::new(span, Types::NotAValue { name: name.to_owned(), noun, cure });
         Some(match &found.item.kind {
             ItemKind::Const(binding) => self.constant_item(binding, span),
             ItemKind::Region(region) if region.params.is_empty() => {
@@ -186,14 +187,14 @@ impl<'w> Lower<'_, 'w> {
                 value.unwrap_or_else(Value::error)
             }
             ItemKind::Formation(formation) => formation_value(formation),
-            ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value().help(format!("call it: `{name}(…)`"))),
+            ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value(Some(Use::Called))),
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
             ItemKind::Reward(_) if matches!(self.stage, Stage::Record | Stage::Ending) => {
-                self.fail(no_value().help(format!("a `record` reads its states: `record r = max of {name}.STATE`")))
+                self.fail(no_value(Some(Use::Recorded)))
             }
-            ItemKind::Behavior(_) => self.fail(no_value().help(format!("give it to a player: `ai: {name}`"))),
-            _ => self.fail(no_value()),
+            ItemKind::Behavior(_) => self.fail(no_value(Some(Use::Given))),
+            _ => self.fail(no_value(None)),
         })
     }
 
@@ -214,15 +215,7 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         if value.regs().iter().any(|&reg| self.code.constant_of(reg).is_none()) {
-            return self.fail(
-                Problem::new(
-                    Code::NotConstant,
-                    binding.value.span,
-                    format!("`{}` is no constant", binding.name.node),
-                    "not known before the start",
-                )
-                .help("use `let` for what is drawn or computed"),
-            );
+            return self.fail(Problem::new(binding.value.span, Chance::NoConstant { name: binding.name.node.clone() }));
         }
         value
     }
@@ -237,10 +230,7 @@ impl<'w> Lower<'_, 'w> {
             "ball" => Value { ty: Ty::Ball, repr: Repr::Nothing },
             "event" => {
                 let parts: Vec<String> = EventField::NAMED.iter().map(|(part, _)| format!("event.{part}")).collect();
-                self.fail(
-                    Problem::new(Code::WrongType, span, "`event` is no value by itself", "")
-                        .help(format!("it has `{}`", parts.join("`, `"))),
-                )
+                self.fail(Problem::new(span, Types::EventIsNoValue { parts: parts.join("`, `") }))
             }
             "score" => Value { ty: Ty::Score, repr: Repr::Nothing },
             "centre" => {
@@ -283,7 +273,7 @@ impl<'w> Lower<'_, 'w> {
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
         let problem =
-            Problem::new(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
+            Problem::legacy(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
         self.fail(match (self.stage, name) {
             (Stage::Ending | Stage::Record, "us" | "them") => {
                 problem.help("both teams have agents, or none: write `left` or `right`")
@@ -318,7 +308,7 @@ impl<'w> Lower<'_, 'w> {
             _ => ("the start", "use it in a `reward` or an `end`"),
         };
         self.report(
-            Problem::new(
+            Problem::legacy(
                 Code::WrongScope,
                 span,
                 format!("`{name}` is known only while the match runs"),

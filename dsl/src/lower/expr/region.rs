@@ -42,7 +42,7 @@ impl<'w> Lower<'_, 'w> {
 
     pub(super) fn no_pitch_region(&self, name: &str, span: Span) -> Value<'w> {
         let known = PitchRegion::ALL.iter().map(|region| region.name());
-        let problem = Problem::new(Code::UnknownMember, span, format!("no region is called `{name}`"), "not known");
+        let problem = Problem::legacy(Code::UnknownMember, span, format!("no region is called `{name}`"), "not known");
         let near = crate::problem::nearest(name, known.clone()).is_some();
         let all = known.clone().collect::<Vec<_>>().join("`, `");
         self.fail(if near { problem.did_you_mean(name, known) } else { problem.help(format!("there is `{all}`")) })
@@ -146,7 +146,7 @@ impl<'w> Lower<'_, 'w> {
         if !(3..=CORNERS_MAX).contains(&args.len()) {
             let message = format!("a polygon has 3 to {CORNERS_MAX} corners, found {}", args.len());
             return self.fail(
-                Problem::new(Code::WrongArguments, span, message, "")
+                Problem::legacy(Code::WrongArguments, span, message, "")
                     .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
             );
         }
@@ -154,7 +154,7 @@ impl<'w> Lower<'_, 'w> {
         for arg in args {
             if arg.key.is_some() || arg.binder.is_some() || arg.filter.is_some() {
                 return self.fail(
-                    Problem::new(Code::WrongArguments, arg.span, "a polygon's corners have no names", "")
+                    Problem::legacy(Code::WrongArguments, arg.span, "a polygon's corners have no names", "")
                         .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
                 );
             }

@@ -9,7 +9,8 @@ use super::super::value::RegionValue;
 use crate::ast::Span;
 use crate::lower::interval::Interval;
 use crate::lower::triangles::{is_flat, triangulate};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Chance;
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
 /// How many candidates a draw in a composed region tries: at an acceptance of one half one start in 65,536 finds none
@@ -28,15 +29,7 @@ impl Lower<'_, '_> {
         let is_empty = self.bounds(region).is_some_and(|axes| axes.iter().any(|(low, high)| low > high));
         if is_empty {
             let text = self.world.text(span);
-            self.report(
-                Problem::new(
-                    Code::Impossible,
-                    span,
-                    format!("nothing can be drawn in `{text}`"),
-                    "its parts don't meet",
-                )
-                .help("`&` is what both regions hold, `|` what either does"),
-            );
+            self.report(Problem::new(span, Chance::EmptyRegion { text }));
             return None;
         }
         let first = self.candidate(region, span)?;
@@ -235,12 +228,7 @@ impl Lower<'_, '_> {
             return Some(Candidate { place, accepted: Some(inside) });
         };
         let Some(triangles) = triangulate(&known) else {
-            let (why, help) = if is_flat(&known) {
-                ("its corners lie on one line", "move one of its corners off the line")
-            } else {
-                ("its edges cross", "list its corners in order, along its edge")
-            };
-            self.report(Problem::new(Code::Impossible, span, "nothing can be drawn in this polygon", why).help(help));
+            self.report(Problem::new(span, Chance::EmptyPolygon { is_flat: is_flat(&known) }));
             return None;
         };
         let weights: Vec<Reg> = triangles.iter().map(|triangle| self.code.constant(triangle.area)).collect();

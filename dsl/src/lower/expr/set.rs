@@ -4,6 +4,7 @@ use super::super::value::{Binding, Repr, SetValue, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
+use crate::problem::facts::Chance;
 use crate::problem::{Code, Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Over, Reg, UnaryOp};
@@ -48,16 +49,13 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn min_gap(&mut self, set: &'w Expr, span: Span) -> Value<'w> {
         if self.stage != Stage::Start {
             return self.fail(
-                Problem::new(Code::WrongScope, span, "`min_gap` is about the start", "the match is under way here")
+                Problem::legacy(Code::WrongScope, span, "`min_gap` is about the start", "the match is under way here")
                     .help("in a match write `min(distance(p, q) for p in S)`"),
             );
         }
         let Some(set) = self.want_set(set) else { return Value::error() };
         let Some(team) = self.code.constant_of(set.team) else {
-            return self.fail(
-                Problem::new(Code::NotConstant, span, "whose gap is meant must be known", "")
-                    .help("write `min_gap(players)`, `min_gap(left)` or `min_gap(right)`"),
-            );
+            return self.fail(Problem::new(span, Chance::WhoseGap));
         };
         let world = self.world;
         let meant = |player: &crate::lower::roster::Rostered<'_>| team < 0.0 || player.team.index() as f64 == team;
@@ -73,7 +71,7 @@ impl<'w> Lower<'_, 'w> {
         match least {
             Some(reg) => Value::one(Ty::LENGTH, reg),
             None => self.fail(
-                Problem::new(Code::Impossible, span, "a gap needs two players", "there are fewer")
+                Problem::legacy(Code::Impossible, span, "a gap needs two players", "there are fewer")
                     .help("leave the requirement out"),
             ),
         }
@@ -84,7 +82,7 @@ impl<'w> Lower<'_, 'w> {
         let known = self.stage.is_step();
         if self.code.loops() >= LOOPS_MAX {
             self.report(
-                Problem::new(
+                Problem::legacy(
                     Code::Impossible,
                     span,
                     format!("more than {LOOPS_MAX} loops stand inside each other"),
@@ -96,7 +94,7 @@ impl<'w> Lower<'_, 'w> {
         }
         if !known {
             self.report(
-                Problem::new(
+                Problem::legacy(
                     Code::WrongScope,
                     span,
                     format!("`{what}` goes through players, and the match has not begun"),
@@ -112,13 +110,13 @@ impl<'w> Lower<'_, 'w> {
         let name = function.name();
         let [arg] = args else {
             return self.fail(
-                Problem::new(Code::WrongArguments, span, format!("`{name}` goes through one set of players"), "")
+                Problem::legacy(Code::WrongArguments, span, format!("`{name}` goes through one set of players"), "")
                     .help(format!("`{}`", signature(function.doc()))),
             );
         };
         let Some(parts) = take_apart(function, arg) else {
             return self.fail(
-                Problem::new(Code::WrongArguments, arg.span, format!("`{name}` doesn't say which players"), "")
+                Problem::legacy(Code::WrongArguments, arg.span, format!("`{name}` doesn't say which players"), "")
                     .help(format!("`{}`", signature(function.doc()))),
             );
         };
@@ -183,7 +181,7 @@ impl<'w> Lower<'_, 'w> {
         match (function, ty) {
             (_, Some(Ty::Error)) => Value::error(),
             (Function::MinBy | Function::MaxBy, _) => self.fail(
-                Problem::new(
+                Problem::legacy(
                     Code::NotYet,
                     span,
                     format!("`{}` in the start is not supported yet", function.name()),
@@ -212,7 +210,7 @@ impl<'w> Lower<'_, 'w> {
                 });
                 Value::one(Ty::Bool, all)
             }
-            (_, None) => self.fail(Problem::new(
+            (_, None) => self.fail(Problem::legacy(
                 Code::Impossible,
                 span,
                 format!("`{}` goes through nobody", function.name()),

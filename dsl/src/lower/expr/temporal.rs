@@ -18,7 +18,7 @@ impl<'w> Lower<'_, 'w> {
             (F::Closing, &[a, b]) => self.closing(a, b, span),
             (F::Potential, &[e, gamma]) => self.potential(e, gamma, span),
             _ if self.stage == Stage::Observation => self.fail(
-                Problem::new(
+                Problem::legacy(
                     Code::WrongScope,
                     span,
                     format!("`{}` remembers, and an observation does not", function.name()),
@@ -27,7 +27,7 @@ impl<'w> Lower<'_, 'w> {
                 .help("an observation shows the state as it is; `prev` and `delta` look one step back"),
             ),
             _ if self.when == When::Prev => self.fail(
-                Problem::new(
+                Problem::legacy(
                     Code::WrongScope,
                     span,
                     format!("`{}` has no value a step ago", function.name()),
@@ -36,7 +36,7 @@ impl<'w> Lower<'_, 'w> {
                 .help("`prev` reads the state of the match and of the reward only"),
             ),
             _ if !self.stage.is_step() => self.fail(
-                Problem::new(
+                Problem::legacy(
                     Code::WrongScope,
                     span,
                     format!("`{}` looks back at the match, which has not begun", function.name()),

@@ -6,6 +6,7 @@ use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, R
 use crate::check::types::Ty;
 use crate::lower::value::{Binding, Scope, Value};
 use crate::lower::{Lower, Stage, World, param};
+use crate::problem::facts::Types;
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{Reg, When};
 
@@ -74,11 +75,7 @@ impl<'w> Lower<'_, 'w> {
         if value.is_error() || value.is_held() {
             return value;
         }
-        let message = format!("a state can't be {}", value.ty.noun());
-        self.fail(
-            Problem::new(Code::WrongType, state.value.span, message, "")
-                .help("keep numbers, players and points in states"),
-        )
+        self.fail(Problem::new(state.value.span, Types::NoState { ty: value.ty }))
     }
 
     /// Makes a state known to the statements.
@@ -106,7 +103,7 @@ impl<'w> Lower<'_, 'w> {
             // Where there is no such reward, that has been told.
             if matches!(used.what, RewardUseKind::Script(_)) {
                 let message = format!("reward `{name}` is a script, whose memory is its own");
-                self.report(Problem::new(Code::UnknownMember, member.span, message, "can't be read"));
+                self.report(Problem::legacy(Code::UnknownMember, member.span, message, "can't be read"));
             }
             return Some(Value::error());
         };
@@ -116,7 +113,7 @@ impl<'w> Lower<'_, 'w> {
         let is_state = |name: &&str| matches!(scope.find(name), Some(Binding::State { .. }));
         let states: Vec<&str> = scope.names().into_iter().filter(is_state).collect();
         let message = format!("reward `{name}` has no state `{}`", member.node);
-        let problem = Problem::new(Code::UnknownMember, member.span, message, "not known");
+        let problem = Problem::legacy(Code::UnknownMember, member.span, message, "not known");
         let near = crate::problem::nearest(&member.node, states.iter().copied()).is_some();
         Some(self.fail(match states.is_empty() {
             false if !near => problem.help(format!("it has `{}`", states.join("`, `"))),

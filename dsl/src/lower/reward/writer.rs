@@ -106,7 +106,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         match &statement.kind {
             RewardStmtKind::State(state) if !is_top => {
                 self.lower.report(
-                    Problem::new(Code::WrongScope, state.name.span, "a `state` stands at the top of a reward", "")
+                    Problem::legacy(Code::WrongScope, state.name.span, "a `state` stands at the top of a reward", "")
                         .help("move it above the block"),
                 );
             }
@@ -152,7 +152,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     fn on_event(&mut self, event: &'w EventExpr, when: Option<&'w Expr>, f: impl FnOnce(&mut Self)) {
         if self.lower.event.is_some() {
             self.lower.report(
-                Problem::new(Code::WrongScope, event.span, "an `on` stands inside another one", "")
+                Problem::legacy(Code::WrongScope, event.span, "an `on` stands inside another one", "")
                     .help("write the inner event as a condition: `when goal by us { … }`"),
             );
             return;
@@ -181,7 +181,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         }
         if let Some(label) = give.label.as_ref().filter(|label| label.node.trim().is_empty()) {
             self.lower.report(
-                Problem::new(Code::OutOfRange, label.span, "a label has at least one letter", "")
+                Problem::legacy(Code::OutOfRange, label.span, "a label has at least one letter", "")
                     .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
             );
         }
@@ -301,7 +301,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             (None, None) if nothing => "it pays 0: write another value, or leave it out".to_owned(),
             (None, None) => return,
         };
-        self.lower.report(Problem::new(Code::NeverPays, value.span, "this `give` never pays", "").help(why));
+        self.lower.report(Problem::legacy(Code::NeverPays, value.span, "this `give` never pays", "").help(why));
     }
 
     /// Reports a constant that is more than can be paid.
@@ -316,7 +316,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {
             let text = self.lower.world.text(value.span);
             self.lower.report(
-                Problem::new(Code::OutOfRange, value.span, format!("`{text}` is more than can be paid"), "")
+                Problem::legacy(Code::OutOfRange, value.span, format!("`{text}` is more than can be paid"), "")
                     .help("rewards are small numbers: `give 1`"),
             );
         }
@@ -341,7 +341,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         let known = self.lower.scope.bindings();
         let states: Vec<&str> =
             known.iter().filter(|(_, bound)| matches!(bound, Binding::State { .. })).map(|(name, _)| *name).collect();
-        let problem = |message: String| Problem::new(Code::UnknownName, name.span, message, "can't be assigned");
+        let problem = |message: String| Problem::legacy(Code::UnknownName, name.span, message, "can't be assigned");
         let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
         self.lower.report(if known.contains_key(name.node.as_str()) {
             problem(format!("`{}` is no `state`, and only a `state` is assigned", name.node))

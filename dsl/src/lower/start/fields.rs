@@ -5,6 +5,7 @@ use crate::check::options::{BALL, START};
 use crate::check::types::Ty;
 use crate::lower::value::Repr;
 use crate::lower::{Lower, fields};
+use crate::problem::facts::{Instead, Types};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{
     BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S, STEPS_PER_S,
@@ -30,15 +31,12 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             }
             let ExprKind::List(parts) = &expr.kind else {
-                self.report(
-                    Problem::new(Code::WrongType, expr.span, "expected the goals of both teams", "")
-                        .help("write `score: [1, 0]`"),
-                );
+                self.report(Problem::new(expr.span, Types::NoScore));
                 continue;
             };
             let &[left, right] = &parts.iter().collect::<Vec<_>>()[..] else {
                 self.report(
-                    Problem::new(Code::WrongArguments, expr.span, "a score has two numbers", "")
+                    Problem::legacy(Code::WrongArguments, expr.span, "a score has two numbers", "")
                         .help("write `score: [1, 0]`"),
                 );
                 continue;
@@ -109,7 +107,7 @@ impl<'w> Lower<'_, 'w> {
         if apart > AT_HIS_FEET_M {
             let name = self.world.text(at);
             self.report(
-                Problem::new(Code::OutOfRange, at, format!("`{name}` stands {apart:.1} m from the ball"), "")
+                Problem::legacy(Code::OutOfRange, at, format!("`{name}` stands {apart:.1} m from the ball"), "")
                     .help(format!("lay it at his feet: `ball ahead of {name} by 1m`")),
             );
         }
@@ -128,10 +126,7 @@ impl<'w> Lower<'_, 'w> {
             let spin = (about(x), about(y), about(z));
             return Some(self.mirrored_spin(spin));
         }
-        self.report(
-            Problem::new(Code::WrongType, expr.span, "expected the spin about three axes", "")
-                .help("write, for example, `spin: (0, 0, 30)`: radians per second about x, y and z"),
-        );
+        self.report(Problem::new(expr.span, Types::NoSpin));
         None
     }
 
@@ -141,7 +136,7 @@ impl<'w> Lower<'_, 'w> {
         for field in fields {
             let Some(rule) = Rule::from_name(&field.key.node) else {
                 self.report(
-                    Problem::new(
+                    Problem::legacy(
                         Code::UnknownOption,
                         field.key.span,
                         format!("`rules` has no option `{}`", field.key.node),
@@ -168,7 +163,7 @@ impl<'w> Lower<'_, 'w> {
             (Rule::Physics, _) => {
                 let text = self.world.text(expr.span);
                 self.report(
-                    Problem::new(Code::OutOfRange, expr.span, format!("`physics` is never `{text}`"), "")
+                    Problem::legacy(Code::OutOfRange, expr.span, format!("`physics` is never `{text}`"), "")
                         .help("write `physics: gated` or `physics: full`"),
                 );
                 None
@@ -187,8 +182,7 @@ impl<'w> Lower<'_, 'w> {
                         self.code.unary(UnaryOp::Round, steps)
                     }
                     ty => {
-                        let problem = self.mismatch(ty, Ty::DURATION, expr.span);
-                        self.report(problem.help("write `half_time: off` or `half_time: 1500 steps`"));
+                        self.report(self.mismatch_with(ty, Ty::DURATION, expr.span, Instead::HalfTime));
                         return None;
                     }
                 };
@@ -201,8 +195,11 @@ impl<'w> Lower<'_, 'w> {
                 if value.ty == Ty::Bool || value.is_error() {
                     return Some(self.reg(&value));
                 }
-                let problem = self.expected("`on` or `off`", value.ty, expr.span);
-                self.report(problem.help(format!("write `{rule}: on` or `{rule}: off`")));
+                let text = self.world.text(expr.span);
+                self.report(Problem::new(
+                    expr.span,
+                    Types::NeitherOnNorOff { rule: rule.name(), found: value.ty, text },
+                ));
                 None
             }
         }

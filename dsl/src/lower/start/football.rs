@@ -82,7 +82,8 @@ fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, spa
     match lower.interval(place.1) {
         Some((low, high)) if low >= nearest || high <= -nearest => {}
         Some((low, high)) if low > -nearest && high < nearest => lower.report(
-            Problem::new(Code::OutOfRange, span, "a throw-in is taken from a side line", "lies elsewhere").help(help),
+            Problem::legacy(Code::OutOfRange, span, "a throw-in is taken from a side line", "lies elsewhere")
+                .help(help),
         ),
         _ => {
             let (least, aside) = (lower.code.constant(nearest), lower.code.unary(UnaryOp::Abs, place.1));
@@ -126,7 +127,7 @@ fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), w
         let text = lower.world.text(span);
         let far = |axis: Option<(f64, f64)>| axis.map_or(0.0, |(low, _)| low);
         lower.report(
-            Problem::new(
+            Problem::legacy(
                 Code::OffPitch,
                 span,
                 format!("{what} is off the pitch: `{text}` is ({:.1}m, {:.1}m)", far(x), far(y)),
@@ -181,7 +182,7 @@ fn check_pair(
         let where_ =
             if lower.world.flat.kickoff.is_some() { format!(" at kick-off {}", nth + 1) } else { String::new() };
         lower.report(
-            Problem::new(
+            Problem::legacy(
                 Code::SameSpot,
                 at(second),
                 format!("{} and {} stand on one spot{where_}", first.shown(), second.shown()),

@@ -30,31 +30,30 @@ impl Lower<'_, '_> {
         let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, first) };
         let Some(found) = StartKind::from_name(&kind.node) else {
             self.report(
-                Problem::new(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
+                Problem::legacy(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
                     .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
             );
             return (implied, first);
         };
         if let Some(at) = at.as_ref().filter(|_| !has_place(found)) {
             self.report(
-                Problem::new(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "").help(
-                    if found == StartKind::Open {
+                Problem::legacy(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "")
+                    .help(if found == StartKind::Open {
                         "the ball's place is the start's: `ball at …`"
                     } else {
                         "the laws say where the ball lies: leave `at …` out"
-                    },
-                ),
+                    }),
             );
         }
         if team.is_none() && matches!(found, StartKind::Corner | StartKind::GoalKick | StartKind::Penalty) {
             self.report(
-                Problem::new(Code::WrongArguments, kind.span, format!("whose {} is it?", spoken(found)), "")
+                Problem::legacy(Code::WrongArguments, kind.span, format!("whose {} is it?", spoken(found)), "")
                     .help(format!("write `start {} for left`", kind.node)),
             );
         }
         if let Some(team) = team.as_ref().filter(|_| found == StartKind::Open) {
             self.report(
-                Problem::new(Code::WrongScope, team.span, "an open start belongs to no team", "")
+                Problem::legacy(Code::WrongScope, team.span, "an open start belongs to no team", "")
                     .label(kind.span, "play is on at once")
                     .help("leave `for …` out; who has the ball says `ball … { owner: NAME }`"),
             );
@@ -67,7 +66,7 @@ impl Lower<'_, '_> {
             self.team = outer;
             if found != StartKind::Open && self.code.constant_of(reg) == Some(-1.0) {
                 self.report(
-                    Problem::new(Code::OutOfRange, team.span, format!("a {} belongs to a team", spoken(found)), "")
+                    Problem::legacy(Code::OutOfRange, team.span, format!("a {} belongs to a team", spoken(found)), "")
                         .help(format!("write `start {} for left`", kind.node)),
                 );
             }
@@ -83,7 +82,7 @@ impl Lower<'_, '_> {
         let Some(team) = index.and_then(|index| Team::ALL.get(index as usize)) else { return };
         if kind != StartKind::Open && self.world.roster.iter().all(|player| player.team != *team) {
             self.report(
-                Problem::new(
+                Problem::legacy(
                     Code::OutOfRange,
                     at,
                     format!("the {team} team has nobody to take the {}", spoken(kind)),
@@ -99,7 +98,7 @@ impl Lower<'_, '_> {
         let Some((ball, span)) = self.world.flat.ball else { return };
         let spoken = spoken(kind);
         let problem = |message: String| {
-            Problem::new(Code::DuplicateOption, span, message, "").label(word.span, "the start is given here")
+            Problem::legacy(Code::DuplicateOption, span, message, "").label(word.span, "the start is given here")
         };
         match kind {
             StartKind::Open | StartKind::Kickoff => {}
@@ -114,7 +113,7 @@ impl Lower<'_, '_> {
                 let moving = |key: &str| matches!(key, "velocity" | "height" | "spin" | "owner");
                 if let Some(field) = ball.fields.iter().find(|field| moving(&field.key.node)) {
                     let message = format!("the ball of a {spoken} lies still, at the taker's feet");
-                    self.report(Problem::new(Code::WrongScope, field.key.span, message, "").help("leave it out"));
+                    self.report(Problem::legacy(Code::WrongScope, field.key.span, message, "").help("leave it out"));
                 }
             }
         }
@@ -129,7 +128,7 @@ impl Lower<'_, '_> {
         }
         let word = self.world.flat.start.map_or(self.world.flat.item.name.span, |stmt| stmt.span);
         self.report(
-            Problem::new(Code::DuplicateOption, span, "a kick-off lays the ball on the centre spot", "")
+            Problem::legacy(Code::DuplicateOption, span, "a kick-off lays the ball on the centre spot", "")
                 .label(word, "the start is a kick-off")
                 .help("leave `ball …` out; an inherited one goes by `remove ball`"),
         );
@@ -157,7 +156,7 @@ impl Lower<'_, '_> {
             StartKind::GoalKick => GOAL_KICK_SPOT_M - HALF_LENGTH_M,
             StartKind::Open | StartKind::FreeKick | StartKind::ThrowIn => {
                 let name = &world.flat.item.name;
-                let problem = Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "");
+                let problem = Problem::legacy(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "");
                 self.report(match kind {
                     StartKind::Open => problem.help("write, for example, `ball at (0.6, 0)`"),
                     StartKind::ThrowIn => problem.help("say where: `start throw_in for left at (0.5, 0.42)`"),
@@ -194,7 +193,7 @@ impl Lower<'_, '_> {
             let end = if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };
             let message = "a corner is taken from a corner of the other end";
             self.report(
-                Problem::new(Code::OutOfRange, span, message, "lies elsewhere")
+                Problem::legacy(Code::OutOfRange, span, message, "lies elsewhere")
                     .help(format!("write `at {end}.corner.top` or `at {end}.corner.bottom`")),
             );
         }

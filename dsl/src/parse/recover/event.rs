@@ -25,7 +25,7 @@ impl Reader<'_> {
         }
         let meant = nearest(name, OVER_TIME.iter().copied()).filter(|meant| meant != name && word == "of")?;
         let message = format!("expected `count`, `max` or the like, found `{name}`");
-        Some(Problem::new(Code::Syntax, span, message, "no such word here").help(format!("did you mean `{meant}`?")))
+        Some(Problem::legacy(Code::Syntax, span, message, "no such word here").help(format!("did you mean `{meant}`?")))
     }
 }
 
@@ -40,12 +40,12 @@ fn names() -> impl Iterator<Item = &'static str> {
 fn no_event(name: &str, span: crate::source::Span) -> Problem {
     let state = |name: &str| PROPERTIES.iter().any(|p| p.owner == Owner::Match && p.ty == Type::Bool && p.name == name);
     if state(name) {
-        return Problem::new(Code::UnknownEvent, span, format!("`{name}` is a state, no event"), "lasts")
+        return Problem::legacy(Code::UnknownEvent, span, format!("`{name}` is a state, no event"), "lasts")
             .help(format!("write `when {name}`"));
     }
-    let problem = Problem::new(Code::UnknownEvent, span, format!("no event is called `{name}`"), "not known");
+    let problem = Problem::legacy(Code::UnknownEvent, span, format!("no event is called `{name}`"), "not known");
     match problem.clone().did_you_mean(name, names()) {
-        near if near.help.is_some() => near,
+        near if near.has_help() => near,
         _ => problem.help(format!("the events are `{}`", names().collect::<Vec<_>>().join("`, `"))),
     }
 }

@@ -88,12 +88,17 @@ impl Reader<'_> {
         {
             let wanted = wanted.split(", for example").next().unwrap_or(&wanted);
             let message = format!("expected {wanted} behind `{last}`");
-            return Problem::new(Code::Syntax, self.between(*from, from + last.len()), message, "something is missing");
+            return Problem::legacy(
+                Code::Syntax,
+                self.between(*from, from + last.len()),
+                message,
+                "something is missing",
+            );
         }
         let found = if word.is_empty() { "the end of the file".to_owned() } else { format!("`{word}`") };
         let label = if starts { "no statement begins like this" } else { "this can't stand here" };
         let span = self.between(at, at + word.len());
-        Problem::new(Code::Syntax, span, format!("expected {wanted}, found {found}"), label)
+        Problem::legacy(Code::Syntax, span, format!("expected {wanted}, found {found}"), label)
     }
 
     /// The word or sign at an offset.
@@ -142,16 +147,18 @@ impl Reader<'_> {
 
     fn misspelt(&self, wanted: &str, word: &str, at: usize, meant: &str) -> Problem {
         let message = format!("expected {wanted}, found `{word}`");
-        Problem::new(Code::Syntax, self.at(at), message, "no such word here").help(format!("did you mean `{meant}`?"))
+        Problem::legacy(Code::Syntax, self.at(at), message, "no such word here")
+            .help(format!("did you mean `{meant}`?"))
     }
 
     fn unknown_role(word: &str, span: Span) -> Problem {
         let roles = Role::ALL.iter().map(|role| role.name());
-        let problem = Problem::new(Code::UnknownRole, span, format!("unknown role `{word}`"), "no role has this name");
+        let problem =
+            Problem::legacy(Code::UnknownRole, span, format!("unknown role `{word}`"), "no role has this name");
         let problem = problem.did_you_mean(word, roles.clone());
-        match &problem.help {
-            Some(_) => problem,
-            None => problem.help(format!("the roles are {}", roles.collect::<Vec<_>>().join(", "))),
+        match problem.has_help() {
+            true => problem,
+            false => problem.help(format!("the roles are {}", roles.collect::<Vec<_>>().join(", "))),
         }
     }
 
@@ -192,7 +199,7 @@ impl Wrong<'_> {
             (_, "end", "limit") => Some("end limit 400 steps"),
             (_, first, _) => self.context.form(first),
         };
-        match form.filter(|_| problem.help.is_none()) {
+        match form.filter(|_| !problem.has_help()) {
             Some(form) => problem.help(format!("write, for example, `{form}`")),
             None => problem,
         }

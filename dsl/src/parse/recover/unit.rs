@@ -27,7 +27,7 @@ impl Reader<'_> {
             let span = self.between(at - number.len(), at + word.len());
             let all = format!("{number}{}", word.replace('_', ""));
             return Some(
-                Problem::new(Code::Syntax, span, format!("`{number}{word}` is no number"), "digits alone")
+                Problem::legacy(Code::Syntax, span, format!("`{number}{word}` is no number"), "digits alone")
                     .help(format!("write `{all}`")),
             );
         }
@@ -37,7 +37,8 @@ impl Reader<'_> {
             let span = self.between(start, at + word.len());
             let units = Unit::ALL.iter().map(|unit| unit.name());
             let known: Vec<_> = units.clone().map(|unit| format!("`{unit}`")).collect();
-            let problem = Problem::new(Code::Syntax, span, format!("unknown unit `{word}`"), "no unit has this name");
+            let problem =
+                Problem::legacy(Code::Syntax, span, format!("unknown unit `{word}`"), "no unit has this name");
             return Some(match nearest(word, units).filter(|_| meant(word).is_none()) {
                 Some(unit) => problem.help(format!("did you mean `{number}{}{unit}`?", blank_before(unit))),
                 None if meant(word).is_some() => {
@@ -52,12 +53,12 @@ impl Reader<'_> {
             let counted = counted.filter(|_| word.len() >= 4)?;
             let message = format!("unknown unit `{word}`");
             let help = format!("did you mean `{number} {}`?", if counted == "step" { "steps" } else { counted });
-            return Some(Problem::new(Code::Syntax, self.at(at), message, "no unit has this name").help(help));
+            return Some(Problem::legacy(Code::Syntax, self.at(at), message, "no unit has this name").help(help));
         };
         let gap = line.len() - digits.len();
         let span = self.between(at - gap - number.len(), at + word.len());
         Some(
-            Problem::new(
+            Problem::legacy(
                 Code::Syntax,
                 span,
                 format!("the unit `{}` must touch its number", unit.name()),

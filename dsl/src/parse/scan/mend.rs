@@ -40,7 +40,7 @@ impl Scanner<'_> {
         if self.scan.problems.len() < MAX_PROBLEMS {
             let message = format!("`{}` can't close this `{opener}`", byte as char);
             self.scan.problems.push(
-                Problem::new(Code::UnclosedBracket, span(self.file, at, at + 1), message, "another bracket")
+                Problem::legacy(Code::UnclosedBracket, span(self.file, at, at + 1), message, "another bracket")
                     .label(span(self.file, open.at, open.at + 1), "opened here")
                     .help(format!("close it with `{}`", wanted as char)),
             );
@@ -76,7 +76,7 @@ impl Scanner<'_> {
         if self.scan.problems.len() >= MAX_PROBLEMS {
             return;
         }
-        let mut problem = Problem::new(
+        let mut problem = Problem::legacy(
             Code::UnclosedBracket,
             span(self.file, open.at, open.at + 1),
             format!("this `{opener}` is not closed"),

@@ -37,7 +37,7 @@ impl Scanner<'_> {
         }
         let text = self.bytes.get(head.clone()).map(String::from_utf8_lossy).unwrap_or_default().into_owned();
         self.scan.problems.push(
-            Problem::new(
+            Problem::legacy(
                 Code::Syntax,
                 span(self.file, head.start, head.end),
                 format!("`{text}` has no `{{`"),

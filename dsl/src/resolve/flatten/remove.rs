@@ -24,7 +24,7 @@ impl<'a> Adding<'a, '_> {
                 "require" => self.flat.requires.iter().filter_map(|stmt| label(stmt)).collect(),
                 _ => Vec::new(),
             };
-            let problem = Problem::new(Code::NothingToRemove, span, message, "nothing to remove");
+            let problem = Problem::legacy(Code::NothingToRemove, span, message, "nothing to remove");
             let found = name.as_ref().map_or("", |name| name.node.as_str());
             self.problems.push(problem.did_you_mean(found, candidates));
         }

@@ -1,0 +1,99 @@
+//! The facts that stages find, by subject, each beside its words.
+//!
+//! A stage reports a fact with its data. Only this folder turns it into words, and only when a report is rendered: to
+//! change a report, change the entry of its fact. An entry is
+//!
+//! ```text
+//! /// When it is reported.
+//! Name { data: Type, … } = its code => say(message, what the marked text is).help(what to write instead),
+//! ```
+//!
+//! The words read the data by reference.
+
+mod chance;
+mod dry_run;
+mod legacy;
+mod scenario;
+mod types;
+
+pub(crate) use chance::Chance;
+pub use dry_run::{Cure, DryRun};
+pub(crate) use legacy::Legacy;
+pub(crate) use scenario::Whole;
+pub(crate) use types::{Instead, Operand, Types, Use, Verb};
+
+use super::Code;
+use super::said::Said;
+
+/// Declares the facts of a subject.
+macro_rules! facts {
+    ($(#[$about:meta])* $vis:vis $group:ident {
+        $(
+            $(#[$doc:meta])*
+            $name:ident $({ $($(#[$of:meta])* $field:ident: $ty:ty),+ $(,)? })? = $code:expr => $words:expr,
+        )+
+    }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, PartialEq)]
+        $vis enum $group {
+            $($(#[$doc])* $name $({ $($(#[$of])* $field: $ty),+ })?,)+
+        }
+
+        impl $group {
+            /// Its code.
+            #[allow(unused_variables, reason = "most codes don't depend on the data")]
+            pub(in crate::problem) fn code(&self) -> $crate::problem::Code {
+                match self { $($group::$name $({ $($field),+ })? => $code,)+ }
+            }
+
+            /// Its words.
+            #[allow(unused_variables, reason = "some data decides the code alone")]
+            pub(in crate::problem) fn words(&self) -> super::Said {
+                match self { $($group::$name $({ $($field),+ })? => $words,)+ }
+            }
+        }
+    };
+}
+use facts;
+
+/// Declares all facts from their subjects.
+macro_rules! subjects {
+    ($($(#[$about:meta])* $subject:ident,)+) => {
+        /// What a stage found.
+        #[derive(Clone, Debug, PartialEq)]
+        pub(crate) enum Fact {
+            $($(#[$about])* $subject($subject),)+
+        }
+
+        impl Fact {
+            /// Its code.
+            pub(super) fn code(&self) -> Code {
+                match self { $(Fact::$subject(fact) => fact.code(),)+ }
+            }
+
+            /// Its words.
+            pub(super) fn words(&self) -> Said {
+                match self { $(Fact::$subject(fact) => fact.words(),)+ }
+            }
+        }
+
+        $(impl From<$subject> for Fact {
+            fn from(fact: $subject) -> Fact {
+                Fact::$subject(fact)
+            }
+        })+
+    };
+}
+
+subjects! {
+    /// Not moved yet.
+    Legacy,
+    /// Draws and constants.
+    Chance,
+    /// Types and units.
+    Types,
+    /// Found by a dry run.
+    DryRun,
+    /// A scenario as a whole.
+    Whole,
+}

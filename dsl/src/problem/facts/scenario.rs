@@ -1,0 +1,44 @@
+//! A file's scenarios as wholes: which one is compiled, and whether it is too large.
+
+use super::facts;
+use crate::problem::said::say;
+use crate::problem::{Code, Guess};
+use setpiece_scenario::bounds::Excess;
+
+facts! {
+    /// Facts about a whole scenario.
+    pub(crate) Whole {
+        /// The scenario that was asked for is not in the file.
+        NoSuchScenario { file: String, wanted: String, guess: Guess } = Code::NoScenario =>
+            say(format!("`{file}` has no scenario `{wanted}`"), "").guess(guess, "it has"),
+        /// Every scenario of the file is abstract.
+        OnlyAbstract { file: String, first: String } = Code::NoScenario =>
+            say(format!("`{file}` has only abstract scenarios"), "abstract")
+                .help(format!("extend it: `scenario mine extends {first} {{ … }}`")),
+        /// The file has no scenario.
+        NoScenario { file: String } = Code::NoScenario =>
+            say(format!("`{file}` has no scenario"), "").help("write `scenario NAME { … }`"),
+        /// A word that is reserved for later.
+        NotYet { keyword: String } = Code::NotYet =>
+            say(format!("`{keyword}` is not supported yet"), "").help("leave it out"),
+        /// The scenarios up to this one are more than a compilation may lower.
+        TooManyExpressions { scenario: String, most: usize } = Code::TooMuch =>
+            say(format!("up to `{scenario}` more than {most} expressions are used"), "too much")
+                .help("use fewer or smaller rewards and functions, or put scenarios into files of their own"),
+        /// A total of the scenario is above its limit.
+        TooCostly { scenario: String, excess: Excess, is_part: bool } = Code::TooCostly =>
+            say(format!("`{scenario}` has {}", excess.message), if *is_part { "the most of it" } else { "" })
+                .help(excess.help),
+        /// A program is beyond what the engine runs.
+        CantRun { scenario: String, fault: String } = Code::Impossible =>
+            say(format!("`{scenario}` can't be run: {fault}"), "").help("make its rewards and endings smaller"),
+        /// Nothing refers to a name.
+        Unused { what: String, name: String, cure: String } = Code::UnusedName =>
+            say(format!("{what} `{name}` is never used"), "not read")
+                .help(format!("{cure}, leave it out, or begin its name with `_`")),
+        /// A cast names nobody who could play.
+        NoSuchAi { text: String } = Code::WrongType =>
+            say(format!("`{text}` is not who plays a player"), "")
+                .help("it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"f.rhai\"`"),
+    }
+}

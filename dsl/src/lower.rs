@@ -32,7 +32,7 @@ pub(crate) use world::{Effort, MAX_LOWERED, World};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::problem::facts::{Chance, Instead, Types};
+use crate::problem::facts::{Chance, Instead, Names, Types};
 use crate::problem::{Code, Problem};
 use builder::Builder;
 use interval::Interval;
@@ -192,11 +192,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         self.inlined += 1;
         let text = self.world.text(item);
         if self.inlining.contains(&item) {
-            self.report(
-                Problem::legacy(Code::Recursion, at, format!("`{text}` uses itself"), "closes the circle")
-                    .label(item, "declared here")
-                    .help(start::NO_CIRCLE),
-            );
+            self.report(Problem::new(at, Names::Recursion { name: text, declared: Some(item), is_behavior: false }));
             return None;
         }
         if self.inlined > INLINED_MAX {

@@ -13,7 +13,8 @@ use super::value::{Binding, Frame, Scope, Value};
 use super::{Lower, Stage, param};
 use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Assigned, Names};
+use crate::problem::{Code, Guess, Problem};
 use crate::source::FileId;
 use setpiece_scenario::vocabulary::Primitive;
 use setpiece_scenario::{Act, Ai, Behavior, Distribution, Do, Node, PlayerSlot, Reg, Watch};
@@ -117,15 +118,7 @@ pub(crate) fn report_names(items: &[Item], problems: &mut Vec<Problem>) {
     for item in items {
         let ItemKind::Behavior(BehaviorItem { name, .. }) = &item.kind else { continue };
         if Primitive::from_name(&name.node).is_some() {
-            problems.push(
-                Problem::legacy(
-                    Code::ReservedName,
-                    name.span,
-                    format!("`{}` is something that every behavior can do", name.node),
-                    "can't be declared again",
-                )
-                .help(format!("choose another name, for example `my_{}`", name.node)),
-            );
+            problems.push(Problem::new(name.span, Names::HidesPrimitive { name: name.node.clone() }));
         }
     }
 }
@@ -171,16 +164,10 @@ impl<'c, 'w> Writer<'c, 'w> {
     /// Writes a behaviour out; its arguments are read in the present scope.
     fn run(&mut self, item: &'w BehaviorItem, args: &'w [Arg], span: Span) {
         if self.calls.iter().any(|call| call.name == item.name.span) {
-            self.lower.report(
-                Problem::legacy(
-                    Code::Recursion,
-                    span,
-                    format!("`{}` uses itself", item.name.node),
-                    "closes the circle",
-                )
-                .label(item.name.span, "declared here")
-                .help("what is done again and again stands in a `repeat`"),
-            );
+            self.lower.report(Problem::new(
+                span,
+                Names::Recursion { name: item.name.node.clone(), declared: Some(item.name.span), is_behavior: true },
+            ));
             return;
         }
         self.written += 1;
@@ -282,21 +269,10 @@ impl<'c, 'w> Writer<'c, 'w> {
 
     /// Reports an assignment to what is no state.
     fn not_a_state(&self, name: &Ident) {
-        let problem = Problem::legacy(
-            Code::UnknownName,
-            name.span,
-            format!("no `state` is called `{}`", name.node),
-            "can't be assigned",
-        );
         let states: Vec<&str> = self.states.iter().map(|state| state.name).collect();
-        let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
-        self.lower.report(if near {
-            problem.did_you_mean(&name.node, states)
-        } else if self.lower.scope.find(&name.node).is_some() {
-            problem.help("only a `state` is assigned")
-        } else {
-            problem.help(format!("declare it at the top: `state {} = 0`", name.node))
-        });
+        let is = if self.lower.scope.find(&name.node).is_some() { Assigned::Value } else { Assigned::Nothing };
+        let guess = Guess::similar_or(&name.node, &states, &[]);
+        self.lower.report(Problem::new(name.span, Names::NotAState { name: name.node.clone(), is, guess }));
     }
 
     fn finish(self, name: String) -> Behavior {

@@ -4,7 +4,8 @@ use super::step::StepWorld;
 use super::value::{Frame, Scope};
 use super::{Lower, Stage, script};
 use crate::ast::{EndCondition, ItemKind};
-use crate::problem::{Code, Problem, nearest};
+use crate::problem::facts::{Kind, Names};
+use crate::problem::{Code, Guess, Problem, nearest};
 use crate::resolve::FlatEnding;
 use setpiece_scenario::vocabulary::Verdict;
 use setpiece_scenario::{Ending, Endings, Reg};
@@ -46,15 +47,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
         && let Some(meant) = nearest(&label.name.node, Verdict::ALL.iter().map(|verdict| verdict.name()))
     {
         let name = &label.name.node;
-        lower.report(
-            Problem::legacy(
-                Code::LikelyTypo,
-                label.name.span,
-                format!("`{name}` is a label, no verdict"),
-                "neither success nor failure",
-            )
-            .help(format!("did you mean `{meant}`?")),
-        );
+        lower.report(Problem::new(label.name.span, Names::LikeAVerdict { label: name.clone(), meant }));
     }
     let label = match (ending.label, verdict) {
         (Some(label), _) => label.bare().to_owned(),
@@ -82,18 +75,9 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
                     .map(|(name, _)| name)
                     .collect();
                 let name = &reference.name.node;
-                let problem = Problem::legacy(
-                    Code::UnknownName,
-                    reference.name.span,
-                    format!("no `ending` is called `{name}`"),
-                    "",
-                );
-                let near = nearest(name, known.iter().copied()).is_some();
-                lower.report(if near {
-                    problem.did_you_mean(name, known)
-                } else {
-                    problem.help(format!("say when it ends: `end {name} when …`"))
-                });
+                let guess = Guess::similar_or(name, &known, &[]);
+                let fact = Names::Unknown { kind: Kind::Ending, name: name.clone(), guess };
+                lower.report(Problem::new(reference.name.span, fact));
                 return None;
             };
             lower.world.mark_used(at);

@@ -3,7 +3,8 @@
 use super::value::Scope;
 use super::{Lower, World};
 use crate::ast::{Ident, ItemKind, Span};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Names;
 use crate::source::FileId;
 
 /// What a name meant before.
@@ -68,11 +69,5 @@ fn warn(world: &World<'_>, name: &str, at: Span, hidden: impl FnOnce() -> Option
         return;
     }
     let Some(Hidden { what, at: before }) = hidden().filter(|hidden| hidden.at != Some(at)) else { return };
-    let problem =
-        Problem::legacy(Code::HidingName, at, format!("`{name}` hides {what} of this name"), "hides it from here");
-    let problem = match before {
-        Some(before) => problem.label(before, "hidden here"),
-        None => problem,
-    };
-    world.report(problem.help(format!("choose another name, for example `my_{name}`")));
+    world.report(Problem::new(at, Names::Hides { name: name.to_owned(), what, hidden: before }));
 }

@@ -5,7 +5,7 @@ use super::value::{Frame, Repr, Scope};
 use super::{Lower, Stage};
 use crate::ast::Expr;
 use crate::check::types::Ty;
-use crate::problem::facts::Instead;
+use crate::problem::facts::{Instead, Names};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Observation, ObservedValue, Reg};
@@ -24,11 +24,7 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
     for (expr, label) in observed {
         let name = label.as_ref().map_or_else(|| world.text(expr.span), |label| label.node.clone());
         if let Some(label) = label.as_ref().filter(|label| values.iter().any(|(known, _)| *known == label.node)) {
-            let message = format!("`{}` is observed twice", label.node);
-            world.report(
-                Problem::legacy(Code::DuplicateName, label.span, message, "named again here")
-                    .help("choose another label: `… as \"label\"`"),
-            );
+            world.report(Problem::new(label.span, Names::ObservedTwice { label: label.node.clone() }));
         }
         values.extend(lower.observed(expr, &name));
     }

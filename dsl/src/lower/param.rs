@@ -5,8 +5,8 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, World};
 use crate::ast::{Domain, Expr, Ident, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::{Chance, Types};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Chance, Kind, Names, Types};
+use crate::problem::{Code, Guess, Problem};
 use crate::resolve::FlatParam;
 use setpiece_scenario::Param;
 use setpiece_scenario::vocabulary::Type;
@@ -51,12 +51,8 @@ pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
     match Type::from_name(ty.node.trim_end_matches('?')) {
         Some(Type::Behavior) | None => {
             let known: Vec<&str> = Type::ALL.iter().filter(|ty| **ty != Type::Behavior).map(|ty| ty.name()).collect();
-            let problem = Problem::legacy(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "");
-            world.report(if crate::problem::nearest(&ty.node, known.iter().copied()).is_some() {
-                problem.did_you_mean(&ty.node, known)
-            } else {
-                problem.help(format!("the types are `{}`", known.join("`, `")))
-            });
+            let guess = Guess::similar_or_all(&ty.node, &known);
+            world.report(Problem::new(ty.span, Names::Unknown { kind: Kind::Type, name: ty.node.clone(), guess }));
             Ty::Error
         }
         Some(ty) => Ty::of(ty),
@@ -267,15 +263,11 @@ fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: S
     }
     match words.iter().position(|word| word == default) {
         Some(index) => info.param.default = index as f64,
-        None => world.report(
-            Problem::legacy(
-                Code::OutOfRange,
-                at,
-                format!("`{default}` is none of the words `{}` may be", info.param.name),
-                "",
-            )
-            .did_you_mean(default, words.iter().map(String::as_str)),
-        ),
+        None => world.report({
+            let guess = Guess::of(default, words.iter().map(String::as_str));
+            let parameter = Some(info.param.name.clone());
+            Problem::new(at, Names::NoneOfItsWords { word: default.to_owned(), parameter, guess })
+        }),
     }
     info.choices = Rc::from(words.clone());
     info.param.choices = words;

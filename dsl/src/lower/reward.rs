@@ -11,8 +11,8 @@ use crate::ast::{
     Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
 };
 use crate::check::types::Ty;
-use crate::problem::facts::Chance;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Chance, Kind, Names};
+use crate::problem::{Code, Guess, Problem};
 use crate::resolve::reward_chain;
 use crate::source::FileId;
 use setpiece_scenario::{Program, Reg, Reward, RewardBody};
@@ -125,13 +125,8 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
         .filter(|(_, found)| matches!(found.item.kind, ItemKind::Reward(_)))
         .map(|(name, _)| name)
         .collect();
-    let problem = Problem::legacy(Code::UnknownName, span, format!("no reward is called `{name}`"), "not known");
-    let near = crate::problem::nearest(name, known.iter().copied()).is_some();
-    world.report(if near {
-        problem.did_you_mean(name, known)
-    } else {
-        problem.help(format!("declare it, `reward {name} {{ give … }}`, or use one of `{}`", known.join("`, `")))
-    });
+    let guess = Guess::similar_or_all(name, &known);
+    world.report(Problem::new(span, Names::Unknown { kind: Kind::Reward, name: name.to_owned(), guess }));
 }
 
 /// Warns of a weight that is 0, whatever the parameters are.

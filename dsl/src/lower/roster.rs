@@ -7,8 +7,8 @@ use crate::ast::{
 };
 use crate::cast::CastTarget;
 use crate::check::types::Ty;
-use crate::problem::facts::Types;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names, Types};
+use crate::problem::{Code, Guess, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
@@ -200,15 +200,13 @@ fn from_layouts<'w>(
     };
     for field in fields.iter().filter(|_| team == Team::Left) {
         if !matches!(field.key.node.as_str(), "kicking" | "receiving") {
-            world.report(
-                Problem::legacy(
-                    Code::UnknownOption,
+            world.report({
+                let guess = Guess::of(&field.key.node, ["kicking", "receiving"]);
+                Problem::new(
                     field.key.span,
-                    format!("`kickoff` has no option `{}`", field.key.node),
-                    "not known",
+                    Names::NoOption { whose: "`kickoff`".to_owned(), option: field.key.node.clone(), guess },
                 )
-                .did_you_mean(&field.key.node, ["kicking", "receiving"]),
-            );
+            });
         }
     }
     let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving")) else {
@@ -318,15 +316,8 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
                 TeamStmtKind::Override { who, change } => overrides.push((who, change)),
                 TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),
                 TeamStmtKind::Absent(role) => absent.push(role.clone()),
-                TeamStmtKind::Field(field) => world.report(
-                    Problem::legacy(
-                        Code::UnknownOption,
-                        field.key.span,
-                        format!("a formation has no option `{}`", field.key.node),
-                        "",
-                    )
-                    .help("options of a team stand in `team left { … }`"),
-                ),
+                TeamStmtKind::Field(field) => world
+                    .report(Problem::new(field.key.span, Names::NoFormationOption { option: field.key.node.clone() })),
                 TeamStmtKind::Broken => {}
             }
         }
@@ -347,15 +338,7 @@ fn copies<'w>(
     if let (Some(count), Some(name)) = (&player.count, &player.name)
         && count.node != 1
     {
-        world.report(
-            Problem::legacy(
-                Code::DuplicateName,
-                name.span,
-                format!("`{}` would name {} players", name.node, count.node),
-                "",
-            )
-            .help("leave the name out, or write one line per player"),
-        );
+        world.report(Problem::new(name.span, Names::OneNameForMany { name: name.node.clone(), count: count.node }));
     }
     if let Some(none) = player.count.as_ref().filter(|count| count.node == 0) {
         world.report(
@@ -416,27 +399,14 @@ fn adjust<'w>(
                     .flat_map(|player| [player.name.map(|name| name.node.as_str()), Some(player.role.name())])
                     .flatten()
                     .collect();
-                world.report(
-                    Problem::legacy(
-                        Code::UnknownName,
-                        who.span,
-                        format!("no player of this team is called `{}`", who.node),
-                        "",
-                    )
-                    .did_you_mean(&who.node, names),
-                );
+                world.report({
+                    let guess = Guess::of(&who.node, names);
+                    Problem::new(who.span, Names::Unknown { kind: Kind::Player, name: who.node.clone(), guess })
+                });
                 continue;
             }
             n => {
-                world.report(
-                    Problem::legacy(
-                        Code::AmbiguousName,
-                        who.span,
-                        format!("the team has {n} players `{}`", who.node),
-                        "which one is meant?",
-                    )
-                    .help("give the player a name, `anna: CM at …`, and place `anna`"),
-                );
+                world.report(Problem::new(who.span, Names::AmbiguousPlayer { role: who.node.clone(), count: n }));
                 continue;
             }
         }
@@ -468,10 +438,10 @@ fn apply_each<'w>(
         let role = Role::from_name(&who.node);
         if role.is_none() && !matches!(who.node.as_str(), "all" | "outfield") {
             let known = ["all", "outfield"].into_iter().chain(Role::ALL.iter().map(|role| role.name()));
-            world.report(
-                Problem::legacy(Code::UnknownRole, who.span, format!("`each` knows no `{}`", who.node), "")
-                    .did_you_mean(&who.node, known),
-            );
+            world.report({
+                let guess = Guess::of(&who.node, known);
+                Problem::new(who.span, Names::EachOfNothing { name: who.node.clone(), guess })
+            });
             continue;
         }
         let mut anyone = false;
@@ -486,10 +456,7 @@ fn apply_each<'w>(
             }
         }
         if !anyone && !players.is_empty() && is_own(who.span) {
-            world.report(
-                Problem::legacy(Code::UnknownRole, who.span, format!("the {team} team has no `{}`", who.node), "")
-                    .help("leave it out, or write `each outfield`"),
-            );
+            world.report(Problem::new(who.span, Names::NobodyOfRole { team: team.name(), name: who.node.clone() }));
         }
     }
     for (player, mut fields) in players.iter_mut().zip(defaults) {
@@ -531,24 +498,12 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
         let earlier = roster.iter().take(index).filter_map(|other| other.name);
         let first = earlier.into_iter().find(|other| other.node == name.node && other.span != name.span);
         if let Some(first) = first {
-            world.report(
-                Problem::legacy(
-                    Code::DuplicateName,
-                    name.span,
-                    format!("two players are called `{}`", name.node),
-                    "called so again here",
-                )
-                .label(first.span, "first called so here")
-                .help("choose another name for one of them"),
-            );
+            world.report(Problem::new(name.span, Names::TwoPlayers { name: name.node.clone(), first: first.span }));
         }
         if let Some(value) = world.declaration(&name.node) {
             // Of the two the author wrote the one that stands in their own scenario.
             let (again, first) = if world.flat.is_own(name.span) { (name.span, value) } else { (value, name.span) };
-            world.report(
-                Problem::declared_twice(&format!("`{}`", name.node), again, first)
-                    .help("a player and a value can't share a name: choose another for one of them"),
-            );
+            world.report(Problem::new(again, Names::PlayerAndValue { name: name.node.clone(), first }));
         }
     }
 }

@@ -17,7 +17,7 @@ use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::problem::facts::Chance;
+use crate::problem::facts::{Chance, Names};
 use crate::problem::{Code, Problem};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
@@ -25,9 +25,6 @@ use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
 use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
 use std::collections::BTreeMap;
-
-/// What to do about what is defined by itself.
-pub(crate) const NO_CIRCLE: &str = "give one of the circle a value of its own";
 
 /// A player's places at kick-offs: when his team kicks off, and when the others do.
 pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
@@ -242,10 +239,10 @@ impl<'w> Lower<'_, 'w> {
         match self.start.lets.get(name) {
             Some(Some(value)) => return value.clone(),
             Some(None) => {
-                return self.fail(
-                    Problem::legacy(Code::Recursion, asked, format!("`{name}` uses itself"), "closes the circle")
-                        .help(NO_CIRCLE),
-                );
+                return self.fail(Problem::new(
+                    asked,
+                    Names::Recursion { name: name.to_owned(), declared: None, is_behavior: false },
+                ));
             }
             None => {}
         }

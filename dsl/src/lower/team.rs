@@ -8,8 +8,8 @@ use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{PLAYER, TEAM};
 use crate::check::types::Ty;
-use crate::problem::facts::{Chance, Types};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Chance, Kind, Names, Types};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};
 use setpiece_scenario::vocabulary::{Stat, Team};
 use setpiece_scenario::{Ai, Reg};
@@ -183,26 +183,17 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
     let behaviors =
         library.visible(expr.span.file).filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)));
     let known: Vec<&str> = behaviors.map(|(name, _)| name).chain(built_in.iter().map(|(name, _)| *name)).collect();
-    let problem =
-        Problem::legacy(Code::UnknownName, expr.span, format!("no player's `ai` is called `{name}`"), "not known");
-    lower.report(if crate::problem::nearest(&name, known.iter().copied()).is_some() {
-        problem.did_you_mean(&name, known)
-    } else {
-        problem.help("it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"file.rhai\"`")
-    });
+    let guess = Guess::similar_or(&name, &known, &[]);
+    lower.report(Problem::new(expr.span, Names::Unknown { kind: Kind::Ai, name, guess }));
 }
 
 fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
     let Some(stat) = Stat::from_name(&field.key.node) else {
-        lower.report(
-            Problem::legacy(
-                Code::UnknownOption,
-                field.key.span,
-                format!("no statistic is called `{}`", field.key.node),
-                "not known",
-            )
-            .one_of(&field.key.node, &Stat::ALL.iter().map(|stat| stat.name()).collect::<Vec<_>>()),
-        );
+        lower.report({
+            let known: Vec<&str> = Stat::ALL.iter().map(|stat| stat.name()).collect();
+            let guess = Guess::or_all(&field.key.node, &known);
+            Problem::new(field.key.span, Names::Unknown { kind: Kind::Statistic, name: field.key.node.clone(), guess })
+        });
         return;
     };
     let Some(expr) = fields::expression(lower, field) else { return };

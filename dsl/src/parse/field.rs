@@ -4,6 +4,7 @@ use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
 use crate::ast::{Field, FieldValue, ScriptRef, ScriptSource, Spanned};
 use crate::problem::Problem;
+use crate::problem::facts::Names;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -14,7 +15,10 @@ impl Reader<'_> {
         let fields: Vec<Field> = fields.into_iter().flatten().collect();
         for (index, field) in fields.iter().enumerate() {
             if let Some(first) = fields.iter().take(index).find(|first| first.key.node == field.key.node) {
-                self.push(Problem::given_twice(&format!("`{}`", field.key.node), field.key.span, first.key.span));
+                self.push(Problem::new(
+                    field.key.span,
+                    Names::GivenTwice { what: format!("`{}`", field.key.node), first: first.key.span },
+                ));
             }
         }
         fields

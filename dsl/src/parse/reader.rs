@@ -4,6 +4,7 @@ use super::scan::Scan;
 use super::{LEAST_EFFORT, MAX_BLOCKS, MAX_LIST, MAX_PROBLEMS, span};
 use crate::ast::{Ident, Spanned};
 use crate::check::names::{owner_of_call, owner_of_value};
+use crate::problem::facts::Names;
 use crate::problem::{Code, Problem};
 use crate::source::{FileId, Span};
 use pest::error::InputLocation;
@@ -305,13 +306,7 @@ fn disjoint(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
 
 /// A reserved word used as a name.
 pub(super) fn reserved(name: &str, span: Span, whose: &str) -> Problem {
-    Problem::legacy(
-        Code::ReservedName,
-        span,
-        format!("`{name}` is a word of the language and can't be a name"),
-        format!("belongs to {whose}"),
-    )
-    .help(format!("choose another name, for example `my_{}`", name.to_lowercase()))
+    Problem::new(span, Names::Reserved { name: name.to_owned(), whose: whose.to_owned() })
 }
 
 /// Signs of two characters, the language's and others'.

@@ -13,12 +13,14 @@
 mod chance;
 mod dry_run;
 mod legacy;
+mod names;
 mod scenario;
 mod types;
 
 pub(crate) use chance::Chance;
 pub use dry_run::{Cure, DryRun};
 pub(crate) use legacy::Legacy;
+pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
 pub(crate) use scenario::Whole;
 pub(crate) use types::{Instead, Operand, Types, Use, Verb};
 
@@ -90,6 +92,8 @@ subjects! {
     Legacy,
     /// Draws and constants.
     Chance,
+    /// Names.
+    Names,
     /// Types and units.
     Types,
     /// Found by a dry run.

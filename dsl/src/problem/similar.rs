@@ -86,10 +86,15 @@ impl Guess {
 
     /// The same, but where nothing is similar it lists all that there is even for a word of another language.
     pub(crate) fn similar_or_all(found: &str, known: &[&str]) -> Guess {
-        if known.is_empty() || nearest(found, known.iter().copied()).is_some() {
+        if known.is_empty() { Guess::of(found, []) } else { Guess::similar_or(found, known, known) }
+    }
+
+    /// The same; lists others than those that may be similar.
+    pub(crate) fn similar_or(found: &str, known: &[&str], listed: &[&str]) -> Guess {
+        if nearest(found, known.iter().copied()).is_some() {
             Guess::of(found, known.iter().copied())
         } else {
-            Guess::all(known)
+            Guess::all(listed)
         }
     }
 

@@ -11,8 +11,8 @@ use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
     RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
 };
-use crate::problem::facts::Types;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names, Types};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::vocabulary::{Role, Team};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -311,7 +311,10 @@ impl<'a> Adding<'a, '_> {
     fn record(&mut self, binding: &'a Binding) {
         let name = &binding.name;
         if let Some(first) = self.earlier("record", &name.node, name.span) {
-            self.problems.push(Problem::declared_twice(&format!("record `{}`", name.node), name.span, first));
+            self.problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("record `{}`", name.node), first: Some(first) },
+            ));
             return;
         }
         let is_new = self.known.insert(("record", &name.node));
@@ -332,20 +335,23 @@ impl<'a> Adding<'a, '_> {
     /// Declares a name that expressions may use.
     fn declare(&mut self, name: &Ident) {
         if let Some(first) = self.earlier("value", &name.node, name.span) {
-            self.problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, first));
+            self.problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(first) },
+            ));
         }
     }
 
     fn only_once(&mut self, what: &'static str, span: Span) {
         if let Some(first) = self.earlier(what, "", span) {
-            self.problems.push(Problem::given_twice(what, span, first));
+            self.problems.push(Problem::new(span, Names::GivenTwice { what: what.to_owned(), first }));
         }
     }
 
     /// A key of a group that may be written in several pairs of braces.
     fn key_once(&mut self, group: &'static str, key: &Ident) {
         if let Some(first) = self.earlier(group, &key.node, key.span) {
-            self.problems.push(Problem::given_twice(&format!("`{}`", key.node), key.span, first));
+            self.problems.push(Problem::new(key.span, Names::GivenTwice { what: format!("`{}`", key.node), first }));
         }
     }
 
@@ -418,8 +424,8 @@ impl<'a> Adding<'a, '_> {
             }
             let known = places.keys().copied();
             let span = arg.key.as_ref().map_or(arg.span, |key| key.span);
-            let message = format!("`{}` has no parameter `{name}`", reference.name.node);
-            self.problems.push(Problem::legacy(Code::UnknownName, span, message, "").did_you_mean(name, known));
+            let (parent, guess) = (reference.name.node.clone(), Guess::of(name, known));
+            self.problems.push(Problem::new(span, Names::NoParentParameter { parent, name: name.to_owned(), guess }));
         }
     }
 
@@ -447,10 +453,10 @@ impl<'a> Adding<'a, '_> {
 
     fn team(&mut self, team: &'a Ident, body: &'a [TeamStmt]) {
         let Some(index) = Team::from_name(&team.node).map(Team::index) else {
-            self.problems.push(
-                Problem::legacy(Code::UnknownName, team.span, format!("no team is called `{}`", team.node), "")
-                    .help("write `team left` or `team right`"),
-            );
+            self.problems.push(Problem::new(
+                team.span,
+                Names::Unknown { kind: Kind::Team, name: team.node.clone(), guess: Guess::default() },
+            ));
             return;
         };
         for stmt in body {
@@ -499,16 +505,10 @@ impl<'a> Adding<'a, '_> {
                 RewardUseKind::Inline { name, .. } => name.node.as_str(),
                 RewardUseKind::Script(_) => "script …",
             };
-            self.problems.push(
-                Problem::legacy(
-                    Code::DuplicateName,
-                    stmt.span,
-                    format!("reward `{name}` is given twice"),
-                    "given again here",
-                )
-                .label(first, "first given here")
-                .help(format!("give one of them another label: `reward {what} as \"{name}_2\"`")),
-            );
+            self.problems.push(Problem::new(
+                stmt.span,
+                Names::RewardTwice { name: name.to_owned(), what: what.to_owned(), first },
+            ));
             return;
         }
         match known.and_then(|at| self.flat.rewards.get_mut(at)) {
@@ -534,16 +534,7 @@ impl<'a> Adding<'a, '_> {
         };
         let name = label.bare();
         if let Some(first) = self.earlier("end", name, span) {
-            self.problems.push(
-                Problem::legacy(
-                    Code::DuplicateName,
-                    label.name.span,
-                    format!("ending `{name}` is given twice"),
-                    "given again here",
-                )
-                .label(first, "first given here")
-                .help("give each ending its own label, or join the conditions with `or`"),
-            );
+            self.problems.push(Problem::new(label.name.span, Names::EndingTwice { name: name.to_owned(), first }));
             return;
         }
         let known = self.flat.ends.iter_mut().find(|known| known.label.is_some_and(|known| known.bare() == name));

@@ -2,6 +2,7 @@
 
 use crate::ast::{File, FileId, Ident, Item, ItemKind, ParamDecl, Span};
 use crate::parse::parse;
+use crate::problem::facts::Names;
 use crate::problem::{Code, Problem};
 use crate::source::{Source, SourceLoader, Sources};
 use std::collections::BTreeMap;
@@ -301,15 +302,10 @@ impl Library {
         let places = self.seen.get(file.0 as usize)?.get(name)?;
         let (first, second) = (self.item(*places.first()?)?, self.item(*places.get(1)?)?);
         let of = |item: &NamedItem<'_>| self.sources.get(item.name.span.file).map_or("", |file| file.name.as_str());
-        Some(
-            Problem::legacy(
-                Code::AmbiguousName,
-                span,
-                format!("`{name}` is declared in `{}` and in `{}`", of(&first), of(&second)),
-                "which one is meant?",
-            )
-            .help("import one of the files `as` a name and write `name.` before it"),
-        )
+        Some(Problem::new(
+            span,
+            Names::Ambiguous { name: name.to_owned(), files: (of(&first).to_owned(), of(&second).to_owned()) },
+        ))
     }
 
     /// The file that another one imports under a name.
@@ -412,7 +408,10 @@ fn own_names(file: &File, problems: &mut Vec<Problem>) -> BTreeMap<String, Vec<I
         let Some(name) = item_name(item) else { continue };
         distinct_params(item.kind.params(), problems);
         if let Some(first) = spans.get(name.node.as_str()) {
-            problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, *first));
+            problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(*first) },
+            ));
             continue;
         }
         spans.insert(&name.node, name.span);
@@ -447,7 +446,10 @@ pub(super) fn distinct_params(params: &[ParamDecl], problems: &mut Vec<Problem>)
     let mut known: BTreeMap<&str, Span> = BTreeMap::new();
     for ParamDecl { name, .. } in params {
         match known.get(name.node.as_str()) {
-            Some(first) => problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, *first)),
+            Some(first) => problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(*first) },
+            )),
             None => drop(known.insert(&name.node, name.span)),
         }
     }

@@ -3,7 +3,8 @@
 use super::Writer;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem, signature};
+use crate::problem::facts::{Kind, Names};
+use crate::problem::{Code, Guess, Problem, signature};
 use setpiece_scenario::pitch::{LONGEST_S, STEPS_PER_S};
 use setpiece_scenario::vocabulary::{Field, Primitive};
 use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, Then, UnaryOp, Watch, When};
@@ -49,14 +50,10 @@ impl<'w> Writer<'_, 'w> {
             .map(|(name, _)| name)
             .collect();
         known.extend(Primitive::ALL.iter().map(|primitive| primitive.name()));
-        let message = format!("nothing that a player does is called `{}`", name.node);
-        let problem = Problem::legacy(Code::UnknownName, name.span, message, "not known");
-        self.lower.report(if crate::problem::nearest(&name.node, known.iter().copied()).is_some() {
-            problem.did_you_mean(&name.node, known)
-        } else {
-            let all: Vec<&str> = Primitive::ALL.iter().map(|primitive| primitive.name()).collect();
-            problem.help(format!("he can `{}`, or what a `behavior` says", all.join("`, `")))
-        });
+        let all: Vec<&str> = Primitive::ALL.iter().map(|primitive| primitive.name()).collect();
+        let guess = Guess::similar_or(&name.node, &known, &all);
+        let fact = Names::Unknown { kind: Kind::Act, name: name.node.clone(), guess };
+        self.lower.report(Problem::new(name.span, fact));
     }
 
     fn primitive(&mut self, primitive: Primitive, stmt: &'w DoStmt, args: &'w [Arg], span: Span) {

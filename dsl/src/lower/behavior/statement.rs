@@ -5,7 +5,7 @@ use crate::ast::{BehaviorStmt, BehaviorStmtKind, Binding as Let, Chance, Expr, I
 use crate::check::types::Ty;
 use crate::lower::param;
 use crate::lower::value::{Binding, Scope, Value};
-use crate::problem::facts::Types;
+use crate::problem::facts::{Names, Types};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{BinaryOp, Distribution, Node, Reg, Then, UnaryOp, Watch};
 
@@ -15,11 +15,10 @@ impl<'w> Writer<'_, 'w> {
         for statement in statements {
             let BehaviorStmtKind::State(state) = &statement.kind else { continue };
             if self.states.iter().any(|known| known.name == state.name.node) {
-                let message = format!("state `{}` is declared twice", state.name.node);
-                self.lower.report(
-                    Problem::legacy(Code::DuplicateName, state.name.span, message, "declared again here")
-                        .help("choose another name for one of them"),
-                );
+                self.lower.report(Problem::new(
+                    state.name.span,
+                    Names::DeclaredTwice { what: format!("state `{}`", state.name.node), first: None },
+                ));
                 continue;
             }
             self.state(state);

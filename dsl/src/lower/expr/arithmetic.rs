@@ -5,8 +5,8 @@ use super::super::value::{RegionValue, Repr, Value};
 use super::is_tuple;
 use crate::ast::{self, Expr, ExprKind, Span, Spanned};
 use crate::check::types::{Dim, Ty};
-use crate::problem::facts::{Operand, Types, Verb};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names, Operand, Types, Verb};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::vocabulary::{Field, GameMode};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 use std::rc::Rc;
@@ -244,20 +244,14 @@ impl<'w> Lower<'_, 'w> {
             ExprKind::Event(event) => event.name.node.as_str(),
             _ => return self.expr(expr),
         };
-        let modes = || GameMode::ALL.iter().map(|mode| mode.name());
         // `kickoff` is the event's name, `kick_off` GRF's for the mode.
         let found = GameMode::from_name(word).or((word == "kickoff").then_some(GameMode::KickOff));
         if let Some(mode) = found {
             return Value::one(Ty::Mode, self.code.constant(mode.index() as f64));
         }
-        let known: Vec<&str> = modes().collect();
-        let problem = Problem::legacy(Code::UnknownName, expr.span, format!("no game mode is called `{word}`"), "");
-        let near = crate::problem::nearest(word, modes()).is_some();
-        self.fail(if near {
-            problem.did_you_mean(word, modes())
-        } else {
-            problem.help(format!("the modes are `{}`", known.join("`, `")))
-        })
+        let known: Vec<&str> = GameMode::ALL.iter().map(|mode| mode.name()).collect();
+        let guess = Guess::similar_or_all(word, &known);
+        self.fail(Problem::new(expr.span, Names::Unknown { kind: Kind::Mode, name: word.to_owned(), guess }))
     }
 
     /// Whether two values are equal.
@@ -294,10 +288,10 @@ impl<'w> Lower<'_, 'w> {
                 let index = self.code.constant(index as f64);
                 Value::one(Ty::Bool, self.code.binary(op, reg, index))
             }
-            None => self.fail(
-                Problem::legacy(Code::OutOfRange, at.span, format!("`{text}` is none of the words it may be"), "")
-                    .did_you_mean(text, words.iter().map(String::as_str)),
-            ),
+            None => self.fail({
+                let guess = Guess::of(text, words.iter().map(String::as_str));
+                Problem::new(at.span, Names::NoneOfItsWords { word: text.to_owned(), parameter: None, guess })
+            }),
         }
     }
 

@@ -4,7 +4,8 @@ use super::super::value::{Binding, Frame, Scope, Value};
 use super::super::{Lower, param};
 use crate::ast::{Arg, Expr, FnItem, Ident, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem, signature};
+use crate::problem::facts::{Names, NotAFunction};
+use crate::problem::{Code, Guess, Problem, signature};
 use crate::resolve::{Named, arg_name};
 use setpiece_scenario::vocabulary::Function;
 
@@ -59,17 +60,16 @@ impl<'w> Lower<'_, 'w> {
             .collect();
         known.extend(Function::ALL.iter().map(|function| function.name()));
         let text = &name.node;
-        let problem =
-            Problem::legacy(Code::UnknownFunction, name.span, format!("no function is called `{text}`"), "not known");
         let is_value = self.scope.find(text).is_some() || (self.scope.scenario && self.world.declares(text));
-        let other = library.find(name.span.file, text).map(|found| found.item.kind.noun());
-        let elsewhere = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
-        self.fail(match (other, elsewhere) {
-            _ if is_value => problem.help(format!("`{text}` is a value: write it without brackets")),
-            (Some(noun), _) => problem.help(format!("`{text}` is {noun}")),
-            (None, Some(ours)) => problem.help(format!("did you mean `{ours}`?")),
-            (None, None) => problem.did_you_mean(text, known),
-        })
+        let item = library.find(name.span.file, text).map(|found| found.item.kind.noun());
+        let foreign = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
+        let other = match (item, foreign) {
+            _ if is_value => NotAFunction::Value,
+            (Some(noun), _) => NotAFunction::Item(noun),
+            (None, Some(ours)) => NotAFunction::Foreign(ours),
+            (None, None) => NotAFunction::Unknown(Guess::of(text, known)),
+        };
+        self.fail(Problem::new(name.span, Names::NoFunction { name: text.clone(), other }))
     }
 
     /// Calls a `fn` of a file: its body is read with the caller's frame and view.

@@ -5,8 +5,8 @@ use super::super::value::{Repr, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{EventExpr, Expr};
 use crate::check::types::Ty;
-use crate::problem::facts::Types;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names, Types};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::vocabulary::{EventField, EventKind, Landmark, Qualifier};
 use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
 
@@ -67,15 +67,10 @@ impl<'w> Lower<'_, 'w> {
     fn event_filter(&mut self, event: &'w EventExpr) -> Option<EventFilter> {
         let name = event.name.node.as_str();
         let Some(kind) = EventKind::from_name(name) else {
-            self.report(
-                Problem::legacy(
-                    Code::UnknownEvent,
-                    event.name.span,
-                    format!("no event is called `{name}`"),
-                    "not known",
-                )
-                .did_you_mean(name, EventKind::ALL.iter().map(|kind| kind.name())),
-            );
+            self.report({
+                let guess = Guess::of(name, EventKind::ALL.iter().map(|kind| kind.name()));
+                Problem::new(event.name.span, Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess })
+            });
             return None;
         };
         if !self.stage.is_step() {

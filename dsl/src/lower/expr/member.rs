@@ -5,8 +5,8 @@ use super::super::value::{Repr, Value};
 use crate::ast::{Expr, ExprKind, Ident, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::facts::Types;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Like, Names, Types};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -79,13 +79,9 @@ impl<'w> Lower<'_, 'w> {
         let begins = format!("{alias}.");
         let known: Vec<&str> =
             library.visible(span.file).map(|(name, _)| name).filter(|name| name.starts_with(&begins)).collect();
-        let message = format!("`{file}` has no `{}`", member.node);
-        let problem = Problem::legacy(Code::UnknownName, member.span, message, "not known");
-        Some(self.fail(if known.is_empty() || crate::problem::nearest(&dotted, known.iter().copied()).is_some() {
-            problem.did_you_mean(&dotted, known)
-        } else {
-            problem.help(format!("it has `{}`", known.join("`, `")))
-        }))
+        let guess = Guess::similar_or_all(&dotted, &known);
+        let fact = Names::NotInFile { file: file.to_owned(), name: member.node.clone(), guess };
+        Some(self.fail(Problem::new(member.span, fact)))
     }
 
     fn team_member(&mut self, team: &'w Expr, name: &str, at: Span, span: Span) -> Value<'w> {
@@ -129,18 +125,8 @@ impl<'w> Lower<'_, 'w> {
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
         known.extend(["zone.CM", "score"]);
         let text = self.world.text(of);
-        let problem = Problem::legacy(
-            Code::UnknownMember,
-            at,
-            format!("`{text}` has no landmark or region `{name}`"),
-            "not known",
-        );
-        let near = crate::problem::nearest(name, known.iter().copied()).is_some();
-        self.fail(if near {
-            problem.did_you_mean(name, known)
-        } else {
-            problem.help(format!("a team has `{}`", known.join("`, `")))
-        })
+        let guess = Guess::similar_or_all(name, &known);
+        self.fail(Problem::new(at, Names::NoLandmark { team: text, name: name.to_owned(), guess }))
     }
 
     fn score_member(&mut self, member: &'w Ident, span: Span) -> Value<'w> {
@@ -294,33 +280,13 @@ impl<'w> Lower<'_, 'w> {
 
     fn no_member(&self, of: Span, ty: Ty, at: Span, name: &str, known: &[&str]) -> Value<'w> {
         let text = self.world.text(of);
-        let problem = Problem::legacy(
-            Code::UnknownMember,
-            at,
-            format!("`{text}` ({}) has no property `{name}`", ty.noun()),
-            "not known",
-        );
-        let near = crate::problem::nearest(name, known.iter().copied()).is_some();
-        let elsewhere = match (ty, name) {
-            (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => {
-                Some(format!("write `{text} has ball`"))
-            }
-            (Ty::Player | Ty::Ball, "vx" | "vy" | "velocity.x" | "velocity.y") => {
-                Some(format!("write `{text}.velocity`, or `{text}.speed`"))
-            }
-            (Ty::Player | Ty::Ball, "position" | "pos") => {
-                Some(format!("write `{text}` for its place, or `{text}.x` and `{text}.y`"))
-            }
-            _ => None,
+        let like = match (ty, name) {
+            (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => Like::HasBall,
+            (Ty::Player | Ty::Ball, "vx" | "vy" | "velocity.x" | "velocity.y") => Like::Velocity,
+            (Ty::Player | Ty::Ball, "position" | "pos") => Like::Place,
+            _ => Like::Other(Guess::similar_or_all(name, known)),
         };
-        if let Some(help) = elsewhere {
-            return self.fail(problem.help(help));
-        }
-        self.fail(if near || known.is_empty() {
-            problem.did_you_mean(name, known.iter().copied())
-        } else {
-            problem.help(format!("it has `{}`", known.join("`, `")))
-        })
+        self.fail(Problem::new(at, Names::NoProperty { text, noun: ty.noun(), name: name.to_owned(), like }))
     }
 }
 

@@ -5,8 +5,8 @@ use super::super::{Lower, Stage};
 use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::facts::{Chance, Types, Use};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Chance, Names, Outside, Types, Use};
+use crate::problem::{Code, Guess, Problem};
 use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
 use setpiece_scenario::{Reg, UnaryOp, When};
@@ -43,31 +43,26 @@ impl<'w> Lower<'_, 'w> {
         if matches!(self.stage, Stage::Reward | Stage::Ending) {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
-        let problem = Problem::legacy(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known");
-        self.fail(match self.of_the_scenario(name) {
-            Some(help) => problem.help(help),
-            None => problem.did_you_mean(name, candidates.iter().map(String::as_str)),
-        })
+        if let Some(fact) = self.of_the_scenario(name) {
+            return self.fail(Problem::new(span, fact));
+        }
+        let guess = Guess::of(name, candidates.iter().map(String::as_str));
+        self.fail(Problem::new(span, Names::NoValue { name: name.to_owned(), guess }))
     }
 
     /// How a name of the scenario reaches what stands outside of it.
-    fn of_the_scenario(&self, name: &str) -> Option<String> {
+    fn of_the_scenario(&self, name: &str) -> Option<Names> {
         let is_player = self.player_named(name);
         if self.scope.scenario || !(is_player || self.world.declaration(name).is_some()) {
             return None;
         }
-        let (noun, head) = match self.stage {
-            Stage::Behavior => ("a behavior", "behavior NAME"),
-            Stage::Reward | Stage::Init => ("a reward", "reward NAME"),
-            Stage::Ending => ("an ending", "ending NAME"),
-            _ => {
-                return Some(format!(
-                    "`{name}` is the scenario's, which nothing outside of it sees: hand it in as a parameter"
-                ));
-            }
+        let from = match self.stage {
+            Stage::Behavior => Outside::Behavior,
+            Stage::Reward | Stage::Init => Outside::Reward,
+            Stage::Ending => Outside::Ending,
+            _ => Outside::Elsewhere,
         };
-        let decl = if is_player { format!("{name}: player") } else { format!("{name}: …") };
-        Some(format!("{noun} doesn't see the scenario's names: hand it in, `{head}({decl})`"))
+        Some(Names::OfTheScenario { name: name.to_owned(), from, is_player })
     }
 
     fn player_named(&self, name: &str) -> bool {

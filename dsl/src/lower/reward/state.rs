@@ -6,8 +6,8 @@ use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, R
 use crate::check::types::Ty;
 use crate::lower::value::{Binding, Scope, Value};
 use crate::lower::{Lower, Stage, World, param};
-use crate::problem::facts::Types;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Names, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::{Reg, When};
 
 /// The states at the top of a reward.
@@ -32,7 +32,10 @@ pub(super) fn check_names(world: &World<'_>, written: &Written<'_>) {
 
 fn declare<'w>(world: &World<'_>, name: &'w Ident, known: &mut Vec<&'w Ident>) {
     if let Some(first) = known.iter().find(|first| first.node == name.node) {
-        world.report(Problem::declared_twice(&format!("`{}`", name.node), name.span, first.span));
+        world.report(Problem::new(
+            name.span,
+            Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(first.span) },
+        ));
     }
     known.push(name);
 }
@@ -102,8 +105,7 @@ impl<'w> Lower<'_, 'w> {
         let Some(scope) = scope else {
             // Where there is no such reward, that has been told.
             if matches!(used.what, RewardUseKind::Script(_)) {
-                let message = format!("reward `{name}` is a script, whose memory is its own");
-                self.report(Problem::legacy(Code::UnknownMember, member.span, message, "can't be read"));
+                self.report(Problem::new(member.span, Names::ScriptHasNoStates { reward: name.to_owned() }));
             }
             return Some(Value::error());
         };
@@ -112,14 +114,9 @@ impl<'w> Lower<'_, 'w> {
         }
         let is_state = |name: &&str| matches!(scope.find(name), Some(Binding::State { .. }));
         let states: Vec<&str> = scope.names().into_iter().filter(is_state).collect();
-        let message = format!("reward `{name}` has no state `{}`", member.node);
-        let problem = Problem::legacy(Code::UnknownMember, member.span, message, "not known");
-        let near = crate::problem::nearest(&member.node, states.iter().copied()).is_some();
-        Some(self.fail(match states.is_empty() {
-            false if !near => problem.help(format!("it has `{}`", states.join("`, `"))),
-            false => problem.did_you_mean(&member.node, states),
-            true => problem.help("a record reads what a reward keeps in `state`s"),
-        }))
+        let guess = if states.is_empty() { Guess::default() } else { Guess::similar_or_all(&member.node, &states) };
+        let fact = Names::NoStateOfReward { reward: name.to_owned(), name: member.node.clone(), guess };
+        Some(self.fail(Problem::new(member.span, fact)))
     }
 
     /// Writes a reward's statements without its payments, outside every loop; gives the scope with its states.

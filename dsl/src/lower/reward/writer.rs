@@ -7,7 +7,8 @@ use crate::check::types::Ty;
 use crate::lower::script::embed;
 use crate::lower::value::Binding;
 use crate::lower::{Lower, param};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Assigned, Names};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::STEP_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, RewardHook, UnaryOp};
@@ -341,16 +342,11 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         let known = self.lower.scope.bindings();
         let states: Vec<&str> =
             known.iter().filter(|(_, bound)| matches!(bound, Binding::State { .. })).map(|(name, _)| *name).collect();
-        let problem = |message: String| Problem::legacy(Code::UnknownName, name.span, message, "can't be assigned");
-        let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
-        self.lower.report(if known.contains_key(name.node.as_str()) {
-            problem(format!("`{}` is no `state`, and only a `state` is assigned", name.node))
-                .help(format!("declare it at the top: `state {} = 0`", name.node))
-        } else if near {
-            problem(format!("no `state` is called `{}`", name.node)).did_you_mean(&name.node, states)
+        let (is, guess) = if known.contains_key(name.node.as_str()) {
+            (Assigned::ValueOfReward, Guess::default())
         } else {
-            problem(format!("no `state` is called `{}`", name.node))
-                .help(format!("declare it at the top: `state {} = 0`", name.node))
-        });
+            (Assigned::Nothing, Guess::similar_or(&name.node, &states, &[]))
+        };
+        self.lower.report(Problem::new(name.span, Names::NotAState { name: name.node.clone(), is, guess }));
     }
 }

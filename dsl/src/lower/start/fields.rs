@@ -5,8 +5,8 @@ use crate::check::options::{BALL, START};
 use crate::check::types::Ty;
 use crate::lower::value::Repr;
 use crate::lower::{Lower, fields};
-use crate::problem::facts::{Instead, Types};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Instead, Names, Types};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::{
     BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S, STEPS_PER_S,
 };
@@ -135,15 +135,11 @@ impl<'w> Lower<'_, 'w> {
         let fields = self.world.flat.rules.clone();
         for field in fields {
             let Some(rule) = Rule::from_name(&field.key.node) else {
-                self.report(
-                    Problem::legacy(
-                        Code::UnknownOption,
-                        field.key.span,
-                        format!("`rules` has no option `{}`", field.key.node),
-                        "not known",
-                    )
-                    .one_of(&field.key.node, &Rule::ALL.iter().map(|rule| rule.name()).collect::<Vec<_>>()),
-                );
+                self.report({
+                    let known: Vec<&str> = Rule::ALL.iter().map(|rule| rule.name()).collect();
+                    let guess = Guess::or_all(&field.key.node, &known);
+                    Problem::new(field.key.span, Names::NoRule { option: field.key.node.clone(), guess })
+                });
                 continue;
             };
             if let Some(value) = self.rule_value(rule, field) {

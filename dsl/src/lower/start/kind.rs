@@ -5,7 +5,8 @@ use crate::check::types::Ty;
 use crate::lower::Lower;
 use crate::lower::mirror::Mirror;
 use crate::lower::value::{Frame, Scope};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M};
 use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Reg, UnaryOp};
@@ -29,10 +30,10 @@ impl Lower<'_, '_> {
         let Some(stmt) = self.world.flat.start else { return (implied, first) };
         let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, first) };
         let Some(found) = StartKind::from_name(&kind.node) else {
-            self.report(
-                Problem::legacy(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
-                    .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
-            );
+            self.report({
+                let guess = Guess::of(&kind.node, StartKind::ALL.iter().map(|kind| kind.name()));
+                Problem::new(kind.span, Names::Unknown { kind: Kind::Start, name: kind.node.clone(), guess })
+            });
             return (implied, first);
         };
         if let Some(at) = at.as_ref().filter(|_| !has_place(found)) {

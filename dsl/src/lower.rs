@@ -32,7 +32,7 @@ pub(crate) use world::{Effort, MAX_LOWERED, World};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::problem::facts::{Chance, Instead, Names, Types};
+use crate::problem::facts::{Calls, Chance, Instead, Names, Types};
 use crate::problem::{Code, Problem};
 use builder::Builder;
 use interval::Interval;
@@ -197,10 +197,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         }
         if self.inlined > INLINED_MAX {
             if self.inlined == INLINED_MAX + 1 {
-                self.report(
-                    Problem::legacy(Code::Impossible, at, format!("`{text}` makes the program too large"), "")
-                        .help("use it less often, or name its value with a `let`"),
-                );
+                self.report(Problem::new(at, Calls::TooLarge { name: text }));
             }
             return None;
         }

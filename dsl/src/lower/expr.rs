@@ -17,8 +17,8 @@ use super::value::{Frame, Repr, Value};
 use super::{DEPTH_MAX, Lower};
 use crate::ast::{Expr, ExprKind, Span, UnaryOp};
 use crate::check::types::Ty;
-use crate::problem::facts::{Instead, Operand, Types};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Calls, Instead, Operand, Scopes, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::Unit;
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp as WorldOp};
@@ -41,10 +41,7 @@ impl<'w> Lower<'_, 'w> {
         self.depth += 1;
         let value = if self.depth > DEPTH_MAX {
             if self.depth == DEPTH_MAX + 1 {
-                self.report(
-                    Problem::legacy(Code::TooDeep, expr.span, "the expression is nested too deeply", "")
-                        .help("name a part of it with `let`"),
-                );
+                self.report(Problem::new(expr.span, Calls::TooDeep));
             }
             Value::error()
         } else {
@@ -100,10 +97,7 @@ impl<'w> Lower<'_, 'w> {
 
     fn own(&mut self, inner: &'w Expr, span: Span) -> Value<'w> {
         if self.team.is_none() {
-            return self.fail(
-                Problem::legacy(Code::WrongScope, span, "`own` needs a team", "no team is known here")
-                    .help("use it in a `team`, a `formation` or a `reward`; elsewhere write world coordinates"),
-            );
+            return self.fail(Problem::new(span, Scopes::OwnWithoutTeam));
         }
         if let Some(path) = path_of(inner) {
             let team = self.team.map_or_else(Value::error, |team| Value::one(Ty::Team, team));

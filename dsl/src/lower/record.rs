@@ -8,8 +8,8 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::Instead;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Instead, Scopes};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Record, Reg};
 
@@ -63,13 +63,9 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn over_episode(&mut self, kind: &'w Ident, of: &'w Expr, span: Span) -> Value<'w> {
         if self.stage != Stage::Record || kind.node == "series" {
             let alone = kind.node == "series" && self.stage == Stage::Record;
-            let message = if alone {
-                "`series of …` stands alone".to_owned()
-            } else {
-                format!("`{} of …` looks at the whole episode", kind.node)
-            };
-            let help = if alone { "write `record NAME = series of …`" } else { "it belongs to a `record`" };
-            return self.fail(Problem::legacy(Code::WrongScope, span, message, "").help(help));
+            let kind = kind.node.clone();
+            let fact = if alone { Scopes::SeriesStandsAlone } else { Scopes::OverEpisode { kind } };
+            return self.fail(Problem::new(span, fact));
         }
         let loops = self.code.leave_loops();
         let event = self.event.take();

@@ -10,18 +10,22 @@
 //!
 //! The words read the data by reference.
 
+mod calls;
 mod chance;
 mod dry_run;
 mod legacy;
 mod names;
 mod scenario;
+mod scope;
 mod types;
 
+pub(crate) use calls::{Calls, Form};
 pub(crate) use chance::Chance;
 pub use dry_run::{Cure, DryRun};
 pub(crate) use legacy::Legacy;
 pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
 pub(crate) use scenario::Whole;
+pub(crate) use scope::{Before, Scopes, View};
 pub(crate) use types::{Instead, Operand, Types, Use, Verb};
 
 use super::Code;
@@ -100,4 +104,8 @@ subjects! {
     DryRun,
     /// A scenario as a whole.
     Whole,
+    /// Arguments and calls.
+    Calls,
+    /// What is not known where it is used.
+    Scopes,
 }

@@ -11,7 +11,7 @@ use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
     RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
 };
-use crate::problem::facts::{Kind, Names, Types};
+use crate::problem::facts::{Calls, Kind, Names, Types};
 use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::vocabulary::{Role, Team};
 use std::collections::btree_map::Entry;
@@ -396,24 +396,12 @@ impl<'a> Adding<'a, '_> {
             params.rev().map(|(at, param)| (param.decl.name.node.as_str(), at)).collect();
         for arg in &reference.args {
             let Some(name) = arg_name(arg) else {
-                self.problems.push(
-                    Problem::legacy(
-                        Code::WrongArguments,
-                        arg.span,
-                        format!("`{}` takes its arguments by name", reference.name.node),
-                        "which parameter is meant?",
-                    )
-                    .help("write `name: value`"),
-                );
+                self.problems.push(Problem::new(arg.span, Calls::ByName { callee: reference.name.node.clone() }));
                 continue;
             };
             if let Some(first) = given.get(name) {
-                let message = format!("`{name}` is given twice");
-                self.problems.push(
-                    Problem::legacy(Code::WrongArguments, arg.span, message, "given again here")
-                        .help("leave one of them out")
-                        .label(*first, "first given here"),
-                );
+                self.problems
+                    .push(Problem::new(arg.span, Calls::GivenTwice { parameter: name.to_owned(), first: *first }));
                 continue;
             }
             given.insert(name, arg.span);

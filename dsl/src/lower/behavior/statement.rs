@@ -5,7 +5,7 @@ use crate::ast::{BehaviorStmt, BehaviorStmtKind, Binding as Let, Chance, Expr, I
 use crate::check::types::Ty;
 use crate::lower::param;
 use crate::lower::value::{Binding, Scope, Value};
-use crate::problem::facts::{Names, Types};
+use crate::problem::facts::{Names, Scopes, Types};
 use crate::problem::{Code, Problem};
 use setpiece_scenario::{BinaryOp, Distribution, Node, Reg, Then, UnaryOp, Watch};
 
@@ -103,10 +103,7 @@ impl<'w> Writer<'_, 'w> {
     fn statement(&mut self, statement: &'w BehaviorStmt, is_top: bool) {
         match &statement.kind {
             BehaviorStmtKind::State(state) if !is_top => {
-                self.lower.report(
-                    Problem::legacy(Code::WrongScope, state.name.span, "a `state` stands at the top of a behavior", "")
-                        .help("move it above the block"),
-                );
+                self.lower.report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a behavior" }));
             }
             BehaviorStmtKind::State(_) | BehaviorStmtKind::Interrupt { .. } | BehaviorStmtKind::Broken => {}
             BehaviorStmtKind::Let(binding) => self.freeze(binding),

@@ -5,8 +5,8 @@ use super::super::value::{RegionValue, Repr, Value};
 use super::is_tuple;
 use crate::ast::{self, Expr, ExprKind, Span, Spanned};
 use crate::check::types::{Dim, Ty};
-use crate::problem::facts::{Kind, Names, Operand, Types, Verb};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Kind, Names, Operand, Scopes, Types, Verb};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::{Field, GameMode};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 use std::rc::Rc;
@@ -384,27 +384,11 @@ impl<'w> Lower<'_, 'w> {
     /// An expression a step ago; reports where there is none.
     pub(super) fn before(&mut self, expr: &'w Expr, span: Span) -> Option<Value<'w>> {
         if !self.stage.is_step() {
-            self.report(
-                Problem::legacy(
-                    Code::WrongScope,
-                    span,
-                    "there is no earlier step here",
-                    "this is computed before the match begins",
-                )
-                .help("use it in a reward, an ending or a record"),
-            );
+            self.report(Problem::new(span, Scopes::NoEarlierStep));
             return None;
         }
         if self.when == When::Prev {
-            self.report(
-                Problem::legacy(
-                    Code::WrongScope,
-                    span,
-                    "only one step is remembered",
-                    "inside a look at the step before",
-                )
-                .help("keep what is older in a `state`"),
-            );
+            self.report(Problem::new(span, Scopes::OneStepRemembered));
             return None;
         }
         self.when = When::Prev;

@@ -4,8 +4,8 @@ use super::super::Lower;
 use super::super::value::Value;
 use crate::ast::{Arg, Expr, Ident, Span};
 use crate::check::types::{Dim, Ty};
-use crate::problem::facts::{Chance, Types};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Calls, Chance, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{Field, Function};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -123,12 +123,7 @@ impl<'w> Lower<'_, 'w> {
                 let scale = self.code.constant(X_SCALE_M);
                 Value::one(Ty::Number, self.code.binary(BinaryOp::Div, x, scale))
             }
-            _ => self.fail(Problem::legacy(
-                Code::NotYet,
-                span,
-                format!("`{}` is not supported yet", function.name()),
-                "",
-            )),
+            _ => self.fail(Problem::new(span, Calls::NotYet { function: function.name() })),
         }
     }
 

@@ -5,8 +5,8 @@ use super::super::value::{Repr, Value};
 use crate::ast::{Expr, ExprKind, Ident, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::facts::{Like, Names, Types};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Calls, Like, Names, Scopes, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -240,21 +240,13 @@ impl<'w> Lower<'_, 'w> {
 
     fn event_member(&mut self, event: Span, member: &'w Ident) -> Value<'w> {
         let Some(kind) = self.event else {
-            return self.fail(
-                Problem::legacy(Code::WrongScope, event.to(member.span), "no event is known here", "")
-                    .help("`event` stands inside an `on` block, or in a `give … on …`"),
-            );
+            return self.fail(Problem::new(event.to(member.span), Scopes::NoEvent));
         };
         let name = member.node.as_str();
-        let nobody = match name {
-            "by" if !kind.has_actor() => Some(format!("nobody does `{kind}`")),
-            "to" if !kind.has_receiver() => Some(format!("`{kind}` reaches nobody")),
-            _ => None,
-        };
-        if let Some(message) = nobody {
-            let span = event.to(member.span);
-            return self
-                .fail(Problem::legacy(Code::WrongArguments, span, message, "always nobody").help("leave it out"));
+        let has_nobody = (name == "by" && !kind.has_actor()) || (name == "to" && !kind.has_receiver());
+        if has_nobody {
+            let fact = Calls::AlwaysNobody { event: kind.to_string(), is_receiver: name == "to" };
+            return self.fail(Problem::new(event.to(member.span), fact));
         }
         let (field, ty) = match name {
             "by" => (EventField::By, Ty::Player),

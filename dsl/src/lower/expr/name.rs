@@ -5,15 +5,11 @@ use super::super::{Lower, Stage};
 use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::facts::{Chance, Names, Outside, Types, Use};
+use crate::problem::facts::{Before, Chance, Names, Outside, Scopes, Types, Use, View};
 use crate::problem::{Code, Guess, Problem};
 use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
 use setpiece_scenario::{Reg, UnaryOp, When};
-
-/// What to write where a `state` begins with what only the match knows.
-const BEFORE_THE_FIRST_STEP: &str =
-    "a state's first value is known before the first step: begin with a number, and assign the state further down";
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn name(&mut self, name: &'w str, span: Span) -> Value<'w> {
@@ -99,15 +95,7 @@ impl<'w> Lower<'_, 'w> {
         if value.regs().iter().all(|&reg| self.code.is_visible(reg)) {
             return value;
         }
-        self.fail(
-            Problem::legacy(
-                Code::WrongScope,
-                span,
-                format!("`{name}` changes within the step, but this is computed once per step"),
-                "belongs to a loop or an `on` block",
-            )
-            .help("`held`, `ever`, `since` and their like look at the whole match, not at one event or player"),
-        )
+        self.fail(Problem::new(span, Scopes::ChangesWithinStep { name: name.to_owned() }))
     }
 
     fn scenario_name(&mut self, name: &'w str, span: Span) -> Option<Value<'w>> {
@@ -267,15 +255,12 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
-        let problem =
-            Problem::legacy(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
-        self.fail(match (self.stage, name) {
-            (Stage::Ending | Stage::Record, "us" | "them") => {
-                problem.help("both teams have agents, or none: write `left` or `right`")
-            }
-            (Stage::Init, _) => problem.help(BEFORE_THE_FIRST_STEP),
-            _ => problem.help("write `left`, `right` or a player's name; `us`, `them` and `me` belong to rewards"),
-        })
+        let why = match (self.stage, name) {
+            (Stage::Ending | Stage::Record, "us" | "them") => View::BothTeams,
+            (Stage::Init, _) => View::BeforeFirstStep,
+            _ => View::OutsideRewards,
+        };
+        self.fail(Problem::new(span, Scopes::NoView { name: name.to_owned(), why }))
     }
 
     fn match_value(&mut self, property: &'static Property, span: Span) -> Value<'w> {
@@ -297,20 +282,12 @@ impl<'w> Lower<'_, 'w> {
         if self.stage.is_step() {
             return Some(self.code.load(field, of, self.when));
         }
-        let (what, help) = match self.stage {
-            Stage::Constant => ("a constant", "use it in a `reward` or an `end`"),
-            Stage::Init => ("a state's first value", BEFORE_THE_FIRST_STEP),
-            _ => ("the start", "use it in a `reward` or an `end`"),
+        let by = match self.stage {
+            Stage::Constant => Before::Constant,
+            Stage::Init => Before::State,
+            _ => Before::Start,
         };
-        self.report(
-            Problem::legacy(
-                Code::WrongScope,
-                span,
-                format!("`{name}` is known only while the match runs"),
-                format!("{what} is computed before"),
-            )
-            .help(help),
-        );
+        self.report(Problem::new(span, Scopes::NotYetKnown { name: name.to_owned(), by }));
         None
     }
 

@@ -5,8 +5,8 @@ use super::super::mirror::Mirror;
 use super::super::value::{RegionValue, Repr, Value};
 use crate::ast::{Arg, Expr, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::{Kind, Names};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Calls, Kind, Names};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::CIRCLE_RADIUS_M;
 use setpiece_scenario::vocabulary::{Function, PitchRegion, RegionName, RegionShape};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -143,19 +143,12 @@ impl<'w> Lower<'_, 'w> {
 
     fn polygon(&mut self, args: &'w [Arg], span: Span) -> Value<'w> {
         if !(3..=CORNERS_MAX).contains(&args.len()) {
-            let message = format!("a polygon has 3 to {CORNERS_MAX} corners, found {}", args.len());
-            return self.fail(
-                Problem::legacy(Code::WrongArguments, span, message, "")
-                    .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
-            );
+            return self.fail(Problem::new(span, Calls::Corners { most: CORNERS_MAX, found: args.len() }));
         }
         let mut corners = Vec::new();
         for arg in args {
             if arg.key.is_some() || arg.binder.is_some() || arg.filter.is_some() {
-                return self.fail(
-                    Problem::legacy(Code::WrongArguments, arg.span, "a polygon's corners have no names", "")
-                        .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
-                );
+                return self.fail(Problem::new(arg.span, Calls::CornerWithName));
             }
             let corner = self.want(&arg.value, Ty::Point);
             if corner.is_error() {

@@ -7,7 +7,7 @@ use crate::check::types::Ty;
 use crate::lower::script::embed;
 use crate::lower::value::Binding;
 use crate::lower::{Lower, param};
-use crate::problem::facts::{Assigned, Names};
+use crate::problem::facts::{Assigned, Names, Scopes};
 use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::STEP_S;
 use setpiece_scenario::program::PAY_MAX;
@@ -106,10 +106,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     fn statement(&mut self, statement: &'w RewardStmt, is_top: bool) {
         match &statement.kind {
             RewardStmtKind::State(state) if !is_top => {
-                self.lower.report(
-                    Problem::legacy(Code::WrongScope, state.name.span, "a `state` stands at the top of a reward", "")
-                        .help("move it above the block"),
-                );
+                self.lower.report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a reward" }));
             }
             RewardStmtKind::Let(binding) if !is_top => self.bind_let(binding),
             RewardStmtKind::Give(give) if self.pays => self.give(give),
@@ -152,10 +149,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     /// Runs `f` once per matching event.
     fn on_event(&mut self, event: &'w EventExpr, when: Option<&'w Expr>, f: impl FnOnce(&mut Self)) {
         if self.lower.event.is_some() {
-            self.lower.report(
-                Problem::legacy(Code::WrongScope, event.span, "an `on` stands inside another one", "")
-                    .help("write the inner event as a condition: `when goal by us { … }`"),
-            );
+            self.lower.report(Problem::new(event.span, Scopes::OnInsideOn));
             return;
         }
         let Some(matching) = self.lower.open_events(event) else { return };

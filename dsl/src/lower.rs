@@ -32,8 +32,8 @@ pub(crate) use world::{Effort, MAX_LOWERED, World};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::problem::facts::{Calls, Chance, Instead, Names, Types};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Bounds, Calls, Chance, Instead, Names, Types};
 use builder::Builder;
 use interval::Interval;
 use mirror::Mirror;
@@ -315,10 +315,10 @@ impl<'c, 'w> Lower<'c, 'w> {
             Some((low, high)) if low >= range.0 && high <= range.1 => {}
             Some(_) => {
                 let text = self.world.text(span);
-                self.report(
-                    Problem::legacy(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
-                        .help(format!("write a value in {shown}")),
-                );
+                self.report(Problem::new(
+                    span,
+                    Bounds::Outside { what: what.to_owned(), text, shown: shown.to_owned() },
+                ));
                 return false;
             }
             None => {
@@ -340,8 +340,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             return;
         }
         if self.interval(speed).is_some_and(|(low, _)| low > greatest) {
-            let message = format!("{what} is never faster than {greatest} m/s");
-            self.report(Problem::legacy(Code::OutOfRange, span, message, "").help("write a smaller velocity"));
+            self.report(Problem::new(span, Bounds::TooFast { what: what.to_owned(), most_mps: greatest }));
             return;
         }
         let limit = self.code.constant(greatest);

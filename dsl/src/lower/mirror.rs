@@ -6,7 +6,8 @@
 
 use super::Lower;
 use crate::ast::Ident;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Bounds;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Reg, UnaryOp};
 
@@ -31,10 +32,7 @@ impl Mirror {
             // Undoes what is inherited.
             "none" | "off" => Mirror::Off,
             other => {
-                problems.push(
-                    Problem::legacy(Code::OutOfRange, word.span, format!("`mirror` is never `{other}`"), "")
-                        .help("write `mirror: flanks`, `mirror: ends` or `mirror: none`"),
-                );
+                problems.push(Problem::new(word.span, Bounds::Mirror { word: other.to_owned() }));
                 Mirror::Off
             }
         }

@@ -5,8 +5,8 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, World};
 use crate::ast::{Domain, Expr, Ident, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::{Chance, Kind, Names, Types};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
+use crate::problem::{Guess, Problem};
 use crate::resolve::FlatParam;
 use setpiece_scenario::Param;
 use setpiece_scenario::vocabulary::Type;
@@ -96,15 +96,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         if world.flat.item.is_abstract {
             return info;
         }
-        world.report(
-            Problem::legacy(
-                Code::WrongArguments,
-                decl.name.span,
-                format!("parameter `{}` has no value", decl.name.node),
-                "",
-            )
-            .help("give it a default: `= 0.5`"),
-        );
+        world.report(Problem::new(decl.name.span, Bounds::NoValue { parameter: decl.name.node.clone() }));
         return info;
     };
     if flat.is_argument && !is_constant(world, expr) {
@@ -200,15 +192,7 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
             };
             if least > greatest {
                 let span = low.span.to(high.span);
-                world.report(
-                    Problem::legacy(
-                        Code::OutOfRange,
-                        span,
-                        format!("the range `{}` is empty", world.text(span)),
-                        "its end lies before its begin",
-                    )
-                    .help("write the lower end first"),
-                );
+                world.report(Problem::new(span, Bounds::EmptyRange { text: world.text(span) }));
                 return;
             }
             info.param.range = Some((least, greatest));
@@ -227,19 +211,15 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
             Some(Domain::List(_, span)) => world.text(*span),
             None => String::new(),
         };
-        world.report(
-            Problem::legacy(
-                Code::OutOfRange,
-                default,
-                format!("`{}` is outside `{allowed}`", world.text(default)),
-                if is_argument {
-                    format!("given to `{}`", info.param.name)
-                } else {
-                    format!("the default of `{}`", info.param.name)
-                },
-            )
-            .help(format!("write a value in `{allowed}`")),
-        );
+        world.report(Problem::new(
+            default,
+            Bounds::OutsideDomain {
+                text: world.text(default),
+                allowed,
+                parameter: info.param.name.clone(),
+                is_argument,
+            },
+        ));
     }
 }
 

@@ -6,8 +6,8 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::Instead;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Instead, Players};
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
 
@@ -77,15 +77,7 @@ impl<'w> Lower<'_, 'w> {
             let (a, b) = (self.start_place(a, span), self.start_place(b, span));
             return (self.code.select(c, a.0, b.0), self.code.select(c, a.1, b.1));
         }
-        self.report(
-            Problem::legacy(
-                Code::NoPlace,
-                span,
-                format!("`{}` may be nobody, who has no place", self.world.text(span)),
-                "whose place?",
-            )
-            .help("let it be a player in every case, or write a place: `at (0.5, 0)`"),
-        );
+        self.report(Problem::new(span, Players::MayBeNobody { text: self.world.text(span) }));
         self.nowhere()
     }
 
@@ -111,15 +103,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn cyclic(&self, asked: Span) {
-        self.report(
-            Problem::legacy(
-                Code::CyclicPlace,
-                asked,
-                "this place depends on itself",
-                format!("`{}` is placed by what is placed here", self.world.text(asked)),
-            )
-            .help("give one of them a place of its own: `at (x, y)`"),
-        );
+        self.report(Problem::new(asked, Players::PlaceInCircle { text: self.world.text(asked) }));
     }
 
     /// The ball's start place.
@@ -375,10 +359,7 @@ impl<'w> Lower<'_, 'w> {
             let constant = |place: (Reg, Reg)| Some((self.code.constant_of(place.0)?, self.code.constant_of(place.1)?));
             let same = target == here || constant(target).is_some_and(|known| constant(here) == Some(known));
             if same && !self.code.is_unknown(here.0) {
-                self.report(
-                    Problem::legacy(Code::Impossible, facing.target.span, "nobody can face the spot he stands on", "")
-                        .help("face another place, or an angle: `facing 90deg`"),
-                );
+                self.report(Problem::new(facing.target.span, Players::FacesItself));
             }
             let dx = self.code.binary(BinaryOp::Sub, target.0, here.0);
             let dy = self.code.binary(BinaryOp::Sub, target.1, here.1);

@@ -7,8 +7,8 @@ use crate::ast::{
 };
 use crate::cast::CastTarget;
 use crate::check::types::Ty;
-use crate::problem::facts::{Kind, Names, Types};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Kind, Names, Players, Types};
+use crate::problem::{Guess, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
@@ -141,9 +141,8 @@ const WRITTEN_MAX: usize = 4 * TEAM_MAX;
 /// Whether a team may write a further player; reports one that it may not.
 fn has_room(world: &World<'_>, players: &[Rostered<'_>], span: Span, team: Team) -> bool {
     if players.len() >= WRITTEN_MAX {
-        let message = format!("more than {WRITTEN_MAX} players are written for the {team} team");
-        let problem = Problem::legacy(Code::TooManyPlayers, span, message, "one too many");
-        world.report(problem.help(format!("a team has at most {TEAM_MAX} players: leave the others out")));
+        let fact = Players::TooManyWritten { team, most: WRITTEN_MAX, team_max: TEAM_MAX };
+        world.report(Problem::new(span, fact));
     }
     players.len() < WRITTEN_MAX
 }
@@ -160,32 +159,16 @@ fn from_layouts<'w>(
     span: Span,
 ) -> Vec<Rostered<'w>> {
     if let Some((_, at)) = flat.players.first() {
-        world.report(
-            Problem::legacy(
-                Code::DuplicateOption,
-                *at,
-                "a team whose players come from `kickoff` has no players of its own",
-                "",
-            )
-            .label(span, "the layouts are given here")
-            .help("write the player into both formations, or `place` one of theirs"),
-        );
+        world.report(Problem::new(*at, Players::LayoutsAndPlayers { layouts: span }));
     }
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
-        world.report(
-            Problem::legacy(Code::DuplicateOption, field.key.span, "the layouts of `kickoff` are the formation", "")
-                .help("leave it out")
-                .label(span, "given here"),
-        );
+        world.report(Problem::new(field.key.span, Players::LayoutsAndFormation { layouts: span }));
     }
-    let layout = |key: &str| {
+    let layout = |key: &'static str| {
         let field = fields.iter().find(|field| field.key.node == key);
         let Some(field) = field else {
             if team == Team::Left {
-                world.report(
-                    Problem::legacy(Code::WrongArguments, span, format!("`kickoff` lacks the `{key}` layout"), "")
-                        .help("write `kickoff left { kicking: grf_kicking, receiving: grf_receiving }`"),
-                );
+                world.report(Problem::new(span, Players::NoLayout { layout: key }));
             }
             return None;
         };
@@ -228,31 +211,14 @@ fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], a
             player.facing.is_some() || player.jitter.is_some() || player.when.is_some() || !player.fields.is_empty()
         };
         if let Some(player) = other.iter().find(more) {
-            world.report(
-                Problem::legacy(
-                    Code::WrongRoster,
-                    at,
-                    "the second layout says more of a player than where he stands",
-                    "the first one says everything else",
-                )
-                .label(player.span, "said here")
-                .help("move `facing`, `jitter`, `when` and options into the first formation"),
-            );
+            world.report(Problem::new(at, Players::SecondLayoutSaysMore { player: player.span }));
         }
         return;
     }
     let roles = |players: &[Rostered<'_>]| -> String {
         players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
     };
-    world.report(
-        Problem::legacy(
-            Code::WrongRoster,
-            at,
-            format!("the layouts differ: `{}` and `{}`", roles(one), roles(other)),
-            "the same players, in the same order, stand in both",
-        )
-        .help("list the roles of both formations in the same order"),
-    );
+    world.report(Problem::new(at, Players::LayoutsDiffer { first: roles(one), second: roles(other) }));
 }
 
 /// The players of a formation value: its name, a call with arguments, or a choice of two, which has the places of both
@@ -341,10 +307,7 @@ fn copies<'w>(
         world.report(Problem::new(name.span, Names::OneNameForMany { name: name.node.clone(), count: count.node }));
     }
     if let Some(none) = player.count.as_ref().filter(|count| count.node == 0) {
-        world.report(
-            Problem::legacy(Code::OutOfRange, none.span, format!("`0 {}` is nobody", player.role.node), "")
-                .help("leave the line out; whether a player takes part with a parameter says `when …`"),
-        );
+        world.report(Problem::new(none.span, Players::NoneInLine { role: player.role.node.to_string() }));
     }
     let one = Rostered {
         id: 0,
@@ -376,15 +339,7 @@ fn adjust<'w>(
         players.retain(|player| player.role != role.node);
         // A team is said to have no keeper by `GK absent`, whether a formation brings one or not.
         if before == players.len() && before > 0 && role.node != Role::GK {
-            world.report(
-                Problem::legacy(
-                    Code::NothingToRemove,
-                    role.span,
-                    format!("no `{}` is there to be absent", role.node),
-                    "",
-                )
-                .help("leave it out"),
-            );
+            world.report(Problem::new(role.span, Players::NobodyToBeAbsent { role: role.node.to_string() }));
         }
     }
     for (who, change) in overrides {
@@ -467,28 +422,11 @@ fn apply_each<'w>(
 
 fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
     if let Some(extra) = players.get(TEAM_MAX) {
-        world.report(
-            Problem::legacy(
-                Code::TooManyPlayers,
-                extra.span,
-                format!("the {team} team has more than {TEAM_MAX} players"),
-                "this is the twelfth",
-            )
-            .help("leave one out"),
-        );
+        world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX }));
     }
     let keepers: Vec<&Rostered<'_>> = players.iter().filter(|p| p.role == Role::GK && p.when.is_none()).collect();
     if let [first, second, ..] = keepers.as_slice() {
-        world.report(
-            Problem::legacy(
-                Code::TwoKeepers,
-                second.span,
-                format!("the {team} team has two keepers"),
-                "the second one",
-            )
-            .label(first.span, "the first one")
-            .help("give one of them another role"),
-        );
+        world.report(Problem::new(second.span, Players::TwoKeepers { team, first: first.span }));
     }
 }
 

@@ -17,8 +17,8 @@ use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::problem::facts::{Chance, Names};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Bounds, Chance, Names};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
@@ -383,17 +383,7 @@ impl<'w> Lower<'_, 'w> {
         let Some(steps) = self.code.constant_of(reg).map(|seconds| seconds / STEP_S) else { return };
         if (steps - steps.round()).abs() > 1e-6 {
             let text = self.world.text(span);
-            let message = if text.ends_with("steps") {
-                format!("{what} is `{text}`")
-            } else {
-                format!("{what} is `{text}`: {steps:.3} steps")
-            };
-            self.report(Problem::legacy(Code::OutOfRange, span, message, "not a whole number of steps").help(
-                match steps.round() {
-                    steps if steps > 1.0 => format!("write `{steps} steps`; a step is 0.1 s"),
-                    _ => "write `1 step`; a step is 0.1 s".to_owned(),
-                },
-            ));
+            self.report(Problem::new(span, Bounds::NotWholeSteps { what: what.to_owned(), text, steps }));
         }
     }
 

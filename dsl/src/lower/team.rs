@@ -8,8 +8,8 @@ use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{PLAYER, TEAM};
 use crate::check::types::Ty;
-use crate::problem::facts::{Chance, Kind, Names, Types};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};
 use setpiece_scenario::vocabulary::{Stat, Team};
 use setpiece_scenario::{Ai, Reg};
@@ -146,10 +146,7 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
         }
         _ => match &expr.kind {
             ExprKind::Name(name) if name == "allowed" => options.overlap = true,
-            _ => lower.report(
-                Problem::legacy(Code::OutOfRange, expr.span, "`overlap` can only be `allowed`", "")
-                    .help("write `overlap: allowed`"),
-            ),
+            _ => lower.report(Problem::new(expr.span, Bounds::Overlap)),
         },
     }
 }

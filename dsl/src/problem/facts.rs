@@ -10,22 +10,28 @@
 //!
 //! The words read the data by reference.
 
+mod bounds;
 mod calls;
 mod chance;
 mod dry_run;
 mod legacy;
 mod names;
+mod players;
 mod scenario;
 mod scope;
+mod start;
 mod types;
 
+pub(crate) use bounds::Bounds;
 pub(crate) use calls::{Calls, Form};
 pub(crate) use chance::Chance;
 pub use dry_run::{Cure, DryRun};
 pub(crate) use legacy::Legacy;
 pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
+pub(crate) use players::{AskedFor, Players};
 pub(crate) use scenario::Whole;
 pub(crate) use scope::{Before, Scopes, View};
+pub(crate) use start::{SIDE_LINES, Starts};
 pub(crate) use types::{Instead, Operand, Types, Use, Verb};
 
 use super::Code;
@@ -108,4 +114,10 @@ subjects! {
     Calls,
     /// What is not known where it is used.
     Scopes,
+    /// Ranges.
+    Bounds,
+    /// Players and teams.
+    Players,
+    /// The start of an episode.
+    Starts,
 }

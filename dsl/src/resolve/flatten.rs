@@ -11,8 +11,8 @@ use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
     RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
 };
-use crate::problem::facts::{Calls, Kind, Names, Types};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Calls, Kind, Names, Players, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::{Role, Team};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -453,16 +453,10 @@ impl<'a> Adding<'a, '_> {
                 .iter()
                 .find(|other| matches!(&other.kind, TeamStmtKind::Player(player) if player.role.node == role.node));
             if let Some(placed) = placed {
-                self.problems.push(
-                    Problem::legacy(
-                        Code::AbsentPlayer,
-                        role.span,
-                        format!("`{}` is absent and placed", role.node),
-                        "absent here",
-                    )
-                    .label(placed.span, "placed here")
-                    .help("leave one of the two lines out"),
-                );
+                self.problems.push(Problem::new(
+                    role.span,
+                    Players::AbsentAndPlaced { role: role.node.to_string(), placed: placed.span },
+                ));
             }
         }
         for stmt in body {

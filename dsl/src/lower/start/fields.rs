@@ -5,8 +5,8 @@ use crate::check::options::{BALL, START};
 use crate::check::types::Ty;
 use crate::lower::value::Repr;
 use crate::lower::{Lower, fields};
-use crate::problem::facts::{Instead, Names, Types};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Bounds, Instead, Names, Starts, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{
     BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S, STEPS_PER_S,
 };
@@ -35,10 +35,7 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             };
             let &[left, right] = &parts.iter().collect::<Vec<_>>()[..] else {
-                self.report(
-                    Problem::legacy(Code::WrongArguments, expr.span, "a score has two numbers", "")
-                        .help("write `score: [1, 0]`"),
-                );
+                self.report(Problem::new(expr.span, Starts::ScoreOfTwo));
                 continue;
             };
             let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
@@ -106,10 +103,7 @@ impl<'w> Lower<'_, 'w> {
         let apart = ((x - ball_x).powi(2) + (y - ball_y).powi(2)).sqrt();
         if apart > AT_HIS_FEET_M {
             let name = self.world.text(at);
-            self.report(
-                Problem::legacy(Code::OutOfRange, at, format!("`{name}` stands {apart:.1} m from the ball"), "")
-                    .help(format!("lay it at his feet: `ball ahead of {name} by 1m`")),
-            );
+            self.report(Problem::new(at, Starts::OwnerFarAway { name, apart_m: apart }));
         }
     }
 
@@ -158,10 +152,7 @@ impl<'w> Lower<'_, 'w> {
             }
             (Rule::Physics, _) => {
                 let text = self.world.text(expr.span);
-                self.report(
-                    Problem::legacy(Code::OutOfRange, expr.span, format!("`physics` is never `{text}`"), "")
-                        .help("write `physics: gated` or `physics: full`"),
-                );
+                self.report(Problem::new(expr.span, Bounds::Physics { text }));
                 None
             }
             (Rule::HalfTime, ExprKind::Bool(false)) => Some(self.code.constant(0.0)),

@@ -13,8 +13,8 @@ use super::value::{Binding, Frame, Scope, Value};
 use super::{Lower, Stage, param};
 use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::{Assigned, Names};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Assigned, Behaviors, Names};
+use crate::problem::{Guess, Problem};
 use crate::source::FileId;
 use setpiece_scenario::vocabulary::Primitive;
 use setpiece_scenario::{Act, Ai, Behavior, Distribution, Do, Node, PlayerSlot, Reg, Watch};
@@ -174,8 +174,7 @@ impl<'c, 'w> Writer<'c, 'w> {
         let deep = self.written > CALLS_MAX.0 || self.calls.len() >= CALLS_MAX.1;
         if deep || self.nodes.len() > NODES_MAX || self.watches.len() > WATCHES_MAX {
             if !self.too_large {
-                let message = format!("`{}` makes the behavior too large", item.name.node);
-                self.lower.report(Problem::legacy(Code::Impossible, span, message, "").help("call fewer behaviors"));
+                self.lower.report(Problem::new(span, Behaviors::TooLarge { name: item.name.node.clone() }));
             }
             self.too_large = true;
             return;

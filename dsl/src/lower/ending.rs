@@ -4,8 +4,8 @@ use super::step::StepWorld;
 use super::value::{Frame, Scope};
 use super::{Lower, Stage, script};
 use crate::ast::{EndCondition, ItemKind};
-use crate::problem::facts::{Kind, Names};
-use crate::problem::{Code, Guess, Problem, nearest};
+use crate::problem::facts::{Kind, Names, Rewards};
+use crate::problem::{Guess, Problem, nearest};
 use crate::resolve::FlatEnding;
 use setpiece_scenario::vocabulary::Verdict;
 use setpiece_scenario::{Ending, Endings, Reg};
@@ -25,10 +25,7 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
     }
     if list.is_empty() && world.flat.limit.is_none() {
         let name = &world.flat.item.name;
-        world.report(
-            Problem::legacy(Code::NoEnding, name.span, format!("an episode of `{}` never ends", name.node), "")
-                .help("write, for example, `end limit 400 steps`"),
-        );
+        world.report(Problem::new(name.span, Rewards::NeverEnds { scenario: name.node.clone() }));
     }
     let wanted: Vec<Reg> = list.iter().filter_map(|ending| ending.when).collect();
     let (program, layout) = lower.code.finish(&wanted);
@@ -87,10 +84,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
             lowered.when = Some(reg);
         }
         (None, None) => {
-            lower.report(
-                Problem::legacy(Code::Syntax, ending.span, "the ending doesn't say when", "")
-                    .help("write, for example, `end success when goal by left`"),
-            );
+            lower.report(Problem::new(ending.span, Rewards::EndsWhen));
             return None;
         }
     }

@@ -5,8 +5,8 @@ use super::value::{Frame, Repr, Scope};
 use super::{Lower, Stage};
 use crate::ast::Expr;
 use crate::check::types::Ty;
-use crate::problem::facts::{Instead, Names};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Instead, Names, Rewards};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Observation, ObservedValue, Reg};
 
@@ -29,10 +29,7 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
         values.extend(lower.observed(expr, &name));
     }
     if observed.is_empty() || values.len() > NUMBERS_MAX {
-        world.report(
-            Problem::legacy(Code::WrongArguments, span, format!("an observation has 1 to {NUMBERS_MAX} numbers"), "")
-                .help("write, for example, `observe vector { ball.x, ball.y, distance(me, ball) / 10m }`"),
-        );
+        world.report(Problem::new(span, Rewards::Numbers { most: NUMBERS_MAX }));
     }
     let regs: Vec<Reg> = values.iter().map(|(_, reg)| *reg).collect();
     let (program, layout) = lower.code.finish(&regs);

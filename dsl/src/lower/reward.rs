@@ -11,8 +11,8 @@ use crate::ast::{
     Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
 };
 use crate::check::types::Ty;
-use crate::problem::facts::{Chance, Kind, Names};
-use crate::problem::{Code, Guess, Problem};
+use crate::problem::facts::{Chance, Kind, Names, Rewards};
+use crate::problem::{Guess, Problem};
 use crate::resolve::reward_chain;
 use crate::source::FileId;
 use setpiece_scenario::{Program, Reg, Reward, RewardBody};
@@ -132,10 +132,7 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
 /// Warns of a weight that is 0, whatever the parameters are.
 fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
     if matches!(weight.kind, ExprKind::Number { value: 0.0, .. }) {
-        world.report(
-            Problem::legacy(Code::NeverPays, weight.span, format!("reward `{name}` never pays"), "times 0")
-                .help("write another weight, or leave the reward out"),
-        );
+        world.report(Problem::new(weight.span, Rewards::WeightZero { reward: name.to_owned() }));
     }
 }
 

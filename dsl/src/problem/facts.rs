@@ -10,25 +10,31 @@
 //!
 //! The words read the data by reference.
 
+mod behaviors;
 mod bounds;
 mod calls;
 mod chance;
 mod dry_run;
+mod files;
 mod legacy;
 mod names;
 mod players;
+mod rewards;
 mod scenario;
 mod scope;
 mod start;
 mod types;
 
+pub(crate) use behaviors::Behaviors;
 pub(crate) use bounds::Bounds;
 pub(crate) use calls::{Calls, Form};
 pub(crate) use chance::Chance;
 pub use dry_run::{Cure, DryRun};
+pub(crate) use files::{Files, ImportLimit, ScriptLimit};
 pub(crate) use legacy::Legacy;
 pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
 pub(crate) use players::{AskedFor, Players};
+pub(crate) use rewards::{Because, Never, Rewards};
 pub(crate) use scenario::Whole;
 pub(crate) use scope::{Before, Scopes, View};
 pub(crate) use start::{SIDE_LINES, Starts};
@@ -120,4 +126,10 @@ subjects! {
     Players,
     /// The start of an episode.
     Starts,
+    /// Rewards, endings and observations.
+    Rewards,
+    /// Behaviors.
+    Behaviors,
+    /// Imports and scripts.
+    Files,
 }

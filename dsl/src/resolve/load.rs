@@ -2,8 +2,8 @@
 
 use crate::ast::{File, FileId, Ident, Item, ItemKind, ParamDecl, Span};
 use crate::parse::parse;
-use crate::problem::facts::Names;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Files, ImportLimit, Names};
 use crate::source::{Source, SourceLoader, Sources};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -178,16 +178,16 @@ impl Loading<'_> {
         }
         self.files += 1;
         self.bytes += source.text.len();
-        let message = if self.stack.len() > MAX_IMPORT_DEPTH {
-            format!("files import each other more than {MAX_IMPORT_DEPTH} deep")
+        let limit = if self.stack.len() > MAX_IMPORT_DEPTH {
+            ImportLimit::Depth(MAX_IMPORT_DEPTH)
         } else if self.files > MAX_FILES {
-            format!("more than {MAX_FILES} files are imported")
+            ImportLimit::Files(MAX_FILES)
         } else if self.bytes > MAX_IMPORTED_BYTES {
-            format!("imported files are larger than {} MiB together", MAX_IMPORTED_BYTES >> 20)
+            ImportLimit::Bytes(MAX_IMPORTED_BYTES)
         } else {
             return None;
         };
-        Some(too_much(message, at))
+        Some(too_much(limit, at))
     }
 
     fn file(&mut self, source: &Source) -> FileId {
@@ -226,7 +226,7 @@ impl Loading<'_> {
         self.stack.push(id);
         for (path, alias) in imports {
             if self.missing > MAX_FILES {
-                self.problems.push(too_much(format!("more than {MAX_FILES} imports find no file"), path.span));
+                self.problems.push(too_much(ImportLimit::Missing(MAX_FILES), path.span));
                 break;
             }
             let loaded = match self.loader.load(&path.node, &from) {
@@ -234,11 +234,8 @@ impl Loading<'_> {
                 Err(error) => {
                     self.missing += 1;
                     self.library.inputs.extend(error.awaited);
-                    let problem = Problem::legacy(Code::FileMissing, path.span, error.message, "imported here");
-                    self.problems.push(match error.similar.first() {
-                        Some(similar) => problem.help(format!("did you mean `{similar}`?")),
-                        None => problem,
-                    });
+                    let (why, similar) = (error.message, error.similar.into_iter().next());
+                    self.problems.push(Problem::new(path.span, Files::Missing { why, similar, is_script: false }));
                     continue;
                 }
             };
@@ -254,15 +251,7 @@ impl Loading<'_> {
             }
             let imported = match known {
                 Some(known) if self.stack.contains(&known) => {
-                    self.problems.push(
-                        Problem::legacy(
-                            Code::ImportCycle,
-                            path.span,
-                            format!("`{}` imports itself, by way of this line", path.node),
-                            "closes the circle",
-                        )
-                        .help("move what both files need into a third one"),
-                    );
+                    self.problems.push(Problem::new(path.span, Files::ImportsItself { path: path.node.clone() }));
                     continue;
                 }
                 Some(known) => known,
@@ -390,8 +379,8 @@ impl Library {
     }
 }
 
-fn too_much(message: String, at: Span) -> Problem {
-    Problem::legacy(Code::TooMuch, at, message, "one too many").help("import less, or join some of the files")
+fn too_much(limit: ImportLimit, at: Span) -> Problem {
+    Problem::new(at, Files::TooManyImports { limit })
 }
 
 /// What is nearer hides what is farther.

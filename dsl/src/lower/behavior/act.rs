@@ -3,8 +3,8 @@
 use super::Writer;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::{Kind, Names};
-use crate::problem::{Code, Guess, Problem, signature};
+use crate::problem::facts::{Behaviors, Kind, Names};
+use crate::problem::{Guess, Problem, signature};
 use setpiece_scenario::pitch::{LONGEST_S, STEPS_PER_S};
 use setpiece_scenario::vocabulary::{Field, Primitive};
 use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, Then, UnaryOp, Watch, When};
@@ -64,10 +64,7 @@ impl<'w> Writer<'_, 'w> {
             let act = writer.act(primitive, args, span);
             let (until, seconds) = writer.clauses(stmt);
             if primitive == Primitive::Wait && stmt.duration.is_none() {
-                writer.lower.report(
-                    Problem::legacy(Code::WrongArguments, span, "`wait` doesn't say for how long", "")
-                        .help("write `do wait for 1s`; `do hold` stands until something else happens"),
-                );
+                writer.lower.report(Problem::new(span, Behaviors::WaitHowLong));
             }
             act.map(|act| Do { act, sprint: stmt.sprinting.is_some(), until, seconds })
         });
@@ -77,11 +74,7 @@ impl<'w> Writer<'_, 'w> {
     fn refuse_sprint(&self, stmt: &DoStmt, what: &str) {
         let Some(at) = stmt.sprinting else { return };
         let runs: Vec<&str> = Primitive::ALL.iter().filter(|known| known.runs()).map(|known| known.name()).collect();
-        let message = format!("{what} is not done `sprinting`");
-        self.lower.report(
-            Problem::legacy(Code::WrongArguments, at, message, "not here")
-                .help(format!("what can be: `{}`", runs.join("`, `"))),
-        );
+        self.lower.report(Problem::new(at, Behaviors::NoSprint { what: what.to_owned(), runs }));
     }
 
     /// `until C`, `for D`
@@ -107,11 +100,11 @@ impl<'w> Writer<'_, 'w> {
         let given = self.lower.arguments(primitive.name(), args, span, names, 0)?;
         let first = given.first().copied().flatten();
         if first.is_none() && !names.is_empty() && primitive != P::Shoot {
-            let signature = signature(primitive.doc());
-            let message = format!("`{primitive}` doesn't say {}", if *names == ["player"] { "who" } else { "where" });
-            self.lower.report(
-                Problem::legacy(Code::WrongArguments, span, message, "").help(format!("write `do {signature}`")),
-            );
+            let is_player = *names == ["player"];
+            self.lower.report(Problem::new(
+                span,
+                Behaviors::NoTarget { primitive: primitive.name(), is_player, signature: signature(primitive.doc()) },
+            ));
             return None;
         }
         Some(match (primitive, first) {

@@ -5,8 +5,8 @@ use crate::ast::{BehaviorStmt, BehaviorStmtKind, Binding as Let, Chance, Expr, I
 use crate::check::types::Ty;
 use crate::lower::param;
 use crate::lower::value::{Binding, Scope, Value};
-use crate::problem::facts::{Names, Scopes, Types};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Behaviors, Names, Scopes, Types};
 use setpiece_scenario::{BinaryOp, Distribution, Node, Reg, Then, UnaryOp, Watch};
 
 impl<'w> Writer<'_, 'w> {
@@ -232,10 +232,7 @@ impl<'w> Writer<'_, 'w> {
 
     fn choose(&mut self, chances: &'w [Chance], statement: &'w BehaviorStmt) {
         if chances.is_empty() {
-            self.lower.report(
-                Problem::legacy(Code::WrongArguments, statement.span, "`choose` has nothing to choose from", "")
-                    .help("write, for example, `choose { 2: do shoot 1: do hold for 1s }`"),
-            );
+            self.lower.report(Problem::new(statement.span, Behaviors::NoChoices));
             return;
         }
         let index = self.drawing(|writer| {

@@ -7,7 +7,7 @@ use crate::check::types::Ty;
 use crate::lower::script::embed;
 use crate::lower::value::Binding;
 use crate::lower::{Lower, param};
-use crate::problem::facts::{Assigned, Names, Scopes};
+use crate::problem::facts::{Assigned, Names, Never, Rewards, Scopes};
 use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::STEP_S;
 use setpiece_scenario::program::PAY_MAX;
@@ -37,7 +37,7 @@ pub(super) struct Writer<'l, 'c, 'w> {
     pays: bool,
     guard: Option<Reg>,
     /// Why the event around never happens.
-    never: Option<String>,
+    never: Option<Never>,
     unlabelled: usize,
 }
 
@@ -175,10 +175,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             self.unlabelled += 1;
         }
         if let Some(label) = give.label.as_ref().filter(|label| label.node.trim().is_empty()) {
-            self.lower.report(
-                Problem::legacy(Code::OutOfRange, label.span, "a label has at least one letter", "")
-                    .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
-            );
+            self.lower.report(Problem::new(label.span, Rewards::EmptyLabel));
         }
         let label = give.label.as_ref().map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
         let term = self.term(label);
@@ -290,13 +287,13 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         }
         let nothing = self.lower.code.constant_of(reg) == Some(0.0);
         let guard = self.guard.filter(|guard| self.lower.never_holds(*guard));
-        let why = match (&self.never, guard) {
-            (Some(why), _) => why.clone(),
+        let why = match (self.never, guard) {
+            (Some(why), _) => why,
             (None, Some(guard)) => self.lower.why_never(guard),
-            (None, None) if nothing => "it pays 0: write another value, or leave it out".to_owned(),
+            (None, None) if nothing => Never::Nothing,
             (None, None) => return,
         };
-        self.lower.report(Problem::legacy(Code::NeverPays, value.span, "this `give` never pays", "").help(why));
+        self.lower.report(Problem::new(value.span, Rewards::NeverPays { why }));
     }
 
     /// Reports a constant that is more than can be paid.
@@ -310,10 +307,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         });
         if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {
             let text = self.lower.world.text(value.span);
-            self.lower.report(
-                Problem::legacy(Code::OutOfRange, value.span, format!("`{text}` is more than can be paid"), "")
-                    .help("rewards are small numbers: `give 1`"),
-            );
+            self.lower.report(Problem::new(value.span, Rewards::MoreThanPayable { text }));
         }
     }
 

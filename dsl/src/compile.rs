@@ -131,7 +131,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     {
         // Only a program beyond every bound gets here: what is small enough passes by construction.
         let span = origins.scenario.unwrap_or(Span { file: FileId(0), start: 0, end: 0 });
-        problems.push(Problem::new(span, Whole::CantRun { scenario: scenario.name.clone(), fault: fault.to_string() }));
+        problems.push(Problem::new(span, Whole::CantRun { scenario: scenario.name.clone(), fault }));
     }
     let failed = has_errors(&problems);
     let (scenario, origins) = match chosen {

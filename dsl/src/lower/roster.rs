@@ -159,7 +159,7 @@ fn from_layouts<'w>(
     span: Span,
 ) -> Vec<Rostered<'w>> {
     if let Some((_, at)) = flat.players.first() {
-        world.report(Problem::new(*at, Players::LayoutsAndPlayers { layouts: span }));
+        world.report(Problem::new(*at, Players::LayoutsAndOwn { layouts: span }));
     }
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
         world.report(Problem::new(field.key.span, Players::LayoutsAndFormation { layouts: span }));

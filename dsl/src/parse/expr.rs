@@ -3,8 +3,8 @@
 use super::MAX_OPERATORS;
 use super::reader::{Node, Nodes, Reader};
 use crate::ast::{Arg, BinaryOp, Expr, ExprKind, Ident, Spanned, UnaryOp};
-use crate::problem::facts::Types;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Syntax, Types};
 use crate::source::Span;
 use setpiece_grammar::Rule;
 use setpiece_scenario::vocabulary::{Role, Unit};
@@ -32,11 +32,7 @@ impl Reader<'_> {
     fn flat(&mut self, node: Node<'_>, span: Span) -> Expr {
         let weight = node.clone().into_inner().filter(|child| child.as_rule() != Rule::operand).count() as u32 + 1;
         if self.operators + weight > MAX_OPERATORS {
-            let message = format!("an expression has more than {MAX_OPERATORS} operators");
-            self.push(
-                Problem::legacy(Code::TooDeep, span, message, "too long")
-                    .help("give parts of it names with `let` or `fn`"),
-            );
+            self.push(Problem::new(span, Syntax::TooManyOperators { most: MAX_OPERATORS }));
             return broken(span);
         }
         self.operators += weight;
@@ -112,11 +108,7 @@ impl Reader<'_> {
                     end = end.to(self.span(&rest));
                 }
                 let all = first.span.to(end);
-                self.push(
-                    Problem::legacy(Code::ComparisonChain, op_span, "comparisons don't chain", "a second comparison")
-                        .label(first.span.to(last), "the first one")
-                        .help("join two comparisons by `and`: `a < b and b < c`"),
-                );
+                self.push(Problem::new(op_span, Syntax::ComparisonChain { first: first.span.to(last) }));
                 return broken(all);
             }
             let built = self.comparison_tail(rule, &op, &first, nodes, within);
@@ -203,11 +195,7 @@ impl Reader<'_> {
         let span = self.span(&node);
         let weight = node.clone().into_inner().count() as u32;
         if self.operators + weight > MAX_OPERATORS {
-            let message = format!("an expression has more than {MAX_OPERATORS} operators");
-            self.push(
-                Problem::legacy(Code::TooDeep, span, message, "too long")
-                    .help("give parts of it names with `let` or `fn`"),
-            );
+            self.push(Problem::new(span, Syntax::TooManyOperators { most: MAX_OPERATORS }));
             return broken(span);
         }
         self.operators += weight;

@@ -4,8 +4,8 @@ use super::scan::Scan;
 use super::{LEAST_EFFORT, MAX_BLOCKS, MAX_LIST, MAX_PROBLEMS, span};
 use crate::ast::{Ident, Spanned};
 use crate::check::names::{owner_of_call, owner_of_value};
-use crate::problem::facts::Names;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Names, Syntax};
 use crate::source::{FileId, Span};
 use pest::error::InputLocation;
 use pest::iterators::{Pair, Pairs};
@@ -200,11 +200,7 @@ impl<'t> Reader<'t> {
     /// Whether a list may take one more; reports the first that it may not.
     pub(super) fn has_room(&mut self, taken: usize, more: Span, what: &str) -> bool {
         if taken == MAX_LIST {
-            let message = format!("there are more than {MAX_LIST} {what} here");
-            self.push(
-                Problem::legacy(Code::TooMuch, more, message, "one too many")
-                    .help("what repeats can be computed, or named once and used again"),
-            );
+            self.push(Problem::new(more, Syntax::TooLongList { what: what.to_owned(), most: MAX_LIST }));
         }
         taken < MAX_LIST
     }
@@ -280,8 +276,7 @@ impl<'t> Reader<'t> {
     /// Runs `read` one block deeper, or reports that this is too deep.
     pub(super) fn nested<T>(&mut self, at: Span, read: impl FnOnce(&mut Self) -> T) -> Option<T> {
         if self.blocks >= MAX_BLOCKS {
-            let message = format!("blocks are nested more than {MAX_BLOCKS} deep");
-            self.push(Problem::legacy(Code::TooDeep, at, message, "one too many").help("split the reward in two"));
+            self.push(Problem::new(at, Syntax::NestedBlocks { most: MAX_BLOCKS }));
             return None;
         }
         self.blocks += 1;

@@ -7,7 +7,8 @@ mod unit;
 mod words;
 
 use super::reader::{Node, Nodes, Reader, token};
-use crate::problem::{Code, Problem, nearest};
+use crate::problem::facts::Syntax;
+use crate::problem::{Problem, nearest};
 use crate::source::Span;
 use pest::Parser;
 use pest::error::{ErrorVariant, InputLocation};
@@ -186,14 +187,14 @@ impl Reader<'_> {
     }
 
     /// A problem of a word at the start of a statement, or nothing if the word may be right.
-    fn misplaced(&self, context: Context, word: &str, at: usize) -> Option<Problem> {
+    fn misplaced(&self, context: Context, word: &str, at: usize, habit: Option<&str>) -> Option<Problem> {
         let span = self.at(at);
         let owner = Context::ALL.iter().find(|other| other.keywords().contains(&word))?;
         if context.keywords().contains(&word) {
             return None;
         }
-        let message = format!("`{word}` can't stand in {}", context.name());
-        Some(Problem::legacy(Code::Syntax, span, message, "not here").help(format!("it belongs in {}", owner.name())))
+        let (word, habit) = (word.to_owned(), habit.map(str::to_owned));
+        Some(Problem::new(span, Syntax::Misplaced { word, place: context.name(), owner: owner.name(), habit }))
     }
 }
 

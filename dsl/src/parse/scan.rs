@@ -7,7 +7,8 @@ mod mend;
 mod unopened;
 
 use super::{LEAST_EFFORT, MAX_BRACKETS, MAX_PROBLEMS, MAX_TOKENS, span};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Brackets, Fact, Syntax};
 use crate::source::FileId;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -77,9 +78,7 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
 
 /// What is said of a text with too many words: it is not read.
 fn too_much<'t>(at: usize, file: FileId) -> Scan<'t> {
-    let message = format!("a file has more than {MAX_TOKENS} words and signs");
-    let problem = Problem::legacy(Code::TooMuch, span(file, at, at + 1), message, "one too many")
-        .help("move parts of it into other files and import them, or compute them from parameters");
+    let problem = Problem::new(span(file, at, at + 1), Syntax::TooManyWords { most: MAX_TOKENS });
     Scan { text: Cow::Borrowed(""), comments: Vec::new(), told: everything(), problems: vec![problem] }
 }
 
@@ -253,14 +252,7 @@ impl Scanner<'_> {
         let end = if let Some(end) = self.find(at + 2, b"*/") {
             end + 2
         } else {
-            self.problem(
-                at,
-                2,
-                Code::UnclosedBracket,
-                "this comment is not closed",
-                "opened here",
-                "close it with `*/`",
-            );
+            self.problem(at, 2, Brackets::UnclosedComment);
             self.scan.told.push(at..usize::MAX);
             self.tail.push_str("*/");
             self.lost.push(self.chunk);
@@ -279,7 +271,7 @@ impl Scanner<'_> {
         }
         self.lost.push(self.chunk);
         self.cut = true;
-        self.problem(at, 3, Code::UnclosedString, "this script is not closed", "opened here", "close it with `\"\"\"`");
+        self.problem(at, 3, Brackets::UnclosedScript);
         self.scan.told.push(at..usize::MAX);
         self.tail.push_str("\"\"\"");
         text.len()
@@ -298,14 +290,7 @@ impl Scanner<'_> {
                 Some(_) => end += 1,
             }
         }
-        self.problem(
-            at,
-            1,
-            Code::UnclosedString,
-            "this string is not closed",
-            "opened here",
-            "close it with `\"` on its line",
-        );
+        self.problem(at, 1, Brackets::UnclosedString);
         if let Some(closers) = self.closers_at_end(at..end) {
             // What closes the block on this line was not meant to be words.
             self.mends.insert(closers - 1, b'"');
@@ -346,14 +331,7 @@ impl Scanner<'_> {
             *count += 1;
             self.mends.insert(at, b' ');
         } else if self.open.len() >= MAX_BRACKETS {
-            self.problem(
-                at,
-                1,
-                Code::TooDeep,
-                &format!("brackets are nested more than {MAX_BRACKETS} deep"),
-                "one too many",
-                "give parts of it names with `let` or `fn`",
-            );
+            self.problem(at, 1, Syntax::NestedBrackets { most: MAX_BRACKETS });
             self.deep = Some((self.open.first().map_or(at, |open| open.at), 1));
             self.mends.insert(at, b' ');
         } else {
@@ -398,9 +376,9 @@ impl Scanner<'_> {
         at + 1
     }
 
-    fn problem(&mut self, at: usize, len: usize, code: Code, message: &str, label: &str, help: &str) {
+    fn problem(&mut self, at: usize, len: usize, fact: impl Into<Fact>) {
         if self.scan.problems.len() < MAX_PROBLEMS {
-            self.scan.problems.push(Problem::legacy(code, span(self.file, at, at + len), message, label).help(help));
+            self.scan.problems.push(Problem::new(span(self.file, at, at + len), fact));
         }
     }
 }

@@ -12,32 +12,34 @@
 
 mod behaviors;
 mod bounds;
+mod brackets;
 mod calls;
 mod chance;
 mod dry_run;
 mod files;
-mod legacy;
 mod names;
 mod players;
 mod rewards;
 mod scenario;
 mod scope;
 mod start;
+mod syntax;
 mod types;
 
 pub(crate) use behaviors::Behaviors;
 pub(crate) use bounds::Bounds;
+pub(crate) use brackets::Brackets;
 pub(crate) use calls::{Calls, Form};
 pub(crate) use chance::Chance;
 pub use dry_run::{Cure, DryRun};
 pub(crate) use files::{Files, ImportLimit, ScriptLimit};
-pub(crate) use legacy::Legacy;
 pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
 pub(crate) use players::{AskedFor, Players};
 pub(crate) use rewards::{Because, Never, Rewards};
 pub(crate) use scenario::Whole;
 pub(crate) use scope::{Before, Scopes, View};
 pub(crate) use start::{SIDE_LINES, Starts};
+pub(crate) use syntax::{Hint, Syntax, UnitGuess};
 pub(crate) use types::{Instead, Operand, Types, Use, Verb};
 
 use super::Code;
@@ -104,8 +106,6 @@ macro_rules! subjects {
 }
 
 subjects! {
-    /// Not moved yet.
-    Legacy,
     /// Draws and constants.
     Chance,
     /// Names.
@@ -132,4 +132,8 @@ subjects! {
     Behaviors,
     /// Imports and scripts.
     Files,
+    /// Syntax.
+    Syntax,
+    /// Brackets, strings and comments.
+    Brackets,
 }

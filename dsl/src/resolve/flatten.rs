@@ -487,10 +487,8 @@ impl<'a> Adding<'a, '_> {
                 RewardUseKind::Inline { name, .. } => name.node.as_str(),
                 RewardUseKind::Script(_) => "script …",
             };
-            self.problems.push(Problem::new(
-                stmt.span,
-                Names::RewardTwice { name: name.to_owned(), what: what.to_owned(), first },
-            ));
+            self.problems
+                .push(Problem::new(stmt.span, Names::RewardTwice { name: name.clone(), what: what.to_owned(), first }));
             return;
         }
         match known.and_then(|at| self.flat.rewards.get_mut(at)) {

@@ -206,7 +206,7 @@ impl<'w> Lower<'_, 'w> {
                 self.report(Problem::new(span, Types::DividedByZero { text }));
             }
             Some((low, high)) if low <= 0.0 && high >= 0.0 => {
-                self.report(Problem::new(span, Types::MayDivideByZero { text, low, high }))
+                self.report(Problem::new(span, Types::MayDivideByZero { text, low, high }));
             }
             _ => {}
         }

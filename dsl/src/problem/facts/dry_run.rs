@@ -17,7 +17,7 @@ facts! {
             /// The ending's place, if it stands in another file.
             elsewhere: Option<Span>,
         } = Code::EndsAtOnce =>
-            part(format!("`{scenario}` is over before its first step"), "holds at the start".to_owned(), elsewhere)
+            part(format!("`{scenario}` is over before its first step"), "holds at the start".to_owned(), elsewhere.as_ref())
                 .help(format!(
                     "the ending `{ending}` holds at the start: place the players and the ball where it doesn't hold, \
                      or let it wait: `… and elapsed > 1s`"
@@ -42,7 +42,7 @@ facts! {
             let message = if *met == 0 { "can't be started" } else { "is seldom drawn" };
             let share = share(*met, *attempts);
             let label = if *is_located && *attempts > 1 { format!("fails most often; {share}") } else { share };
-            part(format!("`{scenario}` {message}"), label, elsewhere)
+            part(format!("`{scenario}` {message}"), label, elsewhere.as_ref())
                 .help(format!("`{hardest}` fails most often: {}", cure.words()))
         },
     }
@@ -73,7 +73,7 @@ impl Cure {
 }
 
 /// Marks the part at fault, or the scenario where there is none.
-fn part(message: String, label: String, elsewhere: &Option<Span>) -> Said {
+fn part(message: String, label: String, elsewhere: Option<&Span>) -> Said {
     match elsewhere {
         Some(at) => say(message, "").at(at, label),
         None => say(message, label),

@@ -284,6 +284,7 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
         Kind::Mode => "the modes are",
         Kind::Region => "there is",
         Kind::Reward => &format!("declare it, `reward {name} {{ give … }}`, or use one of"),
+        Kind::Event => "the events are",
         Kind::Statistic => "it can be",
         Kind::Type => "the types are",
         _ => "",

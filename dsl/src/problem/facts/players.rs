@@ -37,7 +37,7 @@ facts! {
         NobodyToBeAbsent { role: String } = Code::NothingToRemove =>
             say(format!("no `{role}` is there to be absent"), "").help("leave it out"),
         /// A team with the layouts of `kickoff` writes players.
-        LayoutsAndPlayers { layouts: Span } = Code::DuplicateOption =>
+        LayoutsAndOwn { layouts: Span } = Code::DuplicateOption =>
             say("a team whose players come from `kickoff` has no players of its own", "")
                 .at(layouts, "the layouts are given here")
                 .help("write the player into both formations, or `place` one of theirs"),

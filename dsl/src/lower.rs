@@ -33,7 +33,7 @@ use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
 use crate::problem::Problem;
-use crate::problem::facts::{Bounds, Calls, Chance, Instead, Names, Types};
+use crate::problem::facts::{Bounds, Calls, Chance, Implied, Instead, Names, Types};
 use builder::Builder;
 use interval::Interval;
 use mirror::Mirror;
@@ -326,7 +326,8 @@ impl<'c, 'w> Lower<'c, 'w> {
                 let above = self.code.binary(BinaryOp::Ge, reg, low);
                 let below = self.code.binary(BinaryOp::Le, reg, high);
                 let inside = self.code.binary(BinaryOp::And, above, below);
-                self.imply(inside, format!("{what} is {shown}"), Some(span), format!("keep the value in {shown}"));
+                let implied = Implied::Inside { what: what.to_owned(), shown: shown.to_owned() };
+                self.imply(inside, &implied, Some(span));
             }
         }
         true
@@ -345,21 +346,18 @@ impl<'c, 'w> Lower<'c, 'w> {
         }
         let limit = self.code.constant(greatest);
         let slower = self.code.binary(BinaryOp::Le, speed, limit);
-        let label = format!("{what} is not faster than {greatest} m/s");
-        self.imply(slower, label, Some(span), "write a smaller velocity".to_owned());
+        let implied = Implied::Slower { what: what.to_owned(), most_mps: greatest };
+        self.imply(slower, &implied, Some(span));
     }
 
     /// Makes a condition a requirement of the draw, unless it is known to hold; outside the start there is none.
     ///
-    /// - `span`: the part that implies it, where it is one part;
-    /// - `help`: what makes it hold.
-    pub(crate) fn imply(&mut self, condition: Reg, label: String, span: Option<Span>, help: String) {
+    /// - `span`: the part that implies it, where it is one part.
+    pub(crate) fn imply(&mut self, condition: Reg, implied: &Implied, span: Option<Span>) {
         let known = self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
         if self.stage == Stage::Start && !known {
-            // The message puts the label into backticks.
-            let label = label.replace('`', "");
-            let require = Require { condition, probability: None, label };
-            self.start.implied.push((require, RequireOrigin { span, help: Some(help) }));
+            let require = Require { condition, probability: None, label: implied.label() };
+            self.start.implied.push((require, RequireOrigin { span, help: Some(implied.help()) }));
         }
     }
 

@@ -54,6 +54,12 @@ impl Said {
         self
     }
 
+    /// Notes a name that the help suggests.
+    pub(super) fn suggesting(mut self, name: &str) -> Said {
+        self.names.push(name.to_owned());
+        self
+    }
+
     /// Says "did you mean", or `listed` and the names that there are.
     pub(super) fn guess(mut self, guess: &Guess, listed: &str) -> Said {
         match &guess.meant {

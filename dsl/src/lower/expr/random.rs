@@ -5,7 +5,7 @@ use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::Chance;
+use crate::problem::facts::{Chance, Implied};
 use crate::problem::{Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
@@ -108,9 +108,7 @@ impl<'w> Lower<'_, 'w> {
             }
         }
         let ordered = self.code.binary(BinaryOp::Le, a, b);
-        let text = self.world.text(span);
-        let label = format!("the lower end of `{text}` lies below the upper one");
-        self.imply(ordered, label, Some(span), "write the lower end first".to_owned());
+        self.imply(ordered, &Implied::EndsOrdered { text: self.world.text(span) }, Some(span));
         true
     }
 
@@ -134,9 +132,7 @@ impl<'w> Lower<'_, 'w> {
         }
         let zero = self.code.constant(0.0);
         let any = self.code.binary(BinaryOp::Gt, sum, zero);
-        let text = self.world.text(span);
-        let help = "give one of the choices a weight above 0".to_owned();
-        self.imply(any, format!("a weight of `{text}` is above 0"), Some(span), help);
+        self.imply(any, &Implied::AnyWeight { text: self.world.text(span) }, Some(span));
     }
 
     /// `choice(a, b, c)`, `choice(a: 3, b: 1)`

@@ -10,7 +10,7 @@ use crate::ast::Span;
 use crate::lower::interval::Interval;
 use crate::lower::triangles::{is_flat, triangulate};
 use crate::problem::Problem;
-use crate::problem::facts::Chance;
+use crate::problem::facts::{Chance, Implied};
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
 /// How many candidates a draw in a composed region tries: at an acceptance of one half one start in 65,536 finds none
@@ -42,9 +42,7 @@ impl Lower<'_, '_> {
             let also = next.accepted.unwrap_or(accepted);
             accepted = self.code.binary(BinaryOp::Or, accepted, also);
         }
-        let text = self.world.text(span);
-        let help = "draw from a region whose parts have more in common".to_owned();
-        self.imply(accepted, format!("a point lies in {text}"), Some(span), help);
+        self.imply(accepted, &Implied::InRegion { text: self.world.text(span) }, Some(span));
         Some(place)
     }
 

@@ -8,7 +8,7 @@ use crate::lower::Lower;
 use crate::lower::roster::Rostered;
 use crate::lower::team::PlayerOptions;
 use crate::problem::Problem;
-use crate::problem::facts::{Players, SIDE_LINES, Starts};
+use crate::problem::facts::{Implied, Players, Starts};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Instr, Reg, UnaryOp};
@@ -51,17 +51,14 @@ pub(super) fn check_places(
             }
         }
     }
-    let all = [
-        (on_pitch, "everybody stands on the pitch", "place the players where every draw lies between the lines"),
-        (apart, "nobody stands on another's spot", "give the players more room, or allow it: `{ overlap: allowed }`"),
-    ];
-    for (parts, label, help) in all {
+    let all = [(on_pitch, Implied::PlayersOnPitch), (apart, Implied::PlayersApart)];
+    for (parts, implied) in all {
         let first = parts.first().map(|(_, span)| *span);
         // Of several parts it can't be told here which one fails.
         let span = first.filter(|first| parts.iter().all(|(_, span)| span == first));
         let regs = parts.into_iter().map(|(reg, _)| reg);
         if let Some(all) = regs.reduce(|a, b| lower.code.binary(BinaryOp::And, a, b)) {
-            lower.imply(all, label.to_owned(), span, help.to_owned());
+            lower.imply(all, &implied, span);
         }
     }
 }
@@ -72,8 +69,7 @@ fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, spa
     let limit = (HALF_LENGTH_M, HALF_WIDTH_M + aside);
     if check_on_pitch(lower, place, limit, "the ball", span) == Known::Later {
         let inside = within(lower, place, limit);
-        let help = "place it where every draw lies between the lines".to_owned();
-        lower.imply(inside, "the ball lies on the pitch".to_owned(), Some(span), help);
+        lower.imply(inside, &Implied::BallOnPitch, Some(span));
     }
     if kind != StartKind::ThrowIn {
         return;
@@ -85,7 +81,7 @@ fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, spa
         _ => {
             let (least, aside) = (lower.code.constant(nearest), lower.code.unary(UnaryOp::Abs, place.1));
             let beside = lower.code.binary(BinaryOp::Ge, aside, least);
-            lower.imply(beside, "the throw-in is taken from a side line".to_owned(), Some(span), SIDE_LINES.to_owned());
+            lower.imply(beside, &Implied::BesideSideLine, Some(span));
         }
     }
 }

@@ -13,7 +13,7 @@ facts! {
             let said = say(format!("`{callee}` needs a value for `{parameter}`"), "");
             match form {
                 Form::Builtin(signature) => said.help(format!("`{signature}`")),
-                Form::Named => said.help(format!("write `{parameter}: …`")),
+                Form::Named => said.help(format!("write `{parameter}: …`")).suggesting(parameter),
                 Form::Unknown => said,
             }
         },

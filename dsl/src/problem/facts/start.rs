@@ -78,7 +78,7 @@ facts! {
 }
 
 /// Where the side lines are.
-pub(crate) const SIDE_LINES: &str = "their y is -0.42 and 0.42: `at (0.3, 0.42)`";
+pub(super) const SIDE_LINES: &str = "their y is -0.42 and 0.42: `at (0.3, 0.42)`";
 const START_HERE: &str = "the start is given here";
 const LEAVE_BALL_OUT: &str = "leave `ball …` out; an inherited one goes by `remove ball`";
 

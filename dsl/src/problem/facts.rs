@@ -38,7 +38,7 @@ pub(crate) use implied::Implied;
 pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
 pub(crate) use players::{AskedFor, Players};
 pub(crate) use rewards::{Because, Never, Rewards};
-pub(crate) use scenario::Whole;
+pub(crate) use scenario::{Declared, Whole};
 pub(crate) use scope::{Before, Scopes, View};
 pub(crate) use start::Starts;
 pub(crate) use syntax::{Hint, Syntax, UnitGuess};

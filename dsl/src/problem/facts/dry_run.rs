@@ -73,10 +73,10 @@ impl Cure {
 }
 
 /// Marks the part at fault, or the scenario where there is none.
-fn part(message: String, label: String, elsewhere: Option<&Span>) -> Said {
+fn part(said: String, label: String, elsewhere: Option<&Span>) -> Said {
     match elsewhere {
-        Some(at) => say(message, "").at(at, label),
-        None => say(message, label),
+        Some(at) => say(said, "").at(at, label),
+        None => say(said, label),
     }
 }
 

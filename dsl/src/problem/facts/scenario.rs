@@ -33,12 +33,65 @@ facts! {
         CantRun { scenario: String, fault: String } = Code::Impossible =>
             say(format!("`{scenario}` can't be run: {fault}"), "").help("make its rewards and endings smaller"),
         /// Nothing refers to a name.
-        Unused { what: String, name: String, cure: String } = Code::UnusedName =>
-            say(format!("{what} `{name}` is never used"), "not read")
-                .help(format!("{cure}, leave it out, or begin its name with `_`")),
+        Unused { what: Declared, name: String } = Code::UnusedName =>
+            say(format!("{} `{name}` is never used", what.noun()), "not read")
+                .help(format!("{}, leave it out, or begin its name with `_`", what.cure(name))),
         /// A cast names nobody who could play.
         NoSuchAi { text: String } = Code::WrongType =>
             say(format!("`{text}` is not who plays a player"), "")
                 .help("it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"f.rhai\"`"),
+    }
+}
+
+/// What a name that nothing refers to was declared as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Declared {
+    /// `behavior`
+    Behavior,
+    /// `const`
+    Const,
+    /// `ending`
+    Ending,
+    /// `formation`
+    Formation,
+    /// `fn`
+    Function,
+    /// `let`
+    Let,
+    /// A parameter of anything.
+    Parameter,
+    /// `region`
+    Region,
+    /// `reward`
+    Reward,
+    /// `state`
+    State,
+}
+
+impl Declared {
+    fn noun(self) -> &'static str {
+        match self {
+            Declared::Behavior => "behavior",
+            Declared::Const => "`const`",
+            Declared::Ending => "ending",
+            Declared::Formation => "formation",
+            Declared::Function => "function",
+            Declared::Let => "`let`",
+            Declared::Parameter => "parameter",
+            Declared::Region => "region",
+            Declared::Reward => "reward",
+            Declared::State => "state",
+        }
+    }
+
+    /// How it is used.
+    fn cure(self, name: &str) -> String {
+        match self {
+            Declared::Behavior => format!("give it to a player, `ai: {name}`"),
+            Declared::Ending => format!("end by it, `end {name}`"),
+            Declared::Formation => format!("give it to a team, `formation: {name}`"),
+            Declared::Reward => format!("pay it in a scenario, `reward {name}`"),
+            _ => "use it".to_owned(),
+        }
     }
 }

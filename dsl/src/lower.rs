@@ -37,15 +37,15 @@ use crate::problem::facts::{Bounds, Calls, Chance, Implied, Instead, Names, Type
 use builder::Builder;
 use interval::Interval;
 use mirror::Mirror;
+use record::Remembered;
 use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
 use start::StartState;
 use step::StepWorld;
 use value::{Frame, Repr, Scope, Value};
 
-/// What kind of program is written, which decides what it may read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stage {
+/// What kind of program is written, which decides what it may read; with what this kind alone keeps.
+pub(crate) enum Stage<'w> {
     /// Nothing but constants.
     Constant,
     /// The draw of a start.
@@ -57,22 +57,23 @@ pub(crate) enum Stage {
     /// The endings, at every step.
     Ending,
     /// A record, at every step.
-    Record,
+    Record(Remembered<'w>),
     /// The scenario's observation, after every step and reset.
     Observation,
-    /// What a scripted player does, at every step.
-    Behavior,
+    /// What a scripted player does, at every step; with the draws of the statement that is being written, `None` where
+    /// nothing may be drawn.
+    Behavior(Option<Vec<behavior::Draw>>),
 }
 
-impl Stage {
+impl Stage<'_> {
     /// Whether the match is under way.
-    pub(crate) fn is_step(self) -> bool {
-        matches!(self, Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior)
+    pub(crate) fn is_step(&self) -> bool {
+        matches!(self, Stage::Reward | Stage::Ending | Stage::Record(_) | Stage::Observation | Stage::Behavior(_))
     }
 
     /// Whether it runs for an agent or a player, so that there is a `me`.
-    pub(crate) fn has_me(self) -> bool {
-        matches!(self, Stage::Reward | Stage::Record | Stage::Observation | Stage::Behavior)
+    pub(crate) fn has_me(&self) -> bool {
+        matches!(self, Stage::Reward | Stage::Record(_) | Stage::Observation | Stage::Behavior(_))
     }
 }
 
@@ -85,7 +86,7 @@ pub(crate) struct Lower<'c, 'w> {
     /// The program.
     pub(crate) code: Builder,
     /// Its kind.
-    pub(crate) stage: Stage,
+    pub(crate) stage: Stage<'w>,
     /// The names in sight.
     pub(crate) scope: Scope<'w>,
     /// The team whose view it is, if any.
@@ -96,12 +97,6 @@ pub(crate) struct Lower<'c, 'w> {
     pub(crate) event: Option<EventKind>,
     /// Places and `let`s, in the start program.
     pub(crate) start: StartState<'w>,
-    /// The rewards whose states a record reads, each with their scope.
-    pub(crate) rewards: Vec<(String, Option<Scope<'w>>)>,
-    /// Whether a record must be kept for each agent, whatever it reads.
-    pub(crate) per_agent: bool,
-    /// The draws of the statement of a behaviour that is being written; `None` where nothing may be drawn.
-    pub(crate) draws: Option<Vec<behavior::Draw>>,
     depth: u32,
     inlining: Vec<Span>,
     inlined: u32,
@@ -126,12 +121,17 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// An empty program of a step, or of what is kept from step to step.
-    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
-        debug_assert!(stage.is_step() || stage == Stage::Init);
+    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: Stage<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+        debug_assert!(stage.is_step() || matches!(stage, Stage::Init));
         Lower::new(step.world, Some(step), stage, scope)
     }
 
-    fn new(world: &'c World<'w>, step: Option<&'c StepWorld<'c, 'w>>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
+    fn new(
+        world: &'c World<'w>,
+        step: Option<&'c StepWorld<'c, 'w>>,
+        stage: Stage<'w>,
+        scope: Scope<'w>,
+    ) -> Lower<'c, 'w> {
         Lower {
             world,
             step,
@@ -142,9 +142,6 @@ impl<'c, 'w> Lower<'c, 'w> {
             when: When::Now,
             event: None,
             start: StartState::default(),
-            rewards: Vec::new(),
-            per_agent: false,
-            draws: None,
             depth: 0,
             inlining: Vec::new(),
             inlined: 0,
@@ -355,7 +352,7 @@ impl<'c, 'w> Lower<'c, 'w> {
     /// - `span`: the part that implies it, where it is one part.
     pub(crate) fn imply(&mut self, condition: Reg, implied: &Implied, span: Option<Span>) {
         let known = self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
-        if self.stage == Stage::Start && !known {
+        if matches!(self.stage, Stage::Start) && !known {
             let require = Require { condition, probability: None, label: implied.label() };
             self.start.implied.push((require, RequireOrigin { span, help: Some(implied.help()) }));
         }

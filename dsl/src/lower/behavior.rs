@@ -153,7 +153,7 @@ struct Call {
 
 impl<'c, 'w> Writer<'c, 'w> {
     fn new(step: &'c StepWorld<'c, 'w>) -> Writer<'c, 'w> {
-        let mut lower = Lower::in_step(step, Stage::Behavior, Scope::new(false, Frame::Own));
+        let mut lower = Lower::in_step(step, Stage::Behavior(None), Scope::new(false, Frame::Own));
         let us = lower.code.us();
         lower.team = Some(us);
         let (nodes, watches, states, calls) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -216,9 +216,9 @@ impl<'c, 'w> Writer<'c, 'w> {
 
     /// Runs `f`; the draws in what it reads happen before what comes next.
     fn drawing<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = self.lower.draws.replace(Vec::new());
+        let outer = std::mem::replace(&mut self.lower.stage, Stage::Behavior(Some(Vec::new())));
         let result = f(self);
-        let draws = std::mem::replace(&mut self.lower.draws, outer);
+        let Stage::Behavior(draws) = std::mem::replace(&mut self.lower.stage, outer) else { return result };
         for Draw { cell, count, key, from } in draws.into_iter().flatten() {
             self.nodes.push(Node::Draw { cell, count, key, from });
         }

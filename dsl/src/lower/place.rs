@@ -38,8 +38,8 @@ impl<'w> Lower<'_, 'w> {
         match (value.ty, &value.repr) {
             (_, Repr::Two(x, y) | Repr::Three(x, y, _)) => (*x, *y),
             (Ty::Player, Repr::One(reg)) if self.stage.is_step() => self.player_place(*reg),
-            (Ty::Player, Repr::One(reg)) if self.stage == Stage::Start => self.start_place(*reg, span),
-            (Ty::Ball, _) if self.stage == Stage::Start => self.ball_place(span),
+            (Ty::Player, Repr::One(reg)) if matches!(self.stage, Stage::Start) => self.start_place(*reg, span),
+            (Ty::Ball, _) if matches!(self.stage, Stage::Start) => self.ball_place(span),
             (Ty::Player | Ty::Ball, _) => {
                 let (fx, fy, of) = match (value.ty, &value.repr) {
                     (Ty::Player, Repr::One(reg)) => (Field::PlayerX, Field::PlayerY, Some(*reg)),

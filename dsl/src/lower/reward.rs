@@ -66,7 +66,7 @@ impl<'w> Written<'w> {
         for (index, (link, args)) in self.links.iter().enumerate() {
             // Arguments are read where the reward is used: in the scenario, in the world's frame.
             let in_scenario = index + 1 == self.links.len();
-            let now = lower.stage == Stage::Reward;
+            let now = matches!(lower.stage, Stage::Reward);
             lower.within(Scope::new(in_scenario, Frame::World), |lower| {
                 lower.bind_params(&link.name.node, &link.params, args, self.span, &mut scope, now);
             });

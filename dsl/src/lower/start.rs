@@ -232,7 +232,12 @@ impl<'w> Lower<'_, 'w> {
             Stage::Constant => {
                 return self.fail(Problem::new(asked, Chance::ComputedAtReset { name: name.to_owned() }));
             }
-            Stage::Init | Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior => {
+            Stage::Init
+            | Stage::Reward
+            | Stage::Ending
+            | Stage::Record(_)
+            | Stage::Observation
+            | Stage::Behavior(_) => {
                 return self.step_let(name);
             }
         }

@@ -80,7 +80,7 @@ impl<'w> Lower<'_, 'w> {
             });
             return None;
         }
-        if self.stage == Stage::Observation {
+        if matches!(self.stage, Stage::Observation) {
             self.report(Problem::new(event.span, Scopes::ObservationShowsState));
             return None;
         }

@@ -53,7 +53,7 @@ impl<'w> Lower<'_, 'w> {
             return None;
         }
         let from = match self.stage {
-            Stage::Behavior => Outside::Behavior,
+            Stage::Behavior(_) => Outside::Behavior,
             Stage::Reward | Stage::Init => Outside::Reward,
             Stage::Ending => Outside::Ending,
             _ => Outside::Elsewhere,
@@ -173,7 +173,7 @@ impl<'w> Lower<'_, 'w> {
             ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value(Some(Use::Called))),
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
-            ItemKind::Reward(_) if matches!(self.stage, Stage::Record | Stage::Ending) => {
+            ItemKind::Reward(_) if matches!(self.stage, Stage::Record(_) | Stage::Ending) => {
                 self.fail(no_value(Some(Use::Recorded)))
             }
             ItemKind::Behavior(_) => self.fail(no_value(Some(Use::Given))),
@@ -255,8 +255,8 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
-        let why = match (self.stage, name) {
-            (Stage::Ending | Stage::Record, "us" | "them") => View::BothTeams,
+        let why = match (&self.stage, name) {
+            (Stage::Ending | Stage::Record(_), "us" | "them") => View::BothTeams,
             (Stage::Init, _) => View::BeforeFirstStep,
             _ => View::OutsideRewards,
         };
@@ -308,7 +308,7 @@ impl<'w> Lower<'_, 'w> {
             known.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
             known.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
         }
-        if self.stage == Stage::Record {
+        if matches!(self.stage, Stage::Record(_)) {
             known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
         let values = |kind: &ItemKind| {

@@ -18,7 +18,7 @@ impl<'w> Lower<'_, 'w> {
             (F::Delta, &[e]) => self.delta(e, span),
             (F::Closing, &[a, b]) => self.closing(a, b, span),
             (F::Potential, &[e, gamma]) => self.potential(e, gamma, span),
-            _ if self.stage == Stage::Observation => {
+            _ if matches!(self.stage, Stage::Observation) => {
                 self.fail(Problem::new(span, Scopes::ObservationRemembersNothing { function: function.name() }))
             }
             _ if self.when == When::Prev => {
@@ -127,7 +127,7 @@ impl<'w> Lower<'_, 'w> {
             self.before(a, span);
             return Value::error();
         }
-        debug_assert_ne!(self.stage, Stage::Start);
+        debug_assert!(!matches!(self.stage, Stage::Start));
         let now = apart(self);
         self.when = When::Prev;
         let before = apart(self);

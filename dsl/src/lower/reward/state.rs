@@ -92,14 +92,14 @@ impl<'w> Lower<'_, 'w> {
     ///
     /// The record's program keeps the reward's states itself: it has the reward's statements without its payments.
     pub(crate) fn state_of_reward(&mut self, name: &str, of: Span, member: &'w Ident) -> Option<Value<'w>> {
-        if self.stage != Stage::Record {
-            return None;
-        }
+        let Stage::Record(remembered) = &self.stage else { return None };
         let (_, used, stmt) = self.world.flat.rewards.iter().find(|(known, ..)| known == name)?;
-        let known = self.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
+        let known = remembered.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
         let scope = known.unwrap_or_else(|| {
             let scope = self.remember(used, stmt.span);
-            self.rewards.push((name.to_owned(), scope.clone()));
+            if let Stage::Record(remembered) = &mut self.stage {
+                remembered.rewards.push((name.to_owned(), scope.clone()));
+            }
             scope
         });
         let Some(scope) = scope else {
@@ -124,7 +124,10 @@ impl<'w> Lower<'_, 'w> {
         let (written, _) = super::written(self.world, used, span)?;
         let loops = self.code.leave_loops();
         // Where both teams have agents, or none, it is kept for each of them.
-        self.per_agent |= self.side_with_agents().is_none();
+        let for_each = self.side_with_agents().is_none();
+        if let Stage::Record(remembered) = &mut self.stage {
+            remembered.per_agent |= for_each;
+        }
         let us = self.side_with_agents().map(|team| self.code.constant(team.index() as f64));
         let us = us.unwrap_or_else(|| self.code.us());
         let outer = (self.event.take(), std::mem::replace(&mut self.when, When::Now), self.team.replace(us));
@@ -132,7 +135,7 @@ impl<'w> Lower<'_, 'w> {
         let statements = written.statements();
         let states = states(&statements);
 
-        self.stage = Stage::Init;
+        let record = std::mem::replace(&mut self.stage, Stage::Init);
         self.scope = written.bind(self);
         let firsts: Vec<Value<'w>> = states.iter().map(|state| self.first_value(state)).collect();
         self.stage = Stage::Reward;
@@ -161,7 +164,7 @@ impl<'w> Lower<'_, 'w> {
         Writer::write(self, &statements, None, false, Vec::new());
         let one = self.code.constant(1.0);
         self.code.assign(begun, one, None);
-        self.stage = Stage::Record;
+        self.stage = record;
         (self.event, self.when, self.team) = outer;
         self.scope = outer_scope;
         self.code.return_to(loops);

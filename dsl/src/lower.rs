@@ -40,7 +40,7 @@ use mirror::Mirror;
 use record::Remembered;
 use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
-use start::StartState;
+use start::{StartState, Streams};
 use step::StepWorld;
 use value::{Frame, Repr, Scope, Value};
 
@@ -48,8 +48,8 @@ use value::{Frame, Repr, Scope, Value};
 pub(crate) enum Stage<'w> {
     /// Nothing but constants.
     Constant,
-    /// The draw of a start.
-    Start,
+    /// The draw of a start; with its places and `let`s.
+    Start(StartState<'w>),
     /// The first values of a reward's states.
     Init,
     /// A reward, at every step.
@@ -95,8 +95,8 @@ pub(crate) struct Lower<'c, 'w> {
     pub(crate) when: When,
     /// The event of the `on` block around, if any.
     pub(crate) event: Option<EventKind>,
-    /// Places and `let`s, in the start program.
-    pub(crate) start: StartState<'w>,
+    /// The streams that draws come from.
+    pub(crate) streams: Streams,
     depth: u32,
     inlining: Vec<Span>,
     inlined: u32,
@@ -116,8 +116,24 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// An empty program of what is drawn or computed at the start.
-    pub(crate) fn start(world: &'c World<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
-        Lower::new(world, None, Stage::Start, scope)
+    pub(crate) fn of_start(world: &'c World<'w>, scope: Scope<'w>, state: StartState<'w>) -> Lower<'c, 'w> {
+        Lower::new(world, None, Stage::Start(state), scope)
+    }
+
+    /// What is known of the start; `None` in any other program.
+    pub(crate) fn start(&self) -> Option<&StartState<'w>> {
+        match &self.stage {
+            Stage::Start(state) => Some(state),
+            _ => None,
+        }
+    }
+
+    /// The same, to note more.
+    pub(crate) fn start_mut(&mut self) -> Option<&mut StartState<'w>> {
+        match &mut self.stage {
+            Stage::Start(state) => Some(state),
+            _ => None,
+        }
     }
 
     /// An empty program of a step, or of what is kept from step to step.
@@ -141,7 +157,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             team: None,
             when: When::Now,
             event: None,
-            start: StartState::default(),
+            streams: Streams::default(),
             depth: 0,
             inlining: Vec::new(),
             inlined: 0,
@@ -352,9 +368,9 @@ impl<'c, 'w> Lower<'c, 'w> {
     /// - `span`: the part that implies it, where it is one part.
     pub(crate) fn imply(&mut self, condition: Reg, implied: &Implied, span: Option<Span>) {
         let known = self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
-        if matches!(self.stage, Stage::Start) && !known {
+        if let Some(start) = self.start_mut().filter(|_| !known) {
             let require = Require { condition, probability: None, label: implied.label() };
-            self.start.implied.push((require, RequireOrigin { span, help: Some(implied.help()) }));
+            start.implied.push((require, RequireOrigin { span, help: Some(implied.help()) }));
         }
     }
 

@@ -68,7 +68,7 @@ pub(crate) fn lower_behaviors<'w>(
         let name = match used {
             BehaviorUse::Named { item, args, scope, span } => {
                 writer.lower.scope = scope.clone();
-                writer.lower.start.draw_for(&format!("behavior {}", item.name.node));
+                writer.lower.streams.draw_for(&format!("behavior {}", item.name.node));
                 writer.run(item, args, *span);
                 item.name.node.clone()
             }

@@ -38,8 +38,8 @@ impl<'w> Lower<'_, 'w> {
         match (value.ty, &value.repr) {
             (_, Repr::Two(x, y) | Repr::Three(x, y, _)) => (*x, *y),
             (Ty::Player, Repr::One(reg)) if self.stage.is_step() => self.player_place(*reg),
-            (Ty::Player, Repr::One(reg)) if matches!(self.stage, Stage::Start) => self.start_place(*reg, span),
-            (Ty::Ball, _) if matches!(self.stage, Stage::Start) => self.ball_place(span),
+            (Ty::Player, Repr::One(reg)) if matches!(self.stage, Stage::Start(_)) => self.start_place(*reg, span),
+            (Ty::Ball, _) if matches!(self.stage, Stage::Start(_)) => self.ball_place(span),
             (Ty::Player | Ty::Ball, _) => {
                 let (fx, fy, of) = match (value.ty, &value.repr) {
                     (Ty::Player, Repr::One(reg)) => (Field::PlayerX, Field::PlayerY, Some(*reg)),
@@ -83,7 +83,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// The start place of a player of the roster, computed when it is first asked for.
     pub(crate) fn place_of_rostered(&mut self, index: usize, asked: Span) -> (Reg, Reg) {
-        match self.start.places.get(index).copied() {
+        match self.start().and_then(|start| start.places.get(index).copied()) {
             Some(Found::Done(place)) => return place,
             Some(Found::Todo) => {}
             Some(Found::Busy) => {
@@ -92,11 +92,11 @@ impl<'w> Lower<'_, 'w> {
             }
             None => return self.nowhere(),
         }
-        if let Some(slot) = self.start.places.get_mut(index) {
+        if let Some(slot) = self.start_mut().and_then(|start| start.places.get_mut(index)) {
             *slot = Found::Busy;
         }
         let place = self.compute_player(index);
-        if let Some(slot) = self.start.places.get_mut(index) {
+        if let Some(slot) = self.start_mut().and_then(|start| start.places.get_mut(index)) {
             *slot = Found::Done(place);
         }
         place
@@ -108,7 +108,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// The ball's start place.
     pub(crate) fn ball_place(&mut self, asked: Span) -> (Reg, Reg) {
-        match self.start.ball {
+        match self.start().map_or(Found::Todo, |start| start.ball) {
             Found::Done(place) => return place,
             Found::Busy => {
                 self.cyclic(asked);
@@ -116,13 +116,19 @@ impl<'w> Lower<'_, 'w> {
             }
             Found::Todo => {}
         }
-        self.start.ball = Found::Busy;
+        self.set_ball(Found::Busy);
         let place = match self.world.flat.ball {
             Some((ball, _)) => self.drawing("ball", |lower| lower.compute_ball(ball)),
             None => self.place_of_start().unwrap_or_else(|| self.nowhere()),
         };
-        self.start.ball = Found::Done(place);
+        self.set_ball(Found::Done(place));
         place
+    }
+
+    fn set_ball(&mut self, ball: Found<(Reg, Reg)>) {
+        if let Some(start) = self.start_mut() {
+            start.ball = ball;
+        }
     }
 
     fn compute_ball(&mut self, ball: &'w BallStmt) -> (Reg, Reg) {
@@ -149,7 +155,7 @@ impl<'w> Lower<'_, 'w> {
                 let first = lower.first_team();
                 let team = lower.code.constant(player.team.index() as f64);
                 let kicks = lower.code.binary(BinaryOp::Eq, first, team);
-                if let Some(slot) = lower.start.layouts.get_mut(index) {
+                if let Some(slot) = lower.start_mut().and_then(|start| start.layouts.get_mut(index)) {
                     *slot = Some((place, other));
                 }
                 (lower.code.select(kicks, place.0, other.0), lower.code.select(kicks, place.1, other.1))
@@ -316,14 +322,15 @@ impl<'w> Lower<'_, 'w> {
     /// the direction of his attack.
     fn is_being_placed(&self, facing: &Facing) -> bool {
         let crate::ast::ExprKind::Name(name) = &facing.target.kind else { return false };
-        let roster = self.world.roster.iter().zip(&self.start.places);
+        let Some(start) = self.start() else { return false };
+        let roster = self.world.roster.iter().zip(&start.places);
         let mut placed = roster.filter(|(player, _)| player.name.is_some_and(|known| known.node == *name));
-        (name == "ball" && self.start.ball == Found::Busy) || placed.any(|(_, place)| *place == Found::Busy)
+        (name == "ball" && start.ball == Found::Busy) || placed.any(|(_, place)| *place == Found::Busy)
     }
 
     /// The heading a player of the roster was told to face, radians in the world frame.
     pub(crate) fn heading_of(&mut self, index: usize, asked: Span) -> Option<Reg> {
-        match self.start.headings.get(index).copied()? {
+        match self.start()?.headings.get(index).copied()? {
             Found::Done(heading) => return Some(heading),
             Found::Busy => {
                 self.cyclic(asked);
@@ -334,12 +341,12 @@ impl<'w> Lower<'_, 'w> {
         let world = self.world;
         let player = world.roster.get(index)?;
         let facing = player.facing?;
-        *self.start.headings.get_mut(index)? = Found::Busy;
+        *self.start_mut()?.headings.get_mut(index)? = Found::Busy;
         let heading = self.for_team(player.team.index() as f64, |lower| {
             let name = format!("{} facing", player.stream());
             lower.drawing(&name, |lower| lower.within(player.scope.clone(), |lower| lower.facing(facing, index)))
         });
-        *self.start.headings.get_mut(index)? = Found::Done(heading);
+        *self.start_mut()?.headings.get_mut(index)? = Found::Done(heading);
         Some(heading)
     }
 

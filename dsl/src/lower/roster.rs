@@ -1,5 +1,6 @@
 //! Who plays: formations and players of both teams as one list.
 
+use super::start::StartState;
 use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, World, casting};
 use crate::ast::{
@@ -234,7 +235,7 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<R
         }
         return players;
     }
-    let mut lower = Lower::start(world, Scope::new(true, Frame::World));
+    let mut lower = Lower::of_start(world, Scope::new(true, Frame::World), StartState::default());
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
         && let crate::ast::ItemKind::Formation(item) = &found.item.kind
@@ -268,7 +269,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
         if !std::ptr::eq(link, item) {
             world.mark_used(link.name.span);
             // A parent's parameters are bound by the reference of its child.
-            let mut lower = Lower::start(world, scope);
+            let mut lower = Lower::of_start(world, scope, StartState::default());
             scope = Scope::new(false, Frame::Own);
             let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
             lower.bind_params(&link.name.node, &link.params, args, link.name.span, &mut scope, false);

@@ -75,7 +75,7 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
     let stream = player.stream();
     lower.for_team(player.team.index() as f64, |lower| {
         lower.within(scope, |lower| {
-            lower.start.ai = None;
+            set_ai(lower, None);
             for field in &player.fields {
                 lower.drawing(&format!("{stream} {}", field.key.node), |lower| option(lower, field, &mut options));
             }
@@ -86,10 +86,19 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
             }
         });
     });
-    if let Some(used) = lower.start.ai.take() {
-        lower.start.behaviors.push((player.id, used));
+    if let Some(start) = lower.start_mut()
+        && let Some(used) = start.ai.take()
+    {
+        start.behaviors.push((player.id, used));
     }
     options
+}
+
+/// Notes the behavior of the player whose options are read.
+fn set_ai<'w>(lower: &mut Lower<'_, 'w>, ai: Option<BehaviorUse<'w>>) {
+    if let Some(start) = lower.start_mut() {
+        start.ai = ai;
+    }
 }
 
 fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
@@ -102,7 +111,7 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
                 stats(lower, stat, options);
             }
         }
-        ("ai", FieldValue::Script(script)) => lower.start.ai = Some(BehaviorUse::Script(script)),
+        ("ai", FieldValue::Script(script)) => set_ai(lower, Some(BehaviorUse::Script(script))),
         (key, FieldValue::Expr(expr)) => expression(lower, key, expr, options),
         ("stats", FieldValue::Script(script)) => not_a_group(lower, script.span),
         _ => {
@@ -163,7 +172,7 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
     let built_in = [("bot", Ai::Bot), ("hold", Ai::Hold), ("lazy", Ai::Lazy)];
     if let (Some((_, ai)), true) = (built_in.iter().find(|(known, _)| *known == name), args.is_empty()) {
         options.ai = *ai;
-        lower.start.ai = None;
+        set_ai(lower, None);
         return;
     }
     let library = lower.world.library;
@@ -174,7 +183,8 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
             return;
         }
         lower.world.mark_used(found.name.span);
-        lower.start.ai = Some(BehaviorUse::Named { item, args, scope: lower.scope.clone(), span: expr.span });
+        let used = BehaviorUse::Named { item, args, scope: lower.scope.clone(), span: expr.span };
+        set_ai(lower, Some(used));
         return;
     }
     let behaviors =

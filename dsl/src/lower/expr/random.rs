@@ -16,7 +16,7 @@ const SHUFFLED_MAX: usize = 64;
 impl<'w> Lower<'_, 'w> {
     /// Reports a draw that stands outside the start.
     fn may_draw(&self, function: Function, span: Span) -> bool {
-        if matches!(self.stage, Stage::Start) {
+        if matches!(self.stage, Stage::Start(_)) {
             return true;
         }
         if matches!(self.stage, Stage::Behavior(_)) {
@@ -233,8 +233,8 @@ impl<'w> Lower<'_, 'w> {
 
     /// Draws from the stream of what is being drawn: its name and the draw's ordinal in it.
     pub(crate) fn random(&mut self, from: Distribution) -> Reg {
-        let ordinal = self.start.next_draw();
-        let key = stream_key(self.start.drawing(), ordinal);
+        let ordinal = self.streams.next_draw();
+        let key = stream_key(self.streams.drawing(), ordinal);
         if let Stage::Behavior(Some(draws)) = &mut self.stage {
             let (cell, count) = (self.code.new_cell(), self.code.new_cell());
             draws.push(Draw { cell, count, key, from });

@@ -47,7 +47,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// `min_gap(players)`: the least distance between two of some players at the start.
     pub(super) fn min_gap(&mut self, set: &'w Expr, span: Span) -> Value<'w> {
-        if !matches!(self.stage, Stage::Start) {
+        if !matches!(self.stage, Stage::Start(_)) {
             return self.fail(Problem::new(span, Scopes::GapInMatch));
         }
         let Some(set) = self.want_set(set) else { return Value::error() };
@@ -98,7 +98,7 @@ impl<'w> Lower<'_, 'w> {
                 Calls::WhichPlayers { function: name, signature: signature(function.doc()).to_owned() },
             ));
         };
-        if matches!(self.stage, Stage::Start) {
+        if matches!(self.stage, Stage::Start(_)) {
             return self.aggregate_start(function, &parts, span);
         }
         if !self.players_known(span, name) {

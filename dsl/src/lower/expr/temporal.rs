@@ -127,7 +127,7 @@ impl<'w> Lower<'_, 'w> {
             self.before(a, span);
             return Value::error();
         }
-        debug_assert!(!matches!(self.stage, Stage::Start));
+        debug_assert!(!matches!(self.stage, Stage::Start(_)));
         let now = apart(self);
         self.when = When::Prev;
         let before = apart(self);

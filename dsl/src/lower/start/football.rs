@@ -91,7 +91,8 @@ fn situations(lower: &Lower<'_, '_>, places: &[(Reg, Reg)]) -> Vec<Situation> {
         return vec![places.to_vec()];
     }
     let of = |kicking: Team| -> Situation {
-        let layouts = lower.start.layouts.iter().zip(places).zip(&lower.world.roster);
+        let layouts = lower.start().into_iter().flat_map(|start| &start.layouts);
+        let layouts = layouts.zip(places).zip(&lower.world.roster);
         layouts
             .map(|((layout, place), player)| match layout {
                 Some((kicks, _)) if player.team == kicking => *kicks,

@@ -14,15 +14,21 @@ use setpiece_scenario::{BallStart, BinaryOp, Reg, UnaryOp};
 impl Lower<'_, '_> {
     /// The kind of start and the team that takes it; told once.
     pub(in crate::lower) fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
-        if let Some(known) = self.start.kind {
+        if let Some(known) = self.start().and_then(|start| start.kind) {
             return known;
         }
         let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
         // Whoever asks while the team is being computed must not ask for ever.
-        self.start.kind = Some((implied, None));
+        self.set_kind((implied, None));
         let found = self.read_kind(implied);
-        self.start.kind = Some(found);
+        self.set_kind(found);
         found
+    }
+
+    fn set_kind(&mut self, kind: (StartKind, Option<Reg>)) {
+        if let Some(start) = self.start_mut() {
+            start.kind = Some(kind);
+        }
     }
 
     fn read_kind(&mut self, implied: StartKind) -> (StartKind, Option<Reg>) {

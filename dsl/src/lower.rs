@@ -321,7 +321,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         interval::never_holds(&self.code, reg, &self.world.ranges(), self.longest())
     }
 
-    /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`
+    /// Reports a value that may be outside its range; what isn't known now becomes a requirement of the draw. `false`
     /// after a report.
     pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) -> bool {
         match self.interval(reg) {
@@ -346,7 +346,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         true
     }
 
-    /// Reports a velocity above the greatest speed, m/s; what can't be told now becomes a requirement of the draw.
+    /// Reports a velocity above the greatest speed, m/s; what isn't known now becomes a requirement of the draw.
     pub(crate) fn check_speed(&mut self, (x, y, z): (Reg, Reg, Reg), greatest: f64, what: &str, span: Span) {
         let ground = self.code.binary(BinaryOp::Hypot, x, y);
         let speed = self.code.binary(BinaryOp::Hypot, ground, z);

@@ -255,6 +255,6 @@ fn what_is_tried_out_takes_no_room_of_what_is_told() {
     let head = format!("reward r(x = nope) {{ give x }}\n{HEAD}");
     let uses = repeated(&head, 600, |i| format!("reward r(x: 1) as \"r{i}\"\n"), "end lost when another\n}");
     let found = outcome(&uses);
-    let told = |name: &str| found.problems.iter().any(|problem| problem.words().message.contains(name));
-    assert!(told("`another`"), "{:#?}", found.problems.iter().take(3).collect::<Vec<_>>());
+    let reported = |name: &str| found.problems.iter().any(|problem| problem.words().message.contains(name));
+    assert!(reported("`another`"), "{:#?}", found.problems.iter().take(3).collect::<Vec<_>>());
 }

@@ -23,7 +23,7 @@ fn read(text: &str) -> (File, Vec<Problem>) {
 }
 
 /// The problems as `SP0101 message`.
-fn told(text: &str) -> Vec<String> {
+fn reported(text: &str) -> Vec<String> {
     read(text).1.iter().map(|problem| format!("{} {}", problem.code(), problem.words().message)).collect()
 }
 

@@ -149,7 +149,7 @@ fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Sp
     let of_team = world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
     let controllable = of_team.filter(|(_, options)| options.controllable).count();
     let Some((_, most)) = lower.interval(*reg) else { return };
-    // Who is missing where a layout could not be read has been told.
+    // Who is missing where a layout could not be read has been reported.
     if most <= controllable as f64 || !world.whole_roster {
         return;
     }

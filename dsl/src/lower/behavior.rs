@@ -92,7 +92,7 @@ pub(crate) fn lower_behaviors<'w>(
     behaviors
 }
 
-/// Checks the behaviours of the root that no player of this scenario uses: their mistakes are told all the same.
+/// Checks the behaviours of the root that no player of this scenario uses: their mistakes are reported all the same.
 fn check_unused(step: &StepWorld<'_, '_>) {
     let world = step.world;
     let root = FileId(0);

@@ -64,7 +64,7 @@ fn of_file(world: &World<'_>, file: FileId, name: &str) -> Option<Hidden> {
 }
 
 fn warn(world: &World<'_>, name: &str, at: Span, hidden: impl FnOnce() -> Option<Hidden>) {
-    // Another file's warnings are told where that file is checked.
+    // Another file's warnings are reported where that file is checked.
     if at.file != FileId(0) {
         return;
     }

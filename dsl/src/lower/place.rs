@@ -23,7 +23,7 @@ pub(crate) enum Found<T> {
     Done(T),
 }
 
-/// What a place is seen from: whom directions are relative to.
+/// What a place is seen from: the player or team that directions are relative to.
 #[derive(Clone, Copy)]
 enum View {
     /// A player of the roster.
@@ -54,7 +54,7 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    /// The place of what has none: a problem has been told.
+    /// The place of what has none: a problem has been reported.
     fn nowhere(&mut self) -> (Reg, Reg) {
         let unknown = self.code.unknown();
         (unknown, unknown)
@@ -163,7 +163,7 @@ impl<'w> Lower<'_, 'w> {
         })
     }
 
-    /// A player's place in one of his team's layouts.
+    /// A player's place in one of their team's layouts.
     fn player_stand(&mut self, player: &Rostered<'w>, stand: &Stand<'w>) -> (Reg, Reg) {
         let (place, scope) = match stand {
             Stand::At(place, scope) => (*place, scope),
@@ -294,7 +294,7 @@ impl<'w> Lower<'_, 'w> {
         (self.code.binary(BinaryOp::Add, from.0, dx), self.code.binary(BinaryOp::Add, from.1, dy))
     }
 
-    /// The unit vector that points ahead: the explicit facing of a player, else his team's attack.
+    /// The unit vector that points ahead: the explicit facing of a player, else their team's attack.
     fn ahead(&mut self, view: View, asked: Span) -> (Reg, Reg) {
         let world = self.world;
         let player = match view {
@@ -319,7 +319,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Whether a player faces what is just being placed: `ball behind striker` and `striker … facing ball` then mean
-    /// the direction of his attack.
+    /// the direction of the player's attack.
     fn is_being_placed(&self, facing: &Facing) -> bool {
         let crate::ast::ExprKind::Name(name) = &facing.target.kind else { return false };
         let Some(start) = self.start() else { return false };
@@ -328,7 +328,7 @@ impl<'w> Lower<'_, 'w> {
         (name == "ball" && start.ball == Found::Busy) || placed.any(|(_, place)| *place == Found::Busy)
     }
 
-    /// The heading a player of the roster was told to face, radians in the world frame.
+    /// The heading that a player of the roster faces, radians in the world frame.
     pub(crate) fn heading_of(&mut self, index: usize, asked: Span) -> Option<Reg> {
         match self.start()?.headings.get(index).copied()? {
             Found::Done(heading) => return Some(heading),

@@ -26,7 +26,7 @@ use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
 use std::collections::BTreeMap;
 
-/// A player's places at kick-offs: when his team kicks off, and when the others do.
+/// A player's places at kick-offs: when their team kicks off, and when the others do.
 pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
 
 /// What the start program knows so far.

@@ -16,23 +16,23 @@ use setpiece_scenario::{Ai, Reg};
 
 /// The options of a player.
 pub(crate) struct PlayerOptions {
-    /// Who plays him without an agent.
+    /// Who plays the player without an agent.
     pub(crate) ai: Ai,
-    /// Whether an agent may be given him.
+    /// Whether an agent may control the player.
     pub(crate) controllable: bool,
-    /// Whether he may stand where somebody else does.
+    /// Whether the player may stand where another one does.
     pub(crate) overlap: bool,
-    /// His own difficulty.
+    /// The player's own difficulty.
     pub(crate) difficulty: Option<Reg>,
     /// 0 fresh to 1 exhausted.
     pub(crate) fatigue: Option<Reg>,
-    /// Cards he starts with.
+    /// Cards that the player starts with.
     pub(crate) yellow_cards: Option<Reg>,
     /// World velocity.
     pub(crate) velocity: Option<(Reg, Reg)>,
     /// Statistics that replace the table's.
     pub(crate) stats: Vec<(Stat, Reg)>,
-    /// Whether he plays.
+    /// Whether the player takes part.
     pub(crate) present: Option<Reg>,
 }
 

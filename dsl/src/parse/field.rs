@@ -51,7 +51,7 @@ impl Reader<'_> {
         let span = self.span(&node);
         let source = match Nodes::of(node).last()? {
             file if file.as_rule() == Rule::string => ScriptSource::File(self.string(&file)),
-            // A script that is not closed was told: it holds whatever follows it.
+            // A script that is not closed was reported: it holds whatever follows it.
             raw if raw.as_span().end() + self.base > self.original().len() => return None,
             raw => {
                 let text = raw.as_str();

@@ -69,7 +69,7 @@ pub(super) struct Reader<'t> {
     pub(super) text: &'t str,
     comments: &'t [Range<usize>],
     /// Disjoint and in order.
-    told: Vec<Range<usize>>,
+    reported: Vec<Range<usize>>,
     problems: Vec<Problem>,
     /// Where the lines of the text begin, but for the first.
     lines: Vec<usize>,
@@ -91,14 +91,14 @@ const INDENT_MAX: usize = 1_000;
 impl<'t> Reader<'t> {
     pub(super) fn new(file: FileId, original: &'t str, scan: &'t Scan<'_>) -> Reader<'t> {
         let (text, comments) = (&*scan.text, &*scan.comments);
-        let (told, problems) = (disjoint(scan.told.clone()), Vec::new());
+        let (reported, problems) = (disjoint(scan.reported.clone()), Vec::new());
         let newlines = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         Reader {
             file,
             original,
             text,
             comments,
-            told,
+            reported,
             problems,
             lines: newlines.map(|(at, _)| at + 1).collect(),
             base: 0,
@@ -114,21 +114,21 @@ impl<'t> Reader<'t> {
         (self.problems, self.lost)
     }
 
-    /// Reports a problem, unless one that explains it was told before.
+    /// Reports a problem, unless one that explains it was reported before.
     pub(super) fn push(&mut self, problem: Problem) {
         let start = problem.place().start as usize;
-        if !self.is_told(&(start..start + 1)) && self.problems.len() < MAX_PROBLEMS {
+        if !self.is_reported(&(start..start + 1)) && self.problems.len() < MAX_PROBLEMS {
             self.problems.push(problem);
         }
     }
 
-    /// Whether nothing that stands in a range would be told.
-    pub(super) fn is_told(&self, range: &Range<usize>) -> bool {
-        let index = self.told.partition_point(|told| told.end <= range.start);
-        self.told.get(index).is_some_and(|told| told.start <= range.start && range.end <= told.end)
+    /// Whether nothing that stands in a range would be reported.
+    pub(super) fn is_reported(&self, range: &Range<usize>) -> bool {
+        let index = self.reported.partition_point(|reported| reported.end <= range.start);
+        self.reported.get(index).is_some_and(|reported| reported.start <= range.start && range.end <= reported.end)
     }
 
-    /// Whether more problems can be told.
+    /// Whether more problems can be reported.
     pub(super) fn is_full(&self) -> bool {
         self.problems.len() >= MAX_PROBLEMS
     }

@@ -138,7 +138,7 @@ impl<'w> Writer<'_, 'w> {
         if !pairs.is_empty() {
             self.nodes.push(Node::Let(pairs));
         }
-        // A state may be hidden by what stands beside it, another `let` is bound anew.
+        // A state may be hidden by what stands beside it, another `let` is bound again.
         let is_state = self.states.iter().any(|state| state.name == binding.name.node);
         let around = if is_state { &self.lower.scope } else { &self.around };
         self.lower.check_hides_local(&binding.name.node, binding.name.span, around);
@@ -202,7 +202,7 @@ impl<'w> Writer<'_, 'w> {
         (passed, self.lower.code.cell(limit))
     }
 
-    /// Goes on if a condition holds; the place of the node, to be told where to go else.
+    /// Goes on if a condition holds; the place of the node, which still needs the place to go to otherwise.
     pub(super) fn branch(&mut self, when: Reg) -> usize {
         self.nodes.push(Node::Branch { when, otherwise: 0 });
         self.nodes.len() - 1

@@ -348,7 +348,7 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    /// Whether a player, if he is somebody, has the ball.
+    /// Whether a player, unless it is nobody, has the ball.
     fn owns(&mut self, player: Reg, span: Span) -> Option<Reg> {
         let owner = self.load(Field::BallOwner, None, "has ball", span)?;
         let same = self.code.binary(BinaryOp::Eq, owner, player);

@@ -285,7 +285,7 @@ impl<'w> Lower<'_, 'w> {
 /// Whether two names with a dot between them are one name of a team: `corner.top`, `goal.mouth`, `zone.CM`.
 fn is_team_part(head: &str, tail: &str) -> bool {
     let dotted = format!("{head}.{tail}");
-    // The heads that are nothing by themselves: what is wrong behind them is told as one name.
+    // The heads that are nothing by themselves: what is wrong behind them is reported as one name.
     matches!(head, "corner" | "zone") || RegionName::from_name(&dotted).is_some()
 }
 

@@ -322,7 +322,7 @@ impl<'w> Lower<'_, 'w> {
         known
     }
 
-    /// A player of the roster by his register, if it is constant.
+    /// A player of the roster by its register, if it is constant.
     pub(crate) fn roster_index(&self, player: Reg) -> Option<usize> {
         let id = self.code.constant_of(player)?;
         self.world.roster.iter().position(|rostered| f64::from(rostered.id) == id)

@@ -14,7 +14,7 @@ use crate::problem::facts::{Chance, Implied};
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
 /// How many candidates a draw in a composed region tries: at an acceptance of one half one start in 65,536 finds none
-/// and is drawn anew.
+/// and is drawn again.
 const CANDIDATES: usize = 16;
 
 /// A point that was drawn, and whether it counts.

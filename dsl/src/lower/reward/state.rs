@@ -103,7 +103,7 @@ impl<'w> Lower<'_, 'w> {
             scope
         });
         let Some(scope) = scope else {
-            // Where there is no such reward, that has been told.
+            // Where there is no such reward, that has been reported.
             if matches!(used.what, RewardUseKind::Script(_)) {
                 self.report(Problem::new(member.span, Names::ScriptHasNoStates { reward: name.to_owned() }));
             }

@@ -96,7 +96,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         };
         let at = binding.name.span;
         lower.check_hides(&binding.name.node, at, &lower.scope);
-        // A `let` that takes a state's name has been told.
+        // A `let` that takes a state's name has been reported.
         if matches!(lower.scope.find(&binding.name.node), Some(Binding::State { .. })) {
             return;
         }
@@ -300,7 +300,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     fn check_payable(&self, reg: Reg, value: &Expr) {
         let code = &self.lower.code;
         let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
-            // A division by zero has been told.
+            // A division by zero has been reported.
             Some(&Instr::Binary(BinaryOp::Div, _, b)) if code.constant_of(b) == Some(0.0) => None,
             Some(&Instr::Binary(op, a, b)) => Some(op.apply(code.constant_of(a)?, code.constant_of(b)?)),
             _ => None,

@@ -54,7 +54,7 @@ pub(super) fn check_places(
     let all = [(on_pitch, Implied::PlayersOnPitch), (apart, Implied::PlayersApart)];
     for (parts, implied) in all {
         let first = parts.first().map(|(_, span)| *span);
-        // Of several parts it can't be told here which one fails.
+        // Of several parts it isn't known here which one fails.
         let span = first.filter(|first| parts.iter().all(|(_, span)| span == first));
         let regs = parts.into_iter().map(|(reg, _)| reg);
         if let Some(all) = regs.reduce(|a, b| lower.code.binary(BinaryOp::And, a, b)) {

@@ -12,7 +12,7 @@ use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Reg, UnaryOp};
 
 impl Lower<'_, '_> {
-    /// The kind of start and the team that takes it; told once.
+    /// The kind of start and the team that takes it; read once.
     pub(in crate::lower) fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
         if let Some(known) = self.start().and_then(|start| start.kind) {
             return known;

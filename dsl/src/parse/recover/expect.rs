@@ -61,11 +61,11 @@ impl Reader<'_> {
             wrong.at = *from;
         }
         let starts = wrong.at == wrong.junk.start;
-        let anew = starts && found.begins == Begins::Anew;
+        let is_new = starts && found.begins == Begins::New;
         let misplaced = || self.misplaced(wrong.context, self.word(wrong.at), wrong.at, Some(&found.help));
-        let problem = if anew { misplaced() } else { None };
+        let problem = if is_new { misplaced() } else { None };
         let problem = problem.unwrap_or_else(|| self.expected(wrong, Hint::Habit(found.help.clone())));
-        let (fresh, goes_on) = (found.begins == Begins::Anew, found.begins == Begins::Before);
+        let (fresh, goes_on) = (found.begins == Begins::New, found.begins == Begins::Before);
         Some(Finding { problem, fresh, goes_on })
     }
 

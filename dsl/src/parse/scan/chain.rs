@@ -61,10 +61,10 @@ impl Scanner<'_> {
         self.open.last().filter(|open| open.byte != b'{').map_or_else(Chain::default, |open| open.chain)
     }
 
-    /// Goes back to a chain; one that was too deep is told about and ends here.
+    /// Goes back to a chain; one that was too deep is reported about and ends here.
     pub(super) fn unchain(&mut self, at: usize, to: Chain) {
         if let Some(from) = self.chain.too_deep.filter(|_| to.depth() < MAX_NESTED) {
-            self.scan.told.push(from..at + 1);
+            self.scan.reported.push(from..at + 1);
             self.chain = Chain { too_deep: None, ..to };
         } else {
             self.chain = Chain { too_deep: self.chain.too_deep, ..to };

@@ -1,4 +1,4 @@
-//! Brackets that are not closed, or closed by another's: told, and mended in the copy that is parsed.
+//! Brackets that are not closed, or closed by another's: reported, and mended in the copy that is parsed.
 
 use super::{Chain, Scanner, Skip};
 use crate::parse::recover::Context;
@@ -61,7 +61,7 @@ impl Scanner<'_> {
         let line = if look { self.line_end(open.at, at) } else { None };
         let end = line.or_else(|| self.blank_before(at, open.at));
         // Behind the line that was mended everything is read as it stands.
-        self.scan.told.push(open.at..line.unwrap_or(at) + 1);
+        self.scan.reported.push(open.at..line.unwrap_or(at) + 1);
         if open.byte == b'{' {
             self.lost.push(open.at);
         }
@@ -113,12 +113,12 @@ impl Scanner<'_> {
 
     pub(super) fn finish(&mut self) {
         if let Some((from, _)) = self.deep.take() {
-            self.scan.told.push(from..usize::MAX);
+            self.scan.reported.push(from..usize::MAX);
         } else if let Some(open) = self.open.last().filter(|_| !self.cut) {
-            // Only the innermost is told: closing it may close the others' gap too.
+            // Only the innermost is reported: closing it may close the others' gap too.
             let (at, opener, wanted) = (open.at, open.byte as char, open.closer() as char);
             self.problem(at, 1, Brackets::Unclosed { opener, wanted, closer: None });
-            self.scan.told.push(at..usize::MAX);
+            self.scan.reported.push(at..usize::MAX);
         }
         self.unchain(self.bytes.len(), Chain::default());
         self.end_chunk(usize::MAX);

@@ -1,4 +1,4 @@
-//! Closing brackets that nothing opens: the bracket that is missing, where it can be told.
+//! Closing brackets that nothing opens: the bracket that is missing, where it is known.
 
 use super::Scanner;
 use crate::parse::span;
@@ -23,7 +23,7 @@ impl Scanner<'_> {
         if byte == b'}' {
             self.lost.push(self.chunk);
         } else {
-            self.scan.told.push(self.line_from..at + 1);
+            self.scan.reported.push(self.line_from..at + 1);
         }
     }
 

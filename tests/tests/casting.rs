@@ -59,7 +59,7 @@ fn a_cast_that_is_none_is_told() {
         ("lazy } } } scenario x { ball at centre team left { each all { ai: lazy", "is not who plays a player"),
         ("lazy, difficulty: 1", "is not who plays a player"),
         ("lazy } } } //", "is not who plays a player"),
-        ("3", "expected who plays him"),
+        ("3", "expected who plays the player"),
         ("chaser(", ""),
         ("", ""),
         ("script \"nowhere.rhai\"", "nowhere.rhai"),

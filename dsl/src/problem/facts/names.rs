@@ -293,7 +293,7 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
     match kind {
         // What there is, and what the author may add to it.
         Kind::Act if !guess.known.is_empty() => {
-            said.help(format!("he can `{}`, or what a `behavior` says", guess.known.join("`, `")))
+            said.help(format!("a player can `{}`, or what a `behavior` says", guess.known.join("`, `")))
         }
         Kind::Ai if guess.meant.is_none() => said.help(WHO_PLAYS),
         Kind::Ending if guess.meant.is_none() => said.help(format!("say when it ends: `end {name} when …`")),

@@ -51,7 +51,7 @@ facts! {
         /// The second layout gives a player options.
         SecondLayoutSaysMore { player: Span } = Code::WrongRoster =>
             say(
-                "the second layout says more of a player than where he stands",
+                "the second layout says more of a player than a place",
                 "the first one says everything else",
             )
             .at(player, "said here")
@@ -80,11 +80,11 @@ facts! {
                 .help("give one of them a place of its own: `at (x, y)`"),
         /// A player faces the own place.
         FacesItself = Code::Impossible =>
-            say("nobody can face the spot he stands on", "")
+            say("a player can't face their own spot", "")
                 .help("face another place, or an angle: `facing 90deg`"),
         /// Listed agents can't switch players.
         ListedAgentSwitches = Code::BadAgents =>
-            say("an agent that is listed by name keeps his player", "")
+            say("an agent that is listed by name keeps its player", "")
                 .help("leave `switching` out, or ask for a number of agents: `left: 1`"),
         /// An agent that no player of the team is called.
         NoSuchAgent { team: Team, name: String, is_anyone: bool, guess: Guess } = Code::BadAgents => {
@@ -98,7 +98,7 @@ facts! {
         /// A listed agent whose player can't be controlled.
         NotControllable { name: String } = Code::BadAgents =>
             say(format!("`{name}` is not `controllable`"), "")
-                .help("leave him out of the list, or leave `controllable: off` out of his options"),
+                .help("leave the player out of the list, or leave out `controllable: off`"),
         /// An agent is listed twice.
         ListedTwice { name: String } = Code::BadAgents =>
             say(format!("`{name}` is listed twice"), "").help("leave one of them out"),

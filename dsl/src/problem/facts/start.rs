@@ -71,7 +71,7 @@ facts! {
         /// The ball is far from its owner.
         OwnerFarAway { name: String, apart_m: f64 } = Code::OutOfRange =>
             say(format!("`{name}` stands {apart_m:.1} m from the ball"), "")
-                .help(format!("lay it at his feet: `ball ahead of {name} by 1m`")),
+                .help(format!("lay it at the player's feet: `ball ahead of {name} by 1m`")),
         /// `score` with another number of parts.
         ScoreOfTwo = Code::WrongArguments => say("a score has two numbers", "").help("write `score: [1, 0]`"),
     }

@@ -123,7 +123,7 @@ facts! {
             say("a player runs along the ground", "").help("write two coordinates: `(5m/s, 0m/s)`"),
         /// `ai` is no name.
         NoAi = Code::WrongType =>
-            say("expected who plays him", "")
+            say("expected who plays the player", "")
                 .help("write `ai: bot`, `ai: hold`, `ai: lazy`, a behavior or `ai: script \"file.rhai\"`"),
         /// `score` is no list.
         NoScore = Code::WrongType => say("expected the goals of both teams", "").help("write `score: [1, 0]`"),

@@ -53,7 +53,7 @@ pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
         let which = scenario.endings.list.iter().position(|known| known.label == ending);
         let at = which.and_then(|which| loaded.origins.endings.get(which).copied());
         let (place, elsewhere) = place(declared, at);
-        let fact = DryRun::EndsAtOnce { scenario: name.clone(), ending: ending.to_string(), elsewhere };
+        let fact = DryRun::EndsAtOnce { scenario: name.clone(), ending, elsewhere };
         problems.push(Problem::of_dry_run(place, fact));
     }
     problems

@@ -12,7 +12,8 @@ use crate::lower::script::Scripts;
 use crate::lower::{Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, start};
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
-use crate::problem::{Code, Problem, ScriptApi, has_errors, triage};
+use crate::problem::facts::{Chance, Whole};
+use crate::problem::{Code, Guess, Problem, ScriptApi, has_errors, triage};
 use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
@@ -93,7 +94,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
             let mut found = Vec::new();
             compile_one(&library, &scripts, &[], item, doc, &effort, &mut found, &mut unused);
             // What is missing, a child may bring.
-            found.retain(|problem| !problem.code.may_be_echo() && problem.code != Code::UnknownName);
+            found.retain(|problem| !problem.code().may_be_echo() && problem.code() != Code::UnknownName);
             problems.append(&mut found);
             if is_enough(&effort, item, &mut problems) {
                 break;
@@ -130,10 +131,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     {
         // Only a program beyond every bound gets here: what is small enough passes by construction.
         let span = origins.scenario.unwrap_or(Span { file: FileId(0), start: 0, end: 0 });
-        problems.push(
-            Problem::new(Code::Impossible, span, format!("`{}` can't be run: {fault}", scenario.name), "")
-                .help("make its rewards and endings smaller"),
-        );
+        problems.push(Problem::new(span, Whole::CantRun { scenario: scenario.name.clone(), fault }));
     }
     let failed = has_errors(&problems);
     let (scenario, origins) = match chosen {
@@ -152,13 +150,13 @@ fn too_costly(name: &str, excess: Excess, origins: &Origins) -> Problem {
         Part::Observation => origins.observation,
         Part::Scenario | Part::Start | Part::Library(_) | Part::Behavior(_) => None,
     };
-    let label = if span.is_some() { "the most of it" } else { "" };
+    let is_part = span.is_some();
     let span = span.or(origins.scenario).unwrap_or(Span { file: FileId(0), start: 0, end: 0 });
-    Problem::new(Code::TooCostly, span, format!("`{name}` has {}", excess.message), label).help(excess.help)
+    Problem::new(span, Whole::TooCostly { scenario: name.to_owned(), excess, is_part })
 }
 
 fn not_yet(what: &str, span: Span) -> Problem {
-    Problem::new(Code::NotYet, span, format!("`{what}` is not supported yet"), "").help("leave it out")
+    Problem::new(span, Whole::NotYet { keyword: what.to_owned() })
 }
 
 /// The scenario that comes out: the named one, else the last that is not abstract.
@@ -181,23 +179,17 @@ fn pick<'a>(
         return None;
     }
     let start = Span { file: FileId(0), start: 0, end: 0 };
-    let name = library.sources.get(FileId(0)).map_or("", |source| source.name.as_str());
+    let file = library.sources.get(FileId(0)).map_or(String::new(), |source| source.name.clone());
     let names: Vec<&str> = concrete().map(|item| item.name.node.as_str()).collect();
     problems.push(match (wanted, candidates.first()) {
         (Some(wanted), _) if !names.is_empty() => {
-            let problem = Problem::new(Code::NoScenario, start, format!("`{name}` has no scenario `{wanted}`"), "");
-            if crate::problem::nearest(wanted, names.iter().copied()).is_some() {
-                problem.did_you_mean(wanted, names)
-            } else {
-                problem.help(format!("it has `{}`", names.join("`, `")))
-            }
+            let guess = Guess::similar_or_all(wanted, &names);
+            Problem::new(start, Whole::NoSuchScenario { file, wanted: wanted.to_owned(), guess })
         }
         (_, Some((item, _))) => {
-            Problem::new(Code::NoScenario, item.name.span, format!("`{name}` has only abstract scenarios"), "abstract")
-                .help(format!("extend it: `scenario mine extends {} {{ … }}`", item.name.node))
+            Problem::new(item.name.span, Whole::OnlyAbstract { file, first: item.name.node.clone() })
         }
-        (_, None) => Problem::new(Code::NoScenario, start, format!("`{name}` has no scenario"), "")
-            .help("write `scenario NAME { … }`"),
+        (_, None) => Problem::new(start, Whole::NoScenario { file }),
     });
     None
 }
@@ -211,9 +203,10 @@ const ENOUGH_PROBLEMS: usize = 8 * MAX_PROBLEMS;
 /// Whether no further scenario is looked at; reports a compilation that is larger than any may be.
 fn is_enough(effort: &Effort, item: &ScenarioItem, problems: &mut Vec<Problem>) -> bool {
     if effort.is_spent() {
-        let message = format!("up to `{}` more than {MAX_LOWERED} expressions are used", item.name.node);
-        let help = "use fewer or smaller rewards and functions, or put scenarios into files of their own";
-        problems.push(Problem::new(Code::TooMuch, item.name.span, message, "too much").help(help));
+        problems.push(Problem::new(
+            item.name.span,
+            Whole::TooManyExpressions { scenario: item.name.node.clone(), most: MAX_LOWERED },
+        ));
     }
     effort.is_spent() || (problems.len() > ENOUGH_PROBLEMS && has_errors(problems))
 }
@@ -286,22 +279,23 @@ fn compile_one<'a>(
 
 /// Points from a problem in what is inherited to what the scenario itself declares and is named there.
 fn located_in_child(world: &World<'_>, problem: Problem) -> Problem {
-    let Some(span) = problem.place().filter(|span| world.flat.is_inherited(*span)) else { return problem };
+    let span = problem.place();
+    if !world.flat.is_inherited(span) {
+        return problem;
+    }
     let text = world.library.sources.text(span);
     let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     // What a child hands in is what can't be drawn, not what the parent does with it.
     let mut bound = world.params.iter().filter_map(|param| Some((param.name, param.bound?)));
     if let Some((name, argument)) = bound.find(|(name, _)| words.contains(&name.node.as_str()))
-        && problem.code == Code::NotConstant
+        && problem.code() == Code::NotConstant
     {
-        let message =
-            format!("`{}` can't be drawn: {}", name.node, problem.message.replace(" can't be drawn", " depends on it"));
-        let moved = Problem::new(problem.code, argument.span, message, "differs between episodes");
-        return moved.label(span, "used here").help("hand in a number or a parameter");
+        let because = Box::new(problem.fact().clone());
+        return Problem::new(argument.span, Chance::ArgumentDrawn { name: name.node.clone(), because, used: span });
     }
     let own = words.into_iter().filter_map(|word| world.declaration(word)).find(|at| world.flat.is_own(*at));
     match own {
-        Some(at) => problem.label(at, "declared here"),
+        Some(at) => problem.declared_at(at),
         None => problem,
     }
 }

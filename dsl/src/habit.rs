@@ -59,10 +59,10 @@ pub(crate) struct Found {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Begins {
     /// At the place: a new statement.
-    Anew,
+    New,
     /// Before it.
     Before,
-    /// It can't be told.
+    /// It isn't known.
     Either,
 }
 
@@ -97,7 +97,7 @@ impl Habit {
         }
         let left = left.trim();
         if left == "^" {
-            return begins.then(|| self.found(Begins::Anew, &found));
+            return begins.then(|| self.found(Begins::New, &found));
         }
         let pattern: Vec<&str> = ["…"].into_iter().chain(left.split_whitespace()).collect();
         if !matches(&pattern, before, &mut ahead) {

@@ -32,23 +32,24 @@ pub(crate) use world::{Effort, MAX_LOWERED, World};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Bounds, Calls, Chance, Implied, Instead, Names, Types};
 use builder::Builder;
 use interval::Interval;
 use mirror::Mirror;
+use record::Remembered;
 use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
-use start::StartState;
+use start::{StartState, Streams};
 use step::StepWorld;
 use value::{Frame, Repr, Scope, Value};
 
-/// What kind of program is written, which decides what it may read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stage {
+/// What kind of program is written, which decides what it may read; with what this kind alone keeps.
+pub(crate) enum Stage<'w> {
     /// Nothing but constants.
     Constant,
-    /// The draw of a start.
-    Start,
+    /// The draw of a start; with its places and `let`s.
+    Start(StartState<'w>),
     /// The first values of a reward's states.
     Init,
     /// A reward, at every step.
@@ -56,22 +57,23 @@ pub(crate) enum Stage {
     /// The endings, at every step.
     Ending,
     /// A record, at every step.
-    Record,
+    Record(Remembered<'w>),
     /// The scenario's observation, after every step and reset.
     Observation,
-    /// What a scripted player does, at every step.
-    Behavior,
+    /// What a scripted player does, at every step; with the draws of the statement that is being written, `None` where
+    /// nothing may be drawn.
+    Behavior(Option<Vec<behavior::Draw>>),
 }
 
-impl Stage {
+impl Stage<'_> {
     /// Whether the match is under way.
-    pub(crate) fn is_step(self) -> bool {
-        matches!(self, Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior)
+    pub(crate) fn is_step(&self) -> bool {
+        matches!(self, Stage::Reward | Stage::Ending | Stage::Record(_) | Stage::Observation | Stage::Behavior(_))
     }
 
     /// Whether it runs for an agent or a player, so that there is a `me`.
-    pub(crate) fn has_me(self) -> bool {
-        matches!(self, Stage::Reward | Stage::Record | Stage::Observation | Stage::Behavior)
+    pub(crate) fn has_me(&self) -> bool {
+        matches!(self, Stage::Reward | Stage::Record(_) | Stage::Observation | Stage::Behavior(_))
     }
 }
 
@@ -84,7 +86,7 @@ pub(crate) struct Lower<'c, 'w> {
     /// The program.
     pub(crate) code: Builder,
     /// Its kind.
-    pub(crate) stage: Stage,
+    pub(crate) stage: Stage<'w>,
     /// The names in sight.
     pub(crate) scope: Scope<'w>,
     /// The team whose view it is, if any.
@@ -93,14 +95,8 @@ pub(crate) struct Lower<'c, 'w> {
     pub(crate) when: When,
     /// The event of the `on` block around, if any.
     pub(crate) event: Option<EventKind>,
-    /// Places and `let`s, in the start program.
-    pub(crate) start: StartState<'w>,
-    /// The rewards whose states a record reads, each with their scope.
-    pub(crate) rewards: Vec<(String, Option<Scope<'w>>)>,
-    /// Whether a record must be kept for each agent, whatever it reads.
-    pub(crate) per_agent: bool,
-    /// The draws of the statement of a behaviour that is being written; `None` where nothing may be drawn.
-    pub(crate) draws: Option<Vec<behavior::Draw>>,
+    /// The streams that draws come from.
+    pub(crate) streams: Streams,
     depth: u32,
     inlining: Vec<Span>,
     inlined: u32,
@@ -120,17 +116,38 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// An empty program of what is drawn or computed at the start.
-    pub(crate) fn start(world: &'c World<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
-        Lower::new(world, None, Stage::Start, scope)
+    pub(crate) fn of_start(world: &'c World<'w>, scope: Scope<'w>, state: StartState<'w>) -> Lower<'c, 'w> {
+        Lower::new(world, None, Stage::Start(state), scope)
+    }
+
+    /// What is known of the start; `None` in any other program.
+    pub(crate) fn start(&self) -> Option<&StartState<'w>> {
+        match &self.stage {
+            Stage::Start(state) => Some(state),
+            _ => None,
+        }
+    }
+
+    /// The same, to note more.
+    pub(crate) fn start_mut(&mut self) -> Option<&mut StartState<'w>> {
+        match &mut self.stage {
+            Stage::Start(state) => Some(state),
+            _ => None,
+        }
     }
 
     /// An empty program of a step, or of what is kept from step to step.
-    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
-        debug_assert!(stage.is_step() || stage == Stage::Init);
+    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: Stage<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+        debug_assert!(stage.is_step() || matches!(stage, Stage::Init));
         Lower::new(step.world, Some(step), stage, scope)
     }
 
-    fn new(world: &'c World<'w>, step: Option<&'c StepWorld<'c, 'w>>, stage: Stage, scope: Scope<'w>) -> Lower<'c, 'w> {
+    fn new(
+        world: &'c World<'w>,
+        step: Option<&'c StepWorld<'c, 'w>>,
+        stage: Stage<'w>,
+        scope: Scope<'w>,
+    ) -> Lower<'c, 'w> {
         Lower {
             world,
             step,
@@ -140,10 +157,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             team: None,
             when: When::Now,
             event: None,
-            start: StartState::default(),
-            rewards: Vec::new(),
-            per_agent: false,
-            draws: None,
+            streams: Streams::default(),
             depth: 0,
             inlining: Vec::new(),
             inlined: 0,
@@ -191,19 +205,12 @@ impl<'c, 'w> Lower<'c, 'w> {
         self.inlined += 1;
         let text = self.world.text(item);
         if self.inlining.contains(&item) {
-            self.report(
-                Problem::new(Code::Recursion, at, format!("`{text}` uses itself"), "closes the circle")
-                    .label(item, "declared here")
-                    .help(start::NO_CIRCLE),
-            );
+            self.report(Problem::new(at, Names::Recursion { name: text, declared: Some(item), is_behavior: false }));
             return None;
         }
         if self.inlined > INLINED_MAX {
             if self.inlined == INLINED_MAX + 1 {
-                self.report(
-                    Problem::new(Code::Impossible, at, format!("`{text}` makes the program too large"), "")
-                        .help("use it less often, or name its value with a `let`"),
-                );
+                self.report(Problem::new(at, Calls::TooLarge { name: text }));
             }
             return None;
         }
@@ -257,10 +264,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         }
         match (wanted, &value.repr) {
             (Ty::Point, _) if self.is_nobody(expr) => {
-                return self.fail(
-                    Problem::new(Code::Impossible, expr.span, "`nobody` has no place", "nobody is there")
-                        .help("name a player, or write `nearest(us, to: ball)`"),
-                );
+                return self.fail(Problem::new(expr.span, Types::NobodyHasNoPlace));
             }
             (Ty::Point, _) if value.ty.is_place() => {
                 let place = self.place_of(&value, expr.span);
@@ -290,36 +294,12 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// "expected a length, found `3s` (a duration)".
     pub(crate) fn mismatch(&self, found: Ty, wanted: Ty, span: Span) -> Problem {
-        let problem = self.expected(&wanted.noun(), found, span);
-        let both_numbers = found.dim().is_some() && wanted.dim().is_some();
-        let code = if both_numbers { Code::WrongUnit } else { Code::WrongType };
-        let problem = Problem { code, ..problem };
-        match (found, wanted) {
-            (Ty::LENGTH, Ty::Number) => {
-                problem.help("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units")
-            }
-            (Ty::Number, Ty::Int) => problem.help("write a whole number"),
-            (_, Ty::Number) if both_numbers => problem.help("divide by a value of the same unit to get a plain number"),
-            (_, wanted) if found.is_plain() && both_numbers => match wanted.example() {
-                Some(example) => problem.help(format!("write the unit: `{example}`")),
-                None => problem,
-            },
-            (_, wanted) => match wanted.example() {
-                Some(example) => problem.help(format!("write, for example, `{example}`")),
-                None => problem,
-            },
-        }
+        self.mismatch_with(found, wanted, span, Instead::Usual)
     }
 
-    /// The same of what has no type of its own: `wanted` is in words.
-    pub(crate) fn expected(&self, wanted: &str, found: Ty, span: Span) -> Problem {
-        let text = self.world.text(span);
-        let what = if text.is_empty() || text.chars().count() > 40 {
-            found.noun()
-        } else {
-            format!("`{text}` ({})", found.noun())
-        };
-        Problem::new(Code::WrongType, span, format!("expected {wanted}, found {what}"), found.noun())
+    /// The same with a better form to write.
+    pub(crate) fn mismatch_with(&self, found: Ty, wanted: Ty, span: Span, instead: Instead) -> Problem {
+        Problem::new(span, Types::Mismatch { wanted, found, text: self.world.text(span), instead })
     }
 
     /// +1 or -1 where the own frame is read, `None` where it is the world's.
@@ -341,17 +321,17 @@ impl<'c, 'w> Lower<'c, 'w> {
         interval::never_holds(&self.code, reg, &self.world.ranges(), self.longest())
     }
 
-    /// Reports a value that may be outside its range; what can't be told now becomes a requirement of the draw. `false`
+    /// Reports a value that may be outside its range; what isn't known now becomes a requirement of the draw. `false`
     /// after a report.
     pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) -> bool {
         match self.interval(reg) {
             Some((low, high)) if low >= range.0 && high <= range.1 => {}
             Some(_) => {
                 let text = self.world.text(span);
-                self.report(
-                    Problem::new(Code::OutOfRange, span, format!("{what} is `{text}`, outside {shown}"), "")
-                        .help(format!("write a value in {shown}")),
-                );
+                self.report(Problem::new(
+                    span,
+                    Bounds::Outside { what: what.to_owned(), text, shown: shown.to_owned() },
+                ));
                 return false;
             }
             None => {
@@ -359,13 +339,14 @@ impl<'c, 'w> Lower<'c, 'w> {
                 let above = self.code.binary(BinaryOp::Ge, reg, low);
                 let below = self.code.binary(BinaryOp::Le, reg, high);
                 let inside = self.code.binary(BinaryOp::And, above, below);
-                self.imply(inside, format!("{what} is {shown}"), Some(span), format!("keep the value in {shown}"));
+                let implied = Implied::Inside { what: what.to_owned(), shown: shown.to_owned() };
+                self.imply(inside, &implied, Some(span));
             }
         }
         true
     }
 
-    /// Reports a velocity above the greatest speed, m/s; what can't be told now becomes a requirement of the draw.
+    /// Reports a velocity above the greatest speed, m/s; what isn't known now becomes a requirement of the draw.
     pub(crate) fn check_speed(&mut self, (x, y, z): (Reg, Reg, Reg), greatest: f64, what: &str, span: Span) {
         let ground = self.code.binary(BinaryOp::Hypot, x, y);
         let speed = self.code.binary(BinaryOp::Hypot, ground, z);
@@ -373,27 +354,23 @@ impl<'c, 'w> Lower<'c, 'w> {
             return;
         }
         if self.interval(speed).is_some_and(|(low, _)| low > greatest) {
-            let message = format!("{what} is never faster than {greatest} m/s");
-            self.report(Problem::new(Code::OutOfRange, span, message, "").help("write a smaller velocity"));
+            self.report(Problem::new(span, Bounds::TooFast { what: what.to_owned(), most_mps: greatest }));
             return;
         }
         let limit = self.code.constant(greatest);
         let slower = self.code.binary(BinaryOp::Le, speed, limit);
-        let label = format!("{what} is not faster than {greatest} m/s");
-        self.imply(slower, label, Some(span), "write a smaller velocity".to_owned());
+        let implied = Implied::Slower { what: what.to_owned(), most_mps: greatest };
+        self.imply(slower, &implied, Some(span));
     }
 
     /// Makes a condition a requirement of the draw, unless it is known to hold; outside the start there is none.
     ///
-    /// - `span`: the part that implies it, where it is one part;
-    /// - `help`: what makes it hold.
-    pub(crate) fn imply(&mut self, condition: Reg, label: String, span: Option<Span>, help: String) {
+    /// - `span`: the part that implies it, where it is one part.
+    pub(crate) fn imply(&mut self, condition: Reg, implied: &Implied, span: Option<Span>) {
         let known = self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
-        if self.stage == Stage::Start && !known {
-            // The message puts the label into backticks.
-            let label = label.replace('`', "");
-            let require = Require { condition, probability: None, label };
-            self.start.implied.push((require, RequireOrigin { span, help: Some(help) }));
+        if let Some(start) = self.start_mut().filter(|_| !known) {
+            let require = Require { condition, probability: None, label: implied.label() };
+            start.implied.push((require, RequireOrigin { span, help: Some(implied.help()) }));
         }
     }
 
@@ -403,10 +380,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             matches!(instr, setpiece_scenario::Instr::Random { .. } | setpiece_scenario::Instr::EpisodeIndex)
         };
         if self.code.depends(reg, &drawn) {
-            self.report(
-                Problem::new(Code::NotConstant, span, format!("{what} can't be drawn"), "differs between episodes")
-                    .help("compute it from parameters and constants"),
-            );
+            self.report(Problem::new(span, Chance::Drawn { what: what.to_owned() }));
         }
     }
 }

@@ -18,7 +18,8 @@ mod scenario;
 mod team;
 
 use crate::ast;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Syntax;
 use crate::source::{FileId, Source, Span};
 use pest::Parser;
 use reader::Reader;
@@ -58,16 +59,13 @@ pub fn parse(source: &Source, id: FileId, problems: &mut Vec<Problem>) -> ast::F
         Ok(pairs) => reader.file(pairs),
         Err(error) => {
             let at = reader.offset_of(&error.location);
-            reader.push(
-                Problem::new(Code::TooDeep, reader.at(at), "this is nested too deeply", "too deep from here")
-                    .help("give parts of it names with `let` or `fn`"),
-            );
+            reader.push(Problem::new(reader.at(at), Syntax::TooDeep));
             Vec::new()
         }
     };
     let (mut found, lost) = reader.finish();
     found.extend(scan.problems);
-    found.sort_by_key(|problem| (problem.labels.first().map_or(0, |label| label.span.start), problem.code));
+    found.sort_by_key(|problem| (problem.place().start, problem.code()));
     problems.extend(found);
     ast::File { id, items, lost }
 }

@@ -1,101 +1,81 @@
-//! Problems: facts that a stage finds, each with a stable code, spans and help.
+//! Problems: facts that a stage finds, each with a stable code, a place and, at last, words.
+//!
+//! A stage makes a [`Problem`] from a fact (`facts/`), which has data and no words. Later stages move, sort and drop
+//! problems by their facts and codes. Words are made when a report is rendered ([`Problem::words`]).
 
+mod code;
+pub(crate) mod facts;
+mod said;
+mod script;
+mod similar;
 mod triage;
 
+pub use code::{Code, Severity, Stage};
+pub use said::{Label, Words};
+pub use script::{ScriptApi, ScriptProblem};
+pub(crate) use similar::Guess;
+pub use similar::nearest;
 pub(crate) use triage::triage;
 
-use crate::habit;
-use crate::source::{Source, Span};
+pub use facts::{Cure, DryRun};
 
-/// How bad a problem is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// The scenario is compiled all the same.
-    Warning,
-    /// No scenario comes out.
-    Error,
-}
+use crate::source::Span;
+use facts::Fact;
 
-/// A place of a problem and what is to be said about it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Label {
-    /// Where.
-    pub span: Span,
-    /// What; may be empty for the primary label.
-    pub text: String,
-}
-
-/// A problem. The first label is the primary one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A problem: a fact and its place.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// The stable code.
-    pub code: Code,
-    /// One clause, lower case, no full stop, the author's text in backticks.
-    pub message: String,
-    /// Where; the first is the primary one.
-    pub labels: Vec<Label>,
-    /// What to write instead.
-    pub help: Option<String>,
+    fact: Fact,
+    span: Span,
+    /// Where the scenario itself declares what the fact follows from, if its place is inherited.
+    declared: Option<Span>,
 }
 
 impl Problem {
-    /// A problem with its primary label.
-    pub fn new(code: Code, span: Span, message: impl Into<String>, label: impl Into<String>) -> Problem {
-        Problem { code, message: message.into(), labels: vec![Label { span, text: label.into() }], help: None }
+    /// A fact and where it was found.
+    pub(crate) fn new(span: Span, fact: impl Into<Fact>) -> Problem {
+        Problem { fact: fact.into(), span, declared: None }
     }
 
-    /// Something that may stand once was given again.
-    pub fn given_twice(what: &str, again: Span, first: Span) -> Problem {
-        Problem::new(Code::DuplicateOption, again, format!("{what} is given twice"), "given again here")
-            .label(first, "first given here")
-            .help("leave one of them out")
+    /// What a dry run found, and where.
+    pub fn of_dry_run(span: Span, found: DryRun) -> Problem {
+        Problem::new(span, found)
     }
 
-    /// A name that means one thing was declared again; `what` is the name in backticks, with its kind before it.
-    pub fn declared_twice(what: &str, again: Span, first: Span) -> Problem {
-        Problem::new(Code::DuplicateName, again, format!("{what} is declared twice"), "declared again here")
-            .label(first, "first declared here")
-            .help("choose another name for one of them")
-    }
-
-    /// Adds a further label.
+    /// Adds where the scenario itself declares what the fact follows from.
     #[must_use]
-    pub fn label(mut self, span: Span, text: impl Into<String>) -> Problem {
-        self.labels.push(Label { span, text: text.into() });
+    pub(crate) fn declared_at(mut self, span: Span) -> Problem {
+        self.declared = Some(span);
         self
     }
 
-    /// Says what to write instead.
-    #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Problem {
-        self.help = Some(help.into());
-        self
+    /// What was found.
+    pub(crate) fn fact(&self) -> &Fact {
+        &self.fact
     }
 
-    /// Says "did you mean" where one of the candidates is near enough, or how another language's word is written here.
-    #[must_use]
-    pub fn did_you_mean<'a>(self, found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Problem {
-        let meant =
-            habit::of_name(found).or_else(|| nearest(found, candidates).map(|name| format!("did you mean `{name}`?")));
-        match meant {
-            Some(help) => self.help(help),
-            None => self,
-        }
-    }
-
-    /// Says "did you mean", or what there is where nothing is near enough.
-    #[must_use]
-    pub fn one_of(self, found: &str, known: &[&str]) -> Problem {
-        let problem = self.did_you_mean(found, known.iter().copied());
-        match problem.help {
-            Some(_) => problem,
-            None => problem.help(format!("it can be `{}`", known.join("`, `"))),
-        }
+    /// The stable code.
+    pub fn code(&self) -> Code {
+        self.fact.code()
     }
 
     /// How bad it is.
     pub fn severity(&self) -> Severity {
-        self.code.severity()
+        self.code().severity()
+    }
+
+    /// Where it is.
+    pub fn place(&self) -> Span {
+        self.span
+    }
+
+    /// What a report says.
+    pub fn words(&self) -> Words {
+        let said = self.fact.words();
+        let mut labels = vec![Label { span: self.span, text: said.label }];
+        labels.extend(said.also);
+        labels.extend(self.declared.map(|span| Label { span, text: "declared here".to_owned() }));
+        Words { message: said.message, labels, help: said.help }
     }
 
     /// Whether no scenario comes out because of it.
@@ -103,64 +83,15 @@ impl Problem {
         self.severity() == Severity::Error
     }
 
-    /// Where it is: the primary label's place.
-    pub(crate) fn place(&self) -> Option<Span> {
-        self.labels.first().map(|label| label.span)
+    /// The names that its help suggests.
+    pub(crate) fn suggested(&self) -> Vec<String> {
+        self.fact.words().names
     }
 }
 
 /// Whether no scenario comes out because of one of them.
 pub(crate) fn has_errors(problems: &[Problem]) -> bool {
     problems.iter().any(Problem::is_error)
-}
-
-/// A similar name is looked for if the name is at most this long, bytes: comparing costs the product of both lengths.
-const SIMILAR_BYTES_MAX: usize = 64;
-/// A similar name is looked for among this many candidates at most. More names than that are no longer a typo's
-/// neighbours, and a text may hold as many wrong names as right ones.
-pub(crate) const CANDIDATES_MAX: usize = 1_000;
-/// How alike two names must be, from 0 to 1.
-const LIKENESS_MIN: f64 = 0.6;
-
-/// The candidate most like `found`, if it is like enough (similarity above 0.6).
-pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    if found.len() > SIMILAR_BYTES_MAX {
-        return None;
-    }
-    let found = found.to_lowercase();
-    let mut best = (LIKENESS_MIN, None);
-    for candidate in candidates.into_iter().take(CANDIDATES_MAX) {
-        let lowered = candidate.to_lowercase();
-        if lowered.len() > SIMILAR_BYTES_MAX || likeness_at_most(&found, &lowered) <= best.0 {
-            continue;
-        }
-        let likeness = strsim::normalized_damerau_levenshtein(&found, &lowered);
-        if likeness > best.0 {
-            best = (likeness, Some(candidate));
-        }
-    }
-    best.1
-}
-
-/// A bound of the likeness of two names that is quick to compute: letters that only one of them has must be edited.
-fn likeness_at_most(a: &str, b: &str) -> f64 {
-    let (long, short) = if a.chars().count() < b.chars().count() { (b, a) } else { (a, b) };
-    let mut counts = [0_u8; 64];
-    let slot = |letter: char| letter as usize % 64;
-    for letter in short.chars() {
-        if let Some(count) = counts.get_mut(slot(letter)) {
-            *count += 1;
-        }
-    }
-    let (mut length, mut common) = (0_u32, 0_u32);
-    for letter in long.chars() {
-        length += 1;
-        if let Some(count) = counts.get_mut(slot(letter)).filter(|count| **count > 0) {
-            *count -= 1;
-            common += 1;
-        }
-    }
-    if length == 0 { 1.0 } else { f64::from(common) / f64::from(length) }
 }
 
 /// How a word is written, from its line of documentation: what stands before the first `: ` outside of brackets.
@@ -171,220 +102,4 @@ pub(crate) fn signature(doc: &str) -> &str {
         depth == 0 && doc.get(*at..).is_some_and(|rest| rest.starts_with(": "))
     });
     end.and_then(|(at, _)| doc.get(..at)).unwrap_or(doc)
-}
-
-/// Declares the registry of codes: number, severity, title.
-macro_rules! codes {
-    ($($(#[$meta:meta])* $name:ident = $number:literal $severity:ident $title:literal;)+) => {
-        /// A stable code of a problem: `SP0204`. Never reused.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Code {
-            $(#[doc = $title] $name,)+
-        }
-
-        impl Code {
-            /// Every code, in order.
-            pub const ALL: &'static [Code] = &[$(Code::$name,)+];
-
-            /// The number.
-            pub const fn number(self) -> u16 {
-                match self { $(Code::$name => $number,)+ }
-            }
-
-            /// What it is about, in a few words.
-            pub const fn title(self) -> &'static str {
-                match self { $(Code::$name => $title,)+ }
-            }
-
-            /// How bad it is.
-            pub const fn severity(self) -> Severity {
-                match self { $(Code::$name => Severity::$severity,)+ }
-            }
-        }
-    };
-}
-
-codes! {
-    // SP00xx: loading.
-    FileMissing = 1 Error "a file can't be read";
-    FileTooLarge = 2 Error "a file is too large";
-    NotUtf8 = 3 Error "a file is not UTF-8 text";
-    UnknownScenario = 5 Error "no scenario has this name";
-    FileIsDirectory = 6 Error "a directory stands for a file";
-    BadCompiled = 7 Error "a compiled scenario can't be read";
-    BadParameter = 8 Error "a parameter can't be bound";
-    UnknownReward = 9 Error "a reward is not in scope";
-    UnknownCode = 10 Error "no report has this code";
-    NoPicture = 11 Error "a picture can't be made";
-    NoStep = 12 Error "an episode has no such step";
-    BadSnapshot = 13 Error "a snapshot can't be used";
-    BadReplay = 14 Error "a replay can't be played";
-    CompiledCast = 15 Error "a compiled scenario keeps who plays its players";
-    FileNotRegular = 17 Error "a pipe or device stands for a file";
-    // SP01xx: syntax.
-    Syntax = 101 Error "something else was expected here";
-    TooDeep = 102 Error "brackets are nested too deeply";
-    BlockAfterGive = 103 Error "a `give` has no block";
-    UnclosedBracket = 104 Error "a bracket is not closed";
-    UnclosedString = 105 Error "a string is not closed";
-    ComparisonChain = 106 Error "comparisons don't chain";
-    ReservedName = 107 Error "a reserved word is used as a name";
-    NotYet = 108 Error "this construct is not supported yet";
-    TooMuch = 109 Error "there is more of this than a text may hold";
-    // SP02xx: names.
-    UnknownName = 201 Error "no such name";
-    DuplicateName = 202 Error "a name is declared twice";
-    UnknownRole = 203 Error "no such role";
-    UnknownMember = 204 Error "no such property";
-    UnknownOption = 205 Error "no such option";
-    UnknownFunction = 206 Error "no such function";
-    UnknownEvent = 207 Error "no such event";
-    UnknownParent = 208 Error "nothing to extend has this name";
-    ImportCycle = 209 Error "files import each other in a circle";
-    ExtendsCycle = 210 Error "things extend each other in a circle";
-    AmbiguousName = 211 Error "a name has two meanings";
-    NothingToRemove = 212 Error "there is nothing to remove";
-    Recursion = 216 Error "a definition uses itself";
-    UnusedName = 213 Warning "a name is never used";
-    LikelyTypo = 217 Warning "a name looks like another";
-    HidingName = 218 Warning "a name hides another";
-    NoScenario = 214 Error "the file has no scenario to run";
-    WrongScope = 215 Error "this can't be used here";
-    // SP03xx: types and units.
-    WrongType = 301 Error "a value has another type";
-    WrongUnit = 302 Error "units don't agree";
-    WrongArguments = 303 Error "arguments don't match";
-    MixedUnits = 304 Error "a point mixes units";
-    NotConstant = 305 Error "the value must be known before the start";
-    Impossible = 306 Error "the value can't be computed";
-    // SP04xx: football.
-    OffPitch = 401 Error "a player or the ball is off the pitch";
-    SameSpot = 402 Error "two players stand on one spot";
-    TooManyPlayers = 403 Error "a team has more than eleven players";
-    OutOfRange = 404 Error "a value is out of its range";
-    NoBall = 405 Error "the ball has no place";
-    DuplicateOption = 406 Error "an option is given twice";
-    WrongRoster = 407 Error "layouts of a kick-off differ";
-    NoPlace = 408 Error "a player has no place";
-    CyclicPlace = 409 Error "places depend on each other in a circle";
-    BadAgents = 410 Error "agents don't fit the team";
-    NoEnding = 411 Warning "the episode never ends";
-    TwoKeepers = 412 Error "a team has two keepers";
-    AbsentPlayer = 413 Error "a player is absent and placed";
-    TooCostly = 418 Error "a scenario costs too much";
-    // SP05xx: scripts.
-    ScriptSyntax = 501 Error "a script can't be read";
-    ScriptHook = 502 Error "a script lacks its hook";
-    ScriptName = 503 Error "a script uses a name that is not there";
-    // SP06xx: what a dry run finds.
-    EndsAtOnce = 601 Error "the episode ends before its first step";
-    NeverPays = 602 Warning "a reward can never pay";
-    HardToDraw = 603 Warning "requirements are seldom met";
-    ImpossibleToDraw = 604 Error "requirements are never met";
-    // SP07xx: while episodes run.
-    DrawFailed = 701 Error "no start meets the requirements";
-    ScriptFailed = 702 Error "a script's hook failed";
-    Endless = 703 Error "nothing ends the episode";
-    NoThreads = 704 Error "threads can't be started";
-}
-
-/// Who finds a problem: the hundreds of its code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Whoever reads files and what a caller asks for: `SP00xx`.
-    Load,
-    /// The parser: `SP01xx`.
-    Syntax,
-    /// Whoever binds names: `SP02xx`.
-    Names,
-    /// The check of types and units: `SP03xx`.
-    Types,
-    /// Football's rules and ranges: `SP04xx`.
-    Football,
-    /// The check of scripts: `SP05xx`.
-    Scripts,
-    /// A dry run: `SP06xx`.
-    DryRun,
-    /// An episode: `SP07xx`.
-    Episode,
-}
-
-impl Code {
-    /// Who finds it.
-    pub const fn stage(self) -> Stage {
-        match self.number() / 100 {
-            0 => Stage::Load,
-            1 => Stage::Syntax,
-            2 => Stage::Names,
-            3 => Stage::Types,
-            4 => Stage::Football,
-            5 => Stage::Scripts,
-            6 => Stage::DryRun,
-            _ => Stage::Episode,
-        }
-    }
-
-    /// Whether what it is about is left out of the scenario, so that the rest may lack it: see [`Code::may_be_echo`].
-    pub const fn leaves_gap(self) -> bool {
-        match self.stage() {
-            Stage::Load => true,
-            // What is not supported yet has been read all the same.
-            Stage::Syntax => !matches!(self, Code::NotYet),
-            Stage::Names => matches!(
-                self,
-                Code::UnknownRole | Code::UnknownEvent | Code::UnknownParent | Code::ImportCycle | Code::ExtendsCycle
-            ),
-            Stage::Types | Stage::Football | Stage::Scripts | Stage::DryRun | Stage::Episode => false,
-        }
-    }
-
-    /// Whether it may be nothing but the echo of a statement that was left out: it tells of what is not there.
-    pub const fn may_be_echo(self) -> bool {
-        matches!(
-            self,
-            Code::UnusedName
-                | Code::NoEnding
-                | Code::NoBall
-                | Code::BadAgents
-                | Code::WrongRoster
-                | Code::NothingToRemove
-        )
-    }
-
-    /// The code that a text names: `SP0203`, `sp0203` or `203`.
-    pub fn from_text(text: &str) -> Option<Code> {
-        let text = text.trim();
-        let digits = match text.get(..2) {
-            Some(head) if head.eq_ignore_ascii_case("sp") => text.get(2..)?,
-            _ => text,
-        };
-        let number: u16 = digits.parse().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit()))?;
-        Code::ALL.iter().copied().find(|code| code.number() == number)
-    }
-}
-
-impl std::fmt::Display for Code {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "SP{:04}", self.number())
-    }
-}
-
-/// Checks scripts against the engine's hook API, which the compiler does not know.
-pub trait ScriptApi {
-    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done` or `act`) and finds
-    /// these names in `ctx.params`.
-    fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem>;
-}
-
-/// A fault of a script.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ScriptProblem {
-    /// Which code.
-    pub code: Code,
-    /// Byte range in the script's text.
-    pub range: std::ops::Range<usize>,
-    /// One clause.
-    pub message: String,
-    /// What to write instead.
-    pub help: Option<String>,
 }

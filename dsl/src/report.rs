@@ -90,8 +90,7 @@ fn colour_sequence(text: &str) -> usize {
 /// Problems by file, place and code.
 fn sorted(problems: &[Problem]) -> Vec<&Problem> {
     let mut sorted: Vec<&Problem> = problems.iter().collect();
-    sorted
-        .sort_by_key(|problem| (problem.labels.first().map(|label| (label.span.file, label.span.start)), problem.code));
+    sorted.sort_by_key(|problem| (problem.place().file, problem.place().start, problem.code()));
     sorted
 }
 
@@ -114,14 +113,14 @@ fn count(problems: &[&Problem]) -> String {
     let errors = problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
     let warnings = problems.len() - errors;
     let say = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-    let told = match (errors, warnings) {
+    let reported = match (errors, warnings) {
         (0, 0) => return String::new(),
         (_, 0) => say(errors, "error"),
         (0, _) => say(warnings, "warning"),
         _ => format!("{} and {}", say(errors, "error"), say(warnings, "warning")),
     };
     match problems.len().saturating_sub(MAX_SHOWN) {
-        0 => format!("{told}\n"),
-        more => format!("{told}; {more} of them not shown\n"),
+        0 => format!("{reported}\n"),
+        more => format!("{reported}; {more} of them not shown\n"),
     }
 }

@@ -66,16 +66,16 @@ fn repeated(head: &str, n: usize, part: impl Fn(usize) -> String, tail: &str) ->
 
 /// How often a code was reported.
 fn count(outcome: &Outcome, code: Code) -> usize {
-    outcome.problems.iter().filter(|problem| problem.code == code).count()
+    outcome.problems.iter().filter(|problem| problem.code() == code).count()
 }
 
 #[track_caller]
 fn is_too_much(outcome: &Outcome, message: &str) {
-    let found = outcome.problems.iter().find(|problem| problem.code == Code::TooMuch);
+    let found = outcome.problems.iter().find(|problem| problem.code() == Code::TooMuch);
     let found = found.unwrap_or_else(|| panic!("{:#?}", outcome.problems.iter().take(3).collect::<Vec<_>>()));
-    assert!(found.message.contains(message), "{}", found.message);
+    assert!(found.words().message.contains(message), "{}", found.words().message);
     assert!(outcome.scenario.is_none());
-    let label = found.labels[0].span;
+    let label = found.place();
     assert!(outcome.sources.get(label.file).unwrap().text.get(label.start as usize..label.end as usize).is_some());
 }
 
@@ -189,8 +189,8 @@ fn parents_have_a_limit() {
 fn a_team_writes_so_many_players() {
     let text = repeated(&format!("{HEAD} team left {{"), 4_000, |_| "CM at (0, 0)\n".to_owned(), "}}");
     let outcome = outcome(&text);
-    let too_many = outcome.problems.iter().filter(|problem| problem.code == Code::TooManyPlayers);
-    assert!(too_many.map(|problem| &problem.message).any(|message| message.contains("more than 44 players")));
+    let too_many = outcome.problems.iter().filter(|problem| problem.code() == Code::TooManyPlayers);
+    assert!(too_many.map(|problem| problem.words().message).any(|message| message.contains("more than 44 players")));
     assert!(outcome.problems.len() < 3 * SOME);
 }
 
@@ -255,6 +255,6 @@ fn what_is_tried_out_takes_no_room_of_what_is_told() {
     let head = format!("reward r(x = nope) {{ give x }}\n{HEAD}");
     let uses = repeated(&head, 600, |i| format!("reward r(x: 1) as \"r{i}\"\n"), "end lost when another\n}");
     let found = outcome(&uses);
-    let told = |name: &str| found.problems.iter().any(|problem| problem.message.contains(name));
-    assert!(told("`another`"), "{:#?}", found.problems.iter().take(3).collect::<Vec<_>>());
+    let reported = |name: &str| found.problems.iter().any(|problem| problem.words().message.contains(name));
+    assert!(reported("`another`"), "{:#?}", found.problems.iter().take(3).collect::<Vec<_>>());
 }

@@ -179,7 +179,7 @@ proptest! {
 #[test]
 fn what_cannot_be_read_is_left_alone_with_its_reports() {
     let problems = format(&source("scenario s { ball at (0.6, 0 }")).unwrap_err();
-    assert_eq!(problems[0].code.to_string(), "SP0104");
+    assert_eq!(problems[0].code().to_string(), "SP0104");
 }
 
 /// Each with what becomes of it.
@@ -204,7 +204,7 @@ const LAYOUTS: &[(&str, &str)] = &[
         "fn f(\n  /// How far.\n  x: number=1 in 0 .. 2,\n  y: number) = x*2+y",
         "fn f(\n    /// How far.\n    x: number = 1 in 0..2,\n    y: number) = x * 2 + y\n",
     ),
-    // Columns that an author began are finished; those he did not begin are not.
+    // Columns that an author began are finished; those they did not begin are not.
     (
         "reward r {\n    give 1 as \"a\"\n    give 20 + 30   as \"b\"\n}",
         "reward r {\n    give 1         as \"a\"\n    give 20 + 30   as \"b\"\n}\n",
@@ -218,8 +218,8 @@ const LAYOUTS: &[(&str, &str)] = &[
         "reward r {\n    when a { give 1 } else when b { give 2 } else { give 3 }\n}\n",
     ),
     (
-        "formation f { GK at (-1, 0) /* his own */ CB at (-0.5, 0) }\nreward r { give 400   steps / 1s }",
-        "formation f { GK at (-1, 0) /* his own */ CB at (-0.5, 0) }\nreward r { give 400 steps / 1s }\n",
+        "formation f { GK at (-1, 0) /* its own */ CB at (-0.5, 0) }\nreward r { give 400   steps / 1s }",
+        "formation f { GK at (-1, 0) /* its own */ CB at (-0.5, 0) }\nreward r { give 400 steps / 1s }\n",
     ),
     (
         "scenario s {\n    reward script rhai \"\"\"\n  fn reward() {\n }\n\"\"\" as \"x\"*2\n}",

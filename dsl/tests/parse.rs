@@ -23,8 +23,8 @@ fn read(text: &str) -> (File, Vec<Problem>) {
 }
 
 /// The problems as `SP0101 message`.
-fn told(text: &str) -> Vec<String> {
-    read(text).1.iter().map(|problem| format!("{} {}", problem.code, problem.message)).collect()
+fn reported(text: &str) -> Vec<String> {
+    read(text).1.iter().map(|problem| format!("{} {}", problem.code(), problem.words().message)).collect()
 }
 
 fn sources(text: &str) -> Sources {

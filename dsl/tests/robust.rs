@@ -30,7 +30,7 @@ fn outcome(text: &str) -> Outcome {
     let failed = outcome.problems.iter().any(|problem| problem.severity() == Severity::Error);
     assert_eq!(outcome.scenario.is_none(), failed, "a scenario comes out exactly when nothing is wrong:\n{text}");
     for problem in &outcome.problems {
-        for label in &problem.labels {
+        for label in &problem.words().labels {
             let source = outcome.sources.get(label.span.file).expect("a label in a file");
             let range = label.span.start as usize..label.span.end as usize;
             assert!(source.text.get(range).is_some(), "{problem:?} points outside its file");
@@ -124,7 +124,7 @@ fn definitions_that_double_are_refused_in_time() {
     assert!(outcome(&text).scenario.is_none());
 }
 
-/// A good source without its brackets and quotes one by one: what follows from the lost one is not told.
+/// A good source without its brackets and quotes one by one: what follows from the lost one is not reported.
 #[test]
 fn a_lost_bracket_or_quote_is_a_few_problems() {
     let mut wrong = Vec::new();
@@ -133,8 +133,9 @@ fn a_lost_bracket_or_quote_is_a_few_problems() {
         let problems = outcome(&text).problems;
         if !(1..=4).contains(&problems.len()) {
             let line = GOOD[..at].matches('\n').count() + 1;
-            let told: Vec<String> = problems.iter().map(|p| format!("{} {}", p.code, p.message)).collect();
-            wrong.push(format!("line {line}, `{sign}`: {told:#?}"));
+            let reported: Vec<String> =
+                problems.iter().map(|p| format!("{} {}", p.code(), p.words().message)).collect();
+            wrong.push(format!("line {line}, `{sign}`: {reported:#?}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -147,11 +148,11 @@ fn three_mistakes_of_three_stages_are_three_problems() {
          reward scorin\n end success soon when elapsed > 3m\n}\n",
     )
     .problems;
-    let told: Vec<_> = problems.iter().map(|problem| (problem.code.to_string(), problem.help.as_deref())).collect();
+    let reported: Vec<_> = problems.iter().map(|problem| (problem.code().to_string(), problem.words().help)).collect();
     let wanted = [
         ("SP0203", Some("did you mean `CB`?")),
         ("SP0201", Some("did you mean `scoring`?")),
         ("SP0302", Some("compare it with a duration, for example `2s` or `20 steps`")),
     ];
-    assert_eq!(told, wanted.map(|(code, help)| (code.to_owned(), help)));
+    assert_eq!(reported, wanted.map(|(code, help)| (code.to_owned(), help.map(str::to_owned))));
 }

@@ -51,7 +51,7 @@ fn said(scenario: &Scenario) -> String {
 
 /// Problems point into their files, and can be told in both forms.
 fn report(problems: &[Problem], sources: &Sources) {
-    for label in problems.iter().flat_map(|problem| &problem.labels) {
+    for label in problems.iter().flat_map(|problem| problem.words().labels) {
         let source = sources.get(label.span.file).expect("a label in a file");
         let range = label.span.start as usize..label.span.end as usize;
         assert!(source.text.get(range).is_some(), "{label:?} points outside its file");

@@ -46,7 +46,7 @@ fn main() {
             let loaded = setpiece::load(black_box(&name));
             let taken = begin.elapsed();
             // A file of rewards or formations is read to its end, and has nothing to run.
-            let only_parts = |failure: &Failure| failure.problems.iter().all(|it| it.code == Code::NoScenario);
+            let only_parts = |failure: &Failure| failure.problems.iter().all(|it| it.code() == Code::NoScenario);
             match loaded {
                 Ok(_) => {}
                 Err(setpiece::Error::Compile(failure)) if only_parts(&failure) => {}

@@ -136,7 +136,7 @@ impl Error {
             Error::File { why: FileFault::NotRegular, .. } => Code::FileNotRegular,
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Code::NotUtf8,
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
-            Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, |problem| problem.code),
+            Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, Problem::code),
             Error::Format { .. } | Error::File { why: FileFault::Packed(_), .. } => Code::BadCompiled,
             Error::Cast { .. } => Code::CompiledCast,
             Error::Param { .. } => Code::BadParameter,
@@ -239,9 +239,10 @@ impl std::fmt::Display for Error {
                 }
             }
             Error::Compile(failure) => {
-                let first = failure.problems.first().map_or("no scenario", |problem| &problem.message);
+                let first =
+                    failure.problems.first().map_or("no scenario".to_owned(), |problem| problem.words().message);
                 match failure.problems.len() {
-                    0 | 1 => f.write_str(first),
+                    0 | 1 => f.write_str(&first),
                     n => write!(f, "{first} (and {} more)", n - 1),
                 }
             }

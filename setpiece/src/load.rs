@@ -218,7 +218,7 @@ pub fn check_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) ->
     };
     let errors = || failure.problems.iter().filter(|problem| problem.severity() == Severity::Error);
     let root = failure.sources.iter().next().map(|(_, source)| source.clone());
-    let only_parts = errors().all(|problem| problem.code == Code::NoScenario)
+    let only_parts = errors().all(|problem| problem.code() == Code::NoScenario)
         && !root.as_ref().is_some_and(|root| root.name.contains('"'));
     let parts = root.as_ref().and_then(|root| setpiece_dsl::parts(&root.text));
     let (Some(root), Some(formations), true) = (root, parts, only_parts) else {

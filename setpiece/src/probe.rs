@@ -2,7 +2,7 @@
 
 use crate::load::Loaded;
 use setpiece_dsl::RequireOrigin;
-use setpiece_dsl::problem::{Code, Problem};
+use setpiece_dsl::problem::{Code, Cure, DryRun, Problem};
 use setpiece_dsl::source::Span;
 use setpiece_engine::draw::{Drawer, Roster};
 use setpiece_engine::environment::{Environment, EnvironmentOptions};
@@ -35,7 +35,7 @@ pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
     let scenario = &loaded.scenario;
     let name = &scenario.name;
     if let Some(seldom) = requirements(loaded, &in_time) {
-        let startable = seldom.code != Code::ImpossibleToDraw;
+        let startable = seldom.code() != Code::ImpossibleToDraw;
         problems.push(seldom);
         if !startable {
             return problems;
@@ -49,38 +49,21 @@ pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
         environment.reset(Some(0), Some(index)).ok()?;
         environment.ends_at_start().map(str::to_owned)
     });
-    if let Some(label) = over {
-        let which = scenario.endings.list.iter().position(|ending| ending.label == label);
+    if let (Some(ending), Some(declared)) = (over, loaded.origin) {
+        let which = scenario.endings.list.iter().position(|known| known.label == ending);
         let at = which.and_then(|which| loaded.origins.endings.get(which).copied());
-        let fault = Fault { code: Code::EndsAtOnce, at, label: "holds at the start" };
-        problems.extend(fault.problem(loaded, format!("`{name}` is over before its first step")).map(|problem| {
-            let elsewhere = "place the players and the ball where it doesn't hold";
-            problem.help(format!(
-                "the ending `{label}` holds at the start: {elsewhere}, or let it wait: `… and elapsed > 1s`"
-            ))
-        }));
+        let (place, elsewhere) = place(declared, at);
+        let fact = DryRun::EndsAtOnce { scenario: name.clone(), ending, elsewhere };
+        problems.push(Problem::of_dry_run(place, fact));
     }
     problems
 }
 
-/// What a dry run finds, and where.
-struct Fault<'a> {
-    code: Code,
-    /// The part of the scenario that is at fault, where it is one part.
-    at: Option<Span>,
-    label: &'a str,
-}
-
-impl Fault<'_> {
-    /// Points at the part that is at fault, and at the scenario, first at what stands in the scenario's file.
-    fn problem(self, loaded: &Loaded, message: String) -> Option<Problem> {
-        let scenario = loaded.origin?;
-        let in_file = |at: &Span| at.file == scenario.file;
-        Some(match self.at {
-            Some(at) if in_file(&at) => Problem::new(self.code, at, message, self.label),
-            Some(at) => Problem::new(self.code, scenario, message, "").label(at, self.label),
-            None => Problem::new(self.code, scenario, message, self.label),
-        })
+/// Where a problem is, and the part at fault if it stands in another file than the scenario, whose name is `declared`.
+fn place(declared: Span, at: Option<Span>) -> (Span, Option<Span>) {
+    match at {
+        Some(at) if at.file == declared.file => (at, None),
+        elsewhere => (declared, elsewhere),
     }
 }
 
@@ -110,26 +93,18 @@ fn requirements(loaded: &Loaded, in_time: &dyn Fn() -> bool) -> Option<Problem> 
     let hardest = found.hardest.as_deref()?;
     let which = scenario.start.requires.iter().position(|require| require.label == hardest);
     let origin = which.and_then(|which| loaded.origins.requires.get(which));
-    let help = match (origin, hardest) {
-        (Some(RequireOrigin { help: Some(help), .. }), _) => help,
-        (Some(_), _) => "loosen it, or place the players so that it holds",
-        (None, NUMBERS) => "look for a division by 0",
-        (None, _) => "place them further from the lines and from each other",
+    let cure = match (origin, hardest) {
+        (Some(RequireOrigin { help: Some(help), .. }), _) => Cure::Known(help.clone()),
+        (Some(_), _) => Cure::Loosen,
+        (None, NUMBERS) => Cure::Divisor,
+        (None, _) => Cure::Spread,
     };
-    let at = origin.and_then(|origin| origin.span);
-    let share = match (met, attempts) {
-        (0, 1) => "its start doesn't meet the requirements".to_owned(),
-        (0, _) => format!("none of {attempts} starts meets the requirements"),
-        _ => format!("{met} of {attempts} starts meet the requirements"),
-    };
-    let label = if at.is_some() && attempts > 1 { format!("fails most often; {share}") } else { share };
-    let (code, message) = if met == 0 {
-        (Code::ImpossibleToDraw, format!("`{name}` can't be started"))
-    } else if found.rate() < SELDOM {
-        (Code::HardToDraw, format!("`{name}` is seldom drawn"))
-    } else {
+    if met > 0 && found.rate() >= SELDOM {
         return None;
-    };
-    let fault = Fault { code, at, label: &label };
-    Some(fault.problem(loaded, message)?.help(format!("`{hardest}` fails most often: {help}")))
+    }
+    let at = origin.and_then(|origin| origin.span);
+    let (place, elsewhere) = place(loaded.origin?, at);
+    let (scenario, hardest, is_located) = (name.clone(), hardest.to_owned(), at.is_some());
+    let fact = DryRun::HardToDraw { scenario, met, attempts, hardest, cure, is_located, elsewhere };
+    Some(Problem::of_dry_run(place, fact))
 }

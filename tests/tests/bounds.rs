@@ -94,8 +94,8 @@ fn a_text_is_held_to_the_same_bounds_where_it_stands() {
         panic!("it compiles")
     };
     let [problem] = failure.problems.as_slice() else { panic!("{:?}", failure.problems) };
-    assert_eq!(problem.code.to_string(), "SP0418");
-    let (line, _) = failure.sources.iter().next().unwrap().1.line_column(problem.labels[0].span.start);
+    assert_eq!(problem.code().to_string(), "SP0418");
+    let (line, _) = failure.sources.iter().next().unwrap().1.line_column(problem.place().start);
     assert_eq!(line, 2, "at one of the records");
 }
 

@@ -59,7 +59,7 @@ fn a_cast_that_is_none_is_told() {
         ("lazy } } } scenario x { ball at centre team left { each all { ai: lazy", "is not who plays a player"),
         ("lazy, difficulty: 1", "is not who plays a player"),
         ("lazy } } } //", "is not who plays a player"),
-        ("3", "expected who plays him"),
+        ("3", "expected who plays the player"),
         ("chaser(", ""),
         ("", ""),
         ("script \"nowhere.rhai\"", "nowhere.rhai"),
@@ -67,7 +67,7 @@ fn a_cast_that_is_none_is_told() {
         let Err(Error::Compile(failure)) = cast(&[(CastTarget::Team(Team::Left), ai)]) else {
             panic!("{ai} was taken")
         };
-        let told = failure.problems.iter().any(|problem| problem.message.contains(message));
+        let told = failure.problems.iter().any(|problem| problem.words().message.contains(message));
         assert!(told, "{ai}: {:?}", failure.problems);
     }
     let Err(Error::Compile(_)) = cast(&[(CastTarget::Player(Team::Left, 7), "lazy")]) else {

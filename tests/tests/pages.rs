@@ -93,7 +93,7 @@ fn codes(text: &str) -> (BTreeSet<String>, bool) {
     };
     problems.extend(setpiece::check(path.to_str().unwrap()).unwrap().problems);
     let failed = problems.iter().any(|problem| problem.severity() == Severity::Error);
-    (problems.iter().map(|problem| problem.code.to_string()).collect(), failed)
+    (problems.iter().map(|problem| problem.code().to_string()).collect(), failed)
 }
 
 #[test]

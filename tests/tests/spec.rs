@@ -140,8 +140,9 @@ fn annotated(text: &str, problems: &[(usize, usize, &Problem)]) -> String {
             } else {
                 format!("//{}{}", " ".repeat(column - 2), "^".repeat(width))
             };
-            out.push_str(&format!("{place} {}: {}\n", problem.code, problem.message));
-            if let Some(help) = &problem.help {
+            let words = problem.words();
+            out.push_str(&format!("{place} {}: {}\n", problem.code(), words.message));
+            if let Some(help) = words.help {
                 out.push_str(&format!("//{}help: {help}\n", " ".repeat(column.max(3) - 2)));
             }
         }
@@ -181,7 +182,7 @@ fn expected(case: &Case, outcome: &Outcome) -> String {
             .problems
             .iter()
             .filter_map(|problem| {
-                let span = problem.labels.first()?.span;
+                let span = problem.place();
                 let file = outcome.sources.get(span.file)?;
                 if file.name == *name {
                     return Some((span.start as usize, span.end as usize, problem));
@@ -259,10 +260,10 @@ fn the_standard_library_compiles_without_a_word() {
         let words: Vec<String> = outcome
             .problems
             .iter()
-            .filter(|problem| problem.code != setpiece_dsl::problem::Code::NoScenario)
+            .filter(|problem| problem.code() != setpiece_dsl::problem::Code::NoScenario)
             .map(|problem| {
-                let label = &problem.labels[0];
-                format!("{inner}: {} {} `{}`", problem.code, problem.message, outcome.sources.text(label.span))
+                let text = outcome.sources.text(problem.place());
+                format!("{inner}: {} {} `{}`", problem.code(), problem.words().message, text)
             })
             .collect();
         assert!(words.is_empty(), "{}", words.join("\n"));

@@ -45,6 +45,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
 /// Words that a room's sources must not contain, and why.
 const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
     ("dsl/src", &["std::fs", "std::env", "std::net"], "sources come through a `SourceLoader`"),
+    // Who builds words outside of the room of problems is stopped by the compiler: `say` is private there.
+    ("dsl/src/parse", PROSE, WHERE_WORDS_STAND),
+    ("dsl/src/resolve", PROSE, WHERE_WORDS_STAND),
+    ("dsl/src/lower", PROSE, WHERE_WORDS_STAND),
+    ("dsl/src/compile", PROSE, WHERE_WORDS_STAND),
+    ("dsl/src/problem/facts", &["message: String", "help: "], "a fact carries data; its words stand in its entry"),
     (
         "engine/src",
         &["std::fs", "std::env", "std::net", "thread_local!", "HashMap", "HashSet"],
@@ -55,8 +61,16 @@ const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
     ("python/src", &["rapier3d", "rhai", "pest"], "the binding holds conversions only"),
 ];
 
+/// What the words of a report often begin with.
+const PROSE: &[&str] = &["did you mean", "\"write ", "\"leave ", "can't be ", "is given twice"];
+/// Why no stage of the compiler says it.
+const WHERE_WORDS_STAND: &str = "a stage reports a fact; its words stand in dsl/src/problem/facts/";
+
 /// Where a word may stand all the same, and why.
 const MAY_SAY: &[(&str, &str)] = &[
+    // What the engine says of scripts.
+    ("dsl/src/problem/facts/files.rs", "message: String"),
+    ("dsl/src/problem/facts/files.rs", "help: "),
     // Rhai's machine, and what a call has left and shares: every call begins with its own.
     ("engine/src/judge/script/call.rs", "thread_local!"),
     ("engine/src/judge/script/budget.rs", "thread_local!"),
@@ -71,7 +85,7 @@ const DSL_ARROWS: &[(&str, &[&str])] = &[
     ("cast", &[]),
     ("origins", &["source"]),
     ("ast", &["source"]),
-    ("problem", &["source", "habit"]),
+    ("problem", &["source", "habit", "check"]),
     ("report", &["source", "problem"]),
     ("parse", &["source", "habit", "check", "ast", "problem"]),
     ("format", &["source", "problem", "parse"]),

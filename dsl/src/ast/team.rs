@@ -26,7 +26,7 @@ pub enum TeamStmtKind {
     },
     /// `each outfield|all|ROLE { … }`
     Each {
-        /// Whom.
+        /// Whose.
         who: Ident,
         /// Their defaults.
         fields: Vec<Field>,
@@ -89,7 +89,7 @@ pub enum PlaceKind {
     Relative {
         /// `ahead`, `behind`, `left` or `right`.
         direction: Ident,
-        /// Of whom.
+        /// Whose.
         of: Expr,
         /// How far.
         by: Expr,

@@ -32,7 +32,7 @@ pub(crate) fn is_value(name: &str) -> bool {
     VALUES.contains(&name) || match_property(name).is_some()
 }
 
-/// To whom a word belongs that a value can't be called.
+/// What a word belongs to that a value can't be called.
 pub(crate) fn owner_of_value(name: &str) -> Option<&'static str> {
     match name {
         _ if EventKind::from_name(name).is_some() => Some("events"),
@@ -41,7 +41,7 @@ pub(crate) fn owner_of_value(name: &str) -> Option<&'static str> {
     }
 }
 
-/// To whom a word belongs that something to be called, `name(…)`, can't be called.
+/// What a word belongs to that something to be called, `name(…)`, can't be called.
 pub(crate) fn owner_of_call(name: &str) -> Option<&'static str> {
     Function::from_name(name).map(|_| "functions")
 }

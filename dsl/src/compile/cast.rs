@@ -3,7 +3,8 @@
 use crate::ast::{Field, FieldValue, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
 use crate::cast::{CAST_NAME, Cast};
 use crate::lower::casting::Casting;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Whole;
 use crate::resolve::Library;
 use crate::source::{FileId, Source, Span};
 
@@ -31,10 +32,7 @@ pub(super) fn read<'a>(
             None => {
                 let start = BEFORE.len() as u32;
                 let span = Span { file: *file, start, end: start + cast.ai.len() as u32 };
-                problems.push(
-                    Problem::new(Code::WrongType, span, format!("`{}` is not who plays a player", cast.ai), "")
-                        .help("it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"f.rhai\"`"),
-                );
+                problems.push(Problem::new(span, Whole::NoSuchAi { text: cast.ai.clone() }));
             }
         }
     }
@@ -64,5 +62,5 @@ fn is_whole(field: &Field, cast: &Cast) -> bool {
 }
 
 fn is_error_in(problem: &Problem, file: FileId) -> bool {
-    problem.is_error() && problem.place().is_some_and(|span| span.file == file)
+    problem.is_error() && problem.place().file == file
 }

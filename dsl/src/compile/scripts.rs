@@ -6,7 +6,8 @@ use crate::ast::{
     TeamStmt, TeamStmtKind,
 };
 use crate::lower::script::Scripts;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Files;
 use crate::resolve::Library;
 use crate::source::{Source, SourceLoader};
 
@@ -48,8 +49,7 @@ pub(super) fn load(
     for script in named {
         let ScriptSource::File(path) = &script.source else { continue };
         if let Some(limit) = scripts.limit() {
-            let problem = Problem::new(Code::TooMuch, path.span, limit, "one too many");
-            problems.push(problem.help("join some of the scripts: a file may hold several hooks"));
+            problems.push(Problem::new(path.span, Files::TooManyScripts { limit }));
             break;
         }
         let from = path.span.file;

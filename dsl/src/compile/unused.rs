@@ -4,7 +4,8 @@ use crate::ast::{
     Ident, Item, ItemKind, RewardItem, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind, Span,
 };
 use crate::lower::World;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Declared, Whole};
 use crate::source::FileId;
 use std::collections::BTreeSet;
 
@@ -12,7 +13,7 @@ use std::collections::BTreeSet;
 #[derive(Default)]
 pub(super) struct Unused {
     used: BTreeSet<Span>,
-    declared: Vec<(&'static str, Ident)>,
+    declared: Vec<(Declared, Ident)>,
     /// Whether a scenario that can be run stands in the file: what it leaves, nobody uses.
     has_scenario: bool,
 }
@@ -25,16 +26,16 @@ impl Unused {
             return;
         }
         self.has_scenario = true;
-        let mut add = |what: &'static str, name: &Ident| {
+        let mut add = |what: Declared, name: &Ident| {
             if name.span.file == FileId(0) {
                 self.declared.push((what, name.clone()));
             }
         };
-        world.params.iter().for_each(|param| add("parameter", param.name));
-        flat.lets.iter().for_each(|binding| add("`let`", &binding.name));
-        flat.tuples.iter().flat_map(|(names, _)| *names).for_each(|name| add("`let`", name));
-        flat.consts.iter().for_each(|binding| add("`const`", &binding.name));
-        flat.regions.iter().for_each(|region| add("region", &region.name));
+        world.params.iter().for_each(|param| add(Declared::Parameter, param.name));
+        flat.lets.iter().for_each(|binding| add(Declared::Let, &binding.name));
+        flat.tuples.iter().flat_map(|(names, _)| *names).for_each(|name| add(Declared::Let, name));
+        flat.consts.iter().for_each(|binding| add(Declared::Const, &binding.name));
+        flat.regions.iter().for_each(|region| add(Declared::Region, &region.name));
     }
 
     /// Notes what a scenario refers to.
@@ -45,26 +46,20 @@ impl Unused {
     /// Reports what nothing refers to.
     pub(super) fn report(mut self, items: &[Item], problems: &mut Vec<Problem>) {
         for (what, name) in std::mem::take(&mut self.declared) {
-            self.check(what, &name, "use it", problems);
+            self.check(what, &name, problems);
         }
         if !self.has_scenario {
             return;
         }
         for item in items {
-            let (what, name, cure) = match &item.kind {
-                ItemKind::Const(binding) => ("`const`", &binding.name, "use it".to_owned()),
-                ItemKind::Fn(item) => ("function", &item.name, "use it".to_owned()),
-                ItemKind::Region(item) => ("region", &item.name, "use it".to_owned()),
-                ItemKind::Ending(item) => ("ending", &item.name, format!("end by it, `end {}`", item.name.node)),
-                ItemKind::Formation(item) => {
-                    ("formation", &item.name, format!("give it to a team, `formation: {}`", item.name.node))
-                }
-                ItemKind::Behavior(item) => {
-                    ("behavior", &item.name, format!("give it to a player, `ai: {}`", item.name.node))
-                }
-                ItemKind::Reward(item) => {
-                    ("reward", &item.name, format!("pay it in a scenario, `reward {}`", item.name.node))
-                }
+            let (what, name) = match &item.kind {
+                ItemKind::Const(binding) => (Declared::Const, &binding.name),
+                ItemKind::Fn(item) => (Declared::Function, &item.name),
+                ItemKind::Region(item) => (Declared::Region, &item.name),
+                ItemKind::Ending(item) => (Declared::Ending, &item.name),
+                ItemKind::Formation(item) => (Declared::Formation, &item.name),
+                ItemKind::Behavior(item) => (Declared::Behavior, &item.name),
+                ItemKind::Reward(item) => (Declared::Reward, &item.name),
                 ItemKind::Scenario(item) => {
                     for stmt in &item.body {
                         if let ScenarioStmtKind::Reward(reward) = &stmt.kind
@@ -77,7 +72,7 @@ impl Unused {
                 }
                 ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => continue,
             };
-            if self.check(what, name, &cure, problems) {
+            if self.check(what, name, problems) {
                 self.inner(&item.kind, problems);
             }
         }
@@ -86,7 +81,7 @@ impl Unused {
     /// The names that an item which is used declares for itself.
     fn inner(&self, item: &ItemKind, problems: &mut Vec<Problem>) {
         for param in item.params() {
-            self.check("parameter", &param.name, "use it", problems);
+            self.check(Declared::Parameter, &param.name, problems);
         }
         if let ItemKind::Reward(RewardItem { body, .. }) = item {
             self.statements(body, true, problems);
@@ -97,10 +92,10 @@ impl Unused {
         for statement in body {
             match &statement.kind {
                 RewardStmtKind::State(binding) if is_top => {
-                    self.check("state", &binding.name, "use it", problems);
+                    self.check(Declared::State, &binding.name, problems);
                 }
                 RewardStmtKind::Let(binding) => {
-                    self.check("`let`", &binding.name, "use it", problems);
+                    self.check(Declared::Let, &binding.name, problems);
                 }
                 RewardStmtKind::On { body, .. } => self.statements(body, false, problems),
                 RewardStmtKind::When { then, otherwise, .. } => {
@@ -113,13 +108,10 @@ impl Unused {
     }
 
     /// Whether something is used; reports it if not.
-    fn check(&self, what: &str, name: &Ident, cure: &str, problems: &mut Vec<Problem>) -> bool {
+    fn check(&self, what: Declared, name: &Ident, problems: &mut Vec<Problem>) -> bool {
         let used = self.used.contains(&name.span);
         if !used && !name.node.starts_with('_') {
-            problems.push(
-                Problem::new(Code::UnusedName, name.span, format!("{what} `{}` is never used", name.node), "not read")
-                    .help(format!("{cure}, leave it out, or begin its name with `_`")),
-            );
+            problems.push(Problem::new(name.span, Whole::Unused { what, name: name.node.clone() }));
         }
         used
     }

@@ -7,7 +7,8 @@ use super::{Lower, fields};
 use crate::ast::{Expr, ExprKind, Field, Span};
 use crate::check::options::AGENTS;
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{AskedFor, Bounds, Instead, Players};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Agents, Others, SideAgents, Switching};
 
@@ -60,10 +61,7 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
         SideAgents::Players(_) => false,
     });
     if let Some(at) = switching.filter(|_| agents.switching == Switching::Auto && listed && !counted) {
-        lower.report(
-            Problem::new(Code::BadAgents, at, "an agent that is listed by name keeps his player", "")
-                .help("leave `switching` out, or ask for a number of agents: `left: 1`"),
-        );
+        lower.report(Problem::new(at, Players::ListedAgentSwitches));
     }
     for (team, at) in Team::ALL.iter().zip(at) {
         check_count(lower, &agents, *team, at, players);
@@ -71,7 +69,7 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
     agents
 }
 
-fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&str, T)]) -> Option<T> {
+fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&'static str, T)]) -> Option<T> {
     let name = match &expr.kind {
         ExprKind::Name(name) => name.as_str(),
         _ => "",
@@ -79,11 +77,8 @@ fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&s
     let found = words.iter().find(|(word, _)| *word == name).map(|(_, value)| *value);
     if found.is_none() {
         let text = lower.world.text(expr.span);
-        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-        lower.report(
-            Problem::new(Code::OutOfRange, expr.span, format!("`{}` is never `{text}`", field.key.node), "")
-                .help(format!("write `{}`", known.join("` or `"))),
-        );
+        let known = words.iter().map(|(word, _)| *word).collect();
+        lower.report(Problem::new(expr.span, Bounds::NeverWord { option: field.key.node.clone(), word: text, known }));
     }
     found
 }
@@ -108,9 +103,7 @@ fn lower_side<'w>(
         _ => {
             let value = lower.expr(expr);
             if !value.is_error() && !value.ty.fits(Ty::Int) {
-                let mut problem = lower.mismatch(value.ty, Ty::Int, expr.span);
-                problem.help = Some("write a number, `all`, or a list of names: `[striker, winger]`".to_owned());
-                lower.report(problem);
+                lower.report(lower.mismatch_with(value.ty, Ty::Int, expr.span, Instead::Agents));
                 return None;
             }
             let reg = lower.reg(&value);
@@ -133,29 +126,17 @@ fn listed<'w>(
     let index = players.iter().position(|player| player.name.is_some_and(|name| name.node == text));
     let Some(index) = index else {
         let names: Vec<&str> = players.iter().filter_map(|player| player.name.map(|name| name.node.as_str())).collect();
-        let message = format!("no player of the {team} team is called `{text}`");
-        let problem = Problem::new(Code::BadAgents, name.span, message, "not known");
-        lower.report(if crate::problem::nearest(&text, names.iter().copied()).is_some() {
-            problem.did_you_mean(&text, names)
-        } else if names.is_empty() {
-            problem.help("give the players names, `anna: CM at (0, 0)`, and list those: `[anna]`")
-        } else {
-            problem.help(format!("its players with names are `{}`", names.join("`, `")))
-        });
+        let (is_anyone, guess) = (!names.is_empty(), Guess::similar_or_all(&text, &names));
+        let fact = Players::NoSuchAgent { team, name: text, is_anyone, guess };
+        lower.report(Problem::new(name.span, fact));
         return None;
     };
     if controllable.get(index) == Some(&false) {
-        lower.report(
-            Problem::new(Code::BadAgents, name.span, format!("`{text}` is not `controllable`"), "")
-                .help("leave him out of the list, or leave `controllable: off` out of his options"),
-        );
+        lower.report(Problem::new(name.span, Players::NotControllable { name: text }));
         return None;
     }
     if known.contains(&(index as u8)) {
-        lower.report(
-            Problem::new(Code::BadAgents, name.span, format!("`{text}` is listed twice"), "")
-                .help("leave one of them out"),
-        );
+        lower.report(Problem::new(name.span, Players::ListedTwice { name: text }));
         return None;
     }
     Some(index as u8)
@@ -168,25 +149,17 @@ fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Sp
     let of_team = world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
     let controllable = of_team.filter(|(_, options)| options.controllable).count();
     let Some((_, most)) = lower.interval(*reg) else { return };
-    // Who is missing where a layout could not be read has been told.
+    // Who is missing where a layout could not be read has been reported.
     if most <= controllable as f64 || !world.whole_roster {
         return;
     }
     let name = world.flat.item.name.span;
-    let message = format!("{most} of the {team} team's players are asked for, {controllable} can be controlled");
-    let problem = |span: Span| Problem::new(Code::BadAgents, span, message, "");
-    lower.report(match at {
-        None => problem(name).help("without `agents { … }` one player of the left team is controlled"),
-        Some(at) if world.flat.is_inherited(at) => {
-            let cure =
-                format!("place them, `team {team} {{ CM at (0, 0) }}`, or ask for fewer: `agents {{ {team}: … }}`");
-            problem(name).label(at, "asked for here").help(cure)
-        }
-        Some(at) if controllable == 0 => {
-            problem(at).help(format!("place players in `team {team} {{ … }}`, or leave `{team}` out"))
-        }
-        Some(at) => problem(at).help(format!("write at most `{team}: {controllable}`, or `{team}: all`")),
-    });
+    let (span, place) = match at {
+        None => (name, AskedFor::Nowhere),
+        Some(at) if world.flat.is_inherited(at) => (name, AskedFor::Inherited(at)),
+        Some(at) => (at, AskedFor::Here),
+    };
+    lower.report(Problem::new(span, Players::TooManyAgents { team, asked: most, controllable, place }));
 }
 
 /// The one team that has agents; `None` if both have or none.

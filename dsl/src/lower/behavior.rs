@@ -13,7 +13,8 @@ use super::value::{Binding, Frame, Scope, Value};
 use super::{Lower, Stage, param};
 use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Assigned, Behaviors, Names};
+use crate::problem::{Guess, Problem};
 use crate::source::FileId;
 use setpiece_scenario::vocabulary::Primitive;
 use setpiece_scenario::{Act, Ai, Behavior, Distribution, Do, Node, PlayerSlot, Reg, Watch};
@@ -67,7 +68,7 @@ pub(crate) fn lower_behaviors<'w>(
         let name = match used {
             BehaviorUse::Named { item, args, scope, span } => {
                 writer.lower.scope = scope.clone();
-                writer.lower.start.draw_for(&format!("behavior {}", item.name.node));
+                writer.lower.streams.draw_for(&format!("behavior {}", item.name.node));
                 writer.run(item, args, *span);
                 item.name.node.clone()
             }
@@ -91,7 +92,7 @@ pub(crate) fn lower_behaviors<'w>(
     behaviors
 }
 
-/// Checks the behaviours of the root that no player of this scenario uses: their mistakes are told all the same.
+/// Checks the behaviours of the root that no player of this scenario uses: their mistakes are reported all the same.
 fn check_unused(step: &StepWorld<'_, '_>) {
     let world = step.world;
     let root = FileId(0);
@@ -117,15 +118,7 @@ pub(crate) fn report_names(items: &[Item], problems: &mut Vec<Problem>) {
     for item in items {
         let ItemKind::Behavior(BehaviorItem { name, .. }) = &item.kind else { continue };
         if Primitive::from_name(&name.node).is_some() {
-            problems.push(
-                Problem::new(
-                    Code::ReservedName,
-                    name.span,
-                    format!("`{}` is something that every behavior can do", name.node),
-                    "can't be declared again",
-                )
-                .help(format!("choose another name, for example `my_{}`", name.node)),
-            );
+            problems.push(Problem::new(name.span, Names::HidesPrimitive { name: name.node.clone() }));
         }
     }
 }
@@ -160,7 +153,7 @@ struct Call {
 
 impl<'c, 'w> Writer<'c, 'w> {
     fn new(step: &'c StepWorld<'c, 'w>) -> Writer<'c, 'w> {
-        let mut lower = Lower::in_step(step, Stage::Behavior, Scope::new(false, Frame::Own));
+        let mut lower = Lower::in_step(step, Stage::Behavior(None), Scope::new(false, Frame::Own));
         let us = lower.code.us();
         lower.team = Some(us);
         let (nodes, watches, states, calls) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -171,19 +164,17 @@ impl<'c, 'w> Writer<'c, 'w> {
     /// Writes a behaviour out; its arguments are read in the present scope.
     fn run(&mut self, item: &'w BehaviorItem, args: &'w [Arg], span: Span) {
         if self.calls.iter().any(|call| call.name == item.name.span) {
-            self.lower.report(
-                Problem::new(Code::Recursion, span, format!("`{}` uses itself", item.name.node), "closes the circle")
-                    .label(item.name.span, "declared here")
-                    .help("what is done again and again stands in a `repeat`"),
-            );
+            self.lower.report(Problem::new(
+                span,
+                Names::Recursion { name: item.name.node.clone(), declared: Some(item.name.span), is_behavior: true },
+            ));
             return;
         }
         self.written += 1;
         let deep = self.written > CALLS_MAX.0 || self.calls.len() >= CALLS_MAX.1;
         if deep || self.nodes.len() > NODES_MAX || self.watches.len() > WATCHES_MAX {
             if !self.too_large {
-                let message = format!("`{}` makes the behavior too large", item.name.node);
-                self.lower.report(Problem::new(Code::Impossible, span, message, "").help("call fewer behaviors"));
+                self.lower.report(Problem::new(span, Behaviors::TooLarge { name: item.name.node.clone() }));
             }
             self.too_large = true;
             return;
@@ -225,9 +216,9 @@ impl<'c, 'w> Writer<'c, 'w> {
 
     /// Runs `f`; the draws in what it reads happen before what comes next.
     fn drawing<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = self.lower.draws.replace(Vec::new());
+        let outer = std::mem::replace(&mut self.lower.stage, Stage::Behavior(Some(Vec::new())));
         let result = f(self);
-        let draws = std::mem::replace(&mut self.lower.draws, outer);
+        let Stage::Behavior(draws) = std::mem::replace(&mut self.lower.stage, outer) else { return result };
         for Draw { cell, count, key, from } in draws.into_iter().flatten() {
             self.nodes.push(Node::Draw { cell, count, key, from });
         }
@@ -277,21 +268,10 @@ impl<'c, 'w> Writer<'c, 'w> {
 
     /// Reports an assignment to what is no state.
     fn not_a_state(&self, name: &Ident) {
-        let problem = Problem::new(
-            Code::UnknownName,
-            name.span,
-            format!("no `state` is called `{}`", name.node),
-            "can't be assigned",
-        );
         let states: Vec<&str> = self.states.iter().map(|state| state.name).collect();
-        let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
-        self.lower.report(if near {
-            problem.did_you_mean(&name.node, states)
-        } else if self.lower.scope.find(&name.node).is_some() {
-            problem.help("only a `state` is assigned")
-        } else {
-            problem.help(format!("declare it at the top: `state {} = 0`", name.node))
-        });
+        let is = if self.lower.scope.find(&name.node).is_some() { Assigned::Value } else { Assigned::Nothing };
+        let guess = Guess::similar_or(&name.node, &states, &[]);
+        self.lower.report(Problem::new(name.span, Names::NotAState { name: name.node.clone(), is, guess }));
     }
 
     fn finish(self, name: String) -> Behavior {

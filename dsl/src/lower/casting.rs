@@ -4,7 +4,8 @@ use super::World;
 use super::roster::Rostered;
 use crate::ast::{Field, Ident};
 use crate::cast::CastTarget;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Names;
 use setpiece_scenario::vocabulary::Team;
 
 /// An `ai` from outside, read: `each all { ai: … }` in a text of its own.
@@ -27,12 +28,7 @@ pub(super) fn apply<'w>(world: &World<'w>, players: &mut [Rostered<'w>], team: T
         }
         match players.get_mut(place) {
             Some(player) => player.fields.push(cast.field),
-            None => world.report(Problem::new(
-                Code::UnknownName,
-                cast.who.span,
-                format!("the {team} team has no player {place}"),
-                "",
-            )),
+            None => world.report(Problem::new(cast.who.span, Names::NoSuchPlace { team: team.name(), place })),
         }
     }
 }

@@ -4,7 +4,8 @@ use super::step::StepWorld;
 use super::value::{Frame, Scope};
 use super::{Lower, Stage, script};
 use crate::ast::{EndCondition, ItemKind};
-use crate::problem::{Code, Problem, nearest};
+use crate::problem::facts::{Kind, Names, Rewards};
+use crate::problem::{Guess, Problem, nearest};
 use crate::resolve::FlatEnding;
 use setpiece_scenario::vocabulary::Verdict;
 use setpiece_scenario::{Ending, Endings, Reg};
@@ -24,10 +25,7 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
     }
     if list.is_empty() && world.flat.limit.is_none() {
         let name = &world.flat.item.name;
-        world.report(
-            Problem::new(Code::NoEnding, name.span, format!("an episode of `{}` never ends", name.node), "")
-                .help("write, for example, `end limit 400 steps`"),
-        );
+        world.report(Problem::new(name.span, Rewards::NeverEnds { scenario: name.node.clone() }));
     }
     let wanted: Vec<Reg> = list.iter().filter_map(|ending| ending.when).collect();
     let (program, layout) = lower.code.finish(&wanted);
@@ -46,15 +44,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
         && let Some(meant) = nearest(&label.name.node, Verdict::ALL.iter().map(|verdict| verdict.name()))
     {
         let name = &label.name.node;
-        lower.report(
-            Problem::new(
-                Code::LikelyTypo,
-                label.name.span,
-                format!("`{name}` is a label, no verdict"),
-                "neither success nor failure",
-            )
-            .help(format!("did you mean `{meant}`?")),
-        );
+        lower.report(Problem::new(label.name.span, Names::LikeAVerdict { label: name.clone(), meant }));
     }
     let label = match (ending.label, verdict) {
         (Some(label), _) => label.bare().to_owned(),
@@ -82,14 +72,9 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
                     .map(|(name, _)| name)
                     .collect();
                 let name = &reference.name.node;
-                let problem =
-                    Problem::new(Code::UnknownName, reference.name.span, format!("no `ending` is called `{name}`"), "");
-                let near = nearest(name, known.iter().copied()).is_some();
-                lower.report(if near {
-                    problem.did_you_mean(name, known)
-                } else {
-                    problem.help(format!("say when it ends: `end {name} when …`"))
-                });
+                let guess = Guess::similar_or(name, &known, &[]);
+                let fact = Names::Unknown { kind: Kind::Ending, name: name.clone(), guess };
+                lower.report(Problem::new(reference.name.span, fact));
                 return None;
             };
             lower.world.mark_used(at);
@@ -99,10 +84,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
             lowered.when = Some(reg);
         }
         (None, None) => {
-            lower.report(
-                Problem::new(Code::Syntax, ending.span, "the ending doesn't say when", "")
-                    .help("write, for example, `end success when goal by left`"),
-            );
+            lower.report(Problem::new(ending.span, Rewards::EndsWhen));
             return None;
         }
     }

@@ -17,7 +17,8 @@ use super::value::{Frame, Repr, Value};
 use super::{DEPTH_MAX, Lower};
 use crate::ast::{Expr, ExprKind, Span, UnaryOp};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Calls, Instead, Operand, Scopes, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::Unit;
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp as WorldOp};
@@ -40,10 +41,7 @@ impl<'w> Lower<'_, 'w> {
         self.depth += 1;
         let value = if self.depth > DEPTH_MAX {
             if self.depth == DEPTH_MAX + 1 {
-                self.report(
-                    Problem::new(Code::TooDeep, expr.span, "the expression is nested too deeply", "")
-                        .help("name a part of it with `let`"),
-                );
+                self.report(Problem::new(expr.span, Calls::TooDeep));
             }
             Value::error()
         } else {
@@ -86,10 +84,7 @@ impl<'w> Lower<'_, 'w> {
     fn number(&mut self, value: f64, is_int: bool, unit: Option<Unit>, span: Span) -> Value<'w> {
         let si = unit.map_or(value, |unit| unit.si(value));
         if !si.is_finite() {
-            return self.fail(
-                Problem::new(Code::Impossible, span, "the number is too large", "")
-                    .help("the pitch is 110m by 72m: write less"),
-            );
+            return self.fail(Problem::new(span, Types::NumberTooLarge));
         }
         let reg = self.code.constant(si);
         let ty = match unit {
@@ -102,10 +97,7 @@ impl<'w> Lower<'_, 'w> {
 
     fn own(&mut self, inner: &'w Expr, span: Span) -> Value<'w> {
         if self.team.is_none() {
-            return self.fail(
-                Problem::new(Code::WrongScope, span, "`own` needs a team", "no team is known here")
-                    .help("use it in a `team`, a `formation` or a `reward`; elsewhere write world coordinates"),
-            );
+            return self.fail(Problem::new(span, Scopes::OwnWithoutTeam));
         }
         if let Some(path) = path_of(inner) {
             let team = self.team.map_or_else(Value::error, |team| Value::one(Ty::Team, team));
@@ -132,32 +124,23 @@ impl<'w> Lower<'_, 'w> {
         if let Some(at) = kinds.iter().position(Option::is_none) {
             let (ty, at) = (values.get(at).map_or(Ty::Error, |value| value.ty), parts.get(at));
             let wanted = if kinds.contains(&Some(Ty::SPEED)) { Ty::SPEED } else { Ty::LENGTH };
-            let mut problem = self.mismatch(ty, wanted, at.map_or(span, |part| part.span));
-            problem.help = Some("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`".to_owned());
-            return self.fail(problem);
+            let span = at.map_or(span, |part| part.span);
+            return self.fail(self.mismatch_with(ty, wanted, span, Instead::Coordinate));
         }
         let kinds: Vec<Ty> = kinds.into_iter().flatten().collect();
         let first = kinds.first().copied().unwrap_or(Ty::Number);
         // The height of a normalised point is in metres, as the frame has no scale for it.
         let wanted = |i: usize| if i == 2 && first == Ty::Number { Ty::LENGTH } else { first };
         if let Some(at) = (0..kinds.len()).find(|&i| kinds.get(i) != Some(&wanted(i))) {
-            let text = |i: usize| parts.get(i).map_or(String::new(), |part| self.world.text(part.span));
             let spans = (parts.first().map_or(span, |p| p.span), parts.get(at).map_or(span, |p| p.span));
-            let noun = |i: usize| values.get(i).map_or(String::new(), |value| value.ty.noun());
-            return self.fail(
-                Problem::new(
-                    Code::MixedUnits,
-                    spans.1,
-                    format!("`{}` is {}, `{}` {}: a point has one unit", text(0), noun(0), text(at), noun(at)),
-                    noun(at),
-                )
-                .label(spans.0, noun(0))
-                .help(if at == 2 {
-                    "a place on the pitch has two coordinates; a third is a height, `1m`"
-                } else {
-                    "write both coordinates normalised, `(0.5, 0.1)`, or both in metres, `(27m, 8m)`"
-                }),
-            );
+            let operand = |i: usize, span: Span| Operand {
+                ty: values.get(i).map_or(Ty::Error, |value| value.ty),
+                text: self.world.text(span),
+                span,
+                is_quoted: false,
+            };
+            let (first, other) = (operand(0, spans.0), operand(at, spans.1));
+            return self.fail(Problem::new(spans.1, Types::MixedPoint { first, other, is_height: at == 2 }));
         }
         let regs: Vec<Reg> = values.iter().flat_map(Value::regs).collect();
         let (Some(&x), Some(&y)) = (regs.first(), regs.get(1)) else { return Value::error() };
@@ -207,20 +190,13 @@ impl<'w> Lower<'_, 'w> {
         self.condition_or(expr, |_, _| None)
     }
 
-    /// A truth value; `help` knows a better form for some values that are none.
-    fn condition_or(&mut self, expr: &'w Expr, help: impl FnOnce(&Self, Ty) -> Option<String>) -> Reg {
+    /// A truth value; `better` knows what was meant by some values that are none.
+    fn condition_or(&mut self, expr: &'w Expr, better: impl FnOnce(&Self, Ty) -> Option<String>) -> Reg {
         let value = self.expr(expr);
         if !value.is_error() && value.ty != Ty::Bool {
-            let mut problem = self.mismatch(value.ty, Ty::Bool, expr.span);
-            problem.help = help(self, value.ty).or_else(|| {
-                Some(match value.ty {
-                    Ty::Team | Ty::Player => "compare it, as in `possession == left`, or write `… has ball`".to_owned(),
-                    ty if ty.dim().is_some() => "compare it with something: `… > 0`".to_owned(),
-                    ty if ty.is_place() || ty == Ty::Region => "ask where something is: `ball in right.box`".to_owned(),
-                    _ => "write a condition, for example `us has ball`".to_owned(),
-                })
-            });
-            self.report(problem);
+            let condition = better(self, value.ty);
+            let instead = condition.map_or(Instead::Condition, |condition| Instead::Repeated { condition });
+            self.report(self.mismatch_with(value.ty, Ty::Bool, expr.span, instead));
             return self.code.unknown();
         }
         self.reg(&value)

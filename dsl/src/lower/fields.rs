@@ -2,7 +2,8 @@
 
 use super::Lower;
 use crate::ast::{Expr, Field, FieldValue};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Names, Types};
+use crate::problem::{Guess, Problem};
 
 /// The fields of a list that are known; reports the others.
 pub(super) fn known_fields<'w>(
@@ -20,14 +21,9 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
     if known.contains(&key) {
         return true;
     }
-    let problem =
-        Problem::new(Code::UnknownOption, field.key.span, format!("{whose} has no option `{key}`"), "not known");
-    let near = crate::problem::nearest(key, known.iter().copied()).is_some();
-    lower.report(if near {
-        problem.did_you_mean(key, known.iter().copied())
-    } else {
-        problem.help(format!("it has `{}`", known.join("`, `")))
-    });
+    let guess = Guess::similar_or_all(key, known);
+    let fact = Names::NoOption { whose: whose.to_owned(), option: key.to_owned(), guess };
+    lower.report(Problem::new(field.key.span, fact));
     false
 }
 
@@ -38,9 +34,6 @@ pub(super) fn expression<'w>(lower: &Lower<'_, 'w>, field: &'w Field) -> Option<
         FieldValue::Fields(_, span) => *span,
         FieldValue::Script(script) => script.span,
     };
-    lower.report(
-        Problem::new(Code::WrongType, span, format!("`{}` is one value", field.key.node), "")
-            .help(format!("write `{}: …`", field.key.node)),
-    );
+    lower.report(Problem::new(span, Types::OneValue { option: field.key.node.clone() }));
     None
 }

@@ -3,7 +3,8 @@
 use super::value::Scope;
 use super::{Lower, World};
 use crate::ast::{Ident, ItemKind, Span};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Names;
 use crate::source::FileId;
 
 /// What a name meant before.
@@ -63,16 +64,10 @@ fn of_file(world: &World<'_>, file: FileId, name: &str) -> Option<Hidden> {
 }
 
 fn warn(world: &World<'_>, name: &str, at: Span, hidden: impl FnOnce() -> Option<Hidden>) {
-    // Another file's warnings are told where that file is checked.
+    // Another file's warnings are reported where that file is checked.
     if at.file != FileId(0) {
         return;
     }
     let Some(Hidden { what, at: before }) = hidden().filter(|hidden| hidden.at != Some(at)) else { return };
-    let problem =
-        Problem::new(Code::HidingName, at, format!("`{name}` hides {what} of this name"), "hides it from here");
-    let problem = match before {
-        Some(before) => problem.label(before, "hidden here"),
-        None => problem,
-    };
-    world.report(problem.help(format!("choose another name, for example `my_{name}`")));
+    world.report(Problem::new(at, Names::Hides { name: name.to_owned(), what, hidden: before }));
 }

@@ -1,12 +1,13 @@
 //! `mirror: flanks` and `mirror: ends`: the same scenario with y or both ends exchanged.
 //!
-//! What the author writes keeps its meaning for him: literals, coordinates, angles, landmarks and directions are read in
+//! What the author writes keeps its meaning: literals, coordinates, angles, landmarks and directions are read in
 //! the mirror, wherever they stand. `flanks` reflects y, so that left backs become right backs; `ends` turns the pitch
 //! by 180° and exchanges the teams.
 
 use super::Lower;
 use crate::ast::Ident;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Bounds;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Reg, UnaryOp};
 
@@ -31,10 +32,7 @@ impl Mirror {
             // Undoes what is inherited.
             "none" | "off" => Mirror::Off,
             other => {
-                problems.push(
-                    Problem::new(Code::OutOfRange, word.span, format!("`mirror` is never `{other}`"), "")
-                        .help("write `mirror: flanks`, `mirror: ends` or `mirror: none`"),
-                );
+                problems.push(Problem::new(word.span, Bounds::Mirror { word: other.to_owned() }));
                 Mirror::Off
             }
         }

@@ -5,7 +5,8 @@ use super::value::{Frame, Repr, Scope};
 use super::{Lower, Stage};
 use crate::ast::Expr;
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Instead, Names, Rewards};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Observation, ObservedValue, Reg};
 
@@ -23,19 +24,12 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
     for (expr, label) in observed {
         let name = label.as_ref().map_or_else(|| world.text(expr.span), |label| label.node.clone());
         if let Some(label) = label.as_ref().filter(|label| values.iter().any(|(known, _)| *known == label.node)) {
-            let message = format!("`{}` is observed twice", label.node);
-            world.report(
-                Problem::new(Code::DuplicateName, label.span, message, "named again here")
-                    .help("choose another label: `… as \"label\"`"),
-            );
+            world.report(Problem::new(label.span, Names::ObservedTwice { label: label.node.clone() }));
         }
         values.extend(lower.observed(expr, &name));
     }
     if observed.is_empty() || values.len() > NUMBERS_MAX {
-        world.report(
-            Problem::new(Code::WrongArguments, span, format!("an observation has 1 to {NUMBERS_MAX} numbers"), "")
-                .help("write, for example, `observe vector { ball.x, ball.y, distance(me, ball) / 10m }`"),
-        );
+        world.report(Problem::new(span, Rewards::Numbers { most: NUMBERS_MAX }));
     }
     let regs: Vec<Reg> = values.iter().map(|(_, reg)| *reg).collect();
     let (program, layout) = lower.code.finish(&regs);
@@ -62,8 +56,7 @@ impl<'w> Lower<'_, 'w> {
             (Repr::One(reg), Ty::Bool | Ty::Team | Ty::Mode | Ty::Role) => vec![(name.to_owned(), *reg)],
             (Repr::One(reg), ty) if ty.dim().is_some() => vec![(name.to_owned(), *reg)],
             _ => {
-                let problem = self.mismatch(value.ty, Ty::Number, expr.span);
-                self.report(problem.help("an observation holds numbers, quantities, conditions, places and vectors"));
+                self.report(self.mismatch_with(value.ty, Ty::Number, expr.span, Instead::Observed));
                 Vec::new()
             }
         }

@@ -5,7 +5,8 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, World};
 use crate::ast::{Domain, Expr, Ident, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
+use crate::problem::{Guess, Problem};
 use crate::resolve::FlatParam;
 use setpiece_scenario::Param;
 use setpiece_scenario::vocabulary::Type;
@@ -50,12 +51,8 @@ pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
     match Type::from_name(ty.node.trim_end_matches('?')) {
         Some(Type::Behavior) | None => {
             let known: Vec<&str> = Type::ALL.iter().filter(|ty| **ty != Type::Behavior).map(|ty| ty.name()).collect();
-            let problem = Problem::new(Code::UnknownName, ty.span, format!("no type is called `{}`", ty.node), "");
-            world.report(if crate::problem::nearest(&ty.node, known.iter().copied()).is_some() {
-                problem.did_you_mean(&ty.node, known)
-            } else {
-                problem.help(format!("the types are `{}`", known.join("`, `")))
-            });
+            let guess = Guess::similar_or_all(&ty.node, &known);
+            world.report(Problem::new(ty.span, Names::Unknown { kind: Kind::Type, name: ty.node.clone(), guess }));
             Ty::Error
         }
         Some(ty) => Ty::of(ty),
@@ -99,15 +96,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         if world.flat.item.is_abstract {
             return info;
         }
-        world.report(
-            Problem::new(
-                Code::WrongArguments,
-                decl.name.span,
-                format!("parameter `{}` has no value", decl.name.node),
-                "",
-            )
-            .help("give it a default: `= 0.5`"),
-        );
+        world.report(Problem::new(decl.name.span, Bounds::NoValue { parameter: decl.name.node.clone() }));
         return info;
     };
     if flat.is_argument && !is_constant(world, expr) {
@@ -133,11 +122,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         return info;
     }
     let Some(ty) = info.ty.param() else {
-        let message = format!("a parameter can't be {}", value.ty.noun());
-        world.report(
-            Problem::new(Code::WrongType, expr.span, message, "")
-                .help("a parameter is a number, a quantity, a condition, a team or a word; use `let` for others"),
-        );
+        world.report(Problem::new(expr.span, Types::NoParameter { ty: value.ty }));
         return info;
     };
     info.param.ty = ty;
@@ -156,13 +141,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
 }
 
 fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
-    Problem::new(
-        Code::NotConstant,
-        expr.span,
-        format!("`{}` is not known before the start", world.text(expr.span)),
-        "a default must be a constant",
-    )
-    .help("use `let` for what is drawn or computed")
+    Problem::new(expr.span, Chance::DefaultNotConstant { text: world.text(expr.span) })
 }
 
 fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
@@ -213,15 +192,7 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
             };
             if least > greatest {
                 let span = low.span.to(high.span);
-                world.report(
-                    Problem::new(
-                        Code::OutOfRange,
-                        span,
-                        format!("the range `{}` is empty", world.text(span)),
-                        "its end lies before its begin",
-                    )
-                    .help("write the lower end first"),
-                );
+                world.report(Problem::new(span, Bounds::EmptyRange { text: world.text(span) }));
                 return;
             }
             info.param.range = Some((least, greatest));
@@ -240,19 +211,15 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
             Some(Domain::List(_, span)) => world.text(*span),
             None => String::new(),
         };
-        world.report(
-            Problem::new(
-                Code::OutOfRange,
-                default,
-                format!("`{}` is outside `{allowed}`", world.text(default)),
-                if is_argument {
-                    format!("given to `{}`", info.param.name)
-                } else {
-                    format!("the default of `{}`", info.param.name)
-                },
-            )
-            .help(format!("write a value in `{allowed}`")),
-        );
+        world.report(Problem::new(
+            default,
+            Bounds::OutsideDomain {
+                text: world.text(default),
+                allowed,
+                parameter: info.param.name.clone(),
+                is_argument,
+            },
+        ));
     }
 }
 
@@ -269,25 +236,18 @@ fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: S
             }
         }
         Some(Domain::Range(low, high)) => {
-            world.report(
-                Problem::new(Code::WrongType, low.span.to(high.span), "words have no range".to_owned(), "")
-                    .help("list them: `in [\"wing\", \"centre\"]`"),
-            );
+            world.report(Problem::new(low.span.to(high.span), Types::WordsHaveNoRange));
             return;
         }
         None => words.push(default.to_owned()),
     }
     match words.iter().position(|word| word == default) {
         Some(index) => info.param.default = index as f64,
-        None => world.report(
-            Problem::new(
-                Code::OutOfRange,
-                at,
-                format!("`{default}` is none of the words `{}` may be", info.param.name),
-                "",
-            )
-            .did_you_mean(default, words.iter().map(String::as_str)),
-        ),
+        None => world.report({
+            let guess = Guess::of(default, words.iter().map(String::as_str));
+            let parameter = Some(info.param.name.clone());
+            Problem::new(at, Names::NoneOfItsWords { word: default.to_owned(), parameter, guess })
+        }),
     }
     info.choices = Rc::from(words.clone());
     info.param.choices = words;

@@ -6,7 +6,8 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Instead, Players};
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
 
@@ -22,7 +23,7 @@ pub(crate) enum Found<T> {
     Done(T),
 }
 
-/// What a place is seen from: whom directions are relative to.
+/// What a place is seen from: the player or team that directions are relative to.
 #[derive(Clone, Copy)]
 enum View {
     /// A player of the roster.
@@ -37,8 +38,8 @@ impl<'w> Lower<'_, 'w> {
         match (value.ty, &value.repr) {
             (_, Repr::Two(x, y) | Repr::Three(x, y, _)) => (*x, *y),
             (Ty::Player, Repr::One(reg)) if self.stage.is_step() => self.player_place(*reg),
-            (Ty::Player, Repr::One(reg)) if self.stage == Stage::Start => self.start_place(*reg, span),
-            (Ty::Ball, _) if self.stage == Stage::Start => self.ball_place(span),
+            (Ty::Player, Repr::One(reg)) if matches!(self.stage, Stage::Start(_)) => self.start_place(*reg, span),
+            (Ty::Ball, _) if matches!(self.stage, Stage::Start(_)) => self.ball_place(span),
             (Ty::Player | Ty::Ball, _) => {
                 let (fx, fy, of) = match (value.ty, &value.repr) {
                     (Ty::Player, Repr::One(reg)) => (Field::PlayerX, Field::PlayerY, Some(*reg)),
@@ -53,7 +54,7 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    /// The place of what has none: a problem has been told.
+    /// The place of what has none: a problem has been reported.
     fn nowhere(&mut self) -> (Reg, Reg) {
         let unknown = self.code.unknown();
         (unknown, unknown)
@@ -76,21 +77,13 @@ impl<'w> Lower<'_, 'w> {
             let (a, b) = (self.start_place(a, span), self.start_place(b, span));
             return (self.code.select(c, a.0, b.0), self.code.select(c, a.1, b.1));
         }
-        self.report(
-            Problem::new(
-                Code::NoPlace,
-                span,
-                format!("`{}` may be nobody, who has no place", self.world.text(span)),
-                "whose place?",
-            )
-            .help("let it be a player in every case, or write a place: `at (0.5, 0)`"),
-        );
+        self.report(Problem::new(span, Players::MayBeNobody { text: self.world.text(span) }));
         self.nowhere()
     }
 
     /// The start place of a player of the roster, computed when it is first asked for.
     pub(crate) fn place_of_rostered(&mut self, index: usize, asked: Span) -> (Reg, Reg) {
-        match self.start.places.get(index).copied() {
+        match self.start().and_then(|start| start.places.get(index).copied()) {
             Some(Found::Done(place)) => return place,
             Some(Found::Todo) => {}
             Some(Found::Busy) => {
@@ -99,31 +92,23 @@ impl<'w> Lower<'_, 'w> {
             }
             None => return self.nowhere(),
         }
-        if let Some(slot) = self.start.places.get_mut(index) {
+        if let Some(slot) = self.start_mut().and_then(|start| start.places.get_mut(index)) {
             *slot = Found::Busy;
         }
         let place = self.compute_player(index);
-        if let Some(slot) = self.start.places.get_mut(index) {
+        if let Some(slot) = self.start_mut().and_then(|start| start.places.get_mut(index)) {
             *slot = Found::Done(place);
         }
         place
     }
 
     fn cyclic(&self, asked: Span) {
-        self.report(
-            Problem::new(
-                Code::CyclicPlace,
-                asked,
-                "this place depends on itself",
-                format!("`{}` is placed by what is placed here", self.world.text(asked)),
-            )
-            .help("give one of them a place of its own: `at (x, y)`"),
-        );
+        self.report(Problem::new(asked, Players::PlaceInCircle { text: self.world.text(asked) }));
     }
 
     /// The ball's start place.
     pub(crate) fn ball_place(&mut self, asked: Span) -> (Reg, Reg) {
-        match self.start.ball {
+        match self.start().map_or(Found::Todo, |start| start.ball) {
             Found::Done(place) => return place,
             Found::Busy => {
                 self.cyclic(asked);
@@ -131,13 +116,19 @@ impl<'w> Lower<'_, 'w> {
             }
             Found::Todo => {}
         }
-        self.start.ball = Found::Busy;
+        self.set_ball(Found::Busy);
         let place = match self.world.flat.ball {
             Some((ball, _)) => self.drawing("ball", |lower| lower.compute_ball(ball)),
             None => self.place_of_start().unwrap_or_else(|| self.nowhere()),
         };
-        self.start.ball = Found::Done(place);
+        self.set_ball(Found::Done(place));
         place
+    }
+
+    fn set_ball(&mut self, ball: Found<(Reg, Reg)>) {
+        if let Some(start) = self.start_mut() {
+            start.ball = ball;
+        }
     }
 
     fn compute_ball(&mut self, ball: &'w BallStmt) -> (Reg, Reg) {
@@ -164,7 +155,7 @@ impl<'w> Lower<'_, 'w> {
                 let first = lower.first_team();
                 let team = lower.code.constant(player.team.index() as f64);
                 let kicks = lower.code.binary(BinaryOp::Eq, first, team);
-                if let Some(slot) = lower.start.layouts.get_mut(index) {
+                if let Some(slot) = lower.start_mut().and_then(|start| start.layouts.get_mut(index)) {
                     *slot = Some((place, other));
                 }
                 (lower.code.select(kicks, place.0, other.0), lower.code.select(kicks, place.1, other.1))
@@ -172,7 +163,7 @@ impl<'w> Lower<'_, 'w> {
         })
     }
 
-    /// A player's place in one of his team's layouts.
+    /// A player's place in one of their team's layouts.
     fn player_stand(&mut self, player: &Rostered<'w>, stand: &Stand<'w>) -> (Reg, Reg) {
         let (place, scope) = match stand {
             Stand::At(place, scope) => (*place, scope),
@@ -221,12 +212,13 @@ impl<'w> Lower<'_, 'w> {
                 let value = self.expr(point);
                 if value.ty == Ty::Region {
                     let text = self.world.text(point.span);
-                    self.report(self.mismatch(value.ty, Ty::Point, point.span).help(format!("write `in {text}`")));
+                    let instead = Instead::In { text };
+                    self.report(self.mismatch_with(value.ty, Ty::Point, point.span, instead));
                     return self.nowhere();
                 }
                 if value.ty.dim().is_some() {
-                    let help = "a point stands in brackets: `at (0.5, 0.1)`";
-                    self.report(self.mismatch(value.ty, Ty::Point, point.span).help(help));
+                    let instead = Instead::PointInBrackets;
+                    self.report(self.mismatch_with(value.ty, Ty::Point, point.span, instead));
                     return self.nowhere();
                 }
                 let value = self.convert(value, Ty::Point, point);
@@ -236,7 +228,8 @@ impl<'w> Lower<'_, 'w> {
                 let value = self.expr(region);
                 if value.ty.is_place() {
                     let text = self.world.text(region.span);
-                    self.report(self.mismatch(value.ty, Ty::Region, region.span).help(format!("write `at {text}`")));
+                    let instead = Instead::At { text };
+                    self.report(self.mismatch_with(value.ty, Ty::Region, region.span, instead));
                     return self.nowhere();
                 }
                 let drawn = self.as_region(value, region).and_then(|found| self.draw_in(&found, region.span));
@@ -301,7 +294,7 @@ impl<'w> Lower<'_, 'w> {
         (self.code.binary(BinaryOp::Add, from.0, dx), self.code.binary(BinaryOp::Add, from.1, dy))
     }
 
-    /// The unit vector that points ahead: the explicit facing of a player, else his team's attack.
+    /// The unit vector that points ahead: the explicit facing of a player, else their team's attack.
     fn ahead(&mut self, view: View, asked: Span) -> (Reg, Reg) {
         let world = self.world;
         let player = match view {
@@ -326,17 +319,18 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Whether a player faces what is just being placed: `ball behind striker` and `striker … facing ball` then mean
-    /// the direction of his attack.
+    /// the direction of the player's attack.
     fn is_being_placed(&self, facing: &Facing) -> bool {
         let crate::ast::ExprKind::Name(name) = &facing.target.kind else { return false };
-        let roster = self.world.roster.iter().zip(&self.start.places);
+        let Some(start) = self.start() else { return false };
+        let roster = self.world.roster.iter().zip(&start.places);
         let mut placed = roster.filter(|(player, _)| player.name.is_some_and(|known| known.node == *name));
-        (name == "ball" && self.start.ball == Found::Busy) || placed.any(|(_, place)| *place == Found::Busy)
+        (name == "ball" && start.ball == Found::Busy) || placed.any(|(_, place)| *place == Found::Busy)
     }
 
-    /// The heading a player of the roster was told to face, radians in the world frame.
+    /// The heading that a player of the roster faces, radians in the world frame.
     pub(crate) fn heading_of(&mut self, index: usize, asked: Span) -> Option<Reg> {
-        match self.start.headings.get(index).copied()? {
+        match self.start()?.headings.get(index).copied()? {
             Found::Done(heading) => return Some(heading),
             Found::Busy => {
                 self.cyclic(asked);
@@ -347,12 +341,12 @@ impl<'w> Lower<'_, 'w> {
         let world = self.world;
         let player = world.roster.get(index)?;
         let facing = player.facing?;
-        *self.start.headings.get_mut(index)? = Found::Busy;
+        *self.start_mut()?.headings.get_mut(index)? = Found::Busy;
         let heading = self.for_team(player.team.index() as f64, |lower| {
             let name = format!("{} facing", player.stream());
             lower.drawing(&name, |lower| lower.within(player.scope.clone(), |lower| lower.facing(facing, index)))
         });
-        *self.start.headings.get_mut(index)? = Found::Done(heading);
+        *self.start_mut()?.headings.get_mut(index)? = Found::Done(heading);
         Some(heading)
     }
 
@@ -362,9 +356,8 @@ impl<'w> Lower<'_, 'w> {
             let angle = self.reg(&value);
             self.turned_angle(angle)
         } else if value.ty.is_plain() {
-            let mut problem = self.mismatch(value.ty, Ty::ANGLE, facing.target.span);
-            problem.help = Some(format!("write an angle, `{}deg`, or a point", self.world.text(facing.target.span)));
-            self.fail(problem);
+            let instead = Instead::Facing { text: self.world.text(facing.target.span) };
+            self.report(self.mismatch_with(value.ty, Ty::ANGLE, facing.target.span, instead));
             return self.code.constant(0.0);
         } else {
             let target = self.convert(value, Ty::Point, &facing.target);
@@ -373,10 +366,7 @@ impl<'w> Lower<'_, 'w> {
             let constant = |place: (Reg, Reg)| Some((self.code.constant_of(place.0)?, self.code.constant_of(place.1)?));
             let same = target == here || constant(target).is_some_and(|known| constant(here) == Some(known));
             if same && !self.code.is_unknown(here.0) {
-                self.report(
-                    Problem::new(Code::Impossible, facing.target.span, "nobody can face the spot he stands on", "")
-                        .help("face another place, or an angle: `facing 90deg`"),
-                );
+                self.report(Problem::new(facing.target.span, Players::FacesItself));
             }
             let dx = self.code.binary(BinaryOp::Sub, target.0, here.0);
             let dy = self.code.binary(BinaryOp::Sub, target.1, here.1);

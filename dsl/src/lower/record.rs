@@ -8,7 +8,8 @@ use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, Stage};
 use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Instead, Scopes};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Record, Reg};
 
@@ -18,7 +19,7 @@ pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
 }
 
 fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Record> {
-    let mut lower = Lower::in_step(step, Stage::Record, Scope::new(true, Frame::World));
+    let mut lower = Lower::in_step(step, Stage::Record(Remembered::default()), Scope::new(true, Frame::World));
     if let Some(team) = step.agents {
         let team = lower.code.constant(team.index() as f64);
         lower.team = Some(team);
@@ -29,12 +30,22 @@ fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Re
     };
     let value = lower.expr(expr);
     let values = lower.measured(&value, expr)?;
-    // A program that knows whom it is for is run for each.
-    let me = lower.per_agent.then(|| lower.code.me());
+    // A program that reads `me` runs once per agent.
+    let per_agent = matches!(&lower.stage, Stage::Record(remembered) if remembered.per_agent);
+    let me = per_agent.then(|| lower.code.me());
     let roots: Vec<Reg> = values.iter().copied().chain(me).collect();
     let (program, layout) = lower.code.finish(&roots);
     let values = values.iter().map(|&reg| layout.reg(reg)).collect();
     Some(Record { name: binding.name.node.clone(), program, values, series })
+}
+
+/// What a record keeps of the rewards that it reads.
+#[derive(Default)]
+pub(crate) struct Remembered<'w> {
+    /// The rewards whose states it reads, each with their scope; `None` after a report.
+    pub(crate) rewards: Vec<(String, Option<Scope<'w>>)>,
+    /// Whether it must be kept for each agent, whatever it reads.
+    pub(crate) per_agent: bool,
 }
 
 impl<'w> Lower<'_, 'w> {
@@ -52,8 +63,7 @@ impl<'w> Lower<'_, 'w> {
             (Repr::One(reg), Ty::Bool | Ty::Team) => Some(vec![*reg]),
             (Repr::One(reg), ty) if ty.dim().is_some() => Some(vec![*reg]),
             _ => {
-                let problem = self.mismatch(value.ty, Ty::Number, expr.span);
-                self.report(problem.help("a record holds a number, a length, a duration, a place or a condition"));
+                self.report(self.mismatch_with(value.ty, Ty::Number, expr.span, Instead::Recorded));
                 None
             }
         }
@@ -61,15 +71,11 @@ impl<'w> Lower<'_, 'w> {
 
     /// `count of EVENT`, `max of E`: over the episode so far.
     pub(super) fn over_episode(&mut self, kind: &'w Ident, of: &'w Expr, span: Span) -> Value<'w> {
-        if self.stage != Stage::Record || kind.node == "series" {
-            let alone = kind.node == "series" && self.stage == Stage::Record;
-            let message = if alone {
-                "`series of …` stands alone".to_owned()
-            } else {
-                format!("`{} of …` looks at the whole episode", kind.node)
-            };
-            let help = if alone { "write `record NAME = series of …`" } else { "it belongs to a `record`" };
-            return self.fail(Problem::new(Code::WrongScope, span, message, "").help(help));
+        if !matches!(self.stage, Stage::Record(_)) || kind.node == "series" {
+            let alone = kind.node == "series" && matches!(self.stage, Stage::Record(_));
+            let kind = kind.node.clone();
+            let fact = if alone { Scopes::SeriesStandsAlone } else { Scopes::OverEpisode { kind } };
+            return self.fail(Problem::new(span, fact));
         }
         let loops = self.code.leave_loops();
         let event = self.event.take();
@@ -126,8 +132,8 @@ impl<'w> Lower<'_, 'w> {
         match value.repr {
             Repr::One(reg) if value.ty.dim().is_some() => Some(vec![reg]),
             _ => {
-                let problem = self.mismatch(value.ty, Ty::Number, of.span);
-                self.report(problem.help(format!("`{kind} of` takes a number, a length, a duration, …")));
+                let instead = Instead::Measured { kind: kind.to_owned() };
+                self.report(self.mismatch_with(value.ty, Ty::Number, of.span, instead));
                 None
             }
         }

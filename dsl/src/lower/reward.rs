@@ -11,7 +11,8 @@ use crate::ast::{
     Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
 };
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Chance, Kind, Names, Rewards};
+use crate::problem::{Guess, Problem};
 use crate::resolve::reward_chain;
 use crate::source::FileId;
 use setpiece_scenario::{Program, Reg, Reward, RewardBody};
@@ -65,7 +66,7 @@ impl<'w> Written<'w> {
         for (index, (link, args)) in self.links.iter().enumerate() {
             // Arguments are read where the reward is used: in the scenario, in the world's frame.
             let in_scenario = index + 1 == self.links.len();
-            let now = lower.stage == Stage::Reward;
+            let now = matches!(lower.stage, Stage::Reward);
             lower.within(Scope::new(in_scenario, Frame::World), |lower| {
                 lower.bind_params(&link.name.node, &link.params, args, self.span, &mut scope, now);
             });
@@ -124,22 +125,14 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
         .filter(|(_, found)| matches!(found.item.kind, ItemKind::Reward(_)))
         .map(|(name, _)| name)
         .collect();
-    let problem = Problem::new(Code::UnknownName, span, format!("no reward is called `{name}`"), "not known");
-    let near = crate::problem::nearest(name, known.iter().copied()).is_some();
-    world.report(if near {
-        problem.did_you_mean(name, known)
-    } else {
-        problem.help(format!("declare it, `reward {name} {{ give … }}`, or use one of `{}`", known.join("`, `")))
-    });
+    let guess = Guess::similar_or_all(name, &known);
+    world.report(Problem::new(span, Names::Unknown { kind: Kind::Reward, name: name.to_owned(), guess }));
 }
 
 /// Warns of a weight that is 0, whatever the parameters are.
 fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
     if matches!(weight.kind, ExprKind::Number { value: 0.0, .. }) {
-        world.report(
-            Problem::new(Code::NeverPays, weight.span, format!("reward `{name}` never pays"), "times 0")
-                .help("write another weight, or leave the reward out"),
-        );
+        world.report(Problem::new(weight.span, Rewards::WeightZero { reward: name.to_owned() }));
     }
 }
 
@@ -219,10 +212,7 @@ fn lower_written<'w>(
     for arg in hooks.iter_mut().flat_map(|hook| &mut hook.args) {
         arg.regs.iter_mut().for_each(|reg| *reg = layout.reg(*reg));
         if arg.regs.iter().any(|reg| !fixed.get(reg.index()).copied().unwrap_or_default()) {
-            world.report(
-                Problem::new(Code::NotConstant, written.span, format!("`{}` changes within an episode", arg.name), "")
-                    .help("a script's parameter is fixed for an episode; what changes it reads from `now`"),
-            );
+            world.report(Problem::new(written.span, Chance::ScriptParameterChanges { name: arg.name.clone() }));
         }
     }
     init.cells = step.cells;

@@ -1,5 +1,6 @@
 //! Who plays: formations and players of both teams as one list.
 
+use super::start::StartState;
 use super::value::{Frame, Repr, Scope, Value};
 use super::{Lower, World, casting};
 use crate::ast::{
@@ -7,7 +8,8 @@ use crate::ast::{
 };
 use crate::cast::CastTarget;
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names, Players, Types};
+use crate::problem::{Guess, Problem};
 use crate::resolve::{FlatTeam, formation_chain};
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
@@ -140,15 +142,14 @@ const WRITTEN_MAX: usize = 4 * TEAM_MAX;
 /// Whether a team may write a further player; reports one that it may not.
 fn has_room(world: &World<'_>, players: &[Rostered<'_>], span: Span, team: Team) -> bool {
     if players.len() >= WRITTEN_MAX {
-        let message = format!("more than {WRITTEN_MAX} players are written for the {team} team");
-        let problem = Problem::new(Code::TooManyPlayers, span, message, "one too many");
-        world.report(problem.help(format!("a team has at most {TEAM_MAX} players: leave the others out")));
+        let fact = Players::TooManyWritten { team, most: WRITTEN_MAX, team_max: TEAM_MAX };
+        world.report(Problem::new(span, fact));
     }
     players.len() < WRITTEN_MAX
 }
 
 fn not_a_formation(span: Span) -> Problem {
-    Problem::new(Code::WrongType, span, "expected a formation", "").help("write the name of a `formation`")
+    Problem::new(span, Types::NoFormation)
 }
 
 fn from_layouts<'w>(
@@ -159,32 +160,16 @@ fn from_layouts<'w>(
     span: Span,
 ) -> Vec<Rostered<'w>> {
     if let Some((_, at)) = flat.players.first() {
-        world.report(
-            Problem::new(
-                Code::DuplicateOption,
-                *at,
-                "a team whose players come from `kickoff` has no players of its own",
-                "",
-            )
-            .label(span, "the layouts are given here")
-            .help("write the player into both formations, or `place` one of theirs"),
-        );
+        world.report(Problem::new(*at, Players::LayoutsAndOwn { layouts: span }));
     }
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
-        world.report(
-            Problem::new(Code::DuplicateOption, field.key.span, "the layouts of `kickoff` are the formation", "")
-                .help("leave it out")
-                .label(span, "given here"),
-        );
+        world.report(Problem::new(field.key.span, Players::LayoutsAndFormation { layouts: span }));
     }
-    let layout = |key: &str| {
+    let layout = |key: &'static str| {
         let field = fields.iter().find(|field| field.key.node == key);
         let Some(field) = field else {
             if team == Team::Left {
-                world.report(
-                    Problem::new(Code::WrongArguments, span, format!("`kickoff` lacks the `{key}` layout"), "")
-                        .help("write `kickoff left { kicking: grf_kicking, receiving: grf_receiving }`"),
-                );
+                world.report(Problem::new(span, Players::NoLayout { layout: key }));
             }
             return None;
         };
@@ -199,15 +184,13 @@ fn from_layouts<'w>(
     };
     for field in fields.iter().filter(|_| team == Team::Left) {
         if !matches!(field.key.node.as_str(), "kicking" | "receiving") {
-            world.report(
+            world.report({
+                let guess = Guess::of(&field.key.node, ["kicking", "receiving"]);
                 Problem::new(
-                    Code::UnknownOption,
                     field.key.span,
-                    format!("`kickoff` has no option `{}`", field.key.node),
-                    "not known",
+                    Names::NoOption { whose: "`kickoff`".to_owned(), option: field.key.node.clone(), guess },
                 )
-                .did_you_mean(&field.key.node, ["kicking", "receiving"]),
-            );
+            });
         }
     }
     let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving")) else {
@@ -229,31 +212,14 @@ fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], a
             player.facing.is_some() || player.jitter.is_some() || player.when.is_some() || !player.fields.is_empty()
         };
         if let Some(player) = other.iter().find(more) {
-            world.report(
-                Problem::new(
-                    Code::WrongRoster,
-                    at,
-                    "the second layout says more of a player than where he stands",
-                    "the first one says everything else",
-                )
-                .label(player.span, "said here")
-                .help("move `facing`, `jitter`, `when` and options into the first formation"),
-            );
+            world.report(Problem::new(at, Players::SecondLayoutSaysMore { player: player.span }));
         }
         return;
     }
     let roles = |players: &[Rostered<'_>]| -> String {
         players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
     };
-    world.report(
-        Problem::new(
-            Code::WrongRoster,
-            at,
-            format!("the layouts differ: `{}` and `{}`", roles(one), roles(other)),
-            "the same players, in the same order, stand in both",
-        )
-        .help("list the roles of both formations in the same order"),
-    );
+    world.report(Problem::new(at, Players::LayoutsDiffer { first: roles(one), second: roles(other) }));
 }
 
 /// The players of a formation value: its name, a call with arguments, or a choice of two, which has the places of both
@@ -269,7 +235,7 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<R
         }
         return players;
     }
-    let mut lower = Lower::start(world, Scope::new(true, Frame::World));
+    let mut lower = Lower::of_start(world, Scope::new(true, Frame::World), StartState::default());
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
         && let crate::ast::ItemKind::Formation(item) = &found.item.kind
@@ -303,7 +269,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
         if !std::ptr::eq(link, item) {
             world.mark_used(link.name.span);
             // A parent's parameters are bound by the reference of its child.
-            let mut lower = Lower::start(world, scope);
+            let mut lower = Lower::of_start(world, scope, StartState::default());
             scope = Scope::new(false, Frame::Own);
             let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
             lower.bind_params(&link.name.node, &link.params, args, link.name.span, &mut scope, false);
@@ -317,15 +283,8 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
                 TeamStmtKind::Override { who, change } => overrides.push((who, change)),
                 TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),
                 TeamStmtKind::Absent(role) => absent.push(role.clone()),
-                TeamStmtKind::Field(field) => world.report(
-                    Problem::new(
-                        Code::UnknownOption,
-                        field.key.span,
-                        format!("a formation has no option `{}`", field.key.node),
-                        "",
-                    )
-                    .help("options of a team stand in `team left { … }`"),
-                ),
+                TeamStmtKind::Field(field) => world
+                    .report(Problem::new(field.key.span, Names::NoFormationOption { option: field.key.node.clone() })),
                 TeamStmtKind::Broken => {}
             }
         }
@@ -346,21 +305,10 @@ fn copies<'w>(
     if let (Some(count), Some(name)) = (&player.count, &player.name)
         && count.node != 1
     {
-        world.report(
-            Problem::new(
-                Code::DuplicateName,
-                name.span,
-                format!("`{}` would name {} players", name.node, count.node),
-                "",
-            )
-            .help("leave the name out, or write one line per player"),
-        );
+        world.report(Problem::new(name.span, Names::OneNameForMany { name: name.node.clone(), count: count.node }));
     }
     if let Some(none) = player.count.as_ref().filter(|count| count.node == 0) {
-        world.report(
-            Problem::new(Code::OutOfRange, none.span, format!("`0 {}` is nobody", player.role.node), "")
-                .help("leave the line out; whether a player takes part with a parameter says `when …`"),
-        );
+        world.report(Problem::new(none.span, Players::NoneInLine { role: player.role.node.to_string() }));
     }
     let one = Rostered {
         id: 0,
@@ -392,10 +340,7 @@ fn adjust<'w>(
         players.retain(|player| player.role != role.node);
         // A team is said to have no keeper by `GK absent`, whether a formation brings one or not.
         if before == players.len() && before > 0 && role.node != Role::GK {
-            world.report(
-                Problem::new(Code::NothingToRemove, role.span, format!("no `{}` is there to be absent", role.node), "")
-                    .help("leave it out"),
-            );
+            world.report(Problem::new(role.span, Players::NobodyToBeAbsent { role: role.node.to_string() }));
         }
     }
     for (who, change) in overrides {
@@ -410,27 +355,14 @@ fn adjust<'w>(
                     .flat_map(|player| [player.name.map(|name| name.node.as_str()), Some(player.role.name())])
                     .flatten()
                     .collect();
-                world.report(
-                    Problem::new(
-                        Code::UnknownName,
-                        who.span,
-                        format!("no player of this team is called `{}`", who.node),
-                        "",
-                    )
-                    .did_you_mean(&who.node, names),
-                );
+                world.report({
+                    let guess = Guess::of(&who.node, names);
+                    Problem::new(who.span, Names::Unknown { kind: Kind::Player, name: who.node.clone(), guess })
+                });
                 continue;
             }
             n => {
-                world.report(
-                    Problem::new(
-                        Code::AmbiguousName,
-                        who.span,
-                        format!("the team has {n} players `{}`", who.node),
-                        "which one is meant?",
-                    )
-                    .help("give the player a name, `anna: CM at …`, and place `anna`"),
-                );
+                world.report(Problem::new(who.span, Names::AmbiguousPlayer { role: who.node.clone(), count: n }));
                 continue;
             }
         }
@@ -462,10 +394,10 @@ fn apply_each<'w>(
         let role = Role::from_name(&who.node);
         if role.is_none() && !matches!(who.node.as_str(), "all" | "outfield") {
             let known = ["all", "outfield"].into_iter().chain(Role::ALL.iter().map(|role| role.name()));
-            world.report(
-                Problem::new(Code::UnknownRole, who.span, format!("`each` knows no `{}`", who.node), "")
-                    .did_you_mean(&who.node, known),
-            );
+            world.report({
+                let guess = Guess::of(&who.node, known);
+                Problem::new(who.span, Names::EachOfNothing { name: who.node.clone(), guess })
+            });
             continue;
         }
         let mut anyone = false;
@@ -480,10 +412,7 @@ fn apply_each<'w>(
             }
         }
         if !anyone && !players.is_empty() && is_own(who.span) {
-            world.report(
-                Problem::new(Code::UnknownRole, who.span, format!("the {team} team has no `{}`", who.node), "")
-                    .help("leave it out, or write `each outfield`"),
-            );
+            world.report(Problem::new(who.span, Names::NobodyOfRole { team: team.name(), name: who.node.clone() }));
         }
     }
     for (player, mut fields) in players.iter_mut().zip(defaults) {
@@ -494,23 +423,11 @@ fn apply_each<'w>(
 
 fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
     if let Some(extra) = players.get(TEAM_MAX) {
-        world.report(
-            Problem::new(
-                Code::TooManyPlayers,
-                extra.span,
-                format!("the {team} team has more than {TEAM_MAX} players"),
-                "this is the twelfth",
-            )
-            .help("leave one out"),
-        );
+        world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX }));
     }
     let keepers: Vec<&Rostered<'_>> = players.iter().filter(|p| p.role == Role::GK && p.when.is_none()).collect();
     if let [first, second, ..] = keepers.as_slice() {
-        world.report(
-            Problem::new(Code::TwoKeepers, second.span, format!("the {team} team has two keepers"), "the second one")
-                .label(first.span, "the first one")
-                .help("give one of them another role"),
-        );
+        world.report(Problem::new(second.span, Players::TwoKeepers { team, first: first.span }));
     }
 }
 
@@ -520,24 +437,12 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
         let earlier = roster.iter().take(index).filter_map(|other| other.name);
         let first = earlier.into_iter().find(|other| other.node == name.node && other.span != name.span);
         if let Some(first) = first {
-            world.report(
-                Problem::new(
-                    Code::DuplicateName,
-                    name.span,
-                    format!("two players are called `{}`", name.node),
-                    "called so again here",
-                )
-                .label(first.span, "first called so here")
-                .help("choose another name for one of them"),
-            );
+            world.report(Problem::new(name.span, Names::TwoPlayers { name: name.node.clone(), first: first.span }));
         }
         if let Some(value) = world.declaration(&name.node) {
             // Of the two the author wrote the one that stands in their own scenario.
             let (again, first) = if world.flat.is_own(name.span) { (name.span, value) } else { (value, name.span) };
-            world.report(
-                Problem::declared_twice(&format!("`{}`", name.node), again, first)
-                    .help("a player and a value can't share a name: choose another for one of them"),
-            );
+            world.report(Problem::new(again, Names::PlayerAndValue { name: name.node.clone(), first }));
         }
     }
 }

@@ -4,7 +4,8 @@ use super::value::{Binding, Repr, Value};
 use super::{Lower, World};
 use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem, ScriptApi};
+use crate::problem::facts::{Files, ScriptLimit, Types};
+use crate::problem::{Problem, ScriptApi};
 use crate::resolve::{MAX_FILES, MAX_IMPORTED_BYTES};
 use crate::source::{FileId, LoadError, Source, SourceLoader};
 use setpiece_scenario::vocabulary::Type;
@@ -36,12 +37,12 @@ impl<'a> Scripts<'a> {
     }
 
     /// Why no more scripts may be loaded, if none may.
-    pub(crate) fn limit(&self) -> Option<String> {
+    pub(crate) fn limit(&self) -> Option<ScriptLimit> {
         if self.loaded.len() > MAX_FILES {
-            return Some(format!("more than {MAX_FILES} script files are named"));
+            return Some(ScriptLimit::Files(MAX_FILES));
         }
         let larger = self.bytes > MAX_IMPORTED_BYTES;
-        larger.then(|| format!("script files are larger than {} MiB together", MAX_IMPORTED_BYTES >> 20))
+        larger.then_some(ScriptLimit::Bytes(MAX_IMPORTED_BYTES))
     }
 
     /// Loads a script that a file names, once; says which file it would be where there is none.
@@ -83,15 +84,7 @@ impl<'w> Lower<'_, 'w> {
             match script_type(&value) {
                 Some(ty) => args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() }),
                 None if !every => {}
-                None => self.report(
-                    Problem::new(
-                        Code::WrongType,
-                        decl.name.span,
-                        format!("a script's parameter can't be {}", value.ty.noun()),
-                        "",
-                    )
-                    .help("it can be a number of any unit, a truth value, a player, a team or a point"),
-                ),
+                None => self.report(Problem::new(decl.name.span, Types::NoScriptParameter { ty: value.ty })),
             }
         }
         args
@@ -124,11 +117,8 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, o
                     (path.node.clone(), source.clone(), (*file, 0))
                 }
                 Err(error) => {
-                    let problem = Problem::new(Code::FileMissing, path.span, error.message.clone(), "named here");
-                    world.report(match error.similar.first() {
-                        Some(similar) => problem.help(format!("did you mean `{similar}`?")),
-                        None => problem,
-                    });
+                    let (why, similar) = (error.message.clone(), error.similar.first().cloned());
+                    world.report(Problem::new(path.span, Files::Missing { why, similar, is_script: true }));
                     return None;
                 }
             }
@@ -167,10 +157,7 @@ fn check(world: &World<'_>, source: &Source, (file, offset): (FileId, u32), hook
             start: offset + found.range.start as u32,
             end: offset + found.range.end.max(found.range.start) as u32,
         };
-        let problem = Problem::new(found.code, span, found.message, "");
-        world.report(match found.help {
-            Some(help) => problem.help(help),
-            None => problem,
-        });
+        let fact = Files::Script { code: found.code, message: found.message, help: found.help };
+        world.report(Problem::new(span, fact));
     }
 }

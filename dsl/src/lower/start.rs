@@ -17,7 +17,8 @@ use super::{Lower, Stage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Bounds, Chance, Names};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
@@ -25,10 +26,7 @@ use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
 use std::collections::BTreeMap;
 
-/// What to do about what is defined by itself.
-pub(crate) const NO_CIRCLE: &str = "give one of the circle a value of its own";
-
-/// A player's places at kick-offs: when his team kicks off, and when the others do.
+/// A player's places at kick-offs: when their team kicks off, and when the others do.
 pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
 
 /// What the start program knows so far.
@@ -51,22 +49,27 @@ pub(crate) struct StartState<'w> {
     lets: BTreeMap<&'w str, Option<Value<'w>>>,
     first: Option<Reg>,
     kind: Option<(StartKind, Option<Reg>)>,
+}
+
+/// The streams that draws come from.
+#[derive(Default)]
+pub(crate) struct Streams {
     drawing: String,
     draws: BTreeMap<String, u32>,
 }
 
-impl StartState<'_> {
+impl Streams {
     /// The name of what is being drawn.
     pub(crate) fn drawing(&self) -> &str {
         &self.drawing
     }
 
-    /// Says what is drawn from now on.
-    pub(crate) fn draw_for(&mut self, name: &str) {
-        name.clone_into(&mut self.drawing);
+    /// Says what is drawn from now on; gives what was drawn before.
+    pub(crate) fn draw_for(&mut self, name: &str) -> String {
+        std::mem::replace(&mut self.drawing, name.to_owned())
     }
 
-    /// The next draw's ordinal in it.
+    /// The next draw's ordinal in its stream.
     pub(crate) fn next_draw(&mut self) -> u32 {
         let ordinal = self.draws.entry(self.drawing.clone()).or_default();
         *ordinal += 1;
@@ -93,11 +96,9 @@ pub(crate) struct LoweredStart<'c, 'w> {
 /// Lowers the start.
 pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> {
     let scope = Scope::new(true, Frame::World);
-    let mut lower = Lower::start(world, scope);
     let n = world.roster.len();
-    lower.start.places = vec![Found::Todo; n];
-    lower.start.headings = vec![Found::Todo; n];
-    lower.start.layouts = vec![None; n];
+    let (places, headings, layouts) = (vec![Found::Todo; n], vec![Found::Todo; n], vec![None; n]);
+    let mut lower = Lower::of_start(world, scope, StartState { places, headings, layouts, ..StartState::default() });
 
     for param in world.params.iter().filter(|param| param.bound.is_some()) {
         lower.scenario_let(&param.name.node, param.name.span);
@@ -132,12 +133,13 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
         ScenarioStmtKind::Require { condition, .. } => RequireOrigin { span: Some(condition.span), help: None },
         _ => RequireOrigin::default(),
     });
-    let (mut implied, of_implied): (Vec<_>, Vec<_>) = std::mem::take(&mut lower.start.implied).into_iter().unzip();
+    let state = lower.start_mut().map(std::mem::take).unwrap_or_default();
+    let (mut implied, of_implied): (Vec<_>, Vec<_>) = state.implied.into_iter().unzip();
     let origins = written.chain(of_implied).collect();
     requires.append(&mut implied);
 
-    let behaviors = std::mem::take(&mut lower.start.behaviors);
-    let (lets, let_regs) = lower.let_slots();
+    let behaviors = state.behaviors;
+    let (lets, let_regs) = lower.let_slots(state.lets);
     let mut wanted: Vec<Reg> = Vec::new();
     let mut collect = |reg: Reg| {
         wanted.push(reg);
@@ -221,38 +223,35 @@ fn slots(
 impl<'w> Lower<'_, 'w> {
     /// Runs `f` while draws belong to the stream called `name`.
     pub(crate) fn drawing<T>(&mut self, name: &str, f: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = std::mem::replace(&mut self.start.drawing, name.to_owned());
+        let outer = self.streams.draw_for(name);
         let result = f(self);
-        self.start.drawing = outer;
+        self.streams.drawing = outer;
         result
     }
 
     /// The value of a `let` of the scenario, or of a parameter that is bound by a child.
     pub(crate) fn scenario_let(&mut self, name: &'w str, asked: Span) -> Value<'w> {
         match self.stage {
-            Stage::Start => {}
+            Stage::Start(_) => {}
             Stage::Constant => {
-                return self.fail(
-                    Problem::new(
-                        Code::NotConstant,
-                        asked,
-                        format!("`{name}` is computed at reset"),
-                        "a constant is known before",
-                    )
-                    .help("use `let` for what is drawn or computed"),
-                );
+                return self.fail(Problem::new(asked, Chance::ComputedAtReset { name: name.to_owned() }));
             }
-            Stage::Init | Stage::Reward | Stage::Ending | Stage::Record | Stage::Observation | Stage::Behavior => {
+            Stage::Init
+            | Stage::Reward
+            | Stage::Ending
+            | Stage::Record(_)
+            | Stage::Observation
+            | Stage::Behavior(_) => {
                 return self.step_let(name);
             }
         }
-        match self.start.lets.get(name) {
+        match self.start().and_then(|start| start.lets.get(name)) {
             Some(Some(value)) => return value.clone(),
             Some(None) => {
-                return self.fail(
-                    Problem::new(Code::Recursion, asked, format!("`{name}` uses itself"), "closes the circle")
-                        .help(NO_CIRCLE),
-                );
+                return self.fail(Problem::new(
+                    asked,
+                    Names::Recursion { name: name.to_owned(), declared: None, is_behavior: false },
+                ));
             }
             None => {}
         }
@@ -280,7 +279,7 @@ impl<'w> Lower<'_, 'w> {
             },
             (None, None) => return Value::error(),
         };
-        self.start.lets.insert(name, None);
+        self.set_let(name, None);
         let team = self.team.take();
         let value = self.within(Scope::new(true, Frame::World), |lower| {
             lower.drawing(&format!("let {name}"), |lower| match ty {
@@ -303,14 +302,14 @@ impl<'w> Lower<'_, 'w> {
                 self.check_range(reg, range, &format!("`{name}`"), expr.span, &shown);
             }
         }
-        self.start.lets.insert(name, Some(value.clone()));
+        self.set_let(name, Some(value.clone()));
         value
     }
 
     /// `let (a, b) = shuffle(x, y)`: all its names at once, from the stream of the first.
     fn shuffled_let(&mut self, name: &'w str, names: &'w [crate::ast::Ident], expr: &'w Expr) -> Value<'w> {
         for one in names {
-            self.start.lets.insert(&one.node, None);
+            self.set_let(&one.node, None);
         }
         let team = self.team.take();
         let stream = names.first().map_or(name, |first| first.node.as_str());
@@ -320,14 +319,19 @@ impl<'w> Lower<'_, 'w> {
         self.team = team;
         for (index, one) in names.iter().enumerate() {
             let value = values.as_ref().and_then(|values| values.get(index)).cloned().unwrap_or_else(Value::error);
-            self.start.lets.insert(&one.node, Some(value));
+            self.set_let(&one.node, Some(value));
         }
-        self.start.lets.get(name).cloned().flatten().unwrap_or_else(Value::error)
+        self.start().and_then(|start| start.lets.get(name).cloned().flatten()).unwrap_or_else(Value::error)
     }
 
-    fn let_slots(&mut self) -> (Vec<LetSlot<'w>>, Vec<Reg>) {
+    fn set_let(&mut self, name: &'w str, value: Option<Value<'w>>) {
+        if let Some(start) = self.start_mut() {
+            start.lets.insert(name, value);
+        }
+    }
+
+    fn let_slots(&self, lets: BTreeMap<&'w str, Option<Value<'w>>>) -> (Vec<LetSlot<'w>>, Vec<Reg>) {
         let mut regs: Vec<Reg> = Vec::new();
-        let lets = std::mem::take(&mut self.start.lets);
         let mut slots = Vec::new();
         for (name, value) in lets {
             let Some(value) = value else { continue };
@@ -350,7 +354,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// The team that kicks off first.
     pub(crate) fn first_team(&mut self) -> Reg {
-        if let Some(first) = self.start.first {
+        if let Some(first) = self.start().and_then(|start| start.first) {
             return first;
         }
         let first = match self.world.flat.kickoff {
@@ -364,13 +368,15 @@ impl<'w> Lower<'_, 'w> {
             }
             None => self.code.constant(0.0),
         };
-        self.start.first = Some(first);
+        if let Some(start) = self.start_mut() {
+            start.first = Some(first);
+        }
         first
     }
 
     fn kickoff(&mut self, places: &[(Reg, Reg)]) -> Option<Kickoff> {
         self.world.flat.kickoff?;
-        let layouts = self.start.layouts.iter().zip(places).map(|(layout, place)| match layout {
+        let layouts = self.start()?.layouts.iter().zip(places).map(|(layout, place)| match layout {
             Some((kicking, receiving)) => KickoffPlaces { kicking: *kicking, receiving: *receiving },
             None => KickoffPlaces { kicking: *place, receiving: *place },
         });
@@ -393,17 +399,7 @@ impl<'w> Lower<'_, 'w> {
         let Some(steps) = self.code.constant_of(reg).map(|seconds| seconds / STEP_S) else { return };
         if (steps - steps.round()).abs() > 1e-6 {
             let text = self.world.text(span);
-            let message = if text.ends_with("steps") {
-                format!("{what} is `{text}`")
-            } else {
-                format!("{what} is `{text}`: {steps:.3} steps")
-            };
-            self.report(Problem::new(Code::OutOfRange, span, message, "not a whole number of steps").help(
-                match steps.round() {
-                    steps if steps > 1.0 => format!("write `{steps} steps`; a step is 0.1 s"),
-                    _ => "write `1 step`; a step is 0.1 s".to_owned(),
-                },
-            ));
+            self.report(Problem::new(span, Bounds::NotWholeSteps { what: what.to_owned(), text, steps }));
         }
     }
 
@@ -419,15 +415,7 @@ impl<'w> Lower<'_, 'w> {
             });
             let words = label.as_ref().map_or_else(|| self.world.text(condition.span), |label| label.node.clone());
             if self.interval(met) == Some((0.0, 0.0)) && probability.is_none() {
-                self.report(
-                    Problem::new(
-                        Code::ImpossibleToDraw,
-                        condition.span,
-                        format!("`{words}` is never met"),
-                        "always false",
-                    )
-                    .help("move the players, or drop the requirement"),
-                );
+                self.report(Problem::new(condition.span, Chance::NeverMet { label: words.clone() }));
             }
             requires.push(Require { condition: met, probability, label: words });
         }

@@ -8,30 +8,31 @@ use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{PLAYER, TEAM};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};
 use setpiece_scenario::vocabulary::{Stat, Team};
 use setpiece_scenario::{Ai, Reg};
 
 /// The options of a player.
 pub(crate) struct PlayerOptions {
-    /// Who plays him without an agent.
+    /// Who plays the player without an agent.
     pub(crate) ai: Ai,
-    /// Whether an agent may be given him.
+    /// Whether an agent may control the player.
     pub(crate) controllable: bool,
-    /// Whether he may stand where somebody else does.
+    /// Whether the player may stand where another one does.
     pub(crate) overlap: bool,
-    /// His own difficulty.
+    /// The player's own difficulty.
     pub(crate) difficulty: Option<Reg>,
     /// 0 fresh to 1 exhausted.
     pub(crate) fatigue: Option<Reg>,
-    /// Cards he starts with.
+    /// Cards that the player starts with.
     pub(crate) yellow_cards: Option<Reg>,
     /// World velocity.
     pub(crate) velocity: Option<(Reg, Reg)>,
     /// Statistics that replace the table's.
     pub(crate) stats: Vec<(Stat, Reg)>,
-    /// Whether he plays.
+    /// Whether the player takes part.
     pub(crate) present: Option<Reg>,
 }
 
@@ -74,7 +75,7 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
     let stream = player.stream();
     lower.for_team(player.team.index() as f64, |lower| {
         lower.within(scope, |lower| {
-            lower.start.ai = None;
+            set_ai(lower, None);
             for field in &player.fields {
                 lower.drawing(&format!("{stream} {}", field.key.node), |lower| option(lower, field, &mut options));
             }
@@ -85,10 +86,19 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
             }
         });
     });
-    if let Some(used) = lower.start.ai.take() {
-        lower.start.behaviors.push((player.id, used));
+    if let Some(start) = lower.start_mut()
+        && let Some(used) = start.ai.take()
+    {
+        start.behaviors.push((player.id, used));
     }
     options
+}
+
+/// Notes the behavior of the player whose options are read.
+fn set_ai<'w>(lower: &mut Lower<'_, 'w>, ai: Option<BehaviorUse<'w>>) {
+    if let Some(start) = lower.start_mut() {
+        start.ai = ai;
+    }
 }
 
 fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
@@ -101,7 +111,7 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
                 stats(lower, stat, options);
             }
         }
-        ("ai", FieldValue::Script(script)) => lower.start.ai = Some(BehaviorUse::Script(script)),
+        ("ai", FieldValue::Script(script)) => set_ai(lower, Some(BehaviorUse::Script(script))),
         (key, FieldValue::Expr(expr)) => expression(lower, key, expr, options),
         ("stats", FieldValue::Script(script)) => not_a_group(lower, script.span),
         _ => {
@@ -111,7 +121,7 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
 }
 
 fn not_a_group(lower: &Lower<'_, '_>, span: crate::ast::Span) {
-    lower.report(Problem::new(Code::WrongType, span, "`stats` is a group", "").help("write `stats: { speed: 0.9 }`"));
+    lower.report(Problem::new(span, Types::StatsIsAGroup));
 }
 
 fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options: &mut PlayerOptions) {
@@ -128,10 +138,7 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
         "velocity" => {
             let value = lower.want(expr, Ty::Velocity);
             if let Repr::Three(..) = value.repr {
-                lower.report(
-                    Problem::new(Code::WrongType, expr.span, "a player runs along the ground", "")
-                        .help("write two coordinates: `(5m/s, 0m/s)`"),
-                );
+                lower.report(Problem::new(expr.span, Types::PlayersDontFly));
             }
             let velocity = lower.pair(&value);
             let zero = lower.code.constant(0.0);
@@ -143,18 +150,12 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
             match lower.code.constant_of(reg) {
                 Some(value) => options.controllable = value != 0.0,
                 None if lower.code.is_unknown(reg) => {}
-                None => lower.report(
-                    Problem::new(Code::NotConstant, expr.span, "`controllable` must be `on` or `off`", "")
-                        .help("the number of agents can't change with a parameter's value here"),
-                ),
+                None => lower.report(Problem::new(expr.span, Chance::ControllableUnknown)),
             }
         }
         _ => match &expr.kind {
             ExprKind::Name(name) if name == "allowed" => options.overlap = true,
-            _ => lower.report(
-                Problem::new(Code::OutOfRange, expr.span, "`overlap` can only be `allowed`", "")
-                    .help("write `overlap: allowed`"),
-            ),
+            _ => lower.report(Problem::new(expr.span, Bounds::Overlap)),
         },
     }
 }
@@ -165,16 +166,13 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
         _ => (path_of(expr), &[]),
     };
     let Some(name) = path else {
-        lower.report(
-            Problem::new(Code::WrongType, expr.span, "expected who plays him", "")
-                .help("write `ai: bot`, `ai: hold`, `ai: lazy`, a behavior or `ai: script \"file.rhai\"`"),
-        );
+        lower.report(Problem::new(expr.span, Types::NoAi));
         return;
     };
     let built_in = [("bot", Ai::Bot), ("hold", Ai::Hold), ("lazy", Ai::Lazy)];
     if let (Some((_, ai)), true) = (built_in.iter().find(|(known, _)| *known == name), args.is_empty()) {
         options.ai = *ai;
-        lower.start.ai = None;
+        set_ai(lower, None);
         return;
     }
     let library = lower.world.library;
@@ -185,32 +183,24 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
             return;
         }
         lower.world.mark_used(found.name.span);
-        lower.start.ai = Some(BehaviorUse::Named { item, args, scope: lower.scope.clone(), span: expr.span });
+        let used = BehaviorUse::Named { item, args, scope: lower.scope.clone(), span: expr.span };
+        set_ai(lower, Some(used));
         return;
     }
     let behaviors =
         library.visible(expr.span.file).filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)));
     let known: Vec<&str> = behaviors.map(|(name, _)| name).chain(built_in.iter().map(|(name, _)| *name)).collect();
-    let problem =
-        Problem::new(Code::UnknownName, expr.span, format!("no player's `ai` is called `{name}`"), "not known");
-    lower.report(if crate::problem::nearest(&name, known.iter().copied()).is_some() {
-        problem.did_you_mean(&name, known)
-    } else {
-        problem.help("it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"file.rhai\"`")
-    });
+    let guess = Guess::similar_or(&name, &known, &[]);
+    lower.report(Problem::new(expr.span, Names::Unknown { kind: Kind::Ai, name, guess }));
 }
 
 fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
     let Some(stat) = Stat::from_name(&field.key.node) else {
-        lower.report(
-            Problem::new(
-                Code::UnknownOption,
-                field.key.span,
-                format!("no statistic is called `{}`", field.key.node),
-                "not known",
-            )
-            .one_of(&field.key.node, &Stat::ALL.iter().map(|stat| stat.name()).collect::<Vec<_>>()),
-        );
+        lower.report({
+            let known: Vec<&str> = Stat::ALL.iter().map(|stat| stat.name()).collect();
+            let guess = Guess::or_all(&field.key.node, &known);
+            Problem::new(field.key.span, Names::Unknown { kind: Kind::Statistic, name: field.key.node.clone(), guess })
+        });
         return;
     };
     let Some(expr) = fields::expression(lower, field) else { return };

@@ -79,7 +79,7 @@ pub(crate) enum RegionValue {
 }
 
 impl<'w> Value<'w> {
-    /// Of a broken expression; a problem has been told.
+    /// Of a broken expression; a problem has been reported.
     pub(crate) fn error() -> Value<'w> {
         Value { ty: Ty::Error, repr: Repr::Nothing }
     }

@@ -117,7 +117,7 @@ impl World<'_> {
             return;
         }
         let mut counts = self.counts.borrow_mut();
-        let count = counts.entry(problem.code).or_default();
+        let count = counts.entry(problem.code()).or_default();
         *count += 1;
         if *count <= MAX_PROBLEMS {
             self.problems.borrow_mut().push(problem);

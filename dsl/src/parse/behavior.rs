@@ -3,7 +3,8 @@
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
 use crate::ast::{BehaviorStmt, BehaviorStmtKind, Chance, DoStmt, DoWhat, RepeatHow};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Names;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -133,9 +134,7 @@ impl Reader<'_> {
                 }
             };
             if twice {
-                let help = "join the conditions: `until a or b`";
-                let message = "a `do` has each of its clauses once";
-                self.push(Problem::new(Code::DuplicateOption, span, message, "given again here").help(help));
+                self.push(Problem::new(span, Names::ClauseTwice));
             }
         }
         Some(stmt)

@@ -3,7 +3,8 @@
 use super::MAX_OPERATORS;
 use super::reader::{Node, Nodes, Reader};
 use crate::ast::{Arg, BinaryOp, Expr, ExprKind, Ident, Spanned, UnaryOp};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Syntax, Types};
 use crate::source::Span;
 use setpiece_grammar::Rule;
 use setpiece_scenario::vocabulary::{Role, Unit};
@@ -31,11 +32,7 @@ impl Reader<'_> {
     fn flat(&mut self, node: Node<'_>, span: Span) -> Expr {
         let weight = node.clone().into_inner().filter(|child| child.as_rule() != Rule::operand).count() as u32 + 1;
         if self.operators + weight > MAX_OPERATORS {
-            let message = format!("an expression has more than {MAX_OPERATORS} operators");
-            self.push(
-                Problem::new(Code::TooDeep, span, message, "too long")
-                    .help("give parts of it names with `let` or `fn`"),
-            );
+            self.push(Problem::new(span, Syntax::TooManyOperators { most: MAX_OPERATORS }));
             return broken(span);
         }
         self.operators += weight;
@@ -111,11 +108,7 @@ impl Reader<'_> {
                     end = end.to(self.span(&rest));
                 }
                 let all = first.span.to(end);
-                self.push(
-                    Problem::new(Code::ComparisonChain, op_span, "comparisons don't chain", "a second comparison")
-                        .label(first.span.to(last), "the first one")
-                        .help("join two comparisons by `and`: `a < b and b < c`"),
-                );
+                self.push(Problem::new(op_span, Syntax::ComparisonChain { first: first.span.to(last) }));
                 return broken(all);
             }
             let built = self.comparison_tail(rule, &op, &first, nodes, within);
@@ -202,11 +195,7 @@ impl Reader<'_> {
         let span = self.span(&node);
         let weight = node.clone().into_inner().count() as u32;
         if self.operators + weight > MAX_OPERATORS {
-            let message = format!("an expression has more than {MAX_OPERATORS} operators");
-            self.push(
-                Problem::new(Code::TooDeep, span, message, "too long")
-                    .help("give parts of it names with `let` or `fn`"),
-            );
+            self.push(Problem::new(span, Syntax::TooManyOperators { most: MAX_OPERATORS }));
             return broken(span);
         }
         self.operators += weight;
@@ -275,12 +264,8 @@ impl Reader<'_> {
         let text = number.as_str();
         let value = text.parse::<f64>().unwrap_or(f64::INFINITY);
         if !value.is_finite() {
-            let message =
-                format!("a number of {} digits is too large", text.bytes().filter(u8::is_ascii_digit).count());
-            self.push(
-                Problem::new(Code::OutOfRange, span, message, "above 1e308")
-                    .help("the pitch is 110m by 72m: write less"),
-            );
+            let digits = text.bytes().filter(u8::is_ascii_digit).count();
+            self.push(Problem::new(span, Types::TooManyDigits { digits }));
             return broken(span);
         }
         let unit = nodes.next().and_then(|unit| match unit.as_str() {

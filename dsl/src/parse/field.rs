@@ -4,6 +4,7 @@ use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
 use crate::ast::{Field, FieldValue, ScriptRef, ScriptSource, Spanned};
 use crate::problem::Problem;
+use crate::problem::facts::Names;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -14,7 +15,10 @@ impl Reader<'_> {
         let fields: Vec<Field> = fields.into_iter().flatten().collect();
         for (index, field) in fields.iter().enumerate() {
             if let Some(first) = fields.iter().take(index).find(|first| first.key.node == field.key.node) {
-                self.push(Problem::given_twice(&format!("`{}`", field.key.node), field.key.span, first.key.span));
+                self.push(Problem::new(
+                    field.key.span,
+                    Names::GivenTwice { what: format!("`{}`", field.key.node), first: first.key.span },
+                ));
             }
         }
         fields
@@ -47,7 +51,7 @@ impl Reader<'_> {
         let span = self.span(&node);
         let source = match Nodes::of(node).last()? {
             file if file.as_rule() == Rule::string => ScriptSource::File(self.string(&file)),
-            // A script that is not closed was told: it holds whatever follows it.
+            // A script that is not closed was reported: it holds whatever follows it.
             raw if raw.as_span().end() + self.base > self.original().len() => return None,
             raw => {
                 let text = raw.as_str();

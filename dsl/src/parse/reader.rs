@@ -4,7 +4,8 @@ use super::scan::Scan;
 use super::{LEAST_EFFORT, MAX_BLOCKS, MAX_LIST, MAX_PROBLEMS, span};
 use crate::ast::{Ident, Spanned};
 use crate::check::names::{owner_of_call, owner_of_value};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Names, Syntax};
 use crate::source::{FileId, Span};
 use pest::error::InputLocation;
 use pest::iterators::{Pair, Pairs};
@@ -68,7 +69,7 @@ pub(super) struct Reader<'t> {
     pub(super) text: &'t str,
     comments: &'t [Range<usize>],
     /// Disjoint and in order.
-    told: Vec<Range<usize>>,
+    reported: Vec<Range<usize>>,
     problems: Vec<Problem>,
     /// Where the lines of the text begin, but for the first.
     lines: Vec<usize>,
@@ -90,14 +91,14 @@ const INDENT_MAX: usize = 1_000;
 impl<'t> Reader<'t> {
     pub(super) fn new(file: FileId, original: &'t str, scan: &'t Scan<'_>) -> Reader<'t> {
         let (text, comments) = (&*scan.text, &*scan.comments);
-        let (told, problems) = (disjoint(scan.told.clone()), Vec::new());
+        let (reported, problems) = (disjoint(scan.reported.clone()), Vec::new());
         let newlines = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         Reader {
             file,
             original,
             text,
             comments,
-            told,
+            reported,
             problems,
             lines: newlines.map(|(at, _)| at + 1).collect(),
             base: 0,
@@ -113,21 +114,21 @@ impl<'t> Reader<'t> {
         (self.problems, self.lost)
     }
 
-    /// Reports a problem, unless one that explains it was told before.
+    /// Reports a problem, unless one that explains it was reported before.
     pub(super) fn push(&mut self, problem: Problem) {
-        let start = problem.labels.first().map_or(0, |label| label.span.start as usize);
-        if !self.is_told(&(start..start + 1)) && self.problems.len() < MAX_PROBLEMS {
+        let start = problem.place().start as usize;
+        if !self.is_reported(&(start..start + 1)) && self.problems.len() < MAX_PROBLEMS {
             self.problems.push(problem);
         }
     }
 
-    /// Whether nothing that stands in a range would be told.
-    pub(super) fn is_told(&self, range: &Range<usize>) -> bool {
-        let index = self.told.partition_point(|told| told.end <= range.start);
-        self.told.get(index).is_some_and(|told| told.start <= range.start && range.end <= told.end)
+    /// Whether nothing that stands in a range would be reported.
+    pub(super) fn is_reported(&self, range: &Range<usize>) -> bool {
+        let index = self.reported.partition_point(|reported| reported.end <= range.start);
+        self.reported.get(index).is_some_and(|reported| reported.start <= range.start && range.end <= reported.end)
     }
 
-    /// Whether more problems can be told.
+    /// Whether more problems can be reported.
     pub(super) fn is_full(&self) -> bool {
         self.problems.len() >= MAX_PROBLEMS
     }
@@ -199,11 +200,7 @@ impl<'t> Reader<'t> {
     /// Whether a list may take one more; reports the first that it may not.
     pub(super) fn has_room(&mut self, taken: usize, more: Span, what: &str) -> bool {
         if taken == MAX_LIST {
-            let message = format!("there are more than {MAX_LIST} {what} here");
-            self.push(
-                Problem::new(Code::TooMuch, more, message, "one too many")
-                    .help("what repeats can be computed, or named once and used again"),
-            );
+            self.push(Problem::new(more, Syntax::TooLongList { what: what.to_owned(), most: MAX_LIST }));
         }
         taken < MAX_LIST
     }
@@ -279,8 +276,7 @@ impl<'t> Reader<'t> {
     /// Runs `read` one block deeper, or reports that this is too deep.
     pub(super) fn nested<T>(&mut self, at: Span, read: impl FnOnce(&mut Self) -> T) -> Option<T> {
         if self.blocks >= MAX_BLOCKS {
-            let message = format!("blocks are nested more than {MAX_BLOCKS} deep");
-            self.push(Problem::new(Code::TooDeep, at, message, "one too many").help("split the reward in two"));
+            self.push(Problem::new(at, Syntax::NestedBlocks { most: MAX_BLOCKS }));
             return None;
         }
         self.blocks += 1;
@@ -305,13 +301,7 @@ fn disjoint(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
 
 /// A reserved word used as a name.
 pub(super) fn reserved(name: &str, span: Span, whose: &str) -> Problem {
-    Problem::new(
-        Code::ReservedName,
-        span,
-        format!("`{name}` is a word of the language and can't be a name"),
-        format!("belongs to {whose}"),
-    )
-    .help(format!("choose another name, for example `my_{}`", name.to_lowercase()))
+    Problem::new(span, Names::Reserved { name: name.to_owned(), whose: whose.to_owned() })
 }
 
 /// Signs of two characters, the language's and others'.

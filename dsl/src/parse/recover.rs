@@ -7,7 +7,8 @@ mod unit;
 mod words;
 
 use super::reader::{Node, Nodes, Reader, token};
-use crate::problem::{Code, Problem, nearest};
+use crate::problem::facts::Syntax;
+use crate::problem::{Problem, nearest};
 use crate::source::Span;
 use pest::Parser;
 use pest::error::{ErrorVariant, InputLocation};
@@ -16,8 +17,8 @@ use std::ops::Range;
 
 pub(super) use words::Context;
 
-/// Junk that was just told about.
-struct Told {
+/// Junk that was just reported about.
+struct Reported {
     /// The indentation of its line.
     indent: usize,
 }
@@ -76,7 +77,7 @@ impl Reader<'_> {
         let mut statements = Vec::new();
         let mut doc = String::new();
         let mut before: Option<Range<usize>> = None;
-        let mut told: Option<Told> = None;
+        let mut reported: Option<Reported> = None;
         let mut taken = 0;
         for child in Nodes::of(node) {
             let rule = child.as_rule();
@@ -93,12 +94,12 @@ impl Reader<'_> {
                 let range = self.range(&child);
                 self.lose(range.clone());
                 let indent = self.indent(range.start);
-                let quiet = self.is_full() || self.is_told(&range);
-                // A further line of a statement that was told about is no news.
+                let quiet = self.is_full() || self.is_reported(&range);
+                // A further line of a statement that was reported about is no news.
                 let condemned = if quiet {
                     before.as_ref().is_some_and(|before| self.belongs(before, &range))
-                } else if told.as_ref().is_none_or(|told| indent <= told.indent) {
-                    told = Some(Told {
+                } else if reported.as_ref().is_none_or(|reported| indent <= reported.indent) {
+                    reported = Some(Reported {
                         indent: before.as_ref().map_or(indent, |before| indent.min(self.indent(before.start))),
                     });
                     self.recover(context, &range, before.as_ref())
@@ -114,7 +115,7 @@ impl Reader<'_> {
             } else if rule == context.statement() {
                 let span = self.span(&child);
                 before = Some(self.range(&child));
-                told = None;
+                reported = None;
                 statements.push(convert(self, child, span, std::mem::take(&mut doc)));
             }
         }
@@ -186,14 +187,14 @@ impl Reader<'_> {
     }
 
     /// A problem of a word at the start of a statement, or nothing if the word may be right.
-    fn misplaced(&self, context: Context, word: &str, at: usize) -> Option<Problem> {
+    fn misplaced(&self, context: Context, word: &str, at: usize, habit: Option<&str>) -> Option<Problem> {
         let span = self.at(at);
         let owner = Context::ALL.iter().find(|other| other.keywords().contains(&word))?;
         if context.keywords().contains(&word) {
             return None;
         }
-        let message = format!("`{word}` can't stand in {}", context.name());
-        Some(Problem::new(Code::Syntax, span, message, "not here").help(format!("it belongs in {}", owner.name())))
+        let (word, habit) = (word.to_owned(), habit.map(str::to_owned));
+        Some(Problem::new(span, Syntax::Misplaced { word, place: context.name(), owner: owner.name(), habit }))
     }
 }
 

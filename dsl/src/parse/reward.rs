@@ -3,7 +3,8 @@
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
 use crate::ast::{GiveStmt, GiveValue, RewardStmt, RewardStmtKind};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Syntax;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -36,21 +37,9 @@ impl Reader<'_> {
             let RewardStmtKind::Give(GiveStmt { on, when, label, .. }) = &give.kind else { continue };
             let ended = label.as_ref().is_some_and(|label| label.span.end == give.span.end);
             if !(ended && (!on.is_empty() || when.is_some())) && !between.contains(['\n', ';']) {
-                let help = if self.when_begins_a_line(block) {
-                    "the `when` is read as the event's: end the `give` with a label, `as \"goal\"`".to_owned()
-                } else {
-                    format!("put `{head} {{` on its own line, with the `give` inside it")
-                };
-                self.push(
-                    Problem::new(
-                        Code::BlockAfterGive,
-                        block.span.head(self.original()),
-                        "a `give` has no block",
-                        "this opens a block",
-                    )
-                    .label(give.span, "so this is given at every step")
-                    .help(help),
-                );
+                let moved = (!self.when_begins_a_line(block)).then_some(head);
+                let fact = Syntax::BlockAfterGive { give: give.span, moved };
+                self.push(Problem::new(block.span.head(self.original()), fact));
             }
         }
     }

@@ -7,7 +7,8 @@ mod mend;
 mod unopened;
 
 use super::{LEAST_EFFORT, MAX_BRACKETS, MAX_PROBLEMS, MAX_TOKENS, span};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Brackets, Fact, Syntax};
 use crate::source::FileId;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -21,8 +22,8 @@ pub(super) struct Scan<'t> {
     pub(super) text: Cow<'t, str>,
     /// Comments, in order.
     pub(super) comments: Vec<Range<usize>>,
-    /// Where a problem has been told already, so that what follows from it is not told again.
-    pub(super) told: Vec<Range<usize>>,
+    /// Where a problem has been reported already, so that what follows from it is not reported again.
+    pub(super) reported: Vec<Range<usize>>,
     /// What is wrong.
     pub(super) problems: Vec<Problem>,
 }
@@ -43,7 +44,7 @@ pub(super) fn scan(text: &str, file: FileId) -> Scan<'_> {
         } else {
             // Mending went astray: what the brackets hold can't be known.
             scan.text = Cow::Borrowed("");
-            scan.told.push(0..usize::MAX);
+            scan.reported.push(0..usize::MAX);
         }
     }
     scan
@@ -69,7 +70,7 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
         tokens: 0,
         too_much: None,
         effort: LEAST_EFFORT + 2 * text.len(),
-        scan: Scan { text: Cow::Borrowed(text), comments: Vec::new(), told: Vec::new(), problems: Vec::new() },
+        scan: Scan { text: Cow::Borrowed(text), comments: Vec::new(), reported: Vec::new(), problems: Vec::new() },
     };
     scanner.run(text);
     scanner
@@ -77,10 +78,8 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
 
 /// What is said of a text with too many words: it is not read.
 fn too_much<'t>(at: usize, file: FileId) -> Scan<'t> {
-    let message = format!("a file has more than {MAX_TOKENS} words and signs");
-    let problem = Problem::new(Code::TooMuch, span(file, at, at + 1), message, "one too many")
-        .help("move parts of it into other files and import them, or compute them from parameters");
-    Scan { text: Cow::Borrowed(""), comments: Vec::new(), told: everything(), problems: vec![problem] }
+    let problem = Problem::new(span(file, at, at + 1), Syntax::TooManyWords { most: MAX_TOKENS });
+    Scan { text: Cow::Borrowed(""), comments: Vec::new(), reported: everything(), problems: vec![problem] }
 }
 
 /// The range of a text of which nothing more is reported.
@@ -150,7 +149,7 @@ struct Scanner<'t> {
     chain: Chain,
     /// Where the item under way begins.
     chunk: usize,
-    /// From where on nothing more is told about the item under way, as its brackets are lost.
+    /// From where on nothing more is reported about the item under way, as its brackets are lost.
     lost: Vec<usize>,
     /// Whether a comment or script that is not closed swallows the rest.
     cut: bool,
@@ -227,11 +226,11 @@ impl Scanner<'_> {
         left.is_some()
     }
 
-    /// An item ends: nothing more is told about it behind a lost bracket.
+    /// An item ends: nothing more is reported about it behind a lost bracket.
     fn end_chunk(&mut self, at: usize) {
         self.chunk = at;
         let lost = self.lost.drain(..).min();
-        self.scan.told.extend(lost.map(|from| from..at));
+        self.scan.reported.extend(lost.map(|from| from..at));
     }
 
     fn find(&self, from: usize, what: &[u8]) -> Option<usize> {
@@ -253,15 +252,8 @@ impl Scanner<'_> {
         let end = if let Some(end) = self.find(at + 2, b"*/") {
             end + 2
         } else {
-            self.problem(
-                at,
-                2,
-                Code::UnclosedBracket,
-                "this comment is not closed",
-                "opened here",
-                "close it with `*/`",
-            );
-            self.scan.told.push(at..usize::MAX);
+            self.problem(at, 2, Brackets::UnclosedComment);
+            self.scan.reported.push(at..usize::MAX);
             self.tail.push_str("*/");
             self.lost.push(self.chunk);
             self.cut = true;
@@ -279,8 +271,8 @@ impl Scanner<'_> {
         }
         self.lost.push(self.chunk);
         self.cut = true;
-        self.problem(at, 3, Code::UnclosedString, "this script is not closed", "opened here", "close it with `\"\"\"`");
-        self.scan.told.push(at..usize::MAX);
+        self.problem(at, 3, Brackets::UnclosedScript);
+        self.scan.reported.push(at..usize::MAX);
         self.tail.push_str("\"\"\"");
         text.len()
     }
@@ -298,23 +290,16 @@ impl Scanner<'_> {
                 Some(_) => end += 1,
             }
         }
-        self.problem(
-            at,
-            1,
-            Code::UnclosedString,
-            "this string is not closed",
-            "opened here",
-            "close it with `\"` on its line",
-        );
+        self.problem(at, 1, Brackets::UnclosedString);
         if let Some(closers) = self.closers_at_end(at..end) {
             // What closes the block on this line was not meant to be words.
             self.mends.insert(closers - 1, b'"');
             self.skips.push(Skip { range: at..closers, line: false });
-            self.scan.told.push(at..closers);
+            self.scan.reported.push(at..closers);
             return closers;
         }
         self.skips.push(Skip { range: at..end, line: true });
-        self.scan.told.push(self.line_from..end + 1);
+        self.scan.reported.push(self.line_from..end + 1);
         if self.bytes.get(at..end).is_some_and(|text| text.iter().any(|byte| b"(){}[]".contains(byte))) {
             // The quote that is missing stands further left: this swallows brackets.
             self.lost.push(self.chunk);
@@ -346,14 +331,7 @@ impl Scanner<'_> {
             *count += 1;
             self.mends.insert(at, b' ');
         } else if self.open.len() >= MAX_BRACKETS {
-            self.problem(
-                at,
-                1,
-                Code::TooDeep,
-                &format!("brackets are nested more than {MAX_BRACKETS} deep"),
-                "one too many",
-                "give parts of it names with `let` or `fn`",
-            );
+            self.problem(at, 1, Syntax::NestedBrackets { most: MAX_BRACKETS });
             self.deep = Some((self.open.first().map_or(at, |open| open.at), 1));
             self.mends.insert(at, b' ');
         } else {
@@ -371,7 +349,7 @@ impl Scanner<'_> {
             self.mends.insert(at, b' ');
             if *count == 0 {
                 let from = *from;
-                self.scan.told.push(from..at + 1);
+                self.scan.reported.push(from..at + 1);
                 self.deep = None;
             }
             return at + 1;
@@ -398,9 +376,9 @@ impl Scanner<'_> {
         at + 1
     }
 
-    fn problem(&mut self, at: usize, len: usize, code: Code, message: &str, label: &str, help: &str) {
+    fn problem(&mut self, at: usize, len: usize, fact: impl Into<Fact>) {
         if self.scan.problems.len() < MAX_PROBLEMS {
-            self.scan.problems.push(Problem::new(code, span(self.file, at, at + len), message, label).help(help));
+            self.scan.problems.push(Problem::new(span(self.file, at, at + len), fact));
         }
     }
 }

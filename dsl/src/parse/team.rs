@@ -3,7 +3,8 @@
 use super::reader::{Node, Nodes, Reader};
 use super::recover::Context;
 use crate::ast::{Expr, Facing, Place, PlaceKind, PlayerStmt, Spanned, TeamStmt, TeamStmtKind};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Players;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 use setpiece_scenario::vocabulary::Role;
@@ -59,11 +60,8 @@ impl Reader<'_> {
     fn count(&mut self, node: &Node<'_>) -> Option<Spanned<u32>> {
         let span = self.span(node);
         let Ok(count) = node.as_str().parse() else {
-            let message = format!("`{}` players are too many", node.as_str().get(..20).unwrap_or(node.as_str()));
-            self.push(
-                Problem::new(Code::TooManyPlayers, span, message, "a team has at most 11")
-                    .help("write a number up to 11"),
-            );
+            let text = node.as_str().get(..20).unwrap_or(node.as_str()).to_owned();
+            self.push(Problem::new(span, Players::TooManyInLine { text }));
             return None;
         };
         Some(Spanned { node: count, span })

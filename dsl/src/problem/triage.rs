@@ -9,15 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The problems to report, by file, place and code.
 ///
 /// - `lost`: names whose declarations could not be read.
-pub(crate) fn triage(mut problems: Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) -> Vec<Problem> {
-    problems.sort_by_key(|problem| {
-        let place = problem.place().map(|span| (span.file, span.start, span.end));
-        (place, problem.code, problem.message.clone())
-    });
+pub(crate) fn triage(problems: Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) -> Vec<Problem> {
+    let mut problems = one_of_each(problems);
     drop_lost_names(&mut problems, sources, lost);
-    problems.dedup_by(|a, b| a.code == b.code && a.labels.first() == b.labels.first() && a.message == b.message);
-    if problems.iter().any(|problem| problem.code.leaves_gap()) {
-        problems.retain(|problem| !problem.code.may_be_echo());
+    if problems.iter().any(|problem| problem.code().leaves_gap()) {
+        problems.retain(|problem| !problem.code().may_be_echo());
     }
     drop_library(&mut problems, sources);
     if has_errors(&problems) {
@@ -27,19 +23,30 @@ pub(crate) fn triage(mut problems: Vec<Problem>, sources: &Sources, lost: &BTree
     problems
 }
 
+/// Problems in order, and one of those that a reader can't tell apart: they differ in help or further labels alone.
+fn one_of_each(problems: Vec<Problem>) -> Vec<Problem> {
+    let headline = |problem: Problem| {
+        let (said, span) = (problem.fact().words(), problem.place());
+        ((span.file, span.start, span.end, problem.code(), said.message, said.label), problem)
+    };
+    let mut headed: Vec<_> = problems.into_iter().map(headline).collect();
+    headed.sort_by(|(a, _), (b, _)| a.cmp(b));
+    headed.dedup_by(|(a, _), (b, _)| a == b);
+    headed.into_iter().map(|(_, problem)| problem).collect()
+}
+
 /// A name whose declaration can't be read is reported at the declaration.
 fn drop_lost_names(problems: &mut Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) {
     problems.retain(|problem| {
-        !matches!(problem.code, Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)
-            || !problem.place().is_some_and(|span| lost.contains(sources.text(span)))
+        !matches!(problem.code(), Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)
+            || !lost.contains(sources.text(problem.place()))
     });
 }
 
 /// The library is sound: what breaks in it follows from what the author wrote.
 fn drop_library(problems: &mut Vec<Problem>, sources: &Sources) {
-    let is_library = |problem: &Problem| {
-        problem.place().and_then(|span| sources.get(span.file)).is_some_and(|file| file.name.starts_with("std/"))
-    };
+    let is_library =
+        |problem: &Problem| sources.get(problem.place().file).is_some_and(|file| file.name.starts_with("std/"));
     if problems.iter().any(|problem| problem.is_error() && !is_library(problem)) {
         problems.retain(|problem| !is_library(problem));
     }
@@ -58,25 +65,26 @@ fn drop_likely_used(problems: &mut Vec<Problem>, sources: &Sources) {
         }
         times
     };
-    let helps = problems.iter().filter(|problem| problem.code != Code::UnusedName);
-    let meant: Vec<&str> = helps.filter_map(|problem| problem.help.as_deref()).collect();
-    let meant = words(&meant.join("\n"));
+    let meant: BTreeSet<String> = problems.iter().flat_map(Problem::suggested).collect();
     let mut of_files: BTreeMap<FileId, BTreeMap<String, u32>> = BTreeMap::new();
     problems.retain(|problem| {
-        let Some(span) = problem.place().filter(|_| problem.code == Code::UnusedName) else { return true };
+        if problem.code() != Code::UnusedName {
+            return true;
+        }
+        let span = problem.place();
         let name = sources.text(span);
         let text = || sources.get(span.file).map_or("", |file| &*file.text);
         let of_file = of_files.entry(span.file).or_insert_with(|| words(text()));
-        of_file.get(name).is_none_or(|times| *times < 2) && !meant.contains_key(name)
+        of_file.get(name).is_none_or(|times| *times < 2) && !meant.contains(name)
     });
 }
 
 /// What holds a part that could not be read is not what the author wrote.
 fn drop_around_unread(problems: &mut Vec<Problem>) {
-    let is_syntax = |problem: &Problem| problem.code.stage() == Stage::Syntax;
-    let unread: Vec<Span> = problems.iter().filter(|problem| is_syntax(problem)).filter_map(Problem::place).collect();
+    let is_syntax = |problem: &Problem| problem.code().stage() == Stage::Syntax;
+    let unread: Vec<Span> = problems.iter().filter(|problem| is_syntax(problem)).map(Problem::place).collect();
     problems.retain(|problem| {
         let is_around = |span: Span| unread.iter().any(|part| span.holds(*part) && span != *part);
-        is_syntax(problem) || !problem.place().is_some_and(is_around)
+        is_syntax(problem) || !is_around(problem.place())
     });
 }

@@ -43,12 +43,15 @@ pub struct DiagnosticLabel {
 
 /// Problems as plain data, sorted by file, place and code.
 pub fn diagnostics(problems: &[Problem], sources: &Sources) -> Vec<Diagnostic> {
-    let make = |problem: &&Problem| Diagnostic {
-        code: problem.code.to_string(),
-        severity: severity(problem.severity()).to_owned(),
-        message: problem.message.clone(),
-        help: problem.help.clone(),
-        labels: problem.labels.iter().map(|it| label(it, sources)).collect(),
+    let make = |problem: &&Problem| {
+        let words = problem.words();
+        Diagnostic {
+            code: problem.code().to_string(),
+            severity: severity(problem.severity()).to_owned(),
+            message: words.message,
+            help: words.help,
+            labels: words.labels.iter().map(|it| label(it, sources)).collect(),
+        }
     };
     sorted(problems).iter().map(make).collect()
 }

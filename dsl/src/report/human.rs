@@ -26,7 +26,7 @@ pub(super) fn render(problems: &[&Problem], sources: &Sources, color: bool, widt
     for problem in problems.iter().take(MAX_SHOWN) {
         let drawn = handler.render_report(&mut text, &Picture::of(problem, sources));
         if drawn.is_err() {
-            text.push_str(&printable(&problem.message, false));
+            text.push_str(&printable(&problem.words().message, false));
         }
         text.push('\n');
     }
@@ -48,18 +48,15 @@ struct Picture {
 
 impl Picture {
     fn of(problem: &Problem, sources: &Sources) -> Picture {
-        let file = problem.labels.first().map(|label| label.span.file);
-        let source = file.and_then(|file| Shown::of(file, sources));
+        let (words, place) = (problem.words(), problem.place());
+        let source = Shown::of(place.file, sources);
         // Only labels that fit into one drawing share it.
-        let primary_is_long = match (&source, problem.labels.first()) {
-            (Some(source), Some(label)) => source.is_long_at(label.span.start as usize),
-            _ => false,
-        };
+        let primary_is_long = source.as_ref().is_some_and(|source| source.is_long_at(place.start as usize));
         let mut here = Vec::new();
         let mut elsewhere = Vec::new();
-        for (i, label) in problem.labels.iter().enumerate() {
+        for (i, label) in words.labels.iter().enumerate() {
             let long = source.as_ref().is_some_and(|source| source.is_long_at(label.span.start as usize));
-            let apart = i > 0 && (Some(label.span.file) != file || primary_is_long || long);
+            let apart = i > 0 && (label.span.file != place.file || primary_is_long || long);
             if apart {
                 elsewhere.push(Picture::note(label, sources));
             } else {
@@ -67,13 +64,13 @@ impl Picture {
             }
         }
         Picture {
-            code: Some(problem.code.to_string()),
+            code: Some(problem.code().to_string()),
             severity: match problem.severity() {
                 Severity::Error => miette::Severity::Error,
                 Severity::Warning => miette::Severity::Warning,
             },
-            message: printable(&problem.message, false).into_owned(),
-            help: problem.help.as_deref().map(|help| printable(help, false).into_owned()),
+            message: printable(&words.message, false).into_owned(),
+            help: words.help.as_deref().map(|help| printable(help, false).into_owned()),
             source,
             labels: here,
             notes: elsewhere,

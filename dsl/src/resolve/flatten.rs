@@ -11,7 +11,8 @@ use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
     RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
 };
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Calls, Kind, Names, Players, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::{Role, Team};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -310,7 +311,10 @@ impl<'a> Adding<'a, '_> {
     fn record(&mut self, binding: &'a Binding) {
         let name = &binding.name;
         if let Some(first) = self.earlier("record", &name.node, name.span) {
-            self.problems.push(Problem::declared_twice(&format!("record `{}`", name.node), name.span, first));
+            self.problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("record `{}`", name.node), first: Some(first) },
+            ));
             return;
         }
         let is_new = self.known.insert(("record", &name.node));
@@ -331,20 +335,23 @@ impl<'a> Adding<'a, '_> {
     /// Declares a name that expressions may use.
     fn declare(&mut self, name: &Ident) {
         if let Some(first) = self.earlier("value", &name.node, name.span) {
-            self.problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, first));
+            self.problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(first) },
+            ));
         }
     }
 
     fn only_once(&mut self, what: &'static str, span: Span) {
         if let Some(first) = self.earlier(what, "", span) {
-            self.problems.push(Problem::given_twice(what, span, first));
+            self.problems.push(Problem::new(span, Names::GivenTwice { what: what.to_owned(), first }));
         }
     }
 
     /// A key of a group that may be written in several pairs of braces.
     fn key_once(&mut self, group: &'static str, key: &Ident) {
         if let Some(first) = self.earlier(group, &key.node, key.span) {
-            self.problems.push(Problem::given_twice(&format!("`{}`", key.node), key.span, first));
+            self.problems.push(Problem::new(key.span, Names::GivenTwice { what: format!("`{}`", key.node), first }));
         }
     }
 
@@ -366,16 +373,10 @@ impl<'a> Adding<'a, '_> {
                     }
                     known.domain = param.domain.as_ref().or(known.domain);
                 } else if let Some(ty) = &param.ty {
-                    self.problems.push(
-                        Problem::new(
-                            Code::WrongType,
-                            ty.span,
-                            format!("`{}` has another type in the parent", param.name.node),
-                            "a child can change the default, not the type",
-                        )
-                        .label(known.decl.span, "declared here")
-                        .help("leave the type out, or choose another name"),
-                    );
+                    self.problems.push(Problem::new(
+                        ty.span,
+                        Types::OtherTypeInParent { name: param.name.node.clone(), parent: known.decl.span },
+                    ));
                 }
             }
             Some(_) => {}
@@ -395,24 +396,12 @@ impl<'a> Adding<'a, '_> {
             params.rev().map(|(at, param)| (param.decl.name.node.as_str(), at)).collect();
         for arg in &reference.args {
             let Some(name) = arg_name(arg) else {
-                self.problems.push(
-                    Problem::new(
-                        Code::WrongArguments,
-                        arg.span,
-                        format!("`{}` takes its arguments by name", reference.name.node),
-                        "which parameter is meant?",
-                    )
-                    .help("write `name: value`"),
-                );
+                self.problems.push(Problem::new(arg.span, Calls::ByName { callee: reference.name.node.clone() }));
                 continue;
             };
             if let Some(first) = given.get(name) {
-                let message = format!("`{name}` is given twice");
-                self.problems.push(
-                    Problem::new(Code::WrongArguments, arg.span, message, "given again here")
-                        .help("leave one of them out")
-                        .label(*first, "first given here"),
-                );
+                self.problems
+                    .push(Problem::new(arg.span, Calls::GivenTwice { parameter: name.to_owned(), first: *first }));
                 continue;
             }
             given.insert(name, arg.span);
@@ -423,8 +412,8 @@ impl<'a> Adding<'a, '_> {
             }
             let known = places.keys().copied();
             let span = arg.key.as_ref().map_or(arg.span, |key| key.span);
-            let message = format!("`{}` has no parameter `{name}`", reference.name.node);
-            self.problems.push(Problem::new(Code::UnknownName, span, message, "").did_you_mean(name, known));
+            let (parent, guess) = (reference.name.node.clone(), Guess::of(name, known));
+            self.problems.push(Problem::new(span, Names::NoParentParameter { parent, name: name.to_owned(), guess }));
         }
     }
 
@@ -452,10 +441,10 @@ impl<'a> Adding<'a, '_> {
 
     fn team(&mut self, team: &'a Ident, body: &'a [TeamStmt]) {
         let Some(index) = Team::from_name(&team.node).map(Team::index) else {
-            self.problems.push(
-                Problem::new(Code::UnknownName, team.span, format!("no team is called `{}`", team.node), "")
-                    .help("write `team left` or `team right`"),
-            );
+            self.problems.push(Problem::new(
+                team.span,
+                Names::Unknown { kind: Kind::Team, name: team.node.clone(), guess: Guess::default() },
+            ));
             return;
         };
         for stmt in body {
@@ -464,16 +453,10 @@ impl<'a> Adding<'a, '_> {
                 .iter()
                 .find(|other| matches!(&other.kind, TeamStmtKind::Player(player) if player.role.node == role.node));
             if let Some(placed) = placed {
-                self.problems.push(
-                    Problem::new(
-                        Code::AbsentPlayer,
-                        role.span,
-                        format!("`{}` is absent and placed", role.node),
-                        "absent here",
-                    )
-                    .label(placed.span, "placed here")
-                    .help("leave one of the two lines out"),
-                );
+                self.problems.push(Problem::new(
+                    role.span,
+                    Players::AbsentAndPlaced { role: role.node.to_string(), placed: placed.span },
+                ));
             }
         }
         for stmt in body {
@@ -504,16 +487,8 @@ impl<'a> Adding<'a, '_> {
                 RewardUseKind::Inline { name, .. } => name.node.as_str(),
                 RewardUseKind::Script(_) => "script …",
             };
-            self.problems.push(
-                Problem::new(
-                    Code::DuplicateName,
-                    stmt.span,
-                    format!("reward `{name}` is given twice"),
-                    "given again here",
-                )
-                .label(first, "first given here")
-                .help(format!("give one of them another label: `reward {what} as \"{name}_2\"`")),
-            );
+            self.problems
+                .push(Problem::new(stmt.span, Names::RewardTwice { name: name.clone(), what: what.to_owned(), first }));
             return;
         }
         match known.and_then(|at| self.flat.rewards.get_mut(at)) {
@@ -539,16 +514,7 @@ impl<'a> Adding<'a, '_> {
         };
         let name = label.bare();
         if let Some(first) = self.earlier("end", name, span) {
-            self.problems.push(
-                Problem::new(
-                    Code::DuplicateName,
-                    label.name.span,
-                    format!("ending `{name}` is given twice"),
-                    "given again here",
-                )
-                .label(first, "first given here")
-                .help("give each ending its own label, or join the conditions with `or`"),
-            );
+            self.problems.push(Problem::new(label.name.span, Names::EndingTwice { name: name.to_owned(), first }));
             return;
         }
         let known = self.flat.ends.iter_mut().find(|known| known.label.is_some_and(|known| known.bare() == name));

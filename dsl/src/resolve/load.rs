@@ -2,7 +2,8 @@
 
 use crate::ast::{File, FileId, Ident, Item, ItemKind, ParamDecl, Span};
 use crate::parse::parse;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Files, ImportLimit, Names};
 use crate::source::{Source, SourceLoader, Sources};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -177,16 +178,16 @@ impl Loading<'_> {
         }
         self.files += 1;
         self.bytes += source.text.len();
-        let message = if self.stack.len() > MAX_IMPORT_DEPTH {
-            format!("files import each other more than {MAX_IMPORT_DEPTH} deep")
+        let limit = if self.stack.len() > MAX_IMPORT_DEPTH {
+            ImportLimit::Depth(MAX_IMPORT_DEPTH)
         } else if self.files > MAX_FILES {
-            format!("more than {MAX_FILES} files are imported")
+            ImportLimit::Files(MAX_FILES)
         } else if self.bytes > MAX_IMPORTED_BYTES {
-            format!("imported files are larger than {} MiB together", MAX_IMPORTED_BYTES >> 20)
+            ImportLimit::Bytes(MAX_IMPORTED_BYTES)
         } else {
             return None;
         };
-        Some(too_much(message, at))
+        Some(too_much(limit, at))
     }
 
     fn file(&mut self, source: &Source) -> FileId {
@@ -225,7 +226,7 @@ impl Loading<'_> {
         self.stack.push(id);
         for (path, alias) in imports {
             if self.missing > MAX_FILES {
-                self.problems.push(too_much(format!("more than {MAX_FILES} imports find no file"), path.span));
+                self.problems.push(too_much(ImportLimit::Missing(MAX_FILES), path.span));
                 break;
             }
             let loaded = match self.loader.load(&path.node, &from) {
@@ -233,11 +234,8 @@ impl Loading<'_> {
                 Err(error) => {
                     self.missing += 1;
                     self.library.inputs.extend(error.awaited);
-                    let problem = Problem::new(Code::FileMissing, path.span, error.message, "imported here");
-                    self.problems.push(match error.similar.first() {
-                        Some(similar) => problem.help(format!("did you mean `{similar}`?")),
-                        None => problem,
-                    });
+                    let (why, similar) = (error.message, error.similar.into_iter().next());
+                    self.problems.push(Problem::new(path.span, Files::Missing { why, similar, is_script: false }));
                     continue;
                 }
             };
@@ -253,15 +251,7 @@ impl Loading<'_> {
             }
             let imported = match known {
                 Some(known) if self.stack.contains(&known) => {
-                    self.problems.push(
-                        Problem::new(
-                            Code::ImportCycle,
-                            path.span,
-                            format!("`{}` imports itself, by way of this line", path.node),
-                            "closes the circle",
-                        )
-                        .help("move what both files need into a third one"),
-                    );
+                    self.problems.push(Problem::new(path.span, Files::ImportsItself { path: path.node.clone() }));
                     continue;
                 }
                 Some(known) => known,
@@ -301,15 +291,10 @@ impl Library {
         let places = self.seen.get(file.0 as usize)?.get(name)?;
         let (first, second) = (self.item(*places.first()?)?, self.item(*places.get(1)?)?);
         let of = |item: &NamedItem<'_>| self.sources.get(item.name.span.file).map_or("", |file| file.name.as_str());
-        Some(
-            Problem::new(
-                Code::AmbiguousName,
-                span,
-                format!("`{name}` is declared in `{}` and in `{}`", of(&first), of(&second)),
-                "which one is meant?",
-            )
-            .help("import one of the files `as` a name and write `name.` before it"),
-        )
+        Some(Problem::new(
+            span,
+            Names::Ambiguous { name: name.to_owned(), files: (of(&first).to_owned(), of(&second).to_owned()) },
+        ))
     }
 
     /// The file that another one imports under a name.
@@ -394,8 +379,8 @@ impl Library {
     }
 }
 
-fn too_much(message: String, at: Span) -> Problem {
-    Problem::new(Code::TooMuch, at, message, "one too many").help("import less, or join some of the files")
+fn too_much(limit: ImportLimit, at: Span) -> Problem {
+    Problem::new(at, Files::TooManyImports { limit })
 }
 
 /// What is nearer hides what is farther.
@@ -412,7 +397,10 @@ fn own_names(file: &File, problems: &mut Vec<Problem>) -> BTreeMap<String, Vec<I
         let Some(name) = item_name(item) else { continue };
         distinct_params(item.kind.params(), problems);
         if let Some(first) = spans.get(name.node.as_str()) {
-            problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, *first));
+            problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(*first) },
+            ));
             continue;
         }
         spans.insert(&name.node, name.span);
@@ -447,7 +435,10 @@ pub(super) fn distinct_params(params: &[ParamDecl], problems: &mut Vec<Problem>)
     let mut known: BTreeMap<&str, Span> = BTreeMap::new();
     for ParamDecl { name, .. } in params {
         match known.get(name.node.as_str()) {
-            Some(first) => problems.push(Problem::declared_twice(&format!("`{}`", name.node), name.span, *first)),
+            Some(first) => problems.push(Problem::new(
+                name.span,
+                Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(*first) },
+            )),
             None => drop(known.insert(&name.node, name.span)),
         }
     }

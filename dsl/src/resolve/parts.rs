@@ -2,7 +2,8 @@
 
 use super::load::Library;
 use crate::ast::{FormationItem, ItemKind, Ref, RewardItem};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::Names;
+use crate::problem::{Guess, Problem};
 
 /// Most parents of a scenario, reward or formation: a base, its variants and their levels are a handful.
 pub(crate) const MAX_PARENTS: usize = 32;
@@ -52,7 +53,7 @@ pub(crate) fn formation_chain<'a>(
 pub(super) fn chain<'a, T>(
     library: &'a Library,
     from: &'a T,
-    noun: &str,
+    kind: &'static str,
     extends: impl Fn(&'a T) -> Option<&'a Ref>,
     pick: impl Fn(&'a ItemKind) -> Option<&'a T>,
     problems: &mut Vec<Problem>,
@@ -62,18 +63,16 @@ pub(super) fn chain<'a, T>(
     while let Some(parent_ref) = extends(at) {
         let name = &parent_ref.name;
         let Some(parent) = library.find(name.span.file, &name.node).and_then(|found| pick(&found.item.kind)) else {
-            let given = library.scenarios.iter().filter(|_| noun == "scenario").map(|(name, _)| name.as_str());
+            let given = library.scenarios.iter().filter(|_| kind == "scenario").map(|(name, _)| name.as_str());
             let candidates = library
                 .visible(name.span.file)
                 .filter(|(_, found)| pick(&found.item.kind).is_some_and(|other| !std::ptr::eq(other, at)))
                 .map(|(name, _)| name)
                 .chain(given);
-            let message = format!("no {noun} is called `{}`", name.node);
-            let problem = Problem::new(Code::UnknownParent, name.span, message, "extends this");
-            problems.push(match library.find(name.span.file, &name.node) {
-                Some(other) => problem.help(format!("`{}` is {}", name.node, other.item.kind.noun())),
-                None => problem.did_you_mean(&name.node, candidates),
-            });
+            let other = library.find(name.span.file, &name.node).map(|other| other.item.kind.noun());
+            let guess = if other.is_none() { Guess::of(&name.node, candidates) } else { Guess::default() };
+            let fact = Names::NoParent { kind, name: name.node.clone(), other, guess };
+            problems.push(Problem::new(name.span, fact));
             break;
         };
         if let Some(begin) = chain.iter().position(|(known, _)| std::ptr::eq(*known, parent)) {
@@ -81,24 +80,12 @@ pub(super) fn chain<'a, T>(
             let circle = chain.iter().skip(begin + 1).filter_map(|(_, reference)| *reference);
             let first = circle.map(|reference| &reference.name).chain([name]).min_by_key(|name| name.span);
             let name = first.unwrap_or(name);
-            problems.push(
-                Problem::new(
-                    Code::ExtendsCycle,
-                    name.span,
-                    format!("`{}` extends itself", name.node),
-                    "closes the circle",
-                )
-                .help("take one `extends` of the circle away"),
-            );
+            problems.push(Problem::new(name.span, Names::ExtendsItself { name: name.node.clone() }));
             break;
         }
         if chain.len() > MAX_PARENTS {
-            let message = format!("a {noun} has more than {MAX_PARENTS} parents");
             let at = extends(from).map_or(name.span, |parent| parent.name.span);
-            problems.push(
-                Problem::new(Code::TooMuch, at, message, "too many")
-                    .help("join some of them: a child may change everything that it inherits"),
-            );
+            problems.push(Problem::new(at, Names::TooManyParents { kind, most: MAX_PARENTS }));
             break;
         }
         chain.push((parent, Some(parent_ref)));

@@ -1,13 +1,13 @@
 //! No text makes the parser panic, hang or lose its place.
 
-use super::{EVERYTHING, read, told};
+use super::{EVERYTHING, read, reported};
 use proptest::prelude::*;
 
 fn check(text: &str) {
     let (file, problems) = read(text);
     for span in problems
         .iter()
-        .flat_map(|problem| &problem.labels)
+        .flat_map(|problem| problem.words().labels)
         .map(|label| label.span)
         .chain(file.items.iter().map(|item| item.span))
     {
@@ -42,11 +42,11 @@ fn chains_of_any_length_end_in_a_problem() {
             ("a|", "b"),
             ("else if if a then b ", "c"),
         ] {
-            let problems = told(&format!("scenario s {{ let x = {}{tail} }}", link.repeat(n)));
+            let problems = reported(&format!("scenario s {{ let x = {}{tail} }}", link.repeat(n)));
             assert!(!problems.is_empty() && problems.len() < 5, "{link}: {problems:?}");
         }
     }
-    assert!(!told(&format!("reward r {{ when a {{ }} {} }}", "else when b { } ".repeat(20_000))).is_empty());
+    assert!(!reported(&format!("reward r {{ when a {{ }} {} }}", "else when b { } ".repeat(20_000))).is_empty());
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn a_lost_bracket_or_quote_is_a_few_problems() {
             continue;
         }
         let text = format!("{}{}", &EVERYTHING[..at], &EVERYTHING[at + 1..]);
-        let problems = told(&text);
+        let problems = reported(&text);
         if !(1..=4).contains(&problems.len()) {
             let line = EVERYTHING[..at].matches('\n').count() + 1;
             wrong.push(format!("line {line}, `{sign}`: {problems:#?}"));

@@ -1,6 +1,6 @@
 //! The traps of parsing, one test each.
 
-use super::{player, read, reward, scenario, team, told};
+use super::{player, read, reported, reward, scenario, team};
 use setpiece_dsl::ast::{
     BinaryOp, Domain, Expr, ExprKind, GiveStmt, GiveValue, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind,
     TeamStmtKind,
@@ -23,9 +23,9 @@ fn operator(expr: &Expr) -> Option<BinaryOp> {
 #[test]
 fn p1_a_calls_bracket_touches_its_name() {
     assert!(matches!(value("f(1)").kind, ExprKind::Call { .. }));
-    let problems = told("scenario s { team left {\n CM at (0.6, 0) (0.7, 0.2)\n } }");
+    let problems = reported("scenario s { team left {\n CM at (0.6, 0) (0.7, 0.2)\n } }");
     assert_eq!(problems.len(), 1, "{problems:?}");
-    assert_eq!(told("scenario s { let x = f (1) }").len(), 1);
+    assert_eq!(reported("scenario s { let x = f (1) }").len(), 1);
 }
 
 #[test]
@@ -48,9 +48,9 @@ fn p2_a_blocks_head_is_not_a_gives_clause() {
 #[test]
 fn p3_a_block_behind_a_give_is_told() {
     for head in ["on goal by us", "when c", "on goal by us when c"] {
-        let problems = told(&format!("reward r {{\n give 1 {head} {{ x = 1 }}\n}}"));
+        let problems = reported(&format!("reward r {{\n give 1 {head} {{ x = 1 }}\n}}"));
         assert_eq!(problems, ["SP0103 a `give` has no block"], "{head}");
-        assert!(told(&format!("reward r {{\n give 1\n {head} {{ x = 1 }}\n}}")).is_empty());
+        assert!(reported(&format!("reward r {{\n give 1\n {head} {{ x = 1 }}\n}}")).is_empty());
     }
 }
 
@@ -124,7 +124,9 @@ fn p9_nesting_costs_no_exponential_time() {
         let text = format!("{}1{}", open.repeat(deep), close.repeat(deep));
         value(&text);
         // Wrong ones are read twice, not once per level.
-        assert!(!told(&format!("scenario s {{ let x = {}1 1{} }}", open.repeat(deep), close.repeat(deep))).is_empty());
+        assert!(
+            !reported(&format!("scenario s {{ let x = {}1 1{} }}", open.repeat(deep), close.repeat(deep))).is_empty()
+        );
     }
 }
 
@@ -132,9 +134,9 @@ fn p9_nesting_costs_no_exponential_time() {
 fn p10_brackets_are_counted_before_parsing() {
     for n in [MAX_BRACKETS, 10_000] {
         let text = format!("scenario s {{ let x = {}1{} }}", "(".repeat(n), ")".repeat(n));
-        assert_eq!(told(&text), ["SP0102 brackets are nested more than 64 deep"]);
+        assert_eq!(reported(&text), ["SP0102 brackets are nested more than 64 deep"]);
         let text = format!("scenario s {{ let x = {}", "(".repeat(n));
-        assert_eq!(told(&text), ["SP0102 brackets are nested more than 64 deep"]);
+        assert_eq!(reported(&text), ["SP0102 brackets are nested more than 64 deep"]);
     }
 }
 
@@ -166,9 +168,9 @@ fn p12_keys_may_be_weights() {
 #[test]
 fn p13_scenarios_names_may_begin_with_digits() {
     for name in ["5_vs_5", "2vs2", "11_vs_11_easy_stochastic"] {
-        assert!(told(&format!("scenario {name} extends 11_vs_11 {{ }}")).is_empty(), "{name}");
+        assert!(reported(&format!("scenario {name} extends 11_vs_11 {{ }}")).is_empty(), "{name}");
     }
-    assert_eq!(told("reward 5_vs_5 { }").len(), 1);
+    assert_eq!(reported("reward 5_vs_5 { }").len(), 1);
 }
 
 #[test]
@@ -178,7 +180,7 @@ fn p14_event_names_are_reserved_as_values_only() {
     assert!(matches!(value("f(goal: 1)").kind, ExprKind::Call { .. }));
     for text in ["let corner = 1", "param pass = 1", "let in = 1", "let CB = 3", "const when = 1", "let (a, shot) = b"]
     {
-        let problems = told(&format!("scenario s {{ {text} }}"));
+        let problems = reported(&format!("scenario s {{ {text} }}"));
         assert!(
             problems.len() == 1 && problems.iter().all(|problem| problem.starts_with("SP0107")),
             "{text}: {problems:?}"
@@ -230,17 +232,17 @@ fn p19_not_binds_below_comparison_and_comparisons_do_not_chain() {
     assert!(matches!(value("not p in q").kind, ExprKind::Unary(_, inner) if operator(&inner) == Some(BinaryOp::In)));
     assert_eq!(operator(&value("-x in q")), Some(BinaryOp::In));
     for text in ["a < b < c", "a == b in c", "a < b + 1 < c and d"] {
-        assert_eq!(told(&format!("scenario s {{ let x = {text} }}")), ["SP0106 comparisons don't chain"], "{text}");
+        assert_eq!(reported(&format!("scenario s {{ let x = {text} }}")), ["SP0106 comparisons don't chain"], "{text}");
     }
 }
 
 #[test]
 fn p20_an_if_has_then_and_else() {
     assert!(matches!(value("if a then 1 else if b then 2 else 3").kind, ExprKind::If(..)));
-    assert_eq!(told("scenario s { let x = if a then 1 }").len(), 1);
+    assert_eq!(reported("scenario s { let x = if a then 1 }").len(), 1);
 }
 
 #[test]
 fn indentation_means_nothing_where_brackets_agree() {
-    assert_eq!(told("scenario s {\n        team left { CB at (0, 0)\n  }\n    }"), Vec::<String>::new());
+    assert_eq!(reported("scenario s {\n        team left { CB at (0, 0)\n  }\n    }"), Vec::<String>::new());
 }

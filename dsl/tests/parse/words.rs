@@ -1,7 +1,10 @@
 //! The words of every report.
 
 use super::{read, sources};
+use setpiece_dsl::problem::Code;
 use setpiece_dsl::report::{Format, diagnostics, render};
+use setpiece_dsl::source::{LoadError, Source, SourceLoader};
+use setpiece_dsl::{CompileOptions, compile};
 
 fn report(text: &str) -> String {
     let (_, problems) = read(text);
@@ -56,13 +59,24 @@ fn twenty_are_shown_and_all_are_counted() {
 
 #[test]
 fn labels_of_two_files_are_two_pictures() {
-    use setpiece_dsl::problem::{Code, Problem};
-    use setpiece_dsl::source::{FileId, Source, Span};
-    let mut sources = sources("import \"lib.pitch\"\nfn width() = 3m\n");
-    sources.add(Source { name: "lib.pitch".into(), text: "// Shared.\nfn width() = 2m\n".into() });
-    let at = |file, start| Span { file: FileId(file), start, end: start + 5 };
-    let problem = Problem::new(Code::DuplicateName, at(0, 22), "`width` is defined twice", "here again")
-        .label(at(1, 14), "first here")
-        .help("give one of them another name");
-    insta::assert_snapshot!("two_files", render(&[problem], &sources, Format::Human { color: false, width: 100 }));
+    struct Parent;
+    impl SourceLoader for Parent {
+        fn load(&self, path: &str, _from: &str) -> Result<Source, LoadError> {
+            let text = "// Shared.\nabstract scenario parent(width: length = 2m) { }\n";
+            match path {
+                "lib.pitch" => Ok(Source { name: path.to_owned(), text: text.into() }),
+                _ => Err(LoadError { message: format!("no file `{path}`"), similar: Vec::new(), awaited: None }),
+            }
+        }
+
+        fn scenarios(&self) -> Vec<(String, String)> {
+            Vec::new()
+        }
+    }
+    let text = "import \"lib.pitch\"\nscenario child(width: number = 2) extends parent {\n    ball at (0, 0)\n    \
+                end limit 10 steps\n}\n";
+    let outcome = compile(Source { name: "test.pitch".into(), text: text.into() }, &Parent, &CompileOptions::default());
+    let problem = outcome.problems.iter().find(|problem| problem.code() == Code::WrongType).cloned();
+    let report = render(problem.as_slice(), &outcome.sources, Format::Human { color: false, width: 100 });
+    insta::assert_snapshot!("two_files", report);
 }

@@ -3,7 +3,8 @@
 use super::Writer;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem, signature};
+use crate::problem::facts::{Behaviors, Kind, Names};
+use crate::problem::{Guess, Problem, signature};
 use setpiece_scenario::pitch::{LONGEST_S, STEPS_PER_S};
 use setpiece_scenario::vocabulary::{Field, Primitive};
 use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, Then, UnaryOp, Watch, When};
@@ -49,14 +50,10 @@ impl<'w> Writer<'_, 'w> {
             .map(|(name, _)| name)
             .collect();
         known.extend(Primitive::ALL.iter().map(|primitive| primitive.name()));
-        let message = format!("nothing that a player does is called `{}`", name.node);
-        let problem = Problem::new(Code::UnknownName, name.span, message, "not known");
-        self.lower.report(if crate::problem::nearest(&name.node, known.iter().copied()).is_some() {
-            problem.did_you_mean(&name.node, known)
-        } else {
-            let all: Vec<&str> = Primitive::ALL.iter().map(|primitive| primitive.name()).collect();
-            problem.help(format!("he can `{}`, or what a `behavior` says", all.join("`, `")))
-        });
+        let all: Vec<&str> = Primitive::ALL.iter().map(|primitive| primitive.name()).collect();
+        let guess = Guess::similar_or(&name.node, &known, &all);
+        let fact = Names::Unknown { kind: Kind::Act, name: name.node.clone(), guess };
+        self.lower.report(Problem::new(name.span, fact));
     }
 
     fn primitive(&mut self, primitive: Primitive, stmt: &'w DoStmt, args: &'w [Arg], span: Span) {
@@ -67,10 +64,7 @@ impl<'w> Writer<'_, 'w> {
             let act = writer.act(primitive, args, span);
             let (until, seconds) = writer.clauses(stmt);
             if primitive == Primitive::Wait && stmt.duration.is_none() {
-                writer.lower.report(
-                    Problem::new(Code::WrongArguments, span, "`wait` doesn't say for how long", "")
-                        .help("write `do wait for 1s`; `do hold` stands until something else happens"),
-                );
+                writer.lower.report(Problem::new(span, Behaviors::WaitHowLong));
             }
             act.map(|act| Do { act, sprint: stmt.sprinting.is_some(), until, seconds })
         });
@@ -80,11 +74,7 @@ impl<'w> Writer<'_, 'w> {
     fn refuse_sprint(&self, stmt: &DoStmt, what: &str) {
         let Some(at) = stmt.sprinting else { return };
         let runs: Vec<&str> = Primitive::ALL.iter().filter(|known| known.runs()).map(|known| known.name()).collect();
-        let message = format!("{what} is not done `sprinting`");
-        self.lower.report(
-            Problem::new(Code::WrongArguments, at, message, "not here")
-                .help(format!("what can be: `{}`", runs.join("`, `"))),
-        );
+        self.lower.report(Problem::new(at, Behaviors::NoSprint { what: what.to_owned(), runs }));
     }
 
     /// `until C`, `for D`
@@ -110,10 +100,11 @@ impl<'w> Writer<'_, 'w> {
         let given = self.lower.arguments(primitive.name(), args, span, names, 0)?;
         let first = given.first().copied().flatten();
         if first.is_none() && !names.is_empty() && primitive != P::Shoot {
-            let signature = signature(primitive.doc());
-            let message = format!("`{primitive}` doesn't say {}", if *names == ["player"] { "who" } else { "where" });
-            self.lower
-                .report(Problem::new(Code::WrongArguments, span, message, "").help(format!("write `do {signature}`")));
+            let is_player = *names == ["player"];
+            self.lower.report(Problem::new(
+                span,
+                Behaviors::NoTarget { primitive: primitive.name(), is_player, signature: signature(primitive.doc()) },
+            ));
             return None;
         }
         Some(match (primitive, first) {

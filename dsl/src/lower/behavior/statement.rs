@@ -5,7 +5,8 @@ use crate::ast::{BehaviorStmt, BehaviorStmtKind, Binding as Let, Chance, Expr, I
 use crate::check::types::Ty;
 use crate::lower::param;
 use crate::lower::value::{Binding, Scope, Value};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Behaviors, Names, Scopes, Types};
 use setpiece_scenario::{BinaryOp, Distribution, Node, Reg, Then, UnaryOp, Watch};
 
 impl<'w> Writer<'_, 'w> {
@@ -14,11 +15,10 @@ impl<'w> Writer<'_, 'w> {
         for statement in statements {
             let BehaviorStmtKind::State(state) = &statement.kind else { continue };
             if self.states.iter().any(|known| known.name == state.name.node) {
-                let message = format!("state `{}` is declared twice", state.name.node);
-                self.lower.report(
-                    Problem::new(Code::DuplicateName, state.name.span, message, "declared again here")
-                        .help("choose another name for one of them"),
-                );
+                self.lower.report(Problem::new(
+                    state.name.span,
+                    Names::DeclaredTwice { what: format!("state `{}`", state.name.node), first: None },
+                ));
                 continue;
             }
             self.state(state);
@@ -33,10 +33,7 @@ impl<'w> Writer<'_, 'w> {
         let regs = value.regs();
         let held = value.is_held();
         if !held && !value.is_error() {
-            self.lower.report(
-                Problem::new(Code::WrongType, state.value.span, format!("a state can't be {}", value.ty.noun()), "")
-                    .help("keep numbers, players and points in states"),
-            );
+            self.lower.report(Problem::new(state.value.span, Types::NoState { ty: value.ty }));
         }
         let cells: Vec<u32> = regs.iter().map(|_| self.lower.code.new_cell()).collect();
         let read: Vec<Reg> = cells.iter().map(|&cell| self.lower.code.cell(cell)).collect();
@@ -106,10 +103,7 @@ impl<'w> Writer<'_, 'w> {
     fn statement(&mut self, statement: &'w BehaviorStmt, is_top: bool) {
         match &statement.kind {
             BehaviorStmtKind::State(state) if !is_top => {
-                self.lower.report(
-                    Problem::new(Code::WrongScope, state.name.span, "a `state` stands at the top of a behavior", "")
-                        .help("move it above the block"),
-                );
+                self.lower.report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a behavior" }));
             }
             BehaviorStmtKind::State(_) | BehaviorStmtKind::Interrupt { .. } | BehaviorStmtKind::Broken => {}
             BehaviorStmtKind::Let(binding) => self.freeze(binding),
@@ -144,7 +138,7 @@ impl<'w> Writer<'_, 'w> {
         if !pairs.is_empty() {
             self.nodes.push(Node::Let(pairs));
         }
-        // A state may be hidden by what stands beside it, another `let` is bound anew.
+        // A state may be hidden by what stands beside it, another `let` is bound again.
         let is_state = self.states.iter().any(|state| state.name == binding.name.node);
         let around = if is_state { &self.lower.scope } else { &self.around };
         self.lower.check_hides_local(&binding.name.node, binding.name.span, around);
@@ -208,7 +202,7 @@ impl<'w> Writer<'_, 'w> {
         (passed, self.lower.code.cell(limit))
     }
 
-    /// Goes on if a condition holds; the place of the node, to be told where to go else.
+    /// Goes on if a condition holds; the place of the node, which still needs the place to go to otherwise.
     pub(super) fn branch(&mut self, when: Reg) -> usize {
         self.nodes.push(Node::Branch { when, otherwise: 0 });
         self.nodes.len() - 1
@@ -238,10 +232,7 @@ impl<'w> Writer<'_, 'w> {
 
     fn choose(&mut self, chances: &'w [Chance], statement: &'w BehaviorStmt) {
         if chances.is_empty() {
-            self.lower.report(
-                Problem::new(Code::WrongArguments, statement.span, "`choose` has nothing to choose from", "")
-                    .help("write, for example, `choose { 2: do shoot 1: do hold for 1s }`"),
-            );
+            self.lower.report(Problem::new(statement.span, Behaviors::NoChoices));
             return;
         }
         let index = self.drawing(|writer| {

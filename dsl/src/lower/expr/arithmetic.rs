@@ -5,7 +5,8 @@ use super::super::value::{RegionValue, Repr, Value};
 use super::is_tuple;
 use crate::ast::{self, Expr, ExprKind, Span, Spanned};
 use crate::check::types::{Dim, Ty};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names, Operand, Scopes, Types, Verb};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::{Field, GameMode};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 use std::rc::Rc;
@@ -72,7 +73,7 @@ impl<'w> Lower<'_, 'w> {
             ExprKind::Event(event) if matches!(ty, Ty::Team | Ty::Player) => event.by.as_ref()?.span,
             ExprKind::Binary(op, _, region) if op.node == ast::BinaryOp::In && ty == Ty::Region => {
                 let (region, other) = (self.world.text(region.span), self.world.text(b.span));
-                return Some(format!("write `{region} {sign} {other}`"));
+                return Some(format!("{region} {sign} {other}"));
             }
             ExprKind::Binary(op, _, part) if matches!(op.node, ast::BinaryOp::Eq | ast::BinaryOp::Ne) => part.span,
             _ => return None,
@@ -81,7 +82,7 @@ impl<'w> Lower<'_, 'w> {
         let (whole, head) = (self.world.text(last.span), self.world.text(to(part.start)));
         let tail = self.world.text(Span { start: part.end, ..last.span });
         let again = format!("{head} {} {tail}", self.world.text(b.span));
-        Some(format!("write `{whole} {word} {}`", again.trim_end()))
+        Some(format!("{whole} {word} {}", again.trim_end()))
     }
 
     fn sum(&mut self, is_add: bool, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
@@ -92,7 +93,7 @@ impl<'w> Lower<'_, 'w> {
         let op = if is_add { BinaryOp::Add } else { BinaryOp::Sub };
         if let (Some(left), Some(right)) = (x.ty.dim(), y.ty.dim()) {
             if left != right {
-                return self.disagree(&x, &y, a, b, if is_add { "add" } else { "subtract" });
+                return self.disagree(&x, &y, a, b, if is_add { Verb::Add } else { Verb::Subtract });
             }
             let (p, q) = (self.reg(&x), self.reg(&y));
             let reg = self.code.binary(op, p, q);
@@ -115,14 +116,13 @@ impl<'w> Lower<'_, 'w> {
             (_, right) if is_add && right.is_place() && offset(&x, a) => Ty::Point,
             (left, right) if !is_add && left.is_place() && right.is_place() => Ty::Vector,
             (left, right) if left.is_place() && right.is_place() => {
-                let problem = Problem::new(Code::WrongType, span, "two points can't be added", "");
-                return self.fail(match (&b.kind, right) {
-                    (ExprKind::Name(name), Ty::Point) => problem
-                        .help(format!("an offset is a vector: declare it as one, `let {name}: vector = (2m, 0m)`")),
-                    _ => problem.help("add an offset in brackets: `ball + (2m, 0m)`; or write `between a and b`"),
-                });
+                let offset = match (&b.kind, right) {
+                    (ExprKind::Name(name), Ty::Point) => Some(name.clone()),
+                    _ => None,
+                };
+                return self.fail(Problem::new(span, Types::PointsAdded { offset }));
             }
-            _ => return self.disagree(&x, &y, a, b, if is_add { "add" } else { "subtract" }),
+            _ => return self.disagree(&x, &y, a, b, if is_add { Verb::Add } else { Verb::Subtract }),
         };
         let (p, q) = (self.any_pair(&x, a.span), self.any_pair(&y, b.span));
         let pair = (self.code.binary(op, p.0, q.0), self.code.binary(op, p.1, q.1));
@@ -134,50 +134,14 @@ impl<'w> Lower<'_, 'w> {
         if value.ty.is_place() { self.place_of(value, span) } else { self.pair(value) }
     }
 
-    fn disagree(&self, x: &Value<'w>, y: &Value<'w>, a: &Expr, b: &Expr, verb: &str) -> Value<'w> {
-        let code = if x.ty.dim().is_some() && y.ty.dim().is_some() { Code::WrongUnit } else { Code::WrongType };
-        let (text_a, text_b) = (self.world.text(a.span), self.world.text(b.span));
-        let (noun_a, noun_b) = (x.ty.noun(), y.ty.noun());
-        let message = match verb {
-            "compare" => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be compared"),
-            "add" => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be added"),
-            _ => format!("`{text_a}` is {noun_a}, `{text_b}` {noun_b}: they can't be subtracted"),
+    fn disagree(&self, x: &Value<'w>, y: &Value<'w>, a: &Expr, b: &Expr, verb: Verb) -> Value<'w> {
+        let operand = |value: &Value<'w>, expr: &Expr| Operand {
+            ty: value.ty,
+            text: self.world.text(expr.span),
+            span: expr.span,
+            is_quoted: matches!(&value.repr, Repr::Text(_)),
         };
-        let problem = Problem::new(code, b.span, message, noun_b).label(a.span, noun_a.clone());
-        let lengths = (x.ty == Ty::LENGTH && y.ty.is_plain()) || (y.ty == Ty::LENGTH && x.ty.is_plain());
-        self.fail(if lengths {
-            problem
-                .help("write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one")
-        } else {
-            let (of_x, of_y) = (x.ty.dim().is_some(), y.ty.dim().is_some());
-            let quoted = |value: &Value<'w>| matches!(&value.repr, Repr::Text(_));
-            match (x.ty, y.ty, x.ty.example()) {
-                (_, ty, Some(example)) if of_x && ty.is_plain() => {
-                    problem.help(format!("write the number with its unit, for example `{example}`"))
-                }
-                (_, _, Some(example)) if of_x && of_y => {
-                    let verb = if verb == "compare" { "compare it with" } else { "both must be" };
-                    problem.help(format!("{verb} {noun_a}, for example `{example}`"))
-                }
-                (Ty::Role | Ty::Mode, _, _) if quoted(y) => {
-                    problem.help(format!("write it without quotes: `{}`", text_b.trim_matches('"')))
-                }
-                (Ty::Player | Ty::Team | Ty::Set, _, _) if quoted(y) => {
-                    problem.help(format!("a name stands without quotes: `{}`", text_b.trim_matches('"')))
-                }
-                (Ty::Player, Ty::Team | Ty::Set, _) if verb == "compare" => {
-                    problem.help(format!("write `{text_a} in {text_b}`"))
-                }
-                (ty, Ty::Point | Ty::Player | Ty::Ball, _) if ty.is_place() && verb == "compare" => {
-                    problem.help(format!("write `distance({text_a}, {text_b}) < 1m`"))
-                }
-                (ty, Ty::Region, _) if ty.is_place() && verb == "compare" => {
-                    problem.help(format!("write `{text_a} in {text_b}`"))
-                }
-                _ if verb == "compare" => problem.help("both sides must be of one kind"),
-                _ => problem.help("numbers, vectors and regions can be added and subtracted, each with its like"),
-            }
-        })
+        self.fail(Problem::new(b.span, Types::Disagree { verb, left: operand(x, a), right: operand(y, b) }))
     }
 
     fn product(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {
@@ -238,21 +202,12 @@ impl<'w> Lower<'_, 'w> {
         let text = self.world.text(expr.span);
         match self.interval(divisor) {
             Some((0.0, 0.0)) => {
-                let what = if text == "0" { String::new() } else { format!("`{text}` is 0, and ") };
-                self.report(
-                    Problem::new(Code::Impossible, span, format!("{what}nothing can be divided by 0"), "")
-                        .help("divide by something else"),
-                );
+                let text = (text != "0").then_some(text);
+                self.report(Problem::new(span, Types::DividedByZero { text }));
             }
-            Some((low, high)) if low <= 0.0 && high >= 0.0 => self.report(
-                Problem::new(
-                    Code::Impossible,
-                    span,
-                    format!("`{text}` can become 0, and nothing can be divided by 0"),
-                    format!("between {low} and {high}"),
-                )
-                .help("narrow the parameter's range"),
-            ),
+            Some((low, high)) if low <= 0.0 && high >= 0.0 => {
+                self.report(Problem::new(span, Types::MayDivideByZero { text, low, high }));
+            }
             _ => {}
         }
     }
@@ -264,7 +219,7 @@ impl<'w> Lower<'_, 'w> {
         }
         match (x.ty.dim(), y.ty.dim()) {
             (Some(left), Some(right)) if left == right => {}
-            _ => return self.disagree(&x, &y, a, b, "compare"),
+            _ => return self.disagree(&x, &y, a, b, Verb::Compare),
         }
         let code = match op {
             ast::BinaryOp::Lt => BinaryOp::Lt,
@@ -289,20 +244,14 @@ impl<'w> Lower<'_, 'w> {
             ExprKind::Event(event) => event.name.node.as_str(),
             _ => return self.expr(expr),
         };
-        let modes = || GameMode::ALL.iter().map(|mode| mode.name());
         // `kickoff` is the event's name, `kick_off` GRF's for the mode.
         let found = GameMode::from_name(word).or((word == "kickoff").then_some(GameMode::KickOff));
         if let Some(mode) = found {
             return Value::one(Ty::Mode, self.code.constant(mode.index() as f64));
         }
-        let known: Vec<&str> = modes().collect();
-        let problem = Problem::new(Code::UnknownName, expr.span, format!("no game mode is called `{word}`"), "");
-        let near = crate::problem::nearest(word, modes()).is_some();
-        self.fail(if near {
-            problem.did_you_mean(word, modes())
-        } else {
-            problem.help(format!("the modes are `{}`", known.join("`, `")))
-        })
+        let known: Vec<&str> = GameMode::ALL.iter().map(|mode| mode.name()).collect();
+        let guess = Guess::similar_or_all(word, &known);
+        self.fail(Problem::new(expr.span, Names::Unknown { kind: Kind::Mode, name: word.to_owned(), guess }))
     }
 
     /// Whether two values are equal.
@@ -327,7 +276,7 @@ impl<'w> Lower<'_, 'w> {
             (left, right) => left.dim().is_some() && left.dim() == right.dim(),
         };
         if !comparable {
-            return self.disagree(x, y, a, b, "compare");
+            return self.disagree(x, y, a, b, Verb::Compare);
         }
         let (p, q) = (self.reg(x), self.reg(y));
         Value::one(Ty::Bool, self.code.binary(op, p, q))
@@ -339,10 +288,10 @@ impl<'w> Lower<'_, 'w> {
                 let index = self.code.constant(index as f64);
                 Value::one(Ty::Bool, self.code.binary(op, reg, index))
             }
-            None => self.fail(
-                Problem::new(Code::OutOfRange, at.span, format!("`{text}` is none of the words it may be"), "")
-                    .did_you_mean(text, words.iter().map(String::as_str)),
-            ),
+            None => self.fail({
+                let guess = Guess::of(text, words.iter().map(String::as_str));
+                Problem::new(at.span, Names::NoneOfItsWords { word: text.to_owned(), parameter: None, guess })
+            }),
         }
     }
 
@@ -356,9 +305,9 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn choose(&mut self, c: Reg, x: (&Value<'w>, &'w Expr), y: (&Value<'w>, &'w Expr)) -> Value<'w> {
         let ((x, a), (y, b)) = (x, y);
         let Some(ty) = x.ty.join(y.ty) else {
-            let mut problem = self.mismatch(y.ty, x.ty, b.span);
-            problem = problem.label(a.span, x.ty.noun());
-            return self.fail(problem);
+            let text = self.world.text(b.span);
+            let fact = Types::ChoiceMismatch { wanted: x.ty, found: y.ty, text, other: a.span };
+            return self.fail(Problem::new(b.span, fact));
         };
         if ty == Ty::Error {
             return Value::error();
@@ -374,15 +323,7 @@ impl<'w> Lower<'_, 'w> {
             ([r], true) if matches!(x.repr, Repr::One(_)) => Value::one(ty, *r),
             ([r, s], true) if matches!(x.repr, Repr::Two(..)) => Value::two(ty, (*r, *s)),
             ([r, s, t], true) if matches!(x.repr, Repr::Three(..)) => Value { ty, repr: Repr::Three(*r, *s, *t) },
-            _ => self.fail(
-                Problem::new(
-                    Code::NotYet,
-                    a.span.to(b.span),
-                    format!("a choice between values that are each {} is not supported yet", ty.noun()),
-                    "",
-                )
-                .help("write the choice around what uses it: `if c then … else …`"),
-            ),
+            _ => self.fail(Problem::new(a.span.to(b.span), Types::NoChoiceOf { ty })),
         }
     }
 
@@ -407,7 +348,7 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    /// Whether a player, if he is somebody, has the ball.
+    /// Whether a player, unless it is nobody, has the ball.
     fn owns(&mut self, player: Reg, span: Span) -> Option<Reg> {
         let owner = self.load(Field::BallOwner, None, "has ball", span)?;
         let same = self.code.binary(BinaryOp::Eq, owner, player);
@@ -443,22 +384,11 @@ impl<'w> Lower<'_, 'w> {
     /// An expression a step ago; reports where there is none.
     pub(super) fn before(&mut self, expr: &'w Expr, span: Span) -> Option<Value<'w>> {
         if !self.stage.is_step() {
-            self.report(
-                Problem::new(
-                    Code::WrongScope,
-                    span,
-                    "there is no earlier step here",
-                    "this is computed before the match begins",
-                )
-                .help("use it in a reward, an ending or a record"),
-            );
+            self.report(Problem::new(span, Scopes::NoEarlierStep));
             return None;
         }
         if self.when == When::Prev {
-            self.report(
-                Problem::new(Code::WrongScope, span, "only one step is remembered", "inside a look at the step before")
-                    .help("keep what is older in a `state`"),
-            );
+            self.report(Problem::new(span, Scopes::OneStepRemembered));
             return None;
         }
         self.when = When::Prev;

@@ -4,7 +4,8 @@ use super::super::value::{Binding, Frame, Scope, Value};
 use super::super::{Lower, param};
 use crate::ast::{Arg, Expr, FnItem, Ident, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem, signature};
+use crate::problem::facts::{Calls, Form, Names, NotAFunction};
+use crate::problem::{Code, Guess, Problem, signature};
 use crate::resolve::{Named, arg_name};
 use setpiece_scenario::vocabulary::Function;
 
@@ -59,17 +60,16 @@ impl<'w> Lower<'_, 'w> {
             .collect();
         known.extend(Function::ALL.iter().map(|function| function.name()));
         let text = &name.node;
-        let problem =
-            Problem::new(Code::UnknownFunction, name.span, format!("no function is called `{text}`"), "not known");
         let is_value = self.scope.find(text).is_some() || (self.scope.scenario && self.world.declares(text));
-        let other = library.find(name.span.file, text).map(|found| found.item.kind.noun());
-        let elsewhere = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
-        self.fail(match (other, elsewhere) {
-            _ if is_value => problem.help(format!("`{text}` is a value: write it without brackets")),
-            (Some(noun), _) => problem.help(format!("`{text}` is {noun}")),
-            (None, Some(ours)) => problem.help(format!("did you mean `{ours}`?")),
-            (None, None) => problem.did_you_mean(text, known),
-        })
+        let item = library.find(name.span.file, text).map(|found| found.item.kind.noun());
+        let foreign = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
+        let other = match (item, foreign) {
+            _ if is_value => NotAFunction::Value,
+            (Some(noun), _) => NotAFunction::Item(noun),
+            (None, Some(ours)) => NotAFunction::Foreign(ours),
+            (None, None) => NotAFunction::Unknown(Guess::of(text, known)),
+        };
+        self.fail(Problem::new(name.span, Names::NoFunction { name: text.clone(), other }))
     }
 
     /// Calls a `fn` of a file: its body is read with the caller's frame and view.
@@ -141,15 +141,14 @@ impl<'w> Lower<'_, 'w> {
                 (Some(expr), _) => (expr, self.scope.clone()),
                 (None, Some(default)) => (default, Scope::new(false, Frame::World)),
                 (None, None) => {
-                    self.report(
-                        Problem::new(
-                            Code::WrongArguments,
-                            span,
-                            format!("`{callee}` needs a value for `{}`", param.name.node),
-                            "",
-                        )
-                        .help(format!("write `{}: …`", param.name.node)),
-                    );
+                    self.report(Problem::new(
+                        span,
+                        Calls::Missing {
+                            callee: callee.to_owned(),
+                            parameter: param.name.node.clone(),
+                            form: Form::Named,
+                        },
+                    ));
                     scope.bind(&param.name.node, Binding::Value(Value::error()));
                     continue;
                 }
@@ -215,15 +214,7 @@ impl<'w> Lower<'_, 'w> {
         let mut next = 0;
         for arg in args {
             if arg.binder.is_some() || arg.filter.is_some() {
-                self.report(
-                    Problem::new(
-                        Code::WrongArguments,
-                        arg.span,
-                        format!("`{callee}` goes through no players"),
-                        "`for` and `where` belong to `count`, `sum`, `min` and their like",
-                    )
-                    .help("count players first: `count(p in us where …)`"),
-                );
+                self.report(Problem::new(arg.span, Calls::NoPlayers { callee: callee.to_owned() }));
                 return None;
             }
             let at = match (&arg.key, arg_name(arg)) {
@@ -235,18 +226,9 @@ impl<'w> Lower<'_, 'w> {
                     let name = name.unwrap_or_default();
                     let Some(at) = names.iter().position(|known| *known == name) else {
                         let text = self.world.text(key.span);
-                        let problem = Problem::new(
-                            Code::WrongArguments,
-                            key.span,
-                            format!("`{callee}` has no parameter `{text}`"),
-                            "not known",
-                        );
-                        let near = crate::problem::nearest(name, names.iter().copied()).is_some();
-                        self.report(if near || names.is_empty() {
-                            problem.did_you_mean(name, names.iter().copied())
-                        } else {
-                            problem.help(format!("it has `{}`", names.join("`, `")))
-                        });
+                        let guess = Guess::similar_or_all(name, names);
+                        let fact = Calls::NoParameter { callee: callee.to_owned(), text, guess };
+                        self.report(Problem::new(key.span, fact));
                         return None;
                     };
                     at
@@ -257,49 +239,29 @@ impl<'w> Lower<'_, 'w> {
                 Some(Some(first)) => {
                     let first = first.span;
                     let name = names.get(at).copied().unwrap_or_default();
-                    self.report(
-                        Problem::new(
-                            Code::WrongArguments,
-                            arg.span,
-                            format!("`{name}` is given twice"),
-                            "given again here",
-                        )
-                        .label(first, "first given here")
-                        .help("leave one of them out"),
-                    );
+                    self.report(Problem::new(arg.span, Calls::GivenTwice { parameter: name.to_owned(), first }));
                     return None;
                 }
                 None => {
-                    let n = names.len();
-                    let takes = match n {
-                        0 => "no value".to_owned(),
-                        1 => "one value".to_owned(),
-                        n => format!("{n} values"),
-                    };
-                    let help = match Function::from_name(callee) {
-                        Some(function) => format!("`{}`", signature(function.doc())),
-                        None if n == 0 => "leave it out".to_owned(),
-                        None => format!("write `{callee}({})`", names.join(", ")),
-                    };
-                    self.report(
-                        Problem::new(Code::WrongArguments, arg.span, format!("`{callee}` takes {takes}"), "too many")
-                            .help(help),
-                    );
+                    let names = names.iter().map(|&name| name.to_owned()).collect();
+                    let fact = Calls::TooMany { callee: callee.to_owned(), names, signature: of_builtin(callee) };
+                    self.report(Problem::new(arg.span, fact));
                     return None;
                 }
             }
         }
         let missing = given.iter().take(required).position(Option::is_none);
         if let Some(name) = missing.and_then(|at| names.get(at)) {
-            let signature = Function::from_name(callee).map(Function::doc);
-            let problem =
-                Problem::new(Code::WrongArguments, span, format!("`{callee}` needs a value for `{name}`"), "");
-            self.report(match signature {
-                Some(doc) => problem.help(format!("`{}`", crate::problem::signature(doc))),
-                None => problem,
-            });
+            let form = of_builtin(callee).map_or(Form::Unknown, Form::Builtin);
+            let fact = Calls::Missing { callee: callee.to_owned(), parameter: (*name).to_owned(), form };
+            self.report(Problem::new(span, fact));
             return None;
         }
         Some(given)
     }
+}
+
+/// How a function of the language is written.
+fn of_builtin(name: &str) -> Option<String> {
+    Function::from_name(name).map(|function| signature(function.doc()).to_owned())
 }

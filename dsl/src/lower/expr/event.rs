@@ -5,7 +5,8 @@ use super::super::value::{Repr, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{EventExpr, Expr};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Calls, Kind, Names, Scopes, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::{EventField, EventKind, Landmark, Qualifier};
 use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
 
@@ -66,65 +67,40 @@ impl<'w> Lower<'_, 'w> {
     fn event_filter(&mut self, event: &'w EventExpr) -> Option<EventFilter> {
         let name = event.name.node.as_str();
         let Some(kind) = EventKind::from_name(name) else {
-            self.report(
-                Problem::new(Code::UnknownEvent, event.name.span, format!("no event is called `{name}`"), "not known")
-                    .did_you_mean(name, EventKind::ALL.iter().map(|kind| kind.name())),
-            );
+            self.report({
+                let guess = Guess::of(name, EventKind::ALL.iter().map(|kind| kind.name()));
+                Problem::new(event.name.span, Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess })
+            });
             return None;
         };
         if !self.stage.is_step() {
-            self.report(
-                Problem::new(
-                    Code::WrongScope,
-                    event.span,
-                    "nothing has happened yet",
-                    "this is computed before the match",
-                )
-                .help(match Landmark::from_name(name) {
-                    Some(_) if event.span == event.name.span => format!("a place belongs to a team: `left.{name}`"),
-                    _ => "events belong to rewards and endings".to_owned(),
-                }),
-            );
+            self.report({
+                let is_landmark = Landmark::from_name(name).is_some() && event.span == event.name.span;
+                Problem::new(event.span, Scopes::NothingHappened { event: name.to_owned(), is_landmark })
+            });
             return None;
         }
-        if self.stage == Stage::Observation {
-            self.report(
-                Problem::new(Code::WrongScope, event.span, "an observation shows the state, not what happened", "")
-                    .help("use the event in a reward, an ending or a record"),
-            );
+        if matches!(self.stage, Stage::Observation) {
+            self.report(Problem::new(event.span, Scopes::ObservationShowsState));
             return None;
         }
         if self.when == When::Prev {
-            self.report(
-                Problem::new(Code::WrongScope, event.span, "events of the step before are forgotten", "")
-                    .help("`since(…)` tells how long ago an event was"),
-            );
+            self.report(Problem::new(event.span, Scopes::EventsForgotten));
             return None;
         }
         let qualifier = self.qualifier(kind, event)?;
         if !kind.has_actor()
             && let Some(by) = &event.by
         {
-            self.report(
-                Problem::new(Code::WrongArguments, by.span, format!("nobody does `{name}`"), "`by` says nothing here")
-                    .help(format!("write `{name}` alone")),
-            );
+            self.report(Problem::new(by.span, Calls::NobodyDoes { event: name.to_owned() }));
             return None;
         }
         if !kind.has_receiver()
             && let Some(to) = &event.to
         {
-            let receiving: Vec<&str> =
+            let others: Vec<&str> =
                 EventKind::ALL.iter().filter(|kind| kind.has_receiver()).map(|kind| kind.name()).collect();
-            self.report(
-                Problem::new(
-                    Code::WrongArguments,
-                    to.span,
-                    format!("`{name}` reaches nobody"),
-                    "`to` says nothing here",
-                )
-                .help(format!("leave it out; `to` belongs to `{}`", receiving.join("`, `"))),
-            );
+            self.report(Problem::new(to.span, Calls::ReachesNobody { event: name.to_owned(), others }));
             return None;
         }
         let by = event.by.as_deref().map(|who| self.who(who));
@@ -145,18 +121,9 @@ impl<'w> Lower<'_, 'w> {
         if known.contains(&qualifier.node) {
             return Some(Some(qualifier.node));
         }
-        let names: Vec<&str> = known.iter().map(|qualifier| qualifier.name()).collect();
-        let problem = Problem::new(
-            Code::UnknownEvent,
-            qualifier.span,
-            format!("`{}` is never `{}`", event.name.node, qualifier.node),
-            "",
-        );
-        self.report(if names.is_empty() {
-            problem.help(format!("write `{}` alone", event.name.node))
-        } else {
-            problem.help(format!("it can be `{}`", names.join("`, `")))
-        });
+        let (event, qualifier, span) = (event.name.node.clone(), qualifier.node.to_string(), qualifier.span);
+        let known = known.iter().map(|qualifier| qualifier.name()).collect();
+        self.report(Problem::new(span, Calls::NeverQualified { event, qualifier, known }));
         None
     }
 
@@ -167,8 +134,8 @@ impl<'w> Lower<'_, 'w> {
             (Ty::Player, Repr::One(reg)) => Some(Who::Player(*reg)),
             (Ty::Error, _) => None,
             (ty, _) => {
-                let problem = self.expected("a team or a player", ty, expr.span);
-                self.report(problem.help("write, for example, `by left` or `by me`"));
+                let text = self.world.text(expr.span);
+                self.report(Problem::new(expr.span, Types::NeitherTeamNorPlayer { found: ty, text }));
                 None
             }
         }

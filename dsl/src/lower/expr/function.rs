@@ -4,7 +4,8 @@ use super::super::Lower;
 use super::super::value::Value;
 use crate::ast::{Arg, Expr, Ident, Span};
 use crate::check::types::{Dim, Ty};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Calls, Chance, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{Field, Function};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -19,10 +20,7 @@ impl<'w> Lower<'_, 'w> {
                 self.aggregate(function, args, span)
             }
             F::Choice => self.choice(args, span),
-            F::Shuffle => self.fail(
-                Problem::new(Code::WrongScope, span, "`shuffle` gives several values", "one is wanted here")
-                    .help("give each a name: `let (a, b) = shuffle(x, y)`"),
-            ),
+            F::Shuffle => self.fail(Problem::new(span, Chance::ShuffleAsValue)),
             F::Rect | F::Circle | F::Polygon | F::Sector => self.region_call(function, args, span),
             _ => {
                 let (names, required) = signature(function);
@@ -125,7 +123,7 @@ impl<'w> Lower<'_, 'w> {
                 let scale = self.code.constant(X_SCALE_M);
                 Value::one(Ty::Number, self.code.binary(BinaryOp::Div, x, scale))
             }
-            _ => self.fail(Problem::new(Code::NotYet, span, format!("`{}` is not supported yet", function.name()), "")),
+            _ => self.fail(Problem::new(span, Calls::NotYet { function: function.name() })),
         }
     }
 
@@ -151,12 +149,8 @@ impl<'w> Lower<'_, 'w> {
         if let Some((low, _)) = self.interval(operand)
             && low < least
         {
-            let mut message = format!("{what} can't be computed");
-            if self.code.constant_of(operand).is_none() {
-                let text = self.world.text(x.span);
-                message.push_str(&format!(", and `{text}` can be {low}"));
-            }
-            return self.fail(Problem::new(Code::Impossible, span, message, ""));
+            let least = self.code.constant_of(operand).is_none().then(|| (self.world.text(x.span), low));
+            return self.fail(Problem::new(span, Types::OutsideDomain { what: what.to_owned(), least }));
         }
         value
     }

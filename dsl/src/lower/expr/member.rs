@@ -5,7 +5,8 @@ use super::super::value::{Repr, Value};
 use crate::ast::{Expr, ExprKind, Ident, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Calls, Like, Names, Scopes, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -44,10 +45,7 @@ impl<'w> Lower<'_, 'w> {
         let value = self.expr(of);
         let name = member.node.as_str();
         if self.is_nobody(of) {
-            return self.fail(
-                Problem::new(Code::Impossible, span, format!("`nobody` has no `{name}`"), "nobody is there")
-                    .help("name a player, or write `nearest(us, to: ball)`"),
-            );
+            return self.fail(Problem::new(span, Types::NobodyHasNoProperty { property: name.to_owned() }));
         }
         match value.ty {
             Ty::Error => Value::error(),
@@ -81,13 +79,9 @@ impl<'w> Lower<'_, 'w> {
         let begins = format!("{alias}.");
         let known: Vec<&str> =
             library.visible(span.file).map(|(name, _)| name).filter(|name| name.starts_with(&begins)).collect();
-        let message = format!("`{file}` has no `{}`", member.node);
-        let problem = Problem::new(Code::UnknownName, member.span, message, "not known");
-        Some(self.fail(if known.is_empty() || crate::problem::nearest(&dotted, known.iter().copied()).is_some() {
-            problem.did_you_mean(&dotted, known)
-        } else {
-            problem.help(format!("it has `{}`", known.join("`, `")))
-        }))
+        let guess = Guess::similar_or_all(&dotted, &known);
+        let fact = Names::NotInFile { file: file.to_owned(), name: member.node.clone(), guess };
+        Some(self.fail(Problem::new(member.span, fact)))
     }
 
     fn team_member(&mut self, team: &'w Expr, name: &str, at: Span, span: Span) -> Value<'w> {
@@ -131,14 +125,8 @@ impl<'w> Lower<'_, 'w> {
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
         known.extend(["zone.CM", "score"]);
         let text = self.world.text(of);
-        let problem =
-            Problem::new(Code::UnknownMember, at, format!("`{text}` has no landmark or region `{name}`"), "not known");
-        let near = crate::problem::nearest(name, known.iter().copied()).is_some();
-        self.fail(if near {
-            problem.did_you_mean(name, known)
-        } else {
-            problem.help(format!("a team has `{}`", known.join("`, `")))
-        })
+        let guess = Guess::similar_or_all(name, &known);
+        self.fail(Problem::new(at, Names::NoLandmark { team: text, name: name.to_owned(), guess }))
     }
 
     fn score_member(&mut self, member: &'w Ident, span: Span) -> Value<'w> {
@@ -252,20 +240,13 @@ impl<'w> Lower<'_, 'w> {
 
     fn event_member(&mut self, event: Span, member: &'w Ident) -> Value<'w> {
         let Some(kind) = self.event else {
-            return self.fail(
-                Problem::new(Code::WrongScope, event.to(member.span), "no event is known here", "")
-                    .help("`event` stands inside an `on` block, or in a `give … on …`"),
-            );
+            return self.fail(Problem::new(event.to(member.span), Scopes::NoEvent));
         };
         let name = member.node.as_str();
-        let nobody = match name {
-            "by" if !kind.has_actor() => Some(format!("nobody does `{kind}`")),
-            "to" if !kind.has_receiver() => Some(format!("`{kind}` reaches nobody")),
-            _ => None,
-        };
-        if let Some(message) = nobody {
-            let span = event.to(member.span);
-            return self.fail(Problem::new(Code::WrongArguments, span, message, "always nobody").help("leave it out"));
+        let has_nobody = (name == "by" && !kind.has_actor()) || (name == "to" && !kind.has_receiver());
+        if has_nobody {
+            let fact = Calls::AlwaysNobody { event: kind.to_string(), is_receiver: name == "to" };
+            return self.fail(Problem::new(event.to(member.span), fact));
         }
         let (field, ty) = match name {
             "by" => (EventField::By, Ty::Player),
@@ -291,40 +272,20 @@ impl<'w> Lower<'_, 'w> {
 
     fn no_member(&self, of: Span, ty: Ty, at: Span, name: &str, known: &[&str]) -> Value<'w> {
         let text = self.world.text(of);
-        let problem = Problem::new(
-            Code::UnknownMember,
-            at,
-            format!("`{text}` ({}) has no property `{name}`", ty.noun()),
-            "not known",
-        );
-        let near = crate::problem::nearest(name, known.iter().copied()).is_some();
-        let elsewhere = match (ty, name) {
-            (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => {
-                Some(format!("write `{text} has ball`"))
-            }
-            (Ty::Player | Ty::Ball, "vx" | "vy" | "velocity.x" | "velocity.y") => {
-                Some(format!("write `{text}.velocity`, or `{text}.speed`"))
-            }
-            (Ty::Player | Ty::Ball, "position" | "pos") => {
-                Some(format!("write `{text}` for its place, or `{text}.x` and `{text}.y`"))
-            }
-            _ => None,
+        let like = match (ty, name) {
+            (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => Like::HasBall,
+            (Ty::Player | Ty::Ball, "vx" | "vy" | "velocity.x" | "velocity.y") => Like::Velocity,
+            (Ty::Player | Ty::Ball, "position" | "pos") => Like::Place,
+            _ => Like::Other(Guess::similar_or_all(name, known)),
         };
-        if let Some(help) = elsewhere {
-            return self.fail(problem.help(help));
-        }
-        self.fail(if near || known.is_empty() {
-            problem.did_you_mean(name, known.iter().copied())
-        } else {
-            problem.help(format!("it has `{}`", known.join("`, `")))
-        })
+        self.fail(Problem::new(at, Names::NoProperty { text, noun: ty.noun(), name: name.to_owned(), like }))
     }
 }
 
 /// Whether two names with a dot between them are one name of a team: `corner.top`, `goal.mouth`, `zone.CM`.
 fn is_team_part(head: &str, tail: &str) -> bool {
     let dotted = format!("{head}.{tail}");
-    // The heads that are nothing by themselves: what is wrong behind them is told as one name.
+    // The heads that are nothing by themselves: what is wrong behind them is reported as one name.
     matches!(head, "corner" | "zone") || RegionName::from_name(&dotted).is_some()
 }
 

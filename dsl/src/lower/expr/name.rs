@@ -5,14 +5,11 @@ use super::super::{Lower, Stage};
 use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Before, Chance, Names, Outside, Scopes, Types, Use, View};
+use crate::problem::{Code, Guess, Problem};
 use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
 use setpiece_scenario::{Reg, UnaryOp, When};
-
-/// What to write where a `state` begins with what only the match knows.
-const BEFORE_THE_FIRST_STEP: &str =
-    "a state's first value is known before the first step: begin with a number, and assign the state further down";
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn name(&mut self, name: &'w str, span: Span) -> Value<'w> {
@@ -42,31 +39,26 @@ impl<'w> Lower<'_, 'w> {
         if matches!(self.stage, Stage::Reward | Stage::Ending) {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
-        let problem = Problem::new(Code::UnknownName, span, format!("nothing here is called `{name}`"), "not known");
-        self.fail(match self.of_the_scenario(name) {
-            Some(help) => problem.help(help),
-            None => problem.did_you_mean(name, candidates.iter().map(String::as_str)),
-        })
+        if let Some(fact) = self.of_the_scenario(name) {
+            return self.fail(Problem::new(span, fact));
+        }
+        let guess = Guess::of(name, candidates.iter().map(String::as_str));
+        self.fail(Problem::new(span, Names::NoValue { name: name.to_owned(), guess }))
     }
 
     /// How a name of the scenario reaches what stands outside of it.
-    fn of_the_scenario(&self, name: &str) -> Option<String> {
+    fn of_the_scenario(&self, name: &str) -> Option<Names> {
         let is_player = self.player_named(name);
         if self.scope.scenario || !(is_player || self.world.declaration(name).is_some()) {
             return None;
         }
-        let (noun, head) = match self.stage {
-            Stage::Behavior => ("a behavior", "behavior NAME"),
-            Stage::Reward | Stage::Init => ("a reward", "reward NAME"),
-            Stage::Ending => ("an ending", "ending NAME"),
-            _ => {
-                return Some(format!(
-                    "`{name}` is the scenario's, which nothing outside of it sees: hand it in as a parameter"
-                ));
-            }
+        let from = match self.stage {
+            Stage::Behavior(_) => Outside::Behavior,
+            Stage::Reward | Stage::Init => Outside::Reward,
+            Stage::Ending => Outside::Ending,
+            _ => Outside::Elsewhere,
         };
-        let decl = if is_player { format!("{name}: player") } else { format!("{name}: …") };
-        Some(format!("{noun} doesn't see the scenario's names: hand it in, `{head}({decl})`"))
+        Some(Names::OfTheScenario { name: name.to_owned(), from, is_player })
     }
 
     fn player_named(&self, name: &str) -> bool {
@@ -103,15 +95,7 @@ impl<'w> Lower<'_, 'w> {
         if value.regs().iter().all(|&reg| self.code.is_visible(reg)) {
             return value;
         }
-        self.fail(
-            Problem::new(
-                Code::WrongScope,
-                span,
-                format!("`{name}` changes within the step, but this is computed once per step"),
-                "belongs to a loop or an `on` block",
-            )
-            .help("`held`, `ever`, `since` and their like look at the whole match, not at one event or player"),
-        )
+        self.fail(Problem::new(span, Scopes::ChangesWithinStep { name: name.to_owned() }))
     }
 
     fn scenario_name(&mut self, name: &'w str, span: Span) -> Option<Value<'w>> {
@@ -175,7 +159,7 @@ impl<'w> Lower<'_, 'w> {
         }
         self.world.mark_used(found.name.span);
         let noun = found.item.kind.noun();
-        let no_value = || Problem::new(Code::WrongType, span, format!("`{name}` is {noun}, not a value"), "");
+        let no_value = |cure| Problem::new(span, Types::NotAValue { name: name.to_owned(), noun, cure });
         Some(match &found.item.kind {
             ItemKind::Const(binding) => self.constant_item(binding, span),
             ItemKind::Region(region) if region.params.is_empty() => {
@@ -186,14 +170,14 @@ impl<'w> Lower<'_, 'w> {
                 value.unwrap_or_else(Value::error)
             }
             ItemKind::Formation(formation) => formation_value(formation),
-            ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value().help(format!("call it: `{name}(…)`"))),
+            ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value(Some(Use::Called))),
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
-            ItemKind::Reward(_) if matches!(self.stage, Stage::Record | Stage::Ending) => {
-                self.fail(no_value().help(format!("a `record` reads its states: `record r = max of {name}.STATE`")))
+            ItemKind::Reward(_) if matches!(self.stage, Stage::Record(_) | Stage::Ending) => {
+                self.fail(no_value(Some(Use::Recorded)))
             }
-            ItemKind::Behavior(_) => self.fail(no_value().help(format!("give it to a player: `ai: {name}`"))),
-            _ => self.fail(no_value()),
+            ItemKind::Behavior(_) => self.fail(no_value(Some(Use::Given))),
+            _ => self.fail(no_value(None)),
         })
     }
 
@@ -214,15 +198,7 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         if value.regs().iter().any(|&reg| self.code.constant_of(reg).is_none()) {
-            return self.fail(
-                Problem::new(
-                    Code::NotConstant,
-                    binding.value.span,
-                    format!("`{}` is no constant", binding.name.node),
-                    "not known before the start",
-                )
-                .help("use `let` for what is drawn or computed"),
-            );
+            return self.fail(Problem::new(binding.value.span, Chance::NoConstant { name: binding.name.node.clone() }));
         }
         value
     }
@@ -237,10 +213,7 @@ impl<'w> Lower<'_, 'w> {
             "ball" => Value { ty: Ty::Ball, repr: Repr::Nothing },
             "event" => {
                 let parts: Vec<String> = EventField::NAMED.iter().map(|(part, _)| format!("event.{part}")).collect();
-                self.fail(
-                    Problem::new(Code::WrongType, span, "`event` is no value by itself", "")
-                        .help(format!("it has `{}`", parts.join("`, `"))),
-                )
+                self.fail(Problem::new(span, Types::EventIsNoValue { parts: parts.join("`, `") }))
             }
             "score" => Value { ty: Ty::Score, repr: Repr::Nothing },
             "centre" => {
@@ -282,15 +255,12 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
-        let problem =
-            Problem::new(Code::WrongScope, span, format!("`{name}` has no meaning here"), "whose view is it?");
-        self.fail(match (self.stage, name) {
-            (Stage::Ending | Stage::Record, "us" | "them") => {
-                problem.help("both teams have agents, or none: write `left` or `right`")
-            }
-            (Stage::Init, _) => problem.help(BEFORE_THE_FIRST_STEP),
-            _ => problem.help("write `left`, `right` or a player's name; `us`, `them` and `me` belong to rewards"),
-        })
+        let why = match (&self.stage, name) {
+            (Stage::Ending | Stage::Record(_), "us" | "them") => View::BothTeams,
+            (Stage::Init, _) => View::BeforeFirstStep,
+            _ => View::OutsideRewards,
+        };
+        self.fail(Problem::new(span, Scopes::NoView { name: name.to_owned(), why }))
     }
 
     fn match_value(&mut self, property: &'static Property, span: Span) -> Value<'w> {
@@ -312,20 +282,12 @@ impl<'w> Lower<'_, 'w> {
         if self.stage.is_step() {
             return Some(self.code.load(field, of, self.when));
         }
-        let (what, help) = match self.stage {
-            Stage::Constant => ("a constant", "use it in a `reward` or an `end`"),
-            Stage::Init => ("a state's first value", BEFORE_THE_FIRST_STEP),
-            _ => ("the start", "use it in a `reward` or an `end`"),
+        let by = match self.stage {
+            Stage::Constant => Before::Constant,
+            Stage::Init => Before::State,
+            _ => Before::Start,
         };
-        self.report(
-            Problem::new(
-                Code::WrongScope,
-                span,
-                format!("`{name}` is known only while the match runs"),
-                format!("{what} is computed before"),
-            )
-            .help(help),
-        );
+        self.report(Problem::new(span, Scopes::NotYetKnown { name: name.to_owned(), by }));
         None
     }
 
@@ -346,7 +308,7 @@ impl<'w> Lower<'_, 'w> {
             known.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
             known.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
         }
-        if self.stage == Stage::Record {
+        if matches!(self.stage, Stage::Record(_)) {
             known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
         let values = |kind: &ItemKind| {
@@ -360,7 +322,7 @@ impl<'w> Lower<'_, 'w> {
         known
     }
 
-    /// A player of the roster by his register, if it is constant.
+    /// A player of the roster by its register, if it is constant.
     pub(crate) fn roster_index(&self, player: Reg) -> Option<usize> {
         let id = self.code.constant_of(player)?;
         self.world.roster.iter().position(|rostered| f64::from(rostered.id) == id)

@@ -5,7 +5,8 @@ use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem, signature};
+use crate::problem::facts::{Chance, Implied};
+use crate::problem::{Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
@@ -15,32 +16,23 @@ const SHUFFLED_MAX: usize = 64;
 impl<'w> Lower<'_, 'w> {
     /// Reports a draw that stands outside the start.
     fn may_draw(&self, function: Function, span: Span) -> bool {
-        if self.stage == Stage::Start {
+        if matches!(self.stage, Stage::Start(_)) {
             return true;
         }
-        if self.stage == Stage::Behavior {
+        if matches!(self.stage, Stage::Behavior(_)) {
             return self.may_draw_now(function, span);
         }
-        let problem = Problem::new(
-            if self.stage == Stage::Constant { Code::NotConstant } else { Code::WrongScope },
-            span,
-            format!("`{}` draws at reset, not here", function.name()),
-            "",
-        );
-        self.report(problem.help("draw it with a `let` of the scenario and use the name"));
+        let is_constant = matches!(self.stage, Stage::Constant);
+        self.report(Problem::new(span, Chance::NoDrawHere { function: function.name(), is_constant }));
         false
     }
 
     /// Reports a draw of a behaviour that belongs to no statement: it would happen in every step.
     fn may_draw_now(&self, function: Function, span: Span) -> bool {
-        if self.draws.is_some() && !self.code.in_loop() {
+        if matches!(self.stage, Stage::Behavior(Some(_))) && !self.code.in_loop() {
             return true;
         }
-        let message = format!("`{}` draws when a statement is reached, not here", function.name());
-        self.report(
-            Problem::new(Code::WrongScope, span, message, "looked at again and again")
-                .help("draw it before with a `let` and use the name"),
-        );
+        self.report(Problem::new(span, Chance::NoDrawNow { function: function.name() }));
         false
     }
 
@@ -86,15 +78,10 @@ impl<'w> Lower<'_, 'w> {
             (F::Normal, &[mean, sd]) => (Distribution::Normal(mean, sd), None),
             (F::TruncatedNormal, &[mean, sd, a, b]) => (Distribution::TruncatedNormal(mean, sd, a, b), Some((a, b))),
             _ => {
-                return self.fail(
-                    Problem::new(
-                        Code::WrongArguments,
-                        span,
-                        format!("`{}` needs two ends or a region", function.name()),
-                        "",
-                    )
-                    .help(format!("`{}`", signature(function.doc()))),
-                );
+                return self.fail(Problem::new(
+                    span,
+                    Chance::NoEnds { function: function.name(), signature: signature(function.doc()).to_owned() },
+                ));
             }
         };
         if let Some((a, b)) = ends
@@ -113,10 +100,7 @@ impl<'w> Lower<'_, 'w> {
     fn check_ends(&mut self, a: Reg, b: Reg, span: Span) -> bool {
         if let (Some(low), Some(high)) = (self.interval(a), self.interval(b)) {
             if low.0 > high.1 {
-                self.report(
-                    Problem::new(Code::OutOfRange, span, "the upper end lies below the lower one", "")
-                        .help("write the lower end first"),
-                );
+                self.report(Problem::new(span, Chance::EndsSwapped));
                 return false;
             }
             if low.1 <= high.0 {
@@ -124,9 +108,7 @@ impl<'w> Lower<'_, 'w> {
             }
         }
         let ordered = self.code.binary(BinaryOp::Le, a, b);
-        let text = self.world.text(span);
-        let label = format!("the lower end of `{text}` lies below the upper one");
-        self.imply(ordered, label, Some(span), "write the lower end first".to_owned());
+        self.imply(ordered, &Implied::EndsOrdered { text: self.world.text(span) }, Some(span));
         true
     }
 
@@ -145,17 +127,12 @@ impl<'w> Lower<'_, 'w> {
             return;
         }
         if self.code.constant_of(sum) == Some(0.0) {
-            self.report(
-                Problem::new(Code::OutOfRange, span, "every choice has the weight 0", "")
-                    .help("give one of them a weight above 0"),
-            );
+            self.report(Problem::new(span, Chance::NoWeight));
             return;
         }
         let zero = self.code.constant(0.0);
         let any = self.code.binary(BinaryOp::Gt, sum, zero);
-        let text = self.world.text(span);
-        let help = "give one of the choices a weight above 0".to_owned();
-        self.imply(any, format!("a weight of `{text}` is above 0"), Some(span), help);
+        self.imply(any, &Implied::AnyWeight { text: self.world.text(span) }, Some(span));
     }
 
     /// `choice(a, b, c)`, `choice(a: 3, b: 1)`
@@ -164,17 +141,11 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         if args.is_empty() {
-            return self.fail(
-                Problem::new(Code::WrongArguments, span, "`choice` has nothing to choose from", "")
-                    .help("write, for example, `choice(-0.2, 0.2)`"),
-            );
+            return self.fail(Problem::new(span, Chance::NoChoices));
         }
         let weighted = args.iter().any(|arg| arg.key.is_some());
         if let Some(bare) = args.iter().find(|arg| weighted && arg.key.is_none()) {
-            return self.fail(
-                Problem::new(Code::WrongArguments, bare.span, "one of the choices has no weight", "")
-                    .help("write `value: weight` for each, or for none"),
-            );
+            return self.fail(Problem::new(bare.span, Chance::WeightMissing));
         }
         let mut weights = Vec::new();
         let mut options: Vec<(Value<'w>, &'w Expr)> = Vec::new();
@@ -208,27 +179,19 @@ impl<'w> Lower<'_, 'w> {
     /// `shuffle(x, y, z)`: its values in an order that is drawn (Fisher and Yates's way); `None` after a report.
     pub(crate) fn shuffle(&mut self, expr: &'w Expr, wanted: usize) -> Option<Vec<Value<'w>>> {
         let ExprKind::Call { name, args } = &expr.kind else {
-            self.report(
-                Problem::new(Code::WrongType, expr.span, "only `shuffle` gives several values", "")
-                    .help("write `let (a, b) = shuffle(x, y)`"),
-            );
+            self.report(Problem::new(expr.span, Chance::OnlyShuffleGivesSeveral));
             return None;
         };
         if name.node != Function::Shuffle.name() || args.len() != wanted {
-            let message = match name.node.as_str() {
-                "shuffle" => format!("{wanted} names share {} values", args.len()),
-                other => format!("`{other}` gives one value, and {wanted} names wait for one each"),
+            let fact = match name.node.as_str() {
+                "shuffle" => Chance::ShuffleCount { names: wanted, values: args.len() },
+                other => Chance::OneValueForNames { function: other.to_owned(), names: wanted },
             };
-            self.report(
-                Problem::new(Code::WrongArguments, expr.span, message, "").help("write `let (a, b) = shuffle(x, y)`"),
-            );
+            self.report(Problem::new(expr.span, fact));
             return None;
         }
         if let Some(more) = args.get(SHUFFLED_MAX) {
-            let message = format!("`shuffle` mixes more than {SHUFFLED_MAX} values");
-            self.report(
-                Problem::new(Code::TooMuch, more.span, message, "one too many").help("mix them in several groups"),
-            );
+            self.report(Problem::new(more.span, Chance::ShuffleTooMuch { most: SHUFFLED_MAX }));
             return None;
         }
         let mut values: Vec<Value<'w>> = args.iter().map(|arg| self.expr(&arg.value)).collect();
@@ -258,13 +221,8 @@ impl<'w> Lower<'_, 'w> {
     /// `alternate(a, b)`: `a` in even episodes, `b` in odd ones.
     fn alternate(&mut self, given: &[&'w Expr], span: Span) -> Value<'w> {
         let &[a, b] = given else { return Value::error() };
-        if self.stage == Stage::Constant {
-            return self.fail(Problem::new(
-                Code::NotConstant,
-                span,
-                "`alternate` changes with the episode",
-                "a constant never changes",
-            ));
+        if matches!(self.stage, Stage::Constant) {
+            return self.fail(Problem::new(span, Chance::AlternateInConstant));
         }
         let (x, y) = (self.expr(a), self.expr(b));
         let (index, two) = (self.code.episode_index(), self.code.constant(2.0));
@@ -275,9 +233,9 @@ impl<'w> Lower<'_, 'w> {
 
     /// Draws from the stream of what is being drawn: its name and the draw's ordinal in it.
     pub(crate) fn random(&mut self, from: Distribution) -> Reg {
-        let ordinal = self.start.next_draw();
-        let key = stream_key(self.start.drawing(), ordinal);
-        if let Some(draws) = &mut self.draws {
+        let ordinal = self.streams.next_draw();
+        let key = stream_key(self.streams.drawing(), ordinal);
+        if let Stage::Behavior(Some(draws)) = &mut self.stage {
             let (cell, count) = (self.code.new_cell(), self.code.new_cell());
             draws.push(Draw { cell, count, key, from });
             return self.code.cell(cell);

@@ -5,7 +5,8 @@ use super::super::mirror::Mirror;
 use super::super::value::{RegionValue, Repr, Value};
 use crate::ast::{Arg, Expr, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Calls, Kind, Names};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::CIRCLE_RADIUS_M;
 use setpiece_scenario::vocabulary::{Function, PitchRegion, RegionName, RegionShape};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -41,11 +42,9 @@ impl<'w> Lower<'_, 'w> {
     }
 
     pub(super) fn no_pitch_region(&self, name: &str, span: Span) -> Value<'w> {
-        let known = PitchRegion::ALL.iter().map(|region| region.name());
-        let problem = Problem::new(Code::UnknownMember, span, format!("no region is called `{name}`"), "not known");
-        let near = crate::problem::nearest(name, known.clone()).is_some();
-        let all = known.clone().collect::<Vec<_>>().join("`, `");
-        self.fail(if near { problem.did_you_mean(name, known) } else { problem.help(format!("there is `{all}`")) })
+        let known: Vec<&str> = PitchRegion::ALL.iter().map(|region| region.name()).collect();
+        let guess = Guess::similar_or_all(name, &known);
+        self.fail(Problem::new(span, Names::Unknown { kind: Kind::Region, name: name.to_owned(), guess }))
     }
 
     /// A region of a team's end: the left team's shape, rotated for the right one.
@@ -144,19 +143,12 @@ impl<'w> Lower<'_, 'w> {
 
     fn polygon(&mut self, args: &'w [Arg], span: Span) -> Value<'w> {
         if !(3..=CORNERS_MAX).contains(&args.len()) {
-            let message = format!("a polygon has 3 to {CORNERS_MAX} corners, found {}", args.len());
-            return self.fail(
-                Problem::new(Code::WrongArguments, span, message, "")
-                    .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
-            );
+            return self.fail(Problem::new(span, Calls::Corners { most: CORNERS_MAX, found: args.len() }));
         }
         let mut corners = Vec::new();
         for arg in args {
             if arg.key.is_some() || arg.binder.is_some() || arg.filter.is_some() {
-                return self.fail(
-                    Problem::new(Code::WrongArguments, arg.span, "a polygon's corners have no names", "")
-                        .help("write its corners in order: `polygon((0, 0), (0.5, 0), (0.5, 0.2))`"),
-                );
+                return self.fail(Problem::new(arg.span, Calls::CornerWithName));
             }
             let corner = self.want(&arg.value, Ty::Point);
             if corner.is_error() {

@@ -9,11 +9,12 @@ use super::super::value::RegionValue;
 use crate::ast::Span;
 use crate::lower::interval::Interval;
 use crate::lower::triangles::{is_flat, triangulate};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Chance, Implied};
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
 /// How many candidates a draw in a composed region tries: at an acceptance of one half one start in 65,536 finds none
-/// and is drawn anew.
+/// and is drawn again.
 const CANDIDATES: usize = 16;
 
 /// A point that was drawn, and whether it counts.
@@ -28,15 +29,7 @@ impl Lower<'_, '_> {
         let is_empty = self.bounds(region).is_some_and(|axes| axes.iter().any(|(low, high)| low > high));
         if is_empty {
             let text = self.world.text(span);
-            self.report(
-                Problem::new(
-                    Code::Impossible,
-                    span,
-                    format!("nothing can be drawn in `{text}`"),
-                    "its parts don't meet",
-                )
-                .help("`&` is what both regions hold, `|` what either does"),
-            );
+            self.report(Problem::new(span, Chance::EmptyRegion { text }));
             return None;
         }
         let first = self.candidate(region, span)?;
@@ -49,9 +42,7 @@ impl Lower<'_, '_> {
             let also = next.accepted.unwrap_or(accepted);
             accepted = self.code.binary(BinaryOp::Or, accepted, also);
         }
-        let text = self.world.text(span);
-        let help = "draw from a region whose parts have more in common".to_owned();
-        self.imply(accepted, format!("a point lies in {text}"), Some(span), help);
+        self.imply(accepted, &Implied::InRegion { text: self.world.text(span) }, Some(span));
         Some(place)
     }
 
@@ -235,12 +226,7 @@ impl Lower<'_, '_> {
             return Some(Candidate { place, accepted: Some(inside) });
         };
         let Some(triangles) = triangulate(&known) else {
-            let (why, help) = if is_flat(&known) {
-                ("its corners lie on one line", "move one of its corners off the line")
-            } else {
-                ("its edges cross", "list its corners in order, along its edge")
-            };
-            self.report(Problem::new(Code::Impossible, span, "nothing can be drawn in this polygon", why).help(help));
+            self.report(Problem::new(span, Chance::EmptyPolygon { is_flat: is_flat(&known) }));
             return None;
         };
         let weights: Vec<Reg> = triangles.iter().map(|triangle| self.code.constant(triangle.area)).collect();

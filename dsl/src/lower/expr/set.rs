@@ -4,7 +4,8 @@ use super::super::value::{Binding, Repr, SetValue, Value};
 use super::super::{Lower, Stage};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem, signature};
+use crate::problem::facts::{Calls, Chance, Scopes};
+use crate::problem::{Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Over, Reg, UnaryOp};
 
@@ -46,18 +47,12 @@ impl<'w> Lower<'_, 'w> {
 
     /// `min_gap(players)`: the least distance between two of some players at the start.
     pub(super) fn min_gap(&mut self, set: &'w Expr, span: Span) -> Value<'w> {
-        if self.stage != Stage::Start {
-            return self.fail(
-                Problem::new(Code::WrongScope, span, "`min_gap` is about the start", "the match is under way here")
-                    .help("in a match write `min(distance(p, q) for p in S)`"),
-            );
+        if !matches!(self.stage, Stage::Start(_)) {
+            return self.fail(Problem::new(span, Scopes::GapInMatch));
         }
         let Some(set) = self.want_set(set) else { return Value::error() };
         let Some(team) = self.code.constant_of(set.team) else {
-            return self.fail(
-                Problem::new(Code::NotConstant, span, "whose gap is meant must be known", "")
-                    .help("write `min_gap(players)`, `min_gap(left)` or `min_gap(right)`"),
-            );
+            return self.fail(Problem::new(span, Chance::WhoseGap));
         };
         let world = self.world;
         let meant = |player: &crate::lower::roster::Rostered<'_>| team < 0.0 || player.team.index() as f64 == team;
@@ -72,10 +67,7 @@ impl<'w> Lower<'_, 'w> {
         }
         match least {
             Some(reg) => Value::one(Ty::LENGTH, reg),
-            None => self.fail(
-                Problem::new(Code::Impossible, span, "a gap needs two players", "there are fewer")
-                    .help("leave the requirement out"),
-            ),
+            None => self.fail(Problem::new(span, Calls::NoGap)),
         }
     }
 
@@ -83,27 +75,11 @@ impl<'w> Lower<'_, 'w> {
     fn players_known(&self, span: Span, what: &str) -> bool {
         let known = self.stage.is_step();
         if self.code.loops() >= LOOPS_MAX {
-            self.report(
-                Problem::new(
-                    Code::Impossible,
-                    span,
-                    format!("more than {LOOPS_MAX} loops stand inside each other"),
-                    "",
-                )
-                .help("compute the inner one before, with a `let`"),
-            );
+            self.report(Problem::new(span, Calls::TooManyLoops { most: LOOPS_MAX }));
             return false;
         }
         if !known {
-            self.report(
-                Problem::new(
-                    Code::WrongScope,
-                    span,
-                    format!("`{what}` goes through players, and the match has not begun"),
-                    "",
-                )
-                .help("name the players: `distance(a, b)`"),
-            );
+            self.report(Problem::new(span, Scopes::PlayersBeforeMatch { what: what.to_owned() }));
         }
         known
     }
@@ -111,18 +87,18 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn aggregate(&mut self, function: Function, args: &'w [Arg], span: Span) -> Value<'w> {
         let name = function.name();
         let [arg] = args else {
-            return self.fail(
-                Problem::new(Code::WrongArguments, span, format!("`{name}` goes through one set of players"), "")
-                    .help(format!("`{}`", signature(function.doc()))),
-            );
+            return self.fail(Problem::new(
+                span,
+                Calls::OneSet { function: name, signature: signature(function.doc()).to_owned() },
+            ));
         };
         let Some(parts) = take_apart(function, arg) else {
-            return self.fail(
-                Problem::new(Code::WrongArguments, arg.span, format!("`{name}` doesn't say which players"), "")
-                    .help(format!("`{}`", signature(function.doc()))),
-            );
+            return self.fail(Problem::new(
+                arg.span,
+                Calls::WhichPlayers { function: name, signature: signature(function.doc()).to_owned() },
+            ));
         };
-        if self.stage == Stage::Start {
+        if matches!(self.stage, Stage::Start(_)) {
             return self.aggregate_start(function, &parts, span);
         }
         if !self.players_known(span, name) {
@@ -182,15 +158,9 @@ impl<'w> Lower<'_, 'w> {
         let zero = self.code.constant(0.0);
         match (function, ty) {
             (_, Some(Ty::Error)) => Value::error(),
-            (Function::MinBy | Function::MaxBy, _) => self.fail(
-                Problem::new(
-                    Code::NotYet,
-                    span,
-                    format!("`{}` in the start is not supported yet", function.name()),
-                    "",
-                )
-                .help("name the player"),
-            ),
+            (Function::MinBy | Function::MaxBy, _) => {
+                self.fail(Problem::new(span, Calls::NotYetAtStart { function: function.name() }))
+            }
             (Function::Count, _) => {
                 let sum =
                     elements.into_iter().fold(zero, |sum, (counts, _)| self.code.binary(BinaryOp::Add, sum, counts));
@@ -212,12 +182,7 @@ impl<'w> Lower<'_, 'w> {
                 });
                 Value::one(Ty::Bool, all)
             }
-            (_, None) => self.fail(Problem::new(
-                Code::Impossible,
-                span,
-                format!("`{}` goes through nobody", function.name()),
-                "the team has no players",
-            )),
+            (_, None) => self.fail(Problem::new(span, Calls::NobodyToCount { function: function.name() })),
             (_, Some(ty)) => Value::one(ty, self.fold_numbers(function, &elements)),
         }
     }

@@ -4,7 +4,8 @@ use super::super::value::Value;
 use super::super::{Lower, Stage};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Scopes;
 use setpiece_scenario::pitch::LONGEST_S;
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
@@ -17,33 +18,15 @@ impl<'w> Lower<'_, 'w> {
             (F::Delta, &[e]) => self.delta(e, span),
             (F::Closing, &[a, b]) => self.closing(a, b, span),
             (F::Potential, &[e, gamma]) => self.potential(e, gamma, span),
-            _ if self.stage == Stage::Observation => self.fail(
-                Problem::new(
-                    Code::WrongScope,
-                    span,
-                    format!("`{}` remembers, and an observation does not", function.name()),
-                    "",
-                )
-                .help("an observation shows the state as it is; `prev` and `delta` look one step back"),
-            ),
-            _ if self.when == When::Prev => self.fail(
-                Problem::new(
-                    Code::WrongScope,
-                    span,
-                    format!("`{}` has no value a step ago", function.name()),
-                    "inside a look at the step before",
-                )
-                .help("`prev` reads the state of the match and of the reward only"),
-            ),
-            _ if !self.stage.is_step() => self.fail(
-                Problem::new(
-                    Code::WrongScope,
-                    span,
-                    format!("`{}` looks back at the match, which has not begun", function.name()),
-                    "",
-                )
-                .help("use it in a `reward` or an `end`"),
-            ),
+            _ if matches!(self.stage, Stage::Observation) => {
+                self.fail(Problem::new(span, Scopes::ObservationRemembersNothing { function: function.name() }))
+            }
+            _ if self.when == When::Prev => {
+                self.fail(Problem::new(span, Scopes::NotAStepAgo { function: function.name() }))
+            }
+            _ if !self.stage.is_step() => {
+                self.fail(Problem::new(span, Scopes::NothingToLookBackAt { function: function.name() }))
+            }
             _ => self.hoisted(|lower| lower.over_time(function, given)),
         }
     }
@@ -144,7 +127,7 @@ impl<'w> Lower<'_, 'w> {
             self.before(a, span);
             return Value::error();
         }
-        debug_assert_ne!(self.stage, Stage::Start);
+        debug_assert!(!matches!(self.stage, Stage::Start(_)));
         let now = apart(self);
         self.when = When::Prev;
         let before = apart(self);

@@ -1,25 +1,21 @@
 //! Payments that no match can earn, and why.
 
 use crate::lower::Lower;
+use crate::problem::facts::{Because, Never};
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Rule, Team};
 use setpiece_scenario::{EventFilter, Instr, Over, Reg, UnaryOp, Who};
 
 impl Lower<'_, '_> {
     /// Why no event of the match passes a filter, if none does.
-    pub(super) fn never_happens(&self, filter: &EventFilter) -> Option<String> {
+    pub(super) fn never_happens(&self, filter: &EventFilter) -> Option<Never> {
         if let Some(rule) = self.switched_off(filter.kind) {
-            let write = if rule == Rule::HalfTime { "1500 steps" } else { "on" };
-            return Some(format!("`{}` never happens: write `rules {{ {rule}: {write} }}`", filter.kind));
+            return Some(Never::SwitchedOff(filter.kind, rule));
         }
         let (by, to) = (self.team_of(filter.by?)?, self.team_of(filter.to?)?);
         match filter.qualifier {
-            Some(Qualifier::Completed) if by != to => {
-                Some("a pass is completed to a team mate: write `pass intercepted`, or name one".to_owned())
-            }
-            Some(Qualifier::Intercepted) if by == to => {
-                Some("an opponent intercepts a pass: write `pass completed`, or name one".to_owned())
-            }
+            Some(Qualifier::Completed) if by != to => Some(Never::CompletedToOpponent),
+            Some(Qualifier::Intercepted) if by == to => Some(Never::InterceptedByMate),
             _ => None,
         }
     }
@@ -64,8 +60,8 @@ impl Lower<'_, '_> {
         }
     }
 
-    /// Why a condition never holds, in a word about the one thing that it looks at.
-    pub(super) fn why_never(&self, guard: Reg) -> String {
+    /// Why a condition never holds: the one thing that it looks at.
+    pub(super) fn why_never(&self, guard: Reg) -> Never {
         let reads = |fields: &[Field]| {
             let test = |instr: &Instr| matches!(instr, Instr::Load { field, .. } if fields.contains(field));
             self.code.depends(guard, &test)
@@ -73,23 +69,22 @@ impl Lower<'_, '_> {
         let counts = self
             .code
             .depends(guard, &|instr| matches!(instr, Instr::Each(each) if matches!(each.over, Over::Players { .. })));
-        let limit =
-            self.longest().map(|seconds| format!("the episode is over after {:.0} steps", seconds * STEPS_PER_S));
+        let limit = self.longest().map(|seconds| Because::Limit(seconds * STEPS_PER_S));
         let all = [
-            (reads(PLACES), Some("x lies between about -1 and 1, y between -0.42 and 0.42".to_owned())),
-            (reads(&[Field::BallVx, Field::BallVy, Field::BallVz]), Some("no ball flies as fast".to_owned())),
-            (reads(&[Field::PlayerVx, Field::PlayerVy]), Some("nobody runs as fast".to_owned())),
-            (reads(&[Field::PlayerYellowCards]), Some("a player has 0, 1 or 2 yellow cards".to_owned())),
-            (reads(&[Field::PlayerFatigue]), Some("fatigue lies between 0 and 1".to_owned())),
-            (reads(&[Field::BallHeight]), Some("no ball rises as high".to_owned())),
+            (reads(PLACES), Some(Because::Places)),
+            (reads(&[Field::BallVx, Field::BallVy, Field::BallVz]), Some(Because::BallSpeed)),
+            (reads(&[Field::PlayerVx, Field::PlayerVy]), Some(Because::PlayerSpeed)),
+            (reads(&[Field::PlayerYellowCards]), Some(Because::YellowCards)),
+            (reads(&[Field::PlayerFatigue]), Some(Because::Fatigue)),
+            (reads(&[Field::BallHeight]), Some(Because::BallHeight)),
             (reads(&[Field::Elapsed, Field::Remaining]), limit),
-            (counts, Some("a team has at most 11 players".to_owned())),
+            (counts, Some(Because::Players)),
         ];
         let mut met = all.into_iter().filter(|(met, _)| *met);
         match (met.next(), met.next()) {
-            (Some((_, Some(why))), None) => format!("its condition can't hold: {why}"),
-            (None, _) => "its condition is never true: write another one, or leave it out".to_owned(),
-            _ => "its condition can't hold: look at each of its values".to_owned(),
+            (Some((_, Some(because))), None) => Never::Condition(Some(because)),
+            (None, _) => Never::Condition(None),
+            _ => Never::Several,
         }
     }
 }

@@ -6,7 +6,8 @@ use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, R
 use crate::check::types::Ty;
 use crate::lower::value::{Binding, Scope, Value};
 use crate::lower::{Lower, Stage, World, param};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Names, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::{Reg, When};
 
 /// The states at the top of a reward.
@@ -31,7 +32,10 @@ pub(super) fn check_names(world: &World<'_>, written: &Written<'_>) {
 
 fn declare<'w>(world: &World<'_>, name: &'w Ident, known: &mut Vec<&'w Ident>) {
     if let Some(first) = known.iter().find(|first| first.node == name.node) {
-        world.report(Problem::declared_twice(&format!("`{}`", name.node), name.span, first.span));
+        world.report(Problem::new(
+            name.span,
+            Names::DeclaredTwice { what: format!("`{}`", name.node), first: Some(first.span) },
+        ));
     }
     known.push(name);
 }
@@ -74,11 +78,7 @@ impl<'w> Lower<'_, 'w> {
         if value.is_error() || value.is_held() {
             return value;
         }
-        let message = format!("a state can't be {}", value.ty.noun());
-        self.fail(
-            Problem::new(Code::WrongType, state.value.span, message, "")
-                .help("keep numbers, players and points in states"),
-        )
+        self.fail(Problem::new(state.value.span, Types::NoState { ty: value.ty }))
     }
 
     /// Makes a state known to the statements.
@@ -92,21 +92,20 @@ impl<'w> Lower<'_, 'w> {
     ///
     /// The record's program keeps the reward's states itself: it has the reward's statements without its payments.
     pub(crate) fn state_of_reward(&mut self, name: &str, of: Span, member: &'w Ident) -> Option<Value<'w>> {
-        if self.stage != Stage::Record {
-            return None;
-        }
+        let Stage::Record(remembered) = &self.stage else { return None };
         let (_, used, stmt) = self.world.flat.rewards.iter().find(|(known, ..)| known == name)?;
-        let known = self.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
+        let known = remembered.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
         let scope = known.unwrap_or_else(|| {
             let scope = self.remember(used, stmt.span);
-            self.rewards.push((name.to_owned(), scope.clone()));
+            if let Stage::Record(remembered) = &mut self.stage {
+                remembered.rewards.push((name.to_owned(), scope.clone()));
+            }
             scope
         });
         let Some(scope) = scope else {
-            // Where there is no such reward, that has been told.
+            // Where there is no such reward, that has been reported.
             if matches!(used.what, RewardUseKind::Script(_)) {
-                let message = format!("reward `{name}` is a script, whose memory is its own");
-                self.report(Problem::new(Code::UnknownMember, member.span, message, "can't be read"));
+                self.report(Problem::new(member.span, Names::ScriptHasNoStates { reward: name.to_owned() }));
             }
             return Some(Value::error());
         };
@@ -115,14 +114,9 @@ impl<'w> Lower<'_, 'w> {
         }
         let is_state = |name: &&str| matches!(scope.find(name), Some(Binding::State { .. }));
         let states: Vec<&str> = scope.names().into_iter().filter(is_state).collect();
-        let message = format!("reward `{name}` has no state `{}`", member.node);
-        let problem = Problem::new(Code::UnknownMember, member.span, message, "not known");
-        let near = crate::problem::nearest(&member.node, states.iter().copied()).is_some();
-        Some(self.fail(match states.is_empty() {
-            false if !near => problem.help(format!("it has `{}`", states.join("`, `"))),
-            false => problem.did_you_mean(&member.node, states),
-            true => problem.help("a record reads what a reward keeps in `state`s"),
-        }))
+        let guess = if states.is_empty() { Guess::default() } else { Guess::similar_or_all(&member.node, &states) };
+        let fact = Names::NoStateOfReward { reward: name.to_owned(), name: member.node.clone(), guess };
+        Some(self.fail(Problem::new(member.span, fact)))
     }
 
     /// Writes a reward's statements without its payments, outside every loop; gives the scope with its states.
@@ -130,7 +124,10 @@ impl<'w> Lower<'_, 'w> {
         let (written, _) = super::written(self.world, used, span)?;
         let loops = self.code.leave_loops();
         // Where both teams have agents, or none, it is kept for each of them.
-        self.per_agent |= self.side_with_agents().is_none();
+        let for_each = self.side_with_agents().is_none();
+        if let Stage::Record(remembered) = &mut self.stage {
+            remembered.per_agent |= for_each;
+        }
         let us = self.side_with_agents().map(|team| self.code.constant(team.index() as f64));
         let us = us.unwrap_or_else(|| self.code.us());
         let outer = (self.event.take(), std::mem::replace(&mut self.when, When::Now), self.team.replace(us));
@@ -138,7 +135,7 @@ impl<'w> Lower<'_, 'w> {
         let statements = written.statements();
         let states = states(&statements);
 
-        self.stage = Stage::Init;
+        let record = std::mem::replace(&mut self.stage, Stage::Init);
         self.scope = written.bind(self);
         let firsts: Vec<Value<'w>> = states.iter().map(|state| self.first_value(state)).collect();
         self.stage = Stage::Reward;
@@ -167,7 +164,7 @@ impl<'w> Lower<'_, 'w> {
         Writer::write(self, &statements, None, false, Vec::new());
         let one = self.code.constant(1.0);
         self.code.assign(begun, one, None);
-        self.stage = Stage::Record;
+        self.stage = record;
         (self.event, self.when, self.team) = outer;
         self.scope = outer_scope;
         self.code.return_to(loops);

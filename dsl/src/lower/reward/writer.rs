@@ -7,7 +7,8 @@ use crate::check::types::Ty;
 use crate::lower::script::embed;
 use crate::lower::value::Binding;
 use crate::lower::{Lower, param};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Assigned, Names, Never, Rewards, Scopes};
+use crate::problem::{Code, Guess, Problem};
 use setpiece_scenario::pitch::STEP_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, RewardHook, UnaryOp};
@@ -36,7 +37,7 @@ pub(super) struct Writer<'l, 'c, 'w> {
     pays: bool,
     guard: Option<Reg>,
     /// Why the event around never happens.
-    never: Option<String>,
+    never: Option<Never>,
     unlabelled: usize,
 }
 
@@ -95,7 +96,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         };
         let at = binding.name.span;
         lower.check_hides(&binding.name.node, at, &lower.scope);
-        // A `let` that takes a state's name has been told.
+        // A `let` that takes a state's name has been reported.
         if matches!(lower.scope.find(&binding.name.node), Some(Binding::State { .. })) {
             return;
         }
@@ -105,10 +106,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     fn statement(&mut self, statement: &'w RewardStmt, is_top: bool) {
         match &statement.kind {
             RewardStmtKind::State(state) if !is_top => {
-                self.lower.report(
-                    Problem::new(Code::WrongScope, state.name.span, "a `state` stands at the top of a reward", "")
-                        .help("move it above the block"),
-                );
+                self.lower.report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a reward" }));
             }
             RewardStmtKind::Let(binding) if !is_top => self.bind_let(binding),
             RewardStmtKind::Give(give) if self.pays => self.give(give),
@@ -151,10 +149,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     /// Runs `f` once per matching event.
     fn on_event(&mut self, event: &'w EventExpr, when: Option<&'w Expr>, f: impl FnOnce(&mut Self)) {
         if self.lower.event.is_some() {
-            self.lower.report(
-                Problem::new(Code::WrongScope, event.span, "an `on` stands inside another one", "")
-                    .help("write the inner event as a condition: `when goal by us { … }`"),
-            );
+            self.lower.report(Problem::new(event.span, Scopes::OnInsideOn));
             return;
         }
         let Some(matching) = self.lower.open_events(event) else { return };
@@ -180,10 +175,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
             self.unlabelled += 1;
         }
         if let Some(label) = give.label.as_ref().filter(|label| label.node.trim().is_empty()) {
-            self.lower.report(
-                Problem::new(Code::OutOfRange, label.span, "a label has at least one letter", "")
-                    .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
-            );
+            self.lower.report(Problem::new(label.span, Rewards::EmptyLabel));
         }
         let label = give.label.as_ref().map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
         let term = self.term(label);
@@ -295,30 +287,27 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         }
         let nothing = self.lower.code.constant_of(reg) == Some(0.0);
         let guard = self.guard.filter(|guard| self.lower.never_holds(*guard));
-        let why = match (&self.never, guard) {
-            (Some(why), _) => why.clone(),
+        let why = match (self.never, guard) {
+            (Some(why), _) => why,
             (None, Some(guard)) => self.lower.why_never(guard),
-            (None, None) if nothing => "it pays 0: write another value, or leave it out".to_owned(),
+            (None, None) if nothing => Never::Nothing,
             (None, None) => return,
         };
-        self.lower.report(Problem::new(Code::NeverPays, value.span, "this `give` never pays", "").help(why));
+        self.lower.report(Problem::new(value.span, Rewards::NeverPays { why }));
     }
 
     /// Reports a constant that is more than can be paid.
     fn check_payable(&self, reg: Reg, value: &Expr) {
         let code = &self.lower.code;
         let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
-            // A division by zero has been told.
+            // A division by zero has been reported.
             Some(&Instr::Binary(BinaryOp::Div, _, b)) if code.constant_of(b) == Some(0.0) => None,
             Some(&Instr::Binary(op, a, b)) => Some(op.apply(code.constant_of(a)?, code.constant_of(b)?)),
             _ => None,
         });
         if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {
             let text = self.lower.world.text(value.span);
-            self.lower.report(
-                Problem::new(Code::OutOfRange, value.span, format!("`{text}` is more than can be paid"), "")
-                    .help("rewards are small numbers: `give 1`"),
-            );
+            self.lower.report(Problem::new(value.span, Rewards::MoreThanPayable { text }));
         }
     }
 
@@ -341,16 +330,11 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         let known = self.lower.scope.bindings();
         let states: Vec<&str> =
             known.iter().filter(|(_, bound)| matches!(bound, Binding::State { .. })).map(|(name, _)| *name).collect();
-        let problem = |message: String| Problem::new(Code::UnknownName, name.span, message, "can't be assigned");
-        let near = crate::problem::nearest(&name.node, states.iter().copied()).is_some();
-        self.lower.report(if known.contains_key(name.node.as_str()) {
-            problem(format!("`{}` is no `state`, and only a `state` is assigned", name.node))
-                .help(format!("declare it at the top: `state {} = 0`", name.node))
-        } else if near {
-            problem(format!("no `state` is called `{}`", name.node)).did_you_mean(&name.node, states)
+        let (is, guess) = if known.contains_key(name.node.as_str()) {
+            (Assigned::ValueOfReward, Guess::default())
         } else {
-            problem(format!("no `state` is called `{}`", name.node))
-                .help(format!("declare it at the top: `state {} = 0`", name.node))
-        });
+            (Assigned::Nothing, Guess::similar_or(&name.node, &states, &[]))
+        };
+        self.lower.report(Problem::new(name.span, Names::NotAState { name: name.node.clone(), is, guess }));
     }
 }

@@ -5,7 +5,8 @@ use crate::check::options::{BALL, START};
 use crate::check::types::Ty;
 use crate::lower::value::Repr;
 use crate::lower::{Lower, fields};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Bounds, Instead, Names, Starts, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{
     BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S, STEPS_PER_S,
 };
@@ -30,17 +31,11 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             }
             let ExprKind::List(parts) = &expr.kind else {
-                self.report(
-                    Problem::new(Code::WrongType, expr.span, "expected the goals of both teams", "")
-                        .help("write `score: [1, 0]`"),
-                );
+                self.report(Problem::new(expr.span, Types::NoScore));
                 continue;
             };
             let &[left, right] = &parts.iter().collect::<Vec<_>>()[..] else {
-                self.report(
-                    Problem::new(Code::WrongArguments, expr.span, "a score has two numbers", "")
-                        .help("write `score: [1, 0]`"),
-                );
+                self.report(Problem::new(expr.span, Starts::ScoreOfTwo));
                 continue;
             };
             let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
@@ -108,10 +103,7 @@ impl<'w> Lower<'_, 'w> {
         let apart = ((x - ball_x).powi(2) + (y - ball_y).powi(2)).sqrt();
         if apart > AT_HIS_FEET_M {
             let name = self.world.text(at);
-            self.report(
-                Problem::new(Code::OutOfRange, at, format!("`{name}` stands {apart:.1} m from the ball"), "")
-                    .help(format!("lay it at his feet: `ball ahead of {name} by 1m`")),
-            );
+            self.report(Problem::new(at, Starts::OwnerFarAway { name, apart_m: apart }));
         }
     }
 
@@ -128,10 +120,7 @@ impl<'w> Lower<'_, 'w> {
             let spin = (about(x), about(y), about(z));
             return Some(self.mirrored_spin(spin));
         }
-        self.report(
-            Problem::new(Code::WrongType, expr.span, "expected the spin about three axes", "")
-                .help("write, for example, `spin: (0, 0, 30)`: radians per second about x, y and z"),
-        );
+        self.report(Problem::new(expr.span, Types::NoSpin));
         None
     }
 
@@ -140,15 +129,11 @@ impl<'w> Lower<'_, 'w> {
         let fields = self.world.flat.rules.clone();
         for field in fields {
             let Some(rule) = Rule::from_name(&field.key.node) else {
-                self.report(
-                    Problem::new(
-                        Code::UnknownOption,
-                        field.key.span,
-                        format!("`rules` has no option `{}`", field.key.node),
-                        "not known",
-                    )
-                    .one_of(&field.key.node, &Rule::ALL.iter().map(|rule| rule.name()).collect::<Vec<_>>()),
-                );
+                self.report({
+                    let known: Vec<&str> = Rule::ALL.iter().map(|rule| rule.name()).collect();
+                    let guess = Guess::or_all(&field.key.node, &known);
+                    Problem::new(field.key.span, Names::NoRule { option: field.key.node.clone(), guess })
+                });
                 continue;
             };
             if let Some(value) = self.rule_value(rule, field) {
@@ -167,10 +152,7 @@ impl<'w> Lower<'_, 'w> {
             }
             (Rule::Physics, _) => {
                 let text = self.world.text(expr.span);
-                self.report(
-                    Problem::new(Code::OutOfRange, expr.span, format!("`physics` is never `{text}`"), "")
-                        .help("write `physics: gated` or `physics: full`"),
-                );
+                self.report(Problem::new(expr.span, Bounds::Physics { text }));
                 None
             }
             (Rule::HalfTime, ExprKind::Bool(false)) => Some(self.code.constant(0.0)),
@@ -187,8 +169,7 @@ impl<'w> Lower<'_, 'w> {
                         self.code.unary(UnaryOp::Round, steps)
                     }
                     ty => {
-                        let problem = self.mismatch(ty, Ty::DURATION, expr.span);
-                        self.report(problem.help("write `half_time: off` or `half_time: 1500 steps`"));
+                        self.report(self.mismatch_with(ty, Ty::DURATION, expr.span, Instead::HalfTime));
                         return None;
                     }
                 };
@@ -201,8 +182,11 @@ impl<'w> Lower<'_, 'w> {
                 if value.ty == Ty::Bool || value.is_error() {
                     return Some(self.reg(&value));
                 }
-                let problem = self.expected("`on` or `off`", value.ty, expr.span);
-                self.report(problem.help(format!("write `{rule}: on` or `{rule}: off`")));
+                let text = self.world.text(expr.span);
+                self.report(Problem::new(
+                    expr.span,
+                    Types::NeitherOnNorOff { rule: rule.name(), found: value.ty, text },
+                ));
                 None
             }
         }

@@ -7,7 +7,8 @@ use crate::ast::Span;
 use crate::lower::Lower;
 use crate::lower::roster::Rostered;
 use crate::lower::team::PlayerOptions;
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::{Implied, Players, Starts};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Instr, Reg, UnaryOp};
@@ -50,17 +51,14 @@ pub(super) fn check_places(
             }
         }
     }
-    let all = [
-        (on_pitch, "everybody stands on the pitch", "place the players where every draw lies between the lines"),
-        (apart, "nobody stands on another's spot", "give the players more room, or allow it: `{ overlap: allowed }`"),
-    ];
-    for (parts, label, help) in all {
+    let all = [(on_pitch, Implied::PlayersOnPitch), (apart, Implied::PlayersApart)];
+    for (parts, implied) in all {
         let first = parts.first().map(|(_, span)| *span);
-        // Of several parts it can't be told here which one fails.
+        // Of several parts it isn't known here which one fails.
         let span = first.filter(|first| parts.iter().all(|(_, span)| span == first));
         let regs = parts.into_iter().map(|(reg, _)| reg);
         if let Some(all) = regs.reduce(|a, b| lower.code.binary(BinaryOp::And, a, b)) {
-            lower.imply(all, label.to_owned(), span, help.to_owned());
+            lower.imply(all, &implied, span);
         }
     }
 }
@@ -71,23 +69,19 @@ fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, spa
     let limit = (HALF_LENGTH_M, HALF_WIDTH_M + aside);
     if check_on_pitch(lower, place, limit, "the ball", span) == Known::Later {
         let inside = within(lower, place, limit);
-        let help = "place it where every draw lies between the lines".to_owned();
-        lower.imply(inside, "the ball lies on the pitch".to_owned(), Some(span), help);
+        lower.imply(inside, &Implied::BallOnPitch, Some(span));
     }
     if kind != StartKind::ThrowIn {
         return;
     }
     let nearest = HALF_WIDTH_M - NEAR_M;
-    let help = "their y is -0.42 and 0.42: `at (0.3, 0.42)`";
     match lower.interval(place.1) {
         Some((low, high)) if low >= nearest || high <= -nearest => {}
-        Some((low, high)) if low > -nearest && high < nearest => lower.report(
-            Problem::new(Code::OutOfRange, span, "a throw-in is taken from a side line", "lies elsewhere").help(help),
-        ),
+        Some((low, high)) if low > -nearest && high < nearest => lower.report(Problem::new(span, Starts::NoSideLine)),
         _ => {
             let (least, aside) = (lower.code.constant(nearest), lower.code.unary(UnaryOp::Abs, place.1));
             let beside = lower.code.binary(BinaryOp::Ge, aside, least);
-            lower.imply(beside, "the throw-in is taken from a side line".to_owned(), Some(span), help.to_owned());
+            lower.imply(beside, &Implied::BesideSideLine, Some(span));
         }
     }
 }
@@ -97,7 +91,8 @@ fn situations(lower: &Lower<'_, '_>, places: &[(Reg, Reg)]) -> Vec<Situation> {
         return vec![places.to_vec()];
     }
     let of = |kicking: Team| -> Situation {
-        let layouts = lower.start.layouts.iter().zip(places).zip(&lower.world.roster);
+        let layouts = lower.start().into_iter().flat_map(|start| &start.layouts);
+        let layouts = layouts.zip(places).zip(&lower.world.roster);
         layouts
             .map(|((layout, place), player)| match layout {
                 Some((kicks, _)) if player.team == kicking => *kicks,
@@ -125,19 +120,15 @@ fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), w
     if outside(x, limit.0) || outside(y, limit.1) {
         let text = lower.world.text(span);
         let far = |axis: Option<(f64, f64)>| axis.map_or(0.0, |(low, _)| low);
-        lower.report(
-            Problem::new(
-                Code::OffPitch,
-                span,
-                format!("{what} is off the pitch: `{text}` is ({:.1}m, {:.1}m)", far(x), far(y)),
-                "",
-            )
-            .help(format!(
-                "the pitch is {}m by {}m, or normalised from (-1.01, -0.43) to (1.01, 0.43)",
-                2.0 * HALF_LENGTH_M,
-                2.0 * HALF_WIDTH_M
-            )),
-        );
+        lower.report(Problem::new(
+            span,
+            Starts::OffPitch {
+                what: what.to_owned(),
+                text,
+                at: (far(x), far(y)),
+                size: (2.0 * HALF_LENGTH_M, 2.0 * HALF_WIDTH_M),
+            },
+        ));
         return Known::Now;
     }
     let within = |axis: Option<(f64, f64)>, limit: f64| axis.is_some_and(|(low, high)| low >= -limit && high <= limit);
@@ -178,18 +169,11 @@ fn check_pair(
             return None;
         }
         let at = |player: &crate::lower::roster::Rostered<'_>| player.place_span();
-        let where_ =
-            if lower.world.flat.kickoff.is_some() { format!(" at kick-off {}", nth + 1) } else { String::new() };
-        lower.report(
-            Problem::new(
-                Code::SameSpot,
-                at(second),
-                format!("{} and {} stand on one spot{where_}", first.shown(), second.shown()),
-                "the same spot",
-            )
-            .label(at(first), "taken by this player")
-            .help("move one of them, or allow it: `{ overlap: allowed }`"),
-        );
+        let nth = lower.world.flat.kickoff.is_some().then_some(nth + 1);
+        lower.report(Problem::new(
+            at(second),
+            Players::SameSpot { players: (first.shown(), second.shown()), nth, first: at(first) },
+        ));
         return None;
     }
     let drawn = |instr: &Instr| matches!(instr, Instr::Random { .. });

@@ -5,23 +5,30 @@ use crate::check::types::Ty;
 use crate::lower::Lower;
 use crate::lower::mirror::Mirror;
 use crate::lower::value::{Frame, Scope};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::{Kind, Names, Starts};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M};
 use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Reg, UnaryOp};
 
 impl Lower<'_, '_> {
-    /// The kind of start and the team that takes it; told once.
+    /// The kind of start and the team that takes it; read once.
     pub(in crate::lower) fn start_kind(&mut self) -> (StartKind, Option<Reg>) {
-        if let Some(known) = self.start.kind {
+        if let Some(known) = self.start().and_then(|start| start.kind) {
             return known;
         }
         let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
         // Whoever asks while the team is being computed must not ask for ever.
-        self.start.kind = Some((implied, None));
+        self.set_kind((implied, None));
         let found = self.read_kind(implied);
-        self.start.kind = Some(found);
+        self.set_kind(found);
         found
+    }
+
+    fn set_kind(&mut self, kind: (StartKind, Option<Reg>)) {
+        if let Some(start) = self.start_mut() {
+            start.kind = Some(kind);
+        }
     }
 
     fn read_kind(&mut self, implied: StartKind) -> (StartKind, Option<Reg>) {
@@ -29,35 +36,20 @@ impl Lower<'_, '_> {
         let Some(stmt) = self.world.flat.start else { return (implied, first) };
         let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, first) };
         let Some(found) = StartKind::from_name(&kind.node) else {
-            self.report(
-                Problem::new(Code::UnknownName, kind.span, format!("no start is called `{}`", kind.node), "")
-                    .did_you_mean(&kind.node, StartKind::ALL.iter().map(|kind| kind.name())),
-            );
+            self.report({
+                let guess = Guess::of(&kind.node, StartKind::ALL.iter().map(|kind| kind.name()));
+                Problem::new(kind.span, Names::Unknown { kind: Kind::Start, name: kind.node.clone(), guess })
+            });
             return (implied, first);
         };
         if let Some(at) = at.as_ref().filter(|_| !has_place(found)) {
-            self.report(
-                Problem::new(Code::WrongScope, at.span, format!("`{}` has no place of its own", kind.node), "").help(
-                    if found == StartKind::Open {
-                        "the ball's place is the start's: `ball at …`"
-                    } else {
-                        "the laws say where the ball lies: leave `at …` out"
-                    },
-                ),
-            );
+            self.report(Problem::new(at.span, Starts::NoPlaceOfItsOwn { kind: found }));
         }
         if team.is_none() && matches!(found, StartKind::Corner | StartKind::GoalKick | StartKind::Penalty) {
-            self.report(
-                Problem::new(Code::WrongArguments, kind.span, format!("whose {} is it?", spoken(found)), "")
-                    .help(format!("write `start {} for left`", kind.node)),
-            );
+            self.report(Problem::new(kind.span, Starts::WhoseIsIt { kind: found }));
         }
         if let Some(team) = team.as_ref().filter(|_| found == StartKind::Open) {
-            self.report(
-                Problem::new(Code::WrongScope, team.span, "an open start belongs to no team", "")
-                    .label(kind.span, "play is on at once")
-                    .help("leave `for …` out; who has the ball says `ball … { owner: NAME }`"),
-            );
+            self.report(Problem::new(team.span, Starts::OpenForATeam { kind: kind.span }));
         }
         self.check_ball_statement(found, kind, at.as_ref().map(|at| at.span));
         let scope = Scope::new(true, Frame::World);
@@ -66,10 +58,7 @@ impl Lower<'_, '_> {
             let reg = self.within(scope, |lower| lower.drawing("start", |lower| lower.want_reg(team, Ty::Team)));
             self.team = outer;
             if found != StartKind::Open && self.code.constant_of(reg) == Some(-1.0) {
-                self.report(
-                    Problem::new(Code::OutOfRange, team.span, format!("a {} belongs to a team", spoken(found)), "")
-                        .help(format!("write `start {} for left`", kind.node)),
-                );
+                self.report(Problem::new(team.span, Starts::BelongsToATeam { kind: found }));
             }
             self.check_taker(found, reg, team.span);
             reg
@@ -82,39 +71,26 @@ impl Lower<'_, '_> {
         let index = self.code.constant_of(team).filter(|index| *index >= 0.0);
         let Some(team) = index.and_then(|index| Team::ALL.get(index as usize)) else { return };
         if kind != StartKind::Open && self.world.roster.iter().all(|player| player.team != *team) {
-            self.report(
-                Problem::new(
-                    Code::OutOfRange,
-                    at,
-                    format!("the {team} team has nobody to take the {}", spoken(kind)),
-                    "",
-                )
-                .help(format!("give it a player: `team {team} {{ CM at own (-0.1, 0) }}`")),
-            );
+            self.report(Problem::new(at, Starts::NobodyTakesIt { team: *team, kind }));
         }
     }
 
     /// A set piece lays the ball down itself.
     fn check_ball_statement(&self, kind: StartKind, word: &Ident, at: Option<Span>) {
         let Some((ball, span)) = self.world.flat.ball else { return };
-        let spoken = spoken(kind);
-        let problem = |message: String| {
-            Problem::new(Code::DuplicateOption, span, message, "").label(word.span, "the start is given here")
-        };
+        let start = word.span;
         match kind {
             StartKind::Open | StartKind::Kickoff => {}
-            StartKind::Corner | StartKind::GoalKick | StartKind::Penalty => self.report(
-                problem(format!("a {spoken} lays the ball down itself"))
-                    .help("leave `ball …` out; an inherited one goes by `remove ball`"),
-            ),
-            StartKind::FreeKick | StartKind::ThrowIn if at.is_some() => self.report(
-                problem(format!("the {spoken}'s place is given twice")).help("leave one of `ball at …` and `at …` out"),
-            ),
+            StartKind::Corner | StartKind::GoalKick | StartKind::Penalty => {
+                self.report(Problem::new(span, Starts::LaysBallItself { kind, start }));
+            }
+            StartKind::FreeKick | StartKind::ThrowIn if at.is_some() => {
+                self.report(Problem::new(span, Starts::PlaceTwice { kind, start }));
+            }
             StartKind::FreeKick | StartKind::ThrowIn => {
                 let moving = |key: &str| matches!(key, "velocity" | "height" | "spin" | "owner");
                 if let Some(field) = ball.fields.iter().find(|field| moving(&field.key.node)) {
-                    let message = format!("the ball of a {spoken} lies still, at the taker's feet");
-                    self.report(Problem::new(Code::WrongScope, field.key.span, message, "").help("leave it out"));
+                    self.report(Problem::new(field.key.span, Starts::BallLiesStill { kind }));
                 }
             }
         }
@@ -128,11 +104,7 @@ impl Lower<'_, '_> {
             return;
         }
         let word = self.world.flat.start.map_or(self.world.flat.item.name.span, |stmt| stmt.span);
-        self.report(
-            Problem::new(Code::DuplicateOption, span, "a kick-off lays the ball on the centre spot", "")
-                .label(word, "the start is a kick-off")
-                .help("leave `ball …` out; an inherited one goes by `remove ball`"),
-        );
+        self.report(Problem::new(span, Starts::KickOffLaysBall { start: word }));
     }
 
     /// Where the ball lies where no `ball …` says so; `None` after a report.
@@ -157,12 +129,7 @@ impl Lower<'_, '_> {
             StartKind::GoalKick => GOAL_KICK_SPOT_M - HALF_LENGTH_M,
             StartKind::Open | StartKind::FreeKick | StartKind::ThrowIn => {
                 let name = &world.flat.item.name;
-                let problem = Problem::new(Code::NoBall, name.span, format!("`{}` has no ball", name.node), "");
-                self.report(match kind {
-                    StartKind::Open => problem.help("write, for example, `ball at (0.6, 0)`"),
-                    StartKind::ThrowIn => problem.help("say where: `start throw_in for left at (0.5, 0.42)`"),
-                    kind => problem.help(format!("say where: `start {kind} for left at (0.5, 0.2)`")),
-                });
+                self.report(Problem::new(name.span, Starts::NoBall { scenario: name.node.clone(), kind }));
                 return None;
             }
         };
@@ -192,11 +159,7 @@ impl Lower<'_, '_> {
         let on_byline = (x * side - HALF_LENGTH_M).abs() <= NEAR_M;
         if kind == StartKind::Corner && !(on_side_line && on_byline) {
             let end = if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };
-            let message = "a corner is taken from a corner of the other end";
-            self.report(
-                Problem::new(Code::OutOfRange, span, message, "lies elsewhere")
-                    .help(format!("write `at {end}.corner.top` or `at {end}.corner.bottom`")),
-            );
+            self.report(Problem::new(span, Starts::NoCorner { end }));
         }
     }
 
@@ -219,12 +182,4 @@ pub(super) const NEAR_M: f64 = 1.5;
 /// Whether `at …` says where it is: a corner's tells which of the two.
 fn has_place(kind: StartKind) -> bool {
     matches!(kind, StartKind::Corner | StartKind::FreeKick | StartKind::ThrowIn)
-}
-
-fn spoken(kind: StartKind) -> String {
-    match kind {
-        StartKind::ThrowIn => "throw-in".to_owned(),
-        StartKind::Kickoff => "kick-off".to_owned(),
-        kind => kind.name().replace('_', " "),
-    }
 }

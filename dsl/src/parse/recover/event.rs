@@ -2,7 +2,8 @@
 
 use super::Wrong;
 use crate::parse::reader::Reader;
-use crate::problem::{Code, Problem, nearest};
+use crate::problem::facts::{Kind, Names, Syntax};
+use crate::problem::{Guess, Problem, nearest};
 use setpiece_grammar::Rule;
 use setpiece_scenario::vocabulary::{EventKind, Owner, PROPERTIES, Qualifier, Type};
 
@@ -24,8 +25,7 @@ impl Reader<'_> {
             return Some(no_event(name, span));
         }
         let meant = nearest(name, OVER_TIME.iter().copied()).filter(|meant| meant != name && word == "of")?;
-        let message = format!("expected `count`, `max` or the like, found `{name}`");
-        Some(Problem::new(Code::Syntax, span, message, "no such word here").help(format!("did you mean `{meant}`?")))
+        Some(Problem::new(span, Syntax::MisspeltOverTime { word: (*name).to_owned(), meant }))
     }
 }
 
@@ -40,12 +40,8 @@ fn names() -> impl Iterator<Item = &'static str> {
 fn no_event(name: &str, span: crate::source::Span) -> Problem {
     let state = |name: &str| PROPERTIES.iter().any(|p| p.owner == Owner::Match && p.ty == Type::Bool && p.name == name);
     if state(name) {
-        return Problem::new(Code::UnknownEvent, span, format!("`{name}` is a state, no event"), "lasts")
-            .help(format!("write `when {name}`"));
+        return Problem::new(span, Syntax::StateNoEvent { name: name.to_owned() });
     }
-    let problem = Problem::new(Code::UnknownEvent, span, format!("no event is called `{name}`"), "not known");
-    match problem.clone().did_you_mean(name, names()) {
-        near if near.help.is_some() => near,
-        _ => problem.help(format!("the events are `{}`", names().collect::<Vec<_>>().join("`, `"))),
-    }
+    let guess = Guess::or_all(name, &names().collect::<Vec<_>>());
+    Problem::new(span, Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess })
 }

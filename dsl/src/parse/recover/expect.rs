@@ -3,7 +3,8 @@
 use super::{Context, Finding, Wrong, text};
 use crate::habit::{self, BRACKET_APART, Begins};
 use crate::parse::reader::{Reader, reserved, token};
-use crate::problem::{Code, Problem, nearest};
+use crate::problem::facts::{Hint, Syntax};
+use crate::problem::{Guess, Problem, nearest};
 use crate::source::Span;
 use setpiece_grammar::{Rule, keyword, noun};
 use setpiece_scenario::vocabulary::Role;
@@ -33,7 +34,7 @@ impl Reader<'_> {
             .map(Finding::new)
             .or_else(|| if outside { None } else { self.role_or_keyword(&wrong, word) })
             .or_else(|| self.reserved_name(&wrong, word).map(Finding::new))
-            .unwrap_or_else(|| Finding::new(wrong.with_form(self.expected(&wrong))))
+            .unwrap_or_else(|| Finding::new(self.expected(&wrong, wrong.form())))
     }
 
     /// A habit of another language, at the place where nothing fits or at the junk's beginning.
@@ -60,40 +61,38 @@ impl Reader<'_> {
             wrong.at = *from;
         }
         let starts = wrong.at == wrong.junk.start;
-        let anew = starts && found.begins == Begins::Anew;
-        let misplaced = self.misplaced(wrong.context, self.word(wrong.at), wrong.at).filter(|_| anew);
-        let problem = misplaced.unwrap_or_else(|| self.expected(wrong)).help(found.help);
-        let (fresh, goes_on) = (found.begins == Begins::Anew, found.begins == Begins::Before);
+        let is_new = starts && found.begins == Begins::New;
+        let misplaced = || self.misplaced(wrong.context, self.word(wrong.at), wrong.at, Some(&found.help));
+        let problem = if is_new { misplaced() } else { None };
+        let problem = problem.unwrap_or_else(|| self.expected(wrong, Hint::Habit(found.help.clone())));
+        let (fresh, goes_on) = (found.begins == Begins::New, found.begins == Begins::Before);
         Some(Finding { problem, fresh, goes_on })
     }
 
     /// That something else was expected.
-    fn expected(&self, wrong: &Wrong<'_>) -> Problem {
+    fn expected(&self, wrong: &Wrong<'_>, hint: Hint) -> Problem {
         let at = wrong.at;
         let whole = wrong.tokens.get(wrong.token_at()).filter(|(from, _)| *from == at);
         let word = whole.map_or_else(|| self.word(at), |(_, word)| *word);
         let starts = at == wrong.junk.start && !wrong.inside;
         let wanted = if starts && !(wrong.before.is_some() && wrong.positives.is_empty()) && !is_name(&wrong.positives)
         {
-            noun(wrong.context.statement()).to_owned()
+            vec![noun(wrong.context.statement())]
         } else {
             // What could stand behind any statement is no news.
             let any = |rule: &&Rule| starts && (**rule == Rule::comma || **rule == wrong.context.statement());
             let wanted: Vec<Rule> = wrong.positives.iter().filter(|rule| !any(rule)).copied().collect();
-            list(wrong.context, &wanted)
+            nouns(wrong.context, &wanted)
         };
         if let Some((from, last)) = wrong.tokens.last()
             && at >= wrong.junk.end
             && (word.is_empty() || text(self.text, *from..at).contains('\n'))
         {
-            let wanted = wanted.split(", for example").next().unwrap_or(&wanted);
-            let message = format!("expected {wanted} behind `{last}`");
-            return Problem::new(Code::Syntax, self.between(*from, from + last.len()), message, "something is missing");
+            let fact = Syntax::Unfinished { wanted, last: (*last).to_owned(), hint };
+            return Problem::new(self.between(*from, from + last.len()), fact);
         }
-        let found = if word.is_empty() { "the end of the file".to_owned() } else { format!("`{word}`") };
-        let label = if starts { "no statement begins like this" } else { "this can't stand here" };
-        let span = self.between(at, at + word.len());
-        Problem::new(Code::Syntax, span, format!("expected {wanted}, found {found}"), label)
+        let fact = Syntax::Expected { wanted, found: word.to_owned(), begins: starts, hint };
+        Problem::new(self.between(at, at + word.len()), fact)
     }
 
     /// The word or sign at an offset.
@@ -126,33 +125,27 @@ impl Reader<'_> {
             }
         }
         if starts {
-            if let Some(problem) = self.misplaced(context, word, at) {
+            if let Some(problem) = self.misplaced(context, word, at, None) {
                 return Some(fresh(problem));
             }
             let further = if before.is_some() { context.further() } else { &[] };
             let all = context.keywords().iter().chain(further).copied();
             let all = all.chain(continuing.filter(|_| before.is_some()));
             let meant = nearest(word, all).filter(|meant| *meant != word)?;
-            let problem = self.misspelt(noun(context.statement()), word, at, meant);
+            let problem = self.misspelt(vec![noun(context.statement())], word, at, meant);
             return Some(Finding { fresh: context.keywords().contains(&meant), ..Finding::new(problem) });
         }
         let meant = nearest(word, continuing).filter(|meant| *meant != word)?;
-        Some(Finding::new(self.misspelt(&list(context, positives), word, at, meant)))
+        Some(Finding::new(self.misspelt(nouns(context, positives), word, at, meant)))
     }
 
-    fn misspelt(&self, wanted: &str, word: &str, at: usize, meant: &str) -> Problem {
-        let message = format!("expected {wanted}, found `{word}`");
-        Problem::new(Code::Syntax, self.at(at), message, "no such word here").help(format!("did you mean `{meant}`?"))
+    fn misspelt(&self, wanted: Vec<&'static str>, word: &str, at: usize, meant: &'static str) -> Problem {
+        Problem::new(self.at(at), Syntax::Misspelt { wanted, word: word.to_owned(), meant })
     }
 
     fn unknown_role(word: &str, span: Span) -> Problem {
-        let roles = Role::ALL.iter().map(|role| role.name());
-        let problem = Problem::new(Code::UnknownRole, span, format!("unknown role `{word}`"), "no role has this name");
-        let problem = problem.did_you_mean(word, roles.clone());
-        match &problem.help {
-            Some(_) => problem,
-            None => problem.help(format!("the roles are {}", roles.collect::<Vec<_>>().join(", "))),
-        }
+        let roles: Vec<&str> = Role::ALL.iter().map(|role| role.name()).collect();
+        Problem::new(span, Syntax::UnknownRole { word: word.to_owned(), guess: Guess::or_all(word, &roles) })
     }
 
     /// `striker: CFF at …` reads as an option `striker` and goes wrong at `at`.
@@ -184,18 +177,15 @@ impl Reader<'_> {
 }
 
 impl Wrong<'_> {
-    /// Shows how the statement under way is written.
-    fn with_form(&self, problem: Problem) -> Problem {
+    /// How the statement under way is written.
+    fn form(&self) -> Hint {
         let word = |index: usize| self.tokens.get(index).map_or("", |(_, word)| *word);
         let form = match (self.positives.as_slice(), word(0), word(1)) {
             (wanted, ..) if wanted.contains(&Rule::kw_else) || wanted == [Rule::kw_then] => Some("if c then a else b"),
             (_, "end", "limit") => Some("end limit 400 steps"),
             (_, first, _) => self.context.form(first),
         };
-        match form.filter(|_| problem.help.is_none()) {
-            Some(form) => problem.help(format!("write, for example, `{form}`")),
-            None => problem,
-        }
+        form.map_or(Hint::None, Hint::Form)
     }
 
     /// A lone word could always have been an option's key or a state: the word is the news, not the missing sign.
@@ -263,26 +253,16 @@ fn goes_on(rule: Rule) -> bool {
     )
 }
 
-/// At most four of what was expected: "a point, `,` or `)`".
-fn list(context: Context, positives: &[Rule]) -> String {
+/// What was expected, each noun once.
+fn nouns(context: Context, positives: &[Rule]) -> Vec<&'static str> {
     let mut nouns: Vec<&str> = Vec::new();
-    let wanted = positives.iter().filter(|rule| !goes_on(**rule));
-    for rule in wanted {
+    for rule in positives.iter().filter(|rule| !goes_on(**rule)) {
         if !nouns.contains(&noun(*rule)) {
             nouns.push(noun(*rule));
         }
     }
-    match nouns.as_slice() {
-        [] => return noun(if let [only] = positives { *only } else { context.statement() }).to_owned(),
-        [only] => return (*only).to_owned(),
-        _ => {}
+    if nouns.is_empty() {
+        nouns.push(noun(if let [only] = positives { *only } else { context.statement() }));
     }
-    // Things before words before brackets; examples only when there is room.
-    nouns.sort_by_key(|noun| (noun.starts_with('`'), !noun.contains("`, `")));
-    nouns.truncate(4);
-    let plain: Vec<&str> = nouns.iter().map(|noun| noun.split(", for example").next().unwrap_or(noun)).collect();
-    match plain.split_last() {
-        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
-        None => String::new(),
-    }
+    nouns
 }

@@ -1,7 +1,8 @@
 //! Units that are none, or that don't touch their number.
 
 use crate::parse::reader::{Reader, token};
-use crate::problem::{Code, Problem, nearest};
+use crate::problem::facts::{Syntax, UnitGuess};
+use crate::problem::{Problem, nearest};
 use setpiece_scenario::vocabulary::Unit;
 
 impl Reader<'_> {
@@ -25,46 +26,32 @@ impl Reader<'_> {
         let touches = digits.len() == line.len();
         if touches && word.starts_with('_') {
             let span = self.between(at - number.len(), at + word.len());
-            let all = format!("{number}{}", word.replace('_', ""));
-            return Some(
-                Problem::new(Code::Syntax, span, format!("`{number}{word}` is no number"), "digits alone")
-                    .help(format!("write `{all}`")),
-            );
+            return Some(Problem::new(span, Syntax::DigitsAlone { number: number.to_owned(), rest: word.to_owned() }));
         }
         if touches {
             let start = at - number.len();
             let word = if word == "km" && text.get(at..)?.starts_with("km/") { "km/" } else { word };
             let span = self.between(start, at + word.len());
             let units = Unit::ALL.iter().map(|unit| unit.name());
-            let known: Vec<_> = units.clone().map(|unit| format!("`{unit}`")).collect();
-            let problem = Problem::new(Code::Syntax, span, format!("unknown unit `{word}`"), "no unit has this name");
-            return Some(match nearest(word, units).filter(|_| meant(word).is_none()) {
-                Some(unit) => problem.help(format!("did you mean `{number}{}{unit}`?", blank_before(unit))),
-                None if meant(word).is_some() => {
-                    problem.help(format!("did you mean `{number}{}`?", meant(word).unwrap_or_default()))
-                }
-                None => problem.help(format!("the units are {}", known.join(", "))),
-            });
+            let meant = match (meant(word), nearest(word, units.clone())) {
+                (Some(unit), _) => UnitGuess::One(unit.to_owned()),
+                (None, Some(unit)) => UnitGuess::One(format!("{}{unit}", blank_before(unit))),
+                (None, None) => UnitGuess::All(units.collect()),
+            };
+            let (word, number) = (word.to_owned(), number.to_owned());
+            return Some(Problem::new(span, Syntax::UnknownUnit { word, number, meant }));
         }
         let Some(unit) = Unit::from_name(word) else {
             let counted =
                 nearest(word.trim_end_matches(|char: char| char.is_ascii_digit()), ["step", "steps", "episodes"]);
             let counted = counted.filter(|_| word.len() >= 4)?;
-            let message = format!("unknown unit `{word}`");
-            let help = format!("did you mean `{number} {}`?", if counted == "step" { "steps" } else { counted });
-            return Some(Problem::new(Code::Syntax, self.at(at), message, "no unit has this name").help(help));
+            let meant = UnitGuess::One(format!(" {}", if counted == "step" { "steps" } else { counted }));
+            let (word, number) = (word.to_owned(), number.to_owned());
+            return Some(Problem::new(self.at(at), Syntax::UnknownUnit { word, number, meant }));
         };
         let gap = line.len() - digits.len();
         let span = self.between(at - gap - number.len(), at + word.len());
-        Some(
-            Problem::new(
-                Code::Syntax,
-                span,
-                format!("the unit `{}` must touch its number", unit.name()),
-                "a blank between them",
-            )
-            .help(format!("write `{number}{}`", unit.name())),
-        )
+        Some(Problem::new(span, Syntax::UnitApart { number: number.to_owned(), unit: unit.name() }))
     }
 }
 

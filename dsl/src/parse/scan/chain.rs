@@ -2,7 +2,7 @@
 
 use super::Scanner;
 use crate::parse::MAX_NESTED;
-use crate::problem::Code;
+use crate::problem::facts::Syntax;
 
 /// How deep the grammar stands in an expression, at most.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,9 +30,7 @@ impl Scanner<'_> {
             b"if" | b"of" | b"by" | b"to" | b"from" if self.chain.depth() >= MAX_NESTED => {
                 if too_deep.is_none() {
                     self.chain.too_deep = Some(self.line_from);
-                    let message = format!("an expression is nested more than {MAX_NESTED} deep");
-                    let help = "give parts of it names with `let` or `fn`";
-                    self.problem(at, word.len(), Code::TooDeep, &message, "one too many", help);
+                    self.problem(at, word.len(), Syntax::NestedExpression { most: MAX_NESTED });
                 }
                 self.mends.extend((at..end).map(|at| (at, b' ')));
             }
@@ -63,10 +61,10 @@ impl Scanner<'_> {
         self.open.last().filter(|open| open.byte != b'{').map_or_else(Chain::default, |open| open.chain)
     }
 
-    /// Goes back to a chain; one that was too deep is told about and ends here.
+    /// Goes back to a chain; one that was too deep is reported about and ends here.
     pub(super) fn unchain(&mut self, at: usize, to: Chain) {
         if let Some(from) = self.chain.too_deep.filter(|_| to.depth() < MAX_NESTED) {
-            self.scan.told.push(from..at + 1);
+            self.scan.reported.push(from..at + 1);
             self.chain = Chain { too_deep: None, ..to };
         } else {
             self.chain = Chain { too_deep: self.chain.too_deep, ..to };

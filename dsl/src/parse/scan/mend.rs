@@ -1,9 +1,10 @@
-//! Brackets that are not closed, or closed by another's: told, and mended in the copy that is parsed.
+//! Brackets that are not closed, or closed by another's: reported, and mended in the copy that is parsed.
 
 use super::{Chain, Scanner, Skip};
 use crate::parse::recover::Context;
 use crate::parse::{MAX_PROBLEMS, span};
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
+use crate::problem::facts::Brackets;
 use setpiece_scenario::vocabulary::Role;
 
 impl Scanner<'_> {
@@ -38,12 +39,9 @@ impl Scanner<'_> {
         self.mends.insert(at, wanted);
         self.unchain(at, if open.byte == b'{' { Chain::default() } else { open.chain });
         if self.scan.problems.len() < MAX_PROBLEMS {
-            let message = format!("`{}` can't close this `{opener}`", byte as char);
-            self.scan.problems.push(
-                Problem::new(Code::UnclosedBracket, span(self.file, at, at + 1), message, "another bracket")
-                    .label(span(self.file, open.at, open.at + 1), "opened here")
-                    .help(format!("close it with `{}`", wanted as char)),
-            );
+            let (closer, wanted, opened) = (byte as char, wanted as char, span(self.file, open.at, open.at + 1));
+            let fact = Brackets::WrongCloser { closer, opener, wanted, opened };
+            self.scan.problems.push(Problem::new(span(self.file, at, at + 1), fact));
         }
     }
 
@@ -63,7 +61,7 @@ impl Scanner<'_> {
         let line = if look { self.line_end(open.at, at) } else { None };
         let end = line.or_else(|| self.blank_before(at, open.at));
         // Behind the line that was mended everything is read as it stands.
-        self.scan.told.push(open.at..line.unwrap_or(at) + 1);
+        self.scan.reported.push(open.at..line.unwrap_or(at) + 1);
         if open.byte == b'{' {
             self.lost.push(open.at);
         }
@@ -73,22 +71,11 @@ impl Scanner<'_> {
             // No blank to write the bracket into: take the opening one away.
             None => self.mends.insert(open.at, b' '),
         };
-        if self.scan.problems.len() >= MAX_PROBLEMS {
-            return;
-        }
-        let mut problem = Problem::new(
-            Code::UnclosedBracket,
-            span(self.file, open.at, open.at + 1),
-            format!("this `{opener}` is not closed"),
-            "opened here",
-        )
-        .help(format!("close it with `{}`", wanted as char));
-        if let Some(closer) = closer {
-            let text = self.bytes.get(closer).map_or(' ', |byte| *byte as char);
-            problem =
-                problem.label(span(self.file, closer, closer + 1), format!("this `{text}` belongs to another bracket"));
-        }
-        self.scan.problems.push(problem);
+        let closer = closer.map(|at| {
+            let closer = self.bytes.get(at).map_or(' ', |byte| *byte as char);
+            (closer, span(self.file, at, at + 1))
+        });
+        self.problem(open.at, 1, Brackets::Unclosed { opener, wanted: wanted as char, closer });
     }
 
     /// The last unused newline or blank before `at`.
@@ -126,14 +113,12 @@ impl Scanner<'_> {
 
     pub(super) fn finish(&mut self) {
         if let Some((from, _)) = self.deep.take() {
-            self.scan.told.push(from..usize::MAX);
+            self.scan.reported.push(from..usize::MAX);
         } else if let Some(open) = self.open.last().filter(|_| !self.cut) {
-            // Only the innermost is told: closing it may close the others' gap too.
-            let opener = open.byte as char;
-            let wanted = open.closer() as char;
-            let (at, message) = (open.at, format!("this `{opener}` is not closed"));
-            self.problem(at, 1, Code::UnclosedBracket, &message, "opened here", &format!("close it with `{wanted}`"));
-            self.scan.told.push(at..usize::MAX);
+            // Only the innermost is reported: closing it may close the others' gap too.
+            let (at, opener, wanted) = (open.at, open.byte as char, open.closer() as char);
+            self.problem(at, 1, Brackets::Unclosed { opener, wanted, closer: None });
+            self.scan.reported.push(at..usize::MAX);
         }
         self.unchain(self.bytes.len(), Chain::default());
         self.end_chunk(usize::MAX);

@@ -1,9 +1,8 @@
-//! Closing brackets that nothing opens: the bracket that is missing, where it can be told.
+//! Closing brackets that nothing opens: the bracket that is missing, where it is known.
 
 use super::Scanner;
-use crate::parse::MAX_PROBLEMS;
 use crate::parse::span;
-use crate::problem::{Code, Problem};
+use crate::problem::facts::Brackets;
 use std::ops::Range;
 
 impl Scanner<'_> {
@@ -17,35 +16,21 @@ impl Scanner<'_> {
             self.missing_brace(head, at);
             return;
         }
-        let closer = byte as char;
-        let (message, label) = (format!("nothing is open that this `{closer}` closes"), "no opening bracket");
         let near = self.spend(at - self.line_from);
         let point = if near { self.point_without_bracket(at) } else { None };
-        let help = point.unwrap_or_else(|| format!("take the `{closer}` away"));
-        self.problem(at, 1, Code::Syntax, &message, label, &help);
+        self.problem(at, 1, Brackets::Unopened { closer: byte as char, point });
         self.mends.insert(at, b' ');
         if byte == b'}' {
             self.lost.push(self.chunk);
         } else {
-            self.scan.told.push(self.line_from..at + 1);
+            self.scan.reported.push(self.line_from..at + 1);
         }
     }
 
     fn missing_brace(&mut self, head: Range<usize>, closer: usize) {
-        if self.scan.problems.len() >= MAX_PROBLEMS {
-            return;
-        }
         let text = self.bytes.get(head.clone()).map(String::from_utf8_lossy).unwrap_or_default().into_owned();
-        self.scan.problems.push(
-            Problem::new(
-                Code::Syntax,
-                span(self.file, head.start, head.end),
-                format!("`{text}` has no `{{`"),
-                "its body is not opened",
-            )
-            .label(span(self.file, closer, closer + 1), "so nothing is open here")
-            .help(format!("write `{text} {{`")),
-        );
+        let closer = span(self.file, closer, closer + 1);
+        self.problem(head.start, head.len(), Brackets::NoBrace { head: text, closer });
     }
 
     /// The last line before `at` that begins a body and does not open it, and the blank behind it.
@@ -69,7 +54,7 @@ impl Scanner<'_> {
     }
 
     /// `at -0.1, 0)`: the bracket that is missing stands behind `at`.
-    fn point_without_bracket(&self, at: usize) -> Option<String> {
+    fn point_without_bracket(&self, at: usize) -> Option<(String, String)> {
         let line = str::from_utf8(self.bytes.get(self.line_from..at)?).ok()?;
         let (_, point) = line.rsplit_once(" at ")?;
         let (x, y) = point.split_once(',')?;
@@ -77,7 +62,7 @@ impl Scanner<'_> {
             let text = text.trim().trim_start_matches('-').trim_end_matches('m');
             !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
         };
-        (number(x) && number(y)).then(|| format!("a point stands in brackets: `at ({}, {})`", x.trim(), y.trim()))
+        (number(x) && number(y)).then(|| (x.trim().to_owned(), y.trim().to_owned()))
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::Adding;
 use crate::ast::{ScenarioStmt, ScenarioStmtKind};
-use crate::problem::{Code, Problem};
+use crate::problem::facts::Names;
+use crate::problem::{Guess, Problem};
 
 impl<'a> Adding<'a, '_> {
     /// `remove` acts on the parents' result, wherever it stands in the child.
@@ -13,10 +14,7 @@ impl<'a> Adding<'a, '_> {
             if removed {
                 continue;
             }
-            let (span, message) = match name {
-                Some(name) => (name.span, format!("no {} `{}` is inherited", what.node, name.node)),
-                None => (stmt.span, format!("no {} is inherited", what.node)),
-            };
+            let span = name.as_ref().map_or(stmt.span, |name| name.span);
             let candidates: Vec<&str> = match what.node.as_str() {
                 "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
                 "record" => self.flat.records.iter().map(|known| known.name.node.as_str()).collect(),
@@ -24,9 +22,10 @@ impl<'a> Adding<'a, '_> {
                 "require" => self.flat.requires.iter().filter_map(|stmt| label(stmt)).collect(),
                 _ => Vec::new(),
             };
-            let problem = Problem::new(Code::NothingToRemove, span, message, "nothing to remove");
-            let found = name.as_ref().map_or("", |name| name.node.as_str());
-            self.problems.push(problem.did_you_mean(found, candidates));
+            let name = name.as_ref().map(|name| name.node.clone());
+            let guess = Guess::of(name.as_deref().unwrap_or_default(), candidates);
+            let fact = Names::NothingToRemove { what: what.node.clone(), name, guess };
+            self.problems.push(Problem::new(span, fact));
         }
     }
 

@@ -1,0 +1,79 @@
+//! Imports and scripts: files that are missing, too many or too large, and what the engine says of scripts.
+
+use super::facts;
+use crate::problem::Code;
+use crate::problem::said::say;
+
+facts! {
+    /// Facts about files.
+    pub(crate) Files {
+        /// A file that can't be loaded, in the loader's words.
+        Missing { why: String, similar: Option<String>, is_script: bool } = Code::FileMissing => {
+            let said = say(why.as_str(), if *is_script { "named here" } else { "imported here" });
+            match similar {
+                Some(similar) => said.help(format!("did you mean `{similar}`?")),
+                None => said,
+            }
+        },
+        /// Imports lead in a circle.
+        ImportsItself { path: String } = Code::ImportCycle =>
+            say(format!("`{path}` imports itself, by way of this line"), "closes the circle")
+                .help("move what both files need into a third one"),
+        /// More imports than a compilation reads.
+        TooManyImports { limit: ImportLimit } = Code::TooMuch =>
+            say(limit.words(), "one too many").help("import less, or join some of the files"),
+        /// More scripts than a compilation reads.
+        TooManyScripts { limit: ScriptLimit } = Code::TooMuch =>
+            say(limit.words(), "one too many").help("join some of the scripts: a file may hold several hooks"),
+        /// What the engine says of a script, in its words.
+        Script { code: Code, message: String, help: Option<String> } = *code => {
+            let said = say(message.as_str(), "");
+            match help {
+                Some(help) => said.help(help.as_str()),
+                None => said,
+            }
+        },
+    }
+}
+
+/// A limit of imports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ImportLimit {
+    /// Files that are missing.
+    Missing(usize),
+    /// Files inside of files.
+    Depth(usize),
+    /// Files.
+    Files(usize),
+    /// Bytes of all files.
+    Bytes(usize),
+}
+
+impl ImportLimit {
+    fn words(self) -> String {
+        match self {
+            ImportLimit::Missing(most) => format!("more than {most} imports find no file"),
+            ImportLimit::Depth(most) => format!("files import each other more than {most} deep"),
+            ImportLimit::Files(most) => format!("more than {most} files are imported"),
+            ImportLimit::Bytes(most) => format!("imported files are larger than {} MiB together", most >> 20),
+        }
+    }
+}
+
+/// A limit of scripts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ScriptLimit {
+    /// Files.
+    Files(usize),
+    /// Bytes of all files.
+    Bytes(usize),
+}
+
+impl ScriptLimit {
+    fn words(self) -> String {
+        match self {
+            ScriptLimit::Files(most) => format!("more than {most} script files are named"),
+            ScriptLimit::Bytes(most) => format!("script files are larger than {} MiB together", most >> 20),
+        }
+    }
+}

@@ -1,0 +1,353 @@
+//! Names that nothing has, that are declared twice, hide one another or lead in a circle.
+
+use super::facts;
+use crate::problem::said::{Said, say};
+use crate::problem::{Code, Guess};
+use crate::source::Span;
+
+facts! {
+    /// Facts about names.
+    pub(crate) Names {
+        /// Nothing of a kind has this name.
+        Unknown { kind: Kind, name: String, guess: Guess } = kind.code() => unknown(*kind, name, guess),
+        /// No value in sight has this name.
+        NoValue { name: String, guess: Guess } = Code::UnknownName =>
+            say(format!("nothing here is called `{name}`"), "not known").guess(guess, ""),
+        /// A value of the scenario is used outside of it.
+        OfTheScenario { name: String, from: Outside, is_player: bool } = Code::UnknownName => {
+            let declared = if *is_player { format!("{name}: player") } else { format!("{name}: …") };
+            let see = |noun: &str, head: &str| {
+                format!("{noun} doesn't see the scenario's names: hand it in, `{head} NAME({declared})`")
+            };
+            say(format!("nothing here is called `{name}`"), "not known").help(match from {
+                Outside::Behavior => see("a behavior", "behavior"),
+                Outside::Reward => see("a reward", "reward"),
+                Outside::Ending => see("an ending", "ending"),
+                Outside::Elsewhere => {
+                    format!("`{name}` is the scenario's, which nothing outside of it sees: hand it in as a parameter")
+                }
+            })
+        },
+        /// A file that was imported under a name has no such item.
+        NotInFile { file: String, name: String, guess: Guess } = Code::UnknownName =>
+            say(format!("`{file}` has no `{name}`"), "not known").guess(guess, "it has"),
+        /// A function that nothing has; `other`: what else has the name.
+        NoFunction { name: String, other: NotAFunction } = Code::UnknownFunction => {
+            let said = say(format!("no function is called `{name}`"), "not known");
+            match other {
+                NotAFunction::Value => said.help(format!("`{name}` is a value: write it without brackets")),
+                NotAFunction::Item(noun) => said.help(format!("`{name}` is {noun}")),
+                NotAFunction::Foreign(ours) => said.help(format!("did you mean `{ours}`?")),
+                NotAFunction::Unknown(guess) => said.guess(guess, ""),
+            }
+        },
+        /// A parent that nothing has; `other`: what else has the name.
+        NoParent { kind: &'static str, name: String, other: Option<&'static str>, guess: Guess } = Code::UnknownParent => {
+            let said = say(format!("no {kind} is called `{name}`"), "extends this");
+            match other {
+                Some(noun) => said.help(format!("`{name}` is {noun}")),
+                None => said.guess(guess, ""),
+            }
+        },
+        /// An argument for a parameter that the parent doesn't have.
+        NoParentParameter { parent: String, name: String, guess: Guess } = Code::UnknownName =>
+            say(format!("`{parent}` has no parameter `{name}`"), "").guess(guess, ""),
+        /// A property that a value doesn't have.
+        NoProperty { text: String, noun: String, name: String, like: Like } = Code::UnknownMember => {
+            let said = say(format!("`{text}` ({noun}) has no property `{name}`"), "not known");
+            match like {
+                Like::HasBall => said.help(format!("write `{text} has ball`")),
+                Like::Velocity => said.help(format!("write `{text}.velocity`, or `{text}.speed`")),
+                Like::Place => said.help(format!("write `{text}` for its place, or `{text}.x` and `{text}.y`")),
+                Like::Other(guess) => said.guess(guess, "it has"),
+            }
+        },
+        /// A landmark or region that a team doesn't have.
+        NoLandmark { team: String, name: String, guess: Guess } = Code::UnknownMember =>
+            say(format!("`{team}` has no landmark or region `{name}`"), "not known").guess(guess, "a team has"),
+        /// An option that something doesn't have; `whose`: with its article or in backticks.
+        NoOption { whose: String, option: String, guess: Guess } = Code::UnknownOption =>
+            say(format!("{whose} has no option `{option}`"), "not known").guess(guess, "it has"),
+        /// An option of `rules` that is no rule.
+        NoRule { option: String, guess: Guess } = Code::UnknownOption =>
+            say(format!("`rules` has no option `{option}`"), "not known").guess(guess, "it can be"),
+        /// An option among the players of a formation.
+        NoFormationOption { option: String } = Code::UnknownOption =>
+            say(format!("a formation has no option `{option}`"), "").help("options of a team stand in `team left { … }`"),
+        /// A word that is none of those a parameter can be.
+        NoneOfItsWords { word: String, parameter: Option<String>, guess: Guess } = Code::OutOfRange => {
+            let message = match parameter {
+                Some(name) => format!("`{word}` is none of the words `{name}` may be"),
+                None => format!("`{word}` is none of the words it may be"),
+            };
+            say(message, "").guess(guess, "")
+        },
+        /// A label of an ending that looks like a verdict.
+        LikeAVerdict { label: String, meant: &'static str } = Code::LikelyTypo =>
+            say(format!("`{label}` is a label, no verdict"), "neither success nor failure")
+                .help(format!("did you mean `{meant}`?")),
+        /// A name that means one thing was declared again; `what`: the name in backticks, with its kind before it.
+        DeclaredTwice { what: String, first: Option<Span> } = Code::DuplicateName => {
+            let said = say(format!("{what} is declared twice"), "declared again here").help(OTHER_NAME);
+            match first {
+                Some(first) => said.at(first, "first declared here"),
+                None => said,
+            }
+        },
+        /// A player and a value of the scenario have one name.
+        PlayerAndValue { name: String, first: Span } = Code::DuplicateName =>
+            say(format!("`{name}` is declared twice"), "declared again here")
+                .at(first, "first declared here")
+                .help("a player and a value can't share a name: choose another for one of them"),
+        /// Two players have one name.
+        TwoPlayers { name: String, first: Span } = Code::DuplicateName =>
+            say(format!("two players are called `{name}`"), "called so again here")
+                .at(first, "first called so here")
+                .help(OTHER_NAME),
+        /// Several players are written under one name.
+        OneNameForMany { name: String, count: u32 } = Code::DuplicateName =>
+            say(format!("`{name}` would name {count} players"), "")
+                .help("leave the name out, or write one line per player"),
+        /// Something that may stand once was given again; `what`: in backticks, or with its article.
+        GivenTwice { what: String, first: Span } = Code::DuplicateOption =>
+            say(format!("{what} is given twice"), "given again here").at(first, "first given here").help(LEAVE_ONE_OUT),
+        /// A clause of a `do` stands twice.
+        ClauseTwice = Code::DuplicateOption =>
+            say("a `do` has each of its clauses once", "given again here").help("join the conditions: `until a or b`"),
+        /// Two rewards of a scenario have one name.
+        RewardTwice { name: String, what: String, first: Span } = Code::DuplicateName =>
+            say(format!("reward `{name}` is given twice"), "given again here")
+                .at(first, "first given here")
+                .help(format!("give one of them another label: `reward {what} as \"{name}_2\"`")),
+        /// Two endings of a scenario have one label.
+        EndingTwice { name: String, first: Span } = Code::DuplicateName =>
+            say(format!("ending `{name}` is given twice"), "given again here")
+                .at(first, "first given here")
+                .help("give each ending its own label, or join the conditions with `or`"),
+        /// Two values of an observation have one label.
+        ObservedTwice { label: String } = Code::DuplicateName =>
+            say(format!("`{label}` is observed twice"), "named again here")
+                .help("choose another label: `… as \"label\"`"),
+        /// Two imported files declare one name.
+        Ambiguous { name: String, files: (String, String) } = Code::AmbiguousName =>
+            say(format!("`{name}` is declared in `{}` and in `{}`", files.0, files.1), "which one is meant?")
+                .help("import one of the files `as` a name and write `name.` before it"),
+        /// A role that several players have stands for one.
+        AmbiguousPlayer { role: String, count: usize } = Code::AmbiguousName =>
+            say(format!("the team has {count} players `{role}`"), "which one is meant?")
+                .help("give the player a name, `anna: CM at …`, and place `anna`"),
+        /// A definition uses itself; `declared`: where it stands, if that is another place.
+        Recursion { name: String, declared: Option<Span>, is_behavior: bool } = Code::Recursion => {
+            let said = say(format!("`{name}` uses itself"), "closes the circle");
+            let said = said.help(if *is_behavior { "what is done again and again stands in a `repeat`" } else { NO_CIRCLE });
+            match declared {
+                Some(declared) => said.at(declared, "declared here"),
+                None => said,
+            }
+        },
+        /// Parents lead in a circle.
+        ExtendsItself { name: String } = Code::ExtendsCycle =>
+            say(format!("`{name}` extends itself"), "closes the circle").help("take one `extends` of the circle away"),
+        /// More parents than are followed.
+        TooManyParents { kind: &'static str, most: usize } = Code::TooMuch =>
+            say(format!("a {kind} has more than {most} parents"), "too many")
+                .help("join some of them: a child may change everything that it inherits"),
+        /// `remove` of what is not inherited.
+        NothingToRemove { what: String, name: Option<String>, guess: Guess } = Code::NothingToRemove => {
+            let message = match name {
+                Some(name) => format!("no {what} `{name}` is inherited"),
+                None => format!("no {what} is inherited"),
+            };
+            say(message, "nothing to remove").guess(guess, "")
+        },
+        /// A local name hides another one; `what`: with its article.
+        Hides { name: String, what: &'static str, hidden: Option<Span> } = Code::HidingName => {
+            let said = say(format!("`{name}` hides {what} of this name"), "hides it from here")
+                .help(format!("choose another name, for example `my_{name}`"));
+            match hidden {
+                Some(hidden) => said.at(hidden, "hidden here"),
+                None => said,
+            }
+        },
+        /// A word of the language as a name; `whose`: what the word belongs to.
+        Reserved { name: String, whose: String } = Code::ReservedName =>
+            say(format!("`{name}` is a word of the language and can't be a name"), format!("belongs to {whose}"))
+                .help(format!("choose another name, for example `my_{}`", name.to_lowercase())),
+        /// A behavior has the name of a primitive.
+        HidesPrimitive { name: String } = Code::ReservedName =>
+            say(format!("`{name}` is something that every behavior can do"), "can't be declared again")
+                .help(format!("choose another name, for example `my_{name}`")),
+        /// An assignment to something that is no state.
+        NotAState { name: String, is: Assigned, guess: Guess } = Code::UnknownName => {
+            let message = match is {
+                Assigned::ValueOfReward => format!("`{name}` is no `state`, and only a `state` is assigned"),
+                Assigned::Value | Assigned::Nothing => format!("no `state` is called `{name}`"),
+            };
+            let said = say(message, "can't be assigned").guess(guess, "");
+            match is {
+                _ if said.help.is_some() => said,
+                Assigned::Value => said.help("only a `state` is assigned"),
+                _ => said.help(format!("declare it at the top: `state {name} = 0`")),
+            }
+        },
+        /// A record reads a state that a reward doesn't have.
+        NoStateOfReward { reward: String, name: String, guess: Guess } = Code::UnknownMember => {
+            let said = say(format!("reward `{reward}` has no state `{name}`"), "not known").guess(guess, "it has");
+            if said.help.is_none() { said.help("a record reads what a reward keeps in `state`s") } else { said }
+        },
+        /// A record reads the memory of a script.
+        ScriptHasNoStates { reward: String } = Code::UnknownMember =>
+            say(format!("reward `{reward}` is a script, whose memory is its own"), "can't be read"),
+        /// `each` of no role.
+        EachOfNothing { name: String, guess: Guess } = Code::UnknownRole =>
+            say(format!("`each` knows no `{name}`"), "").guess(guess, ""),
+        /// `each` of a role that the team doesn't have.
+        NobodyOfRole { team: &'static str, name: String } = Code::UnknownRole =>
+            say(format!("the {team} team has no `{name}`"), "").help("leave it out, or write `each outfield`"),
+        /// A cast asks for a player that the team doesn't have.
+        NoSuchPlace { team: &'static str, place: usize } = Code::UnknownName =>
+            say(format!("the {team} team has no player {place}"), ""),
+    }
+}
+
+const OTHER_NAME: &str = "choose another name for one of them";
+const LEAVE_ONE_OUT: &str = "leave one of them out";
+const NO_CIRCLE: &str = "give one of the circle a value of its own";
+const WHO_PLAYS: &str = "it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"file.rhai\"`";
+
+/// The kinds of names that have a list of their own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// Who plays a player.
+    Ai,
+    /// An `ending` of a file.
+    Ending,
+    /// An event of the match.
+    Event,
+    /// What is compared with `game_mode`.
+    Mode,
+    /// A player of a team.
+    Player,
+    /// A region of the pitch.
+    Region,
+    /// A reward in sight.
+    Reward,
+    /// What a player does.
+    Act,
+    /// What stands behind `start`.
+    Start,
+    /// A statistic of a player.
+    Statistic,
+    /// `left` or `right`.
+    Team,
+    /// The type of a parameter.
+    Type,
+}
+
+impl Kind {
+    fn code(self) -> Code {
+        match self {
+            Kind::Event => Code::UnknownEvent,
+            Kind::Region => Code::UnknownMember,
+            Kind::Statistic => Code::UnknownOption,
+            _ => Code::UnknownName,
+        }
+    }
+
+    fn noun(self) -> &'static str {
+        match self {
+            Kind::Ai => "no player's `ai`",
+            Kind::Ending => "no `ending`",
+            Kind::Event => "no event",
+            Kind::Mode => "no game mode",
+            Kind::Player => "no player of this team",
+            Kind::Region => "no region",
+            Kind::Reward => "no reward",
+            Kind::Act => "nothing that a player does",
+            Kind::Start => "no start",
+            Kind::Statistic => "no statistic",
+            Kind::Team => "no team",
+            Kind::Type => "no type",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Kind::Ending | Kind::Mode | Kind::Player | Kind::Start | Kind::Team | Kind::Type => "",
+            _ => "not known",
+        }
+    }
+}
+
+fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
+    let listed = match kind {
+        Kind::Mode => "the modes are",
+        Kind::Region => "there is",
+        Kind::Reward => &format!("declare it, `reward {name} {{ give … }}`, or use one of"),
+        Kind::Event => "the events are",
+        Kind::Statistic => "it can be",
+        Kind::Type => "the types are",
+        _ => "",
+    };
+    let said = say(format!("{} is called `{name}`", kind.noun()), kind.label());
+    match kind {
+        // What there is, and what the author may add to it.
+        Kind::Act if !guess.known.is_empty() => {
+            said.help(format!("a player can `{}`, or what a `behavior` says", guess.known.join("`, `")))
+        }
+        Kind::Ai if guess.meant.is_none() => said.help(WHO_PLAYS),
+        Kind::Ending if guess.meant.is_none() => said.help(format!("say when it ends: `end {name} when …`")),
+        Kind::Team => said.help("write `team left` or `team right`"),
+        _ => said.guess(guess, listed),
+    }
+}
+
+/// What looks for a name of the scenario from outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Outside {
+    /// A behavior of the file.
+    Behavior,
+    /// A reward of the file.
+    Reward,
+    /// An ending of the file.
+    Ending,
+    /// Anything else.
+    Elsewhere,
+}
+
+/// What has the name of a function that there is not.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum NotAFunction {
+    /// A value.
+    Value,
+    /// Another item, with its article.
+    Item(&'static str),
+    /// A function of another language, which is called so here.
+    Foreign(&'static str),
+    /// Nothing.
+    Unknown(Guess),
+}
+
+/// What a property that there is not may stand for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Like {
+    /// A question for possession.
+    HasBall,
+    /// The velocity by its parts.
+    Velocity,
+    /// The place.
+    Place,
+    /// A property of another name.
+    Other(Guess),
+}
+
+/// What an assignment finds in place of a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Assigned {
+    /// Another value of a behavior.
+    Value,
+    /// Another value of a reward.
+    ValueOfReward,
+    /// No value.
+    Nothing,
+}

@@ -1,0 +1,134 @@
+//! Teams, formations, agents and who stands where.
+
+use super::facts;
+use crate::problem::said::{Said, say};
+use crate::problem::{Code, Guess};
+use crate::source::Span;
+use setpiece_scenario::vocabulary::Team;
+
+facts! {
+    /// Facts about players and teams.
+    pub(crate) Players {
+        /// More players are written than a team can ever have.
+        TooManyWritten { team: Team, most: usize, team_max: usize } = Code::TooManyPlayers =>
+            say(format!("more than {most} players are written for the {team} team"), "one too many")
+                .help(format!("a team has at most {team_max} players: leave the others out")),
+        /// More players than a team has.
+        TooMany { team: Team, most: usize } = Code::TooManyPlayers =>
+            say(format!("the {team} team has more than {most} players"), "this is the twelfth").help("leave one out"),
+        /// A number of players that is no small number.
+        TooManyInLine { text: String } = Code::TooManyPlayers =>
+            say(format!("`{text}` players are too many"), "a team has at most 11").help("write a number up to 11"),
+        /// `0 CM`.
+        NoneInLine { role: String } = Code::OutOfRange =>
+            say(format!("`0 {role}` is nobody"), "")
+                .help("leave the line out; whether a player takes part with a parameter says `when …`"),
+        /// Two keepers.
+        TwoKeepers { team: Team, first: Span } = Code::TwoKeepers =>
+            say(format!("the {team} team has two keepers"), "the second one")
+                .at(first, "the first one")
+                .help("give one of them another role"),
+        /// A role is placed and absent.
+        AbsentAndPlaced { role: String, placed: Span } = Code::AbsentPlayer =>
+            say(format!("`{role}` is absent and placed"), "absent here")
+                .at(placed, "placed here")
+                .help("leave one of the two lines out"),
+        /// A role is absent that nobody has.
+        NobodyToBeAbsent { role: String } = Code::NothingToRemove =>
+            say(format!("no `{role}` is there to be absent"), "").help("leave it out"),
+        /// A team with the layouts of `kickoff` writes players.
+        LayoutsAndOwn { layouts: Span } = Code::DuplicateOption =>
+            say("a team whose players come from `kickoff` has no players of its own", "")
+                .at(layouts, "the layouts are given here")
+                .help("write the player into both formations, or `place` one of theirs"),
+        /// A team with the layouts of `kickoff` has a `formation`.
+        LayoutsAndFormation { layouts: Span } = Code::DuplicateOption =>
+            say("the layouts of `kickoff` are the formation", "").at(layouts, "given here").help("leave it out"),
+        /// `kickoff` without one of its layouts.
+        NoLayout { layout: &'static str } = Code::WrongArguments =>
+            say(format!("`kickoff` lacks the `{layout}` layout"), "")
+                .help("write `kickoff left { kicking: grf_kicking, receiving: grf_receiving }`"),
+        /// The second layout gives a player options.
+        SecondLayoutSaysMore { player: Span } = Code::WrongRoster =>
+            say(
+                "the second layout says more of a player than a place",
+                "the first one says everything else",
+            )
+            .at(player, "said here")
+            .help("move `facing`, `jitter`, `when` and options into the first formation"),
+        /// The layouts have different players.
+        LayoutsDiffer { first: String, second: String } = Code::WrongRoster =>
+            say(
+                format!("the layouts differ: `{first}` and `{second}`"),
+                "the same players, in the same order, stand in both",
+            )
+            .help("list the roles of both formations in the same order"),
+        /// Two players stand on one spot; `nth`: at which of several kick-offs.
+        SameSpot { players: (String, String), nth: Option<usize>, first: Span } = Code::SameSpot => {
+            let when = nth.map_or(String::new(), |nth| format!(" at kick-off {nth}"));
+            say(format!("{} and {} stand on one spot{when}", players.0, players.1), "the same spot")
+                .at(first, "taken by this player")
+                .help("move one of them, or allow it: `{ overlap: allowed }`")
+        },
+        /// The place of what may be nobody.
+        MayBeNobody { text: String } = Code::NoPlace =>
+            say(format!("`{text}` may be nobody, who has no place"), "whose place?")
+                .help("let it be a player in every case, or write a place: `at (0.5, 0)`"),
+        /// Places that depend on each other in a circle.
+        PlaceInCircle { text: String } = Code::CyclicPlace =>
+            say("this place depends on itself", format!("`{text}` is placed by what is placed here"))
+                .help("give one of them a place of its own: `at (x, y)`"),
+        /// A player faces the own place.
+        FacesItself = Code::Impossible =>
+            say("a player can't face their own spot", "")
+                .help("face another place, or an angle: `facing 90deg`"),
+        /// Listed agents can't switch players.
+        ListedAgentSwitches = Code::BadAgents =>
+            say("an agent that is listed by name keeps its player", "")
+                .help("leave `switching` out, or ask for a number of agents: `left: 1`"),
+        /// An agent that no player of the team is called.
+        NoSuchAgent { team: Team, name: String, is_anyone: bool, guess: Guess } = Code::BadAgents => {
+            let said = say(format!("no player of the {team} team is called `{name}`"), "not known");
+            if *is_anyone {
+                said.guess(guess, "its players with names are")
+            } else {
+                said.help("give the players names, `anna: CM at (0, 0)`, and list those: `[anna]`")
+            }
+        },
+        /// A listed agent whose player can't be controlled.
+        NotControllable { name: String } = Code::BadAgents =>
+            say(format!("`{name}` is not `controllable`"), "")
+                .help("leave the player out of the list, or leave out `controllable: off`"),
+        /// An agent is listed twice.
+        ListedTwice { name: String } = Code::BadAgents =>
+            say(format!("`{name}` is listed twice"), "").help("leave one of them out"),
+        /// More agents than players that can be controlled.
+        TooManyAgents { team: Team, asked: f64, controllable: usize, place: AskedFor } = Code::BadAgents =>
+            too_many_agents(*team, *asked, *controllable, place),
+    }
+}
+
+/// Where agents are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum AskedFor {
+    /// Nowhere: one player of the left team is controlled.
+    Nowhere,
+    /// In a parent.
+    Inherited(Span),
+    /// In the scenario itself.
+    Here,
+}
+
+fn too_many_agents(team: Team, asked: f64, controllable: usize, place: &AskedFor) -> Said {
+    let said = say(format!("{asked} of the {team} team's players are asked for, {controllable} can be controlled"), "");
+    match place {
+        AskedFor::Nowhere => said.help("without `agents { … }` one player of the left team is controlled"),
+        AskedFor::Inherited(at) => said
+            .at(at, "asked for here")
+            .help(format!("place them, `team {team} {{ CM at (0, 0) }}`, or ask for fewer: `agents {{ {team}: … }}`")),
+        AskedFor::Here if controllable == 0 => {
+            said.help(format!("place players in `team {team} {{ … }}`, or leave `{team}` out"))
+        }
+        AskedFor::Here => said.help(format!("write at most `{team}: {controllable}`, or `{team}: all`")),
+    }
+}

@@ -1,0 +1,107 @@
+//! Rewards, endings and observations.
+
+use super::facts;
+use crate::problem::Code;
+use crate::problem::said::say;
+use setpiece_scenario::vocabulary::{EventKind, Rule};
+
+facts! {
+    /// Facts about rewards, endings and observations.
+    pub(crate) Rewards {
+        /// A reward with the weight 0.
+        WeightZero { reward: String } = Code::NeverPays =>
+            say(format!("reward `{reward}` never pays"), "times 0").help("write another weight, or leave the reward out"),
+        /// A payment that no match can earn.
+        NeverPays { why: Never } = Code::NeverPays => say("this `give` never pays", "").help(why.words()),
+        /// A payment above the limit.
+        MoreThanPayable { text: String } = Code::OutOfRange =>
+            say(format!("`{text}` is more than can be paid"), "").help("rewards are small numbers: `give 1`"),
+        /// A label without a letter.
+        EmptyLabel = Code::OutOfRange =>
+            say("a label has at least one letter", "")
+                .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
+        /// A scenario without an ending.
+        NeverEnds { scenario: String } = Code::NoEnding =>
+            say(format!("an episode of `{scenario}` never ends"), "").help("write, for example, `end limit 400 steps`"),
+        /// An ending without a condition.
+        EndsWhen = Code::Syntax =>
+            say("the ending doesn't say when", "").help("write, for example, `end success when goal by left`"),
+        /// An observation without numbers, or with too many.
+        Numbers { most: usize } = Code::WrongArguments =>
+            say(format!("an observation has 1 to {most} numbers"), "")
+                .help("write, for example, `observe vector { ball.x, ball.y, distance(me, ball) / 10m }`"),
+    }
+}
+
+/// Why a payment is never earned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Never {
+    /// It pays 0.
+    Nothing,
+    /// The scenario switches off the rule without which there is no such event.
+    SwitchedOff(EventKind, Rule),
+    /// A completed pass to an opponent.
+    CompletedToOpponent,
+    /// A pass that a team mate intercepts.
+    InterceptedByMate,
+    /// The condition is false whatever the match is like.
+    Condition(Option<Because>),
+    /// Several things together make the condition false.
+    Several,
+}
+
+/// The one thing that a condition looks at, which is never as it asks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Because {
+    /// Coordinates on the pitch.
+    Places,
+    /// The ball's velocity.
+    BallSpeed,
+    /// A player's velocity.
+    PlayerSpeed,
+    /// A player's yellow cards.
+    YellowCards,
+    /// A player's fatigue.
+    Fatigue,
+    /// The ball's height.
+    BallHeight,
+    /// The time: how many steps the episode has at most.
+    Limit(f64),
+    /// A number of players.
+    Players,
+}
+
+impl Never {
+    fn words(self) -> String {
+        match self {
+            Never::Nothing => "it pays 0: write another value, or leave it out".to_owned(),
+            Never::SwitchedOff(event, rule) => {
+                let write = if rule == Rule::HalfTime { "1500 steps" } else { "on" };
+                format!("`{event}` never happens: write `rules {{ {rule}: {write} }}`")
+            }
+            Never::CompletedToOpponent => {
+                "a pass is completed to a team mate: write `pass intercepted`, or name one".to_owned()
+            }
+            Never::InterceptedByMate => "an opponent intercepts a pass: write `pass completed`, or name one".to_owned(),
+            Never::Condition(Some(because)) => format!("its condition can't hold: {}", because.words()),
+            Never::Condition(None) => "its condition is never true: write another one, or leave it out".to_owned(),
+            Never::Several => "its condition can't hold: look at each of its values".to_owned(),
+        }
+    }
+}
+
+impl Because {
+    fn words(self) -> String {
+        match self {
+            Because::Places => "x lies between about -1 and 1, y between -0.42 and 0.42",
+            Because::BallSpeed => "no ball flies as fast",
+            Because::PlayerSpeed => "nobody runs as fast",
+            Because::YellowCards => "a player has 0, 1 or 2 yellow cards",
+            Because::Fatigue => "fatigue lies between 0 and 1",
+            Because::BallHeight => "no ball rises as high",
+            Because::Limit(steps) => return format!("the episode is over after {steps:.0} steps"),
+            Because::Players => "a team has at most 11 players",
+        }
+        .to_owned()
+    }
+}

@@ -1,0 +1,304 @@
+//! Values of the wrong type or unit, and operands that don't agree.
+
+use super::facts;
+use crate::check::types::Ty;
+use crate::problem::Code;
+use crate::problem::said::{Said, say};
+use crate::source::Span;
+
+/// A longer text is not repeated in a message, letters.
+const TEXT_MAX: usize = 40;
+
+facts! {
+    /// Facts about types and units.
+    pub(crate) Types {
+        /// A value of another type than its place wants.
+        Mismatch { wanted: Ty, found: Ty, text: String, instead: Instead } = code(*wanted, *found) =>
+            mismatch(*wanted, *found, text, instead),
+        /// The two values of a choice have no type in common.
+        ChoiceMismatch { wanted: Ty, found: Ty, text: String, other: Span } = code(*wanted, *found) =>
+            mismatch(*wanted, *found, text, &Instead::Usual).at(other, wanted.noun()),
+        /// An event's `by` or `to` is neither a team nor a player.
+        NeitherTeamNorPlayer { found: Ty, text: String } = Code::WrongType =>
+            expected("a team or a player", *found, text).help("write, for example, `by left` or `by me`"),
+        /// A rule is neither on nor off.
+        NeitherOnNorOff { rule: &'static str, found: Ty, text: String } = Code::WrongType =>
+            expected("`on` or `off`", *found, text).help(format!("write `{rule}: on` or `{rule}: off`")),
+        /// The operands of an operator don't agree.
+        Disagree { verb: Verb, left: Operand, right: Operand } = code(left.ty, right.ty) =>
+            say(disagreement(*verb, left, right), right.ty.noun())
+                .at(&left.span, left.ty.noun())
+                .help(agree(*verb, left, right)),
+        /// `a + b` of two points; `offset`: the name of the second one, if it is a point that could be an offset.
+        PointsAdded { offset: Option<String> } = Code::WrongType => {
+            let said = say("two points can't be added", "");
+            match offset {
+                Some(name) => {
+                    said.help(format!("an offset is a vector: declare it as one, `let {name}: vector = (2m, 0m)`"))
+                }
+                None => said.help("add an offset in brackets: `ball + (2m, 0m)`; or write `between a and b`"),
+            }
+        },
+        /// A point whose coordinates have different units.
+        MixedPoint { first: Operand, other: Operand, is_height: bool } = Code::MixedUnits => {
+            let help = if *is_height {
+                "a place on the pitch has two coordinates; a third is a height, `1m`"
+            } else {
+                "write both coordinates normalised, `(0.5, 0.1)`, or both in metres, `(27m, 8m)`"
+            };
+            let ((first_noun, noun), (text, other_text)) = ((first.ty.noun(), other.ty.noun()), (&first.text, &other.text));
+            say(format!("`{text}` is {first_noun}, `{other_text}` {noun}: a point has one unit"), noun)
+                .at(&first.span, first_noun)
+                .help(help)
+        },
+        /// `nobody` stands where a place is wanted.
+        NobodyHasNoPlace = Code::Impossible => say("`nobody` has no place", "nobody is there").help(NAME_A_PLAYER),
+        /// A property of `nobody`.
+        NobodyHasNoProperty { property: String } = Code::Impossible =>
+            say(format!("`nobody` has no `{property}`"), "nobody is there").help(NAME_A_PLAYER),
+        /// A choice between values that no register holds.
+        NoChoiceOf { ty: Ty } = Code::NotYet =>
+            say(format!("a choice between values that are each {} is not supported yet", ty.noun()), "")
+                .help("write the choice around what uses it: `if c then … else …`"),
+        /// A division by 0; `text`: the divisor, if it doesn't say so itself.
+        DividedByZero { text: Option<String> } = Code::Impossible => {
+            let what = text.as_ref().map_or(String::new(), |text| format!("`{text}` is 0, and "));
+            say(format!("{what}nothing can be divided by 0"), "").help("divide by something else")
+        },
+        /// A divisor that a parameter can make 0.
+        MayDivideByZero { text: String, low: f64, high: f64 } = Code::Impossible =>
+            say(format!("`{text}` can become 0, and nothing can be divided by 0"), format!("between {low} and {high}"))
+                .help("narrow the parameter's range"),
+        /// A root or logarithm of what is too small; `text`: the operand, if it is not a constant.
+        OutsideDomain { what: String, least: Option<(String, f64)> } = Code::Impossible => {
+            let low = least.as_ref().map_or(String::new(), |(text, low)| format!(", and `{text}` can be {low}"));
+            say(format!("{what} can't be computed{low}"), "")
+        },
+        /// A number that is not finite in SI units.
+        NumberTooLarge = Code::Impossible => say("the number is too large", "").help(PITCH_SIZE),
+        /// Digits of a number that no float holds.
+        TooManyDigits { digits: usize } = Code::OutOfRange =>
+            say(format!("a number of {digits} digits is too large"), "above 1e308").help(PITCH_SIZE),
+        /// `event` without a property.
+        EventIsNoValue { parts: String } = Code::WrongType =>
+            say("`event` is no value by itself", "").help(format!("it has `{parts}`")),
+        /// A name of a file that stands for no value; `cure`: how it is used instead.
+        NotAValue { name: String, noun: &'static str, cure: Option<Use> } = Code::WrongType => {
+            let said = say(format!("`{name}` is {noun}, not a value"), "");
+            match cure {
+                Some(Use::Called) => said.help(format!("call it: `{name}(…)`")),
+                Some(Use::Recorded) => {
+                    said.help(format!("a `record` reads its states: `record r = max of {name}.STATE`"))
+                }
+                Some(Use::Given) => said.help(format!("give it to a player: `ai: {name}`")),
+                None => said,
+            }
+        },
+        /// A state of a type that is not kept from step to step.
+        NoState { ty: Ty } = Code::WrongType =>
+            say(format!("a state can't be {}", ty.noun()), "").help("keep numbers, players and points in states"),
+        /// A parameter of a type that no caller can set.
+        NoParameter { ty: Ty } = Code::WrongType =>
+            say(format!("a parameter can't be {}", ty.noun()), "")
+                .help("a parameter is a number, a quantity, a condition, a team or a word; use `let` for others"),
+        /// A parameter of a script that no script reads.
+        NoScriptParameter { ty: Ty } = Code::WrongType =>
+            say(format!("a script's parameter can't be {}", ty.noun()), "")
+                .help("it can be a number of any unit, a truth value, a player, a team or a point"),
+        /// A child declares another type for a parameter.
+        OtherTypeInParent { name: String, parent: Span } = Code::WrongType =>
+            say(format!("`{name}` has another type in the parent"), "a child can change the default, not the type")
+                .at(parent, "declared here")
+                .help("leave the type out, or choose another name"),
+        /// A range of words.
+        WordsHaveNoRange = Code::WrongType =>
+            say("words have no range", "").help("list them: `in [\"wing\", \"centre\"]`"),
+        /// An option that is a group or a script, and should be one value.
+        OneValue { option: String } = Code::WrongType =>
+            say(format!("`{option}` is one value"), "").help(format!("write `{option}: …`")),
+        /// `stats: 0.9`.
+        StatsIsAGroup = Code::WrongType => say("`stats` is a group", "").help("write `stats: { speed: 0.9 }`"),
+        /// A velocity of a player with a third part.
+        PlayersDontFly = Code::WrongType =>
+            say("a player runs along the ground", "").help("write two coordinates: `(5m/s, 0m/s)`"),
+        /// `ai` is no name.
+        NoAi = Code::WrongType =>
+            say("expected who plays the player", "")
+                .help("write `ai: bot`, `ai: hold`, `ai: lazy`, a behavior or `ai: script \"file.rhai\"`"),
+        /// `score` is no list.
+        NoScore = Code::WrongType => say("expected the goals of both teams", "").help("write `score: [1, 0]`"),
+        /// `spin` is no triple.
+        NoSpin = Code::WrongType =>
+            say("expected the spin about three axes", "")
+                .help("write, for example, `spin: (0, 0, 30)`: radians per second about x, y and z"),
+        /// `formation` is none.
+        NoFormation = Code::WrongType => say("expected a formation", "").help("write the name of a `formation`"),
+    }
+}
+
+const NAME_A_PLAYER: &str = "name a player, or write `nearest(us, to: ball)`";
+const PITCH_SIZE: &str = "the pitch is 110m by 72m: write less";
+
+/// How something that is no value is used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Use {
+    /// A function.
+    Called,
+    /// A reward, in a record.
+    Recorded,
+    /// A behavior.
+    Given,
+}
+
+/// What an operator does with its operands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Verb {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `<`, `==` and their like.
+    Compare,
+}
+
+/// An operand, as the author wrote it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Operand {
+    /// Its type.
+    pub(crate) ty: Ty,
+    /// Its text, on one line.
+    pub(crate) text: String,
+    /// Its place.
+    pub(crate) span: Span,
+    /// Whether it is a text in quotes.
+    pub(crate) is_quoted: bool,
+}
+
+/// What to write instead of a value of the wrong type.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Instead {
+    /// What the two types suggest.
+    Usual,
+    /// A condition of what was found.
+    Condition,
+    /// A condition that repeats what both sides of `and` or `or` share.
+    Repeated { condition: String },
+    /// A region stands behind `at`.
+    In { text: String },
+    /// A place stands behind `in`.
+    At { text: String },
+    /// A number stands behind `at`.
+    PointInBrackets,
+    /// A coordinate of a point.
+    Coordinate,
+    /// A number stands behind `facing`.
+    Facing { text: String },
+    /// A value that a record holds.
+    Recorded,
+    /// What `max of` and its like look at.
+    Measured { kind: String },
+    /// A value that an observation holds.
+    Observed,
+    /// `half_time`.
+    HalfTime,
+    /// Who is controlled.
+    Agents,
+}
+
+/// Two numbers disagree in their units, everything else in its type.
+fn code(one: Ty, other: Ty) -> Code {
+    if one.dim().is_some() && other.dim().is_some() { Code::WrongUnit } else { Code::WrongType }
+}
+
+/// "expected a length, found `3s` (a duration)"
+fn expected(wanted: &str, found: Ty, text: &str) -> Said {
+    let noun = found.noun();
+    let what = if text.is_empty() || text.chars().count() > TEXT_MAX { noun } else { format!("`{text}` ({noun})") };
+    say(format!("expected {wanted}, found {what}"), found.noun())
+}
+
+fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
+    let said = expected(&wanted.noun(), found, text);
+    match instead {
+        Instead::Usual => match usual(wanted, found) {
+            Some(help) => said.help(help),
+            None => said,
+        },
+        Instead::Condition => said.help(match found {
+            Ty::Team | Ty::Player => "compare it, as in `possession == left`, or write `… has ball`",
+            ty if ty.dim().is_some() => "compare it with something: `… > 0`",
+            ty if ty.is_place() || ty == Ty::Region => "ask where something is: `ball in right.box`",
+            _ => "write a condition, for example `us has ball`",
+        }),
+        Instead::Repeated { condition } => said.help(format!("write `{condition}`")),
+        Instead::In { text } => said.help(format!("write `in {text}`")),
+        Instead::At { text } => said.help(format!("write `at {text}`")),
+        Instead::PointInBrackets => said.help("a point stands in brackets: `at (0.5, 0.1)`"),
+        Instead::Coordinate => said.help("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`"),
+        Instead::Facing { text } => said.help(format!("write an angle, `{text}deg`, or a point")),
+        Instead::Recorded => said.help("a record holds a number, a length, a duration, a place or a condition"),
+        Instead::Measured { kind } => said.help(format!("`{kind} of` takes a number, a length, a duration, …")),
+        Instead::Observed => said.help("an observation holds numbers, quantities, conditions, places and vectors"),
+        Instead::HalfTime => said.help("write `half_time: off` or `half_time: 1500 steps`"),
+        Instead::Agents => said.help("write a number, `all`, or a list of names: `[striker, winger]`"),
+    }
+}
+
+/// What the two types suggest.
+fn usual(wanted: Ty, found: Ty) -> Option<String> {
+    let both_numbers = found.dim().is_some() && wanted.dim().is_some();
+    match (found, wanted) {
+        (Ty::LENGTH, Ty::Number) => {
+            Some("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units".to_owned())
+        }
+        (Ty::Number, Ty::Int) => Some("write a whole number".to_owned()),
+        (_, Ty::Number) if both_numbers => Some("divide by a value of the same unit to get a plain number".to_owned()),
+        (_, wanted) if found.is_plain() && both_numbers => {
+            wanted.example().map(|example| format!("write the unit: `{example}`"))
+        }
+        (_, wanted) => wanted.example().map(|example| format!("write, for example, `{example}`")),
+    }
+}
+
+fn disagreement(verb: Verb, left: &Operand, right: &Operand) -> String {
+    let done = match verb {
+        Verb::Compare => "compared",
+        Verb::Add => "added",
+        Verb::Subtract => "subtracted",
+    };
+    format!("`{}` is {}, `{}` {}: they can't be {done}", left.text, left.ty.noun(), right.text, right.ty.noun())
+}
+
+/// How two operands can be made to agree.
+fn agree(verb: Verb, left: &Operand, right: &Operand) -> String {
+    let (x, y) = (left.ty, right.ty);
+    let (text_a, text_b) = (&left.text, &right.text);
+    let is_compared = verb == Verb::Compare;
+    if (x == Ty::LENGTH && y.is_plain()) || (y == Ty::LENGTH && x.is_plain()) {
+        return "write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one"
+            .to_owned();
+    }
+    let (of_x, of_y) = (x.dim().is_some(), y.dim().is_some());
+    match (x, y, x.example()) {
+        (_, ty, Some(example)) if of_x && ty.is_plain() => {
+            format!("write the number with its unit, for example `{example}`")
+        }
+        (_, _, Some(example)) if of_x && of_y => {
+            let verb = if is_compared { "compare it with" } else { "both must be" };
+            format!("{verb} {}, for example `{example}`", x.noun())
+        }
+        (Ty::Role | Ty::Mode, _, _) if right.is_quoted => {
+            format!("write it without quotes: `{}`", text_b.trim_matches('"'))
+        }
+        (Ty::Player | Ty::Team | Ty::Set, _, _) if right.is_quoted => {
+            format!("a name stands without quotes: `{}`", text_b.trim_matches('"'))
+        }
+        (Ty::Player, Ty::Team | Ty::Set, _) if is_compared => format!("write `{text_a} in {text_b}`"),
+        (ty, Ty::Point | Ty::Player | Ty::Ball, _) if ty.is_place() && is_compared => {
+            format!("write `distance({text_a}, {text_b}) < 1m`")
+        }
+        (ty, Ty::Region, _) if ty.is_place() && is_compared => format!("write `{text_a} in {text_b}`"),
+        _ if is_compared => "both sides must be of one kind".to_owned(),
+        _ => "numbers, vectors and regions can be added and subtracted, each with its like".to_owned(),
+    }
+}

@@ -1,5 +1,6 @@
 //! What a picture costs, in thread CPU time: both cameras at the sizes for people and for agents, 22 players.
 #![allow(missing_docs, reason = "criterion's macros write the entry point")]
+#![allow(clippy::expect_used, reason = "a benchmark may stop")]
 
 #[path = "../../setpiece/benches/measure/cpu.rs"]
 mod cpu;

@@ -1,6 +1,6 @@
 //! Writes pictures of the sample scenes, and prints what a picture costs.
 //!
-//! `cargo run --release -p setpiece-render --example frames -- FOLDER [WIDTH HEIGHT]`
+//! `cargo run --release -p setpiece-render --example frames -- [FOLDER | --cost] [WIDTH HEIGHT]`
 #![allow(clippy::print_stdout, reason = "a command prints")]
 
 #[path = "../tests/samples/scenes.rs"]
@@ -15,11 +15,13 @@ use std::path::Path;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    if let Some(folder) = words.first() {
-        let side = |at: usize, usual: usize| words.get(at).and_then(|word| word.parse().ok()).unwrap_or(usual);
-        pictures(Path::new(folder), side(1, 1280), side(2, 720))
-    } else {
-        costs()
+    let side = |at: usize, usual: usize| words.get(at).and_then(|word| word.parse().ok()).unwrap_or(usual);
+    match words.first().map(String::as_str) {
+        None => {
+            [(1280, 720), (640, 360), (96, 72), (84, 84)].iter().try_for_each(|(width, height)| cost(*width, *height))
+        }
+        Some("--cost") => cost(side(1, 1280), side(2, 720)),
+        Some(folder) => pictures(Path::new(folder), side(1, 1280), side(2, 720)),
     }
 }
 
@@ -57,22 +59,22 @@ fn trail(scene: &Scene) -> Vec<Scene> {
     (1..=10).rev().map(back).collect()
 }
 
-fn costs() -> Result<(), Box<dyn Error>> {
-    for (width, height, count) in [(1280, 720, 60), (640, 360, 150), (96, 72, 6000), (84, 84, 6000)] {
-        for (name, camera) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(Region::Whole))] {
-            let mut renderer = Renderer::new(width, height, Options { camera, ..Options::default() })?;
-            let mut rgba = vec![0; width * height * 4];
-            let all = scenes::all();
-            let mut best = f64::MAX;
-            for _ in 0..5 {
-                let start = ThreadTime::now();
-                for turn in 0..count {
-                    renderer.render(&all[turn % all.len()].1, &mut rgba)?;
-                }
-                best = best.min(start.elapsed().as_secs_f64() / count as f64);
+/// Prints the least time of five runs, each long enough for the clock.
+fn cost(width: usize, height: usize) -> Result<(), Box<dyn Error>> {
+    let count = (60_000_000 / (width * height)).clamp(8, 8000);
+    for (name, camera) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(Region::Whole))] {
+        let mut renderer = Renderer::new(width, height, Options { camera, ..Options::default() })?;
+        let mut rgba = vec![0; width * height * 4];
+        let all = scenes::all();
+        let mut best = f64::MAX;
+        for _ in 0..5 {
+            let start = ThreadTime::now();
+            for turn in 0..count {
+                renderer.render(&all[turn % all.len()].1, &mut rgba)?;
             }
-            println!("{width}x{height} {name}: {:.0} frames/s, {:.1} us", 1.0 / best, best * 1e6);
+            best = best.min(start.elapsed().as_secs_f64() / count as f64);
         }
+        println!("{width}x{height} {name}: {:.0} frames/s, {:.1} us", 1.0 / best, best * 1e6);
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! The plan: discs with numbers that show where players face, what their bodies do, where they came from.
 
-use crate::canvas::{Canvas, Capsule};
+use crate::canvas::{Canvas, Capsule, Mask, Wash};
 use crate::color::{Rgb, WHITE, WOOD, YELLOW_CARD, kit, mixed, scaled};
 use crate::math::{Vec2, ground, space, within};
 use crate::scene::{Pitch, Player, Posture, Scene};
@@ -46,12 +46,19 @@ impl Plan {
 }
 
 /// Draws goals, trails, players and the ball over the grass.
-pub(crate) fn draw(canvas: &mut Canvas<'_>, view: &View, before: &[Scene], scene: &Scene, pitch: &Pitch) {
+pub(crate) fn draw(
+    canvas: &mut Canvas<'_>,
+    mask: &mut Mask,
+    view: &View,
+    before: &[Scene],
+    scene: &Scene,
+    pitch: &Pitch,
+) {
     let Some(plan) = Plan::new(view) else { return };
     for side in [-1.0, 1.0] {
         goal(canvas, &plan, pitch, side);
     }
-    trails(canvas, &plan, before, scene);
+    trails(canvas, mask, &plan, before, scene);
     let ranks = |player: &Player| (player.posture == Posture::Upright, scene.ball.owner == Some(player.id));
     // Who lies is below who stands, and the ball's owner is on top.
     for rank in [(false, false), (false, true), (true, false), (true, true)] {
@@ -89,26 +96,31 @@ fn goal(canvas: &mut Canvas<'_>, plan: &Plan, pitch: &Pitch, side: f32) {
 }
 
 /// Tails from the scenes before, back to the last that was placed.
-fn trails(canvas: &mut Canvas<'_>, plan: &Plan, before: &[Scene], scene: &Scene) {
+fn trails(canvas: &mut Canvas<'_>, mask: &mut Mask, plan: &Plan, before: &[Scene], scene: &Scene) {
     if scene.placed {
         return;
     }
     let first = before.iter().rposition(|scene| scene.placed).unwrap_or(0);
     let past = &before[first..];
-    let count = past.len();
-    for (i, then) in past.iter().enumerate() {
-        let next = past.get(i + 1).unwrap_or(scene);
-        let (old, new) = ((i as f32 + 0.5) / count as f32, (i as f32 + 1.0) / count as f32);
-        for player in then.players.iter().filter(|player| player.present) {
-            let Some(now) = next.players.iter().find(|now| now.id == player.id && now.present) else { continue };
-            let radius = plan.radius * 0.62;
-            let shape = Capsule { a: plan.player(player), b: plan.player(now), ra: radius * old, rb: radius * new };
-            canvas.capsule(shape, 0.16 + 0.3 * new, |_| kit(player).shirt);
-        }
-        let (a, b) = (space(then.ball.pos), space(next.ball.pos));
-        let radius = (plan.ball * 0.6 * new).max(0.5);
-        canvas.stroke(plan.at(a.x, a.y), plan.at(b.x, b.y), radius, WHITE, 0.25 + 0.5 * new);
+    let count = past.len() as f32;
+    // Pairs of scenes that follow each other, with how recent the second one is.
+    let pairs =
+        past.iter().enumerate().map(|(i, then)| (then, past.get(i + 1).unwrap_or(scene), (i as f32 + 1.0) / count));
+    let wash = |color| Wash { color, opacity: 0.62, squash: 1.0, soft: 0.7 };
+    for player in scene.players.iter().filter(|player| player.present) {
+        let tail = pairs.clone().filter_map(|(then, next, new)| {
+            let find = |scene: &Scene| scene.players.iter().find(|it| it.id == player.id).map(|it| plan.player(it));
+            let radius = plan.radius * 0.6;
+            Some((Capsule { a: find(then)?, b: find(next)?, ra: radius * (new - 1.0 / count), rb: radius * new }, new))
+        });
+        mask.wash(canvas, tail, wash(kit(player).shirt));
     }
+    let tail = pairs.map(|(then, next, new)| {
+        let (a, b) = (space(then.ball.pos), space(next.ball.pos));
+        let radius = (plan.ball * 0.55 * new).max(0.5);
+        (Capsule { a: plan.at(a.x, a.y), b: plan.at(b.x, b.y), ra: radius, rb: radius }, new)
+    });
+    mask.wash(canvas, tail, wash(WHITE));
 }
 
 fn disc(canvas: &mut Canvas<'_>, plan: &Plan, player: &Player, scene: &Scene) {

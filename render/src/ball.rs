@@ -9,7 +9,7 @@ use crate::view::View;
 pub(crate) const RADIUS_M: f32 = 0.11;
 const DRAWN_M: f32 = 0.17;
 /// Least radius, pixels.
-const LEAST_PX: f32 = 1.05;
+const LEAST_PX: f32 = 1.2;
 /// From this radius on, panels are drawn.
 const PANELS_PX: f32 = 2.6;
 /// Where a shadow falls, metres per metre of height.
@@ -38,6 +38,10 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, view: &View, ball: &Ball, time_s: f3
     let Some(spot) = view.spot(Vec3::new(at.x, at.y, at.z.max(DRAWN_M))) else { return };
     let radius = (DRAWN_M * spot.scale).max(LEAST_PX);
     let Some(span) = canvas.span(spot.at - radius - 0.5, spot.at + radius + 0.5) else { return };
+    if radius < PANELS_PX {
+        // A small ball keeps apart from lines and shirts.
+        canvas.disc(spot.at, radius + 0.8, [12, 30, 16], 0.6);
+    }
     let turn = turned(ball, time_s);
     let panels = radius >= PANELS_PX;
     for y in span.y0..span.y1 {
@@ -50,8 +54,9 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, view: &View, ball: &Ball, time_s: f3
                 continue;
             }
             let w = (1.0 - square).max(0.0).sqrt();
-            let light = within(0.62 + 0.45 * (-0.42 * u - 0.62 * v + 0.66 * w), 0.45, 1.0);
-            let mut shade = 252.0 * light;
+            let floor = if panels { 0.45 } else { 0.9 };
+            let light = within(0.62 + 0.45 * (-0.42 * u - 0.62 * v + 0.66 * w), floor, 1.0);
+            let mut shade = 254.0 * light;
             if panels {
                 // The screen's right, down and out as the world's x, −z and y.
                 shade *= 1.0 - 0.82 * dark(turn.apply(Vec3::new(u, w, -v)), radius);

@@ -29,12 +29,11 @@ enum What {
 #[derive(Debug, Default)]
 pub(crate) struct Broadcast {
     items: Vec<Item>,
-    mask: Mask,
 }
 
 impl Broadcast {
     /// Draws everything that stands on the ground.
-    pub(crate) fn draw(&mut self, canvas: &mut Canvas<'_>, view: &View, scene: &Scene, pitch: &Pitch) {
+    pub(crate) fn draw(&mut self, canvas: &mut Canvas<'_>, mask: &mut Mask, view: &View, scene: &Scene, pitch: &Pitch) {
         let goals = [-1.0, 1.0].map(|side| Goal::new(scene, pitch, side));
         let time = time_s(scene);
         self.collect(scene, pitch, &goals);
@@ -46,7 +45,7 @@ impl Broadcast {
             if let What::Player(index) = item.what
                 && let Some(figure) = figure(index)
             {
-                figure.below(canvas, view, &mut self.mask);
+                figure.below(canvas, view, mask);
             }
         }
         ball::below(canvas, view, &scene.ball);

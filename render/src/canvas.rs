@@ -33,13 +33,28 @@ pub(crate) struct Capsule {
     pub(crate) rb: f32,
 }
 
+/// Every other byte of a pixel: two parts are computed in one number.
+const PAIR: u32 = 0x00ff_00ff;
+
+/// The pixel `share` (of 256) of the way from `a` to `b`.
+#[inline]
+pub(crate) fn between(a: Px, b: Px, share: u32) -> Px {
+    let (a, b, keep) = (u32::from_le_bytes(a), u32::from_le_bytes(b), 256 - share);
+    let even = ((a & PAIR) * keep + (b & PAIR) * share) >> 8;
+    let odd = ((a >> 8) & PAIR) * keep + ((b >> 8) & PAIR) * share;
+    ((even & PAIR) | (odd & !PAIR)).to_le_bytes()
+}
+
 /// Lays a colour over a pixel; `cover` is 0..=256.
 #[inline]
 pub(crate) fn blend(px: &mut Px, color: Rgb, cover: u32) {
-    let keep = 256 - cover;
-    px[0] = ((u32::from(px[0]) * keep + u32::from(color[0]) * cover) >> 8) as u8;
-    px[1] = ((u32::from(px[1]) * keep + u32::from(color[1]) * cover) >> 8) as u8;
-    px[2] = ((u32::from(px[2]) * keep + u32::from(color[2]) * cover) >> 8) as u8;
+    *px = between(*px, solid(color), cover);
+}
+
+/// A colour as a pixel.
+#[inline]
+pub(crate) fn solid(color: Rgb) -> Px {
+    [color[0], color[1], color[2], 255]
 }
 
 /// Coverage 0..=256 of a share 0..1.
@@ -137,12 +152,20 @@ impl Canvas<'_> {
     pub(crate) fn panel(&mut self, low: Vec2, high: Vec2, corner: f32, color: Rgb, opacity: f32) {
         let (middle, half) = ((low + high) * 0.5, (high - low) * 0.5 - corner);
         let Some(span) = self.span(low - 1.0, high + 1.0) else { return };
+        // Columns that no edge touches.
+        let clip = |x: f32| (x as i64).clamp(span.x0 as i64, span.x1 as i64) as usize;
+        let from = clip(low.x + corner + 1.0);
+        let to = clip(high.x - corner).max(from);
         for y in span.y0..span.y1 {
             let dy = ((y as f32 + 0.5 - middle.y).abs() - half.y).max(0.0);
-            let mut x = span.x0 as f32 + 0.5;
-            for px in self.part(y, span.x0, span.x1) {
-                let dx = ((x - middle.x).abs() - half.x).max(0.0);
-                x += 1.0;
+            let plain = cover(within(corner - dy + 0.5, 0.0, 1.0) * opacity);
+            let over = solid(color);
+            for px in self.part(y, from, to) {
+                *px = between(*px, over, plain);
+            }
+            for x in (span.x0..from).chain(to..span.x1) {
+                let px = &mut self.px[y * self.width + x];
+                let dx = ((x as f32 + 0.5 - middle.x).abs() - half.x).max(0.0);
                 let inside =
                     if dx == 0.0 || dy == 0.0 { corner - dx - dy } else { corner - (dx * dx + dy * dy).sqrt() };
                 blend(px, color, cover(within(inside + 0.5, 0.0, 1.0) * opacity));
@@ -179,15 +202,29 @@ pub(crate) struct Mask {
     cells: Vec<u8>,
 }
 
+/// How a mask is laid over a picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wash {
+    pub(crate) color: Rgb,
+    pub(crate) opacity: f32,
+    /// How flat the ground looks: its height on the screen over its depth.
+    pub(crate) squash: f32,
+    /// Half the width of the edges, pixels.
+    pub(crate) soft: f32,
+}
+
 impl Mask {
-    /// Shades the ground below some capsules.
-    ///
-    /// - `squash`: how flat the ground looks: its height on the screen over its depth.
-    /// - `soft`: width of the edge, pixels.
-    pub(crate) fn shade(&mut self, canvas: &mut Canvas<'_>, shapes: &[Capsule], squash: f32, soft: f32, opacity: f32) {
+    /// Lays a colour over everything below some capsules, each with a strength 0..1, as one shape.
+    pub(crate) fn wash(
+        &mut self,
+        canvas: &mut Canvas<'_>,
+        shapes: impl Iterator<Item = (Capsule, f32)> + Clone,
+        wash: Wash,
+    ) {
+        let Wash { color, opacity, squash, soft } = wash;
         let mut low = Vec2::splat(f32::MAX);
         let mut high = Vec2::splat(f32::MIN);
-        for shape in shapes {
+        for (shape, _) in shapes.clone() {
             let pad = shape.ra.max(shape.rb) + soft;
             low = low.min(shape.a.min(shape.b) - pad);
             high = high.max(shape.a.max(shape.b) + pad);
@@ -197,12 +234,13 @@ impl Mask {
         self.cells.clear();
         self.cells.resize(width * (all.y1 - all.y0), 0);
         let stretch = 1.0 / squash;
-        for shape in shapes {
+        let flat = |v: Vec2| Vec2::new(v.x, v.y * stretch);
+        for (shape, strength) in shapes {
             let pad = Vec2::new(1.0, squash) * shape.ra.max(shape.rb) + soft;
             let Some(span) = canvas.span(shape.a.min(shape.b) - pad, shape.a.max(shape.b) + pad) else { continue };
-            let flat = |v: Vec2| Vec2::new(v.x, v.y * stretch);
-            let tall = Capsule { a: flat(shape.a), b: flat(shape.b), ..*shape };
-            let (axis, inverse, edge) = (tall.b - tall.a, tall.inverse(), 256.0 / (2.0 * soft));
+            let tall = Capsule { a: flat(shape.a), b: flat(shape.b), ..shape };
+            let (axis, inverse, edge) = (tall.b - tall.a, tall.inverse(), strength * 255.0 / (2.0 * soft));
+            let most = strength * 255.0;
             for y in span.y0..span.y1 {
                 let mut at = flat(Vec2::new(span.x0 as f32 + 0.5, y as f32 + 0.5));
                 let start = (y - all.y0) * width + span.x0 - all.x0;
@@ -212,19 +250,16 @@ impl Mask {
                     let reach = radius + soft;
                     let square = off.x * off.x + off.y * off.y;
                     if square < reach * reach {
-                        *cell = (*cell).max(((reach - square.sqrt()) * edge) as u8);
+                        *cell = (*cell).max(((reach - square.sqrt()) * edge).min(most) as u8);
                     }
                 }
             }
         }
-        let strength = (opacity * 256.0) as u32;
+        let opacity = (opacity * 257.0) as u32;
         for y in all.y0..all.y1 {
             let cells = &self.cells[(y - all.y0) * width..][..width];
             for (px, cell) in canvas.part(y, all.x0, all.x1).iter_mut().zip(cells) {
-                let keep = 256 - ((u32::from(*cell) * strength) >> 8);
-                px[0] = ((u32::from(px[0]) * keep) >> 8) as u8;
-                px[1] = ((u32::from(px[1]) * keep) >> 8) as u8;
-                px[2] = ((u32::from(px[2]) * keep) >> 8) as u8;
+                blend(px, color, (u32::from(*cell) * opacity) >> 8);
             }
         }
     }

@@ -94,8 +94,9 @@ const FACES: [(Rgb, Rgb); 6] = [
 
 /// A player's skin and hair, the same in every scene.
 pub(crate) fn face(player: &Player) -> (Rgb, Rgb) {
-    let pick = crate::math::hash(u32::from(player.id.slot), player.id.team as u32 + 7);
-    FACES[pick as usize % FACES.len()]
+    // Neighbours of a team look different, and so do the two teams.
+    let pick = usize::from(player.id.slot) * 5 + usize::from(player.id.slot) / 6 + player.id.team.index() * 3 + 1;
+    FACES[pick % FACES.len()]
 }
 
 /// A colour times a factor.

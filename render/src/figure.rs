@@ -1,11 +1,11 @@
 //! A player from the stand: a figure of tapered, shaded capsules, with fewer of them the smaller it is.
 
-use crate::canvas::{Canvas, Capsule, Mask};
+use crate::canvas::{Canvas, Capsule, Mask, Wash};
 use crate::color::{ACCENTS, Kit, RING, Rgb, YELLOW_CARD, face, kit, scaled};
 use crate::math::{Vec2, Vec3, ground, space, unit_or, within};
 use crate::pose::Pose;
 use crate::scene::{Player, Posture};
-use crate::skeleton::Skeleton;
+use crate::skeleton::{GROWN, Skeleton};
 use crate::text::{Digits, Style};
 use crate::view::{Spot, View};
 
@@ -18,6 +18,8 @@ const NUMBERED: f32 = 15.0;
 const PARTS: usize = 28;
 /// Where the light comes from: left, above, and from the camera's side.
 const LIGHT: Vec3 = Vec3::new(-0.42, -0.62, 0.66);
+/// The colour of shadows on grass.
+const SHADE: Rgb = [8, 26, 12];
 /// Where a shadow falls, metres per metre of height.
 const CAST: Vec2 = Vec2::new(0.42, -0.3);
 
@@ -58,11 +60,12 @@ impl Figure<'_> {
         } else {
             let skeleton = Skeleton::new(&Pose::of(self.player, self.time_s), at);
             let capsules = shadow(&skeleton, view);
-            mask.shade(canvas, &capsules, squash, (foot.scale * 0.05).max(0.7), 0.5);
+            let wash = Wash { color: SHADE, opacity: 0.52, squash, soft: (foot.scale * 0.05).max(0.7) };
+            mask.wash(canvas, capsules.iter().map(|shape| (*shape, 1.0)), wash);
         }
         if self.player.agent {
-            let radius = (0.72 * foot.scale).max(1.6);
-            let line = (0.055 * foot.scale).max(0.45);
+            let radius = (0.78 * foot.scale).max(1.6);
+            let line = (0.042 * foot.scale).max(0.45);
             let radii = Vec2::new(radius, radius * squash);
             let accent = ACCENTS[self.player.id.team.index()];
             if foot.scale >= LIMBS {
@@ -165,7 +168,7 @@ fn near(canvas: &Canvas<'_>, foot: &Spot) -> bool {
 fn lit(color: Rgb, off: Vec2) -> Rgb {
     let bulge = (1.0 - off.x * off.x - off.y * off.y).max(0.0).sqrt();
     let light = off.x * LIGHT.x + off.y * LIGHT.y + bulge * LIGHT.z;
-    let by = (0.56 + 0.56 * light.max(-0.3)) * 256.0;
+    let by = (0.61 + 0.51 * light.max(-0.25)) * 256.0;
     let by = by as u32;
     color.map(|part| ((u32::from(part) * by) >> 8).min(255) as u8)
 }
@@ -251,6 +254,7 @@ impl Parts {
     }
 
     fn add(&mut self, view: &View, a: Vec3, b: Vec3, ra: f32, rb: f32, color: Rgb) {
+        let (ra, rb) = (ra * GROWN, rb * GROWN);
         let (Some(from), Some(to)) = (view.spot(a), view.spot(b)) else { return };
         let shape = Capsule { a: from.at, b: to.at, ra: (ra * from.scale).max(0.6), rb: (rb * to.scale).max(0.6) };
         // The nearest point counts: a shirt lies over the shorts that it hangs over.
@@ -282,7 +286,7 @@ fn number(canvas: &mut Canvas<'_>, view: &View, skeleton: &Skeleton, player: &Pl
     }
     let shown = skeleton.front.y;
     let upright = skeleton.up.z;
-    if shown.abs() < 0.4 || upright < 0.7 {
+    if shown.abs() < 0.5 || upright < 0.7 {
         return;
     }
     let middle = skeleton.hips.lerp(skeleton.chest, 0.66);
@@ -291,6 +295,6 @@ fn number(canvas: &mut Canvas<'_>, view: &View, skeleton: &Skeleton, player: &Pl
     let digits = Digits::new(u32::from(player.number.min(99)), 1);
     let mut style = Style::bold(0.3 * spot.scale, kit(player).number);
     style.weight = 0.2;
-    style.stretch = within(shown.abs(), 0.4, 1.0) * if player.number > 9 { 0.62 } else { 0.9 };
+    style.stretch = within(shown.abs() * 1.1 - 0.1, 0.4, 1.0) * if player.number > 9 { 0.62 } else { 0.9 };
     style.centre(canvas, digits.as_str(), spot.at);
 }

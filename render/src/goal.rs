@@ -17,8 +17,8 @@ const MESH_PX: f32 = 3.6;
 /// Radius of the woodwork.
 const POST_M: f32 = 0.075;
 /// How far around the ball the net bulges, and how far out.
-const BULGE_M: f32 = 1.5;
-const PUSH_M: f32 = 0.5;
+const BULGE_M: f32 = 1.8;
+const PUSH_M: f32 = 0.65;
 /// Share of the depth that the net has at the bar's height.
 const TOP: f32 = 0.8;
 
@@ -83,6 +83,9 @@ impl Goal {
             self.small(canvas, view, band);
             return;
         }
+        if !self.seen(canvas, view) {
+            return;
+        }
         let mesh = MESH_M.max(MESH_PX / spot.scale);
         let (from, to) = (self.band_y(band), self.band_y(band + 1));
         if band == 0 {
@@ -97,6 +100,24 @@ impl Goal {
             self.side_net(canvas, view, self.half, mesh);
             self.post(canvas, view, self.half);
         }
+    }
+
+    /// Whether any part of the goal can be in the picture.
+    fn seen(&self, canvas: &Canvas<'_>, view: &View) -> bool {
+        let mut low = Vec2::splat(f32::MAX);
+        let mut high = Vec2::splat(f32::MIN);
+        for corner in 0..8 {
+            let pick = |bit: u32, a: f32, b: f32| if corner & bit == 0 { a } else { b };
+            let at = self.point(
+                pick(1, -1.0, self.depth + 1.5),
+                pick(2, -1.0, 1.0) * (self.half + 1.0),
+                pick(4, 0.0, self.height + 1.0),
+            );
+            let Some(spot) = view.spot(at) else { return true };
+            low = low.min(spot.at);
+            high = high.max(spot.at);
+        }
+        canvas.span(low, high).is_some()
     }
 
     /// A goal of a few pixels.

@@ -1,7 +1,7 @@
 //! Grass: mown stripes with a grain, and what lies around the pitch.
 
-use crate::canvas::{Canvas, Px};
-use crate::color::{Rgb, mixed};
+use crate::canvas::{Canvas, Px, between, solid};
+use crate::color::Rgb;
 use crate::marks::Marks;
 use crate::math::{hash, within};
 use crate::scene::Pitch;
@@ -38,13 +38,17 @@ pub(crate) const PLAN: Lawn = Lawn { stripes: [[58, 122, 72], [65, 131, 79]], ve
 pub(crate) struct Ground {
     fine: Vec<u8>,
     coarse: Vec<u8>,
+    /// By the light on a row, from [`LIGHT_LEAST`] on.
+    shades: Vec<Shades>,
 }
 
-/// The shades of one row's colours.
-struct Shades {
-    stripes: [[Px; SHADES]; 2],
-    verge: [Px; SHADES],
-}
+/// The shades of the stripes and of the verge in one light.
+type Shades = [[Px; SHADES]; 3];
+
+/// The lights that shades are prepared for.
+const LIGHT_LEAST: f32 = 0.9;
+const LIGHT_STEP: f32 = 0.005;
+const LIGHTS: usize = 45;
 
 impl Ground {
     /// Grass with a grain, or plain grass.
@@ -57,7 +61,12 @@ impl Ground {
             // The mean of two is softer than one.
             (0..side * side).map(|i| u32::midpoint(cell(i), cell(i + side * side)) as u8).collect()
         };
-        Ground { fine: noise(FINE, 1, 36), coarse: noise(COARSE, 2, 29) }
+        let Lawn { stripes: [even, odd], verge } = STADIUM;
+        let shades = (0..LIGHTS).map(|level| {
+            let light = LIGHT_LEAST + level as f32 * LIGHT_STEP;
+            [even, odd, verge].map(|color| shades(color, light))
+        });
+        Ground { fine: noise(FINE, 1, 36), coarse: noise(COARSE, 2, 29), shades: shades.collect() }
     }
 
     /// Paints one row of ground with its lines.
@@ -65,50 +74,35 @@ impl Ground {
         let half = [pitch.length_m * 0.5, pitch.width_m * 0.5];
         let mown = row.y.abs() < half[1] + VERGE_M;
         if self.fine.is_empty() {
-            self.plain(row, px, half[0], mown, lawn, light);
+            plain(row, px, half[0], mown, lawn, light);
         } else {
-            self.grained(row, px, half[0], mown, lawn, light);
+            self.grained(row, px, half[0], mown, light);
         }
         if row.y.abs() < half[1] + 1.0 + row.dy {
             marks.paint(row, px);
         }
     }
 
-    fn plain(&self, row: &Row, px: &mut [Px], half_x: f32, mown: bool, lawn: &Lawn, light: f32) {
-        let [even, odd, verge] = [lawn.stripes[0], lawn.stripes[1], lawn.verge].map(|color| lit(color, light));
-        for run in runs(row, px.len(), half_x, mown) {
-            let color = [even, odd, verge][run.kind];
-            let [r, g, b] = color;
-            px[run.from..run.to].fill([r, g, b, 255]);
-        }
-        soften(row, px, half_x, mown, |kind| [even, odd, verge][kind]);
-    }
-
-    fn grained(&self, row: &Row, px: &mut [Px], half_x: f32, mown: bool, lawn: &Lawn, light: f32) {
-        let shades = Shades {
-            stripes: [shades(lawn.stripes[0], light), shades(lawn.stripes[1], light)],
-            verge: shades(lawn.verge, light),
-        };
+    fn grained(&self, row: &Row, px: &mut [Px], half_x: f32, mown: bool, light: f32) {
+        let level = ((light - LIGHT_LEAST) / LIGHT_STEP) as usize;
+        let Some(shades) = self.shades.get(level.min(LIGHTS - 1)) else { return };
         // A grain is never finer than a pixel.
         let mut per_m = FINE_PER_M;
         while per_m * row.dx > 1.0 && per_m > 0.01 {
             per_m *= 0.5;
         }
-        let fixed = |x: f32| (x * 65536.0) as i64 as u32;
-        let line = ((row.y * per_m * 0.8) as i64 as usize & (FINE - 1)) * FINE;
-        let fine = &self.fine[line..line + FINE];
+        // Eight whole bits: a step beyond the table's end wraps by itself.
+        let fixed = |x: f32| (x * 16_777_216.0) as i64 as u32;
+        let line = (row.y * per_m * 0.8) as i64 as usize & (FINE - 1);
+        let Some(fine) = self.fine.as_chunks::<FINE>().0.get(line) else { return };
         let mut u = fixed(row.x0 * per_m);
         let du = fixed(row.dx * per_m);
         let patch = |x: f32| self.patch(x * COARSE_PER_M, row.y * COARSE_PER_M);
         let mut block_end = 0;
         let (mut c, mut dc, mut next) = (0_i32, 0_i32, patch(row.x0));
-        for run in runs(row, px.len(), half_x, mown) {
-            let table = match run.kind {
-                2 => &shades.verge,
-                kind => &shades.stripes[kind],
-            };
-            let mut from = run.from;
-            while from < run.to {
+        runs(row, px.len(), half_x, mown, |kind, mut from, end_of_run| {
+            let table = &shades[kind];
+            while from < end_of_run {
                 if from >= block_end {
                     block_end = from + BLOCK;
                     let end = patch(row.x0 + block_end as f32 * row.dx);
@@ -116,20 +110,18 @@ impl Ground {
                     dc = ((end - next) * (256.0 / BLOCK as f32)) as i32;
                     next = end;
                 }
-                let to = run.to.min(block_end);
+                let to = end_of_run.min(block_end);
                 for px in &mut px[from..to] {
-                    let shade = usize::from(fine[(u >> 16) as usize & (FINE - 1)]) + (c >> 8) as usize;
+                    let shade = usize::from(fine[(u >> 24) as usize]) + (c >> 8) as usize;
                     *px = table[shade & (SHADES - 1)];
                     u = u.wrapping_add(du);
                     c += dc;
                 }
                 from = to;
             }
-        }
-        soften(row, px, half_x, mown, |kind| match kind {
-            2 => lit(lawn.verge, light),
-            kind => lit(lawn.stripes[kind], light),
         });
+        // The middle shade is the colour itself.
+        soften(row, px, half_x, mown, |kind| shades[kind][SHADES / 2]);
     }
 
     /// The coarse grain at a place, 0..28.
@@ -156,6 +148,13 @@ pub(crate) fn paint_all(ground: &Ground, canvas: &mut Canvas<'_>, view: &View, p
     }
 }
 
+/// Grass without a grain.
+fn plain(row: &Row, px: &mut [Px], half_x: f32, mown: bool, lawn: &Lawn, light: f32) {
+    let colors = [lawn.stripes[0], lawn.stripes[1], lawn.verge].map(|color| solid(lit(color, light)));
+    runs(row, px.len(), half_x, mown, |kind, from, to| px[from..to].fill(colors[kind]));
+    soften(row, px, half_x, mown, |kind| colors[kind]);
+}
+
 fn lit(color: Rgb, light: f32) -> Rgb {
     color.map(|part| within(f32::from(part) * light, 0.0, 255.0) as u8)
 }
@@ -164,17 +163,9 @@ fn shades(color: Rgb, light: f32) -> [Px; SHADES] {
     let mut table = [[0, 0, 0, 255]; SHADES];
     for (i, px) in table.iter_mut().enumerate() {
         let by = light * (0.835 + i as f32 * (0.33 / SHADES as f32));
-        let [r, g, b] = lit(color, by);
-        *px = [r, g, b, 255];
+        *px = solid(lit(color, by));
     }
     table
-}
-
-/// Pixels of one colour: the stripes 0 and 1, and 2 beside the pitch.
-struct Run {
-    kind: usize,
-    from: usize,
-    to: usize,
 }
 
 /// The x at which stripes change, from the left: the edge of the mown grass, the stripes' borders, the other edge.
@@ -186,39 +177,52 @@ fn border(index: i32, half_x: f32) -> f32 {
     }
 }
 
+/// The colour between the border before and the one of this index: the stripes 0 and 1, and 2 beside the pitch.
 fn kind(index: i32) -> usize {
     if (1..=STRIPES).contains(&index) { (index as usize + 1) % 2 } else { 2 }
 }
 
-/// The runs of a row, from the left. Run `i` ends at border `i`.
-fn runs(row: &Row, width: usize, half_x: f32, mown: bool) -> impl Iterator<Item = Run> {
-    let (x0, inverse) = (row.x0, 1.0 / row.dx);
+/// The first border that a row may show.
+fn first(row: &Row, half_x: f32) -> i32 {
+    let stripes = (row.x0 - row.dx + half_x) * (STRIPES as f32 / (2.0 * half_x));
+    if row.x0 < -half_x { 0 } else { (stripes as i32).clamp(0, STRIPES) }
+}
+
+/// Goes through the runs of one colour of a row, from the left: kind, first pixel, end.
+fn runs(row: &Row, width: usize, half_x: f32, mown: bool, mut take: impl FnMut(usize, usize, usize)) {
+    let inverse = row.per_m;
     let mut from = 0;
-    let last = if mown { STRIPES + 1 } else { 0 };
-    (0..=last).filter_map(move |index| {
-        let to = if index == last {
-            width
-        } else {
+    if mown {
+        for index in first(row, half_x)..=STRIPES {
             // The first pixel whose middle is past the border.
-            (((border(index, half_x) - x0) * inverse + 1.0) as i64).clamp(0, width as i64) as usize
-        };
-        let run = Run { kind: if mown { kind(index) } else { 2 }, from, to: to.max(from) };
-        from = run.to;
-        (run.from < run.to).then_some(run)
-    })
+            let to = (((border(index, half_x) - row.x0) * inverse + 1.0) as i64).clamp(0, width as i64) as usize;
+            if from < to {
+                take(kind(index), from, to);
+                from = to;
+            }
+            if to == width {
+                return;
+            }
+        }
+    }
+    if from < width {
+        take(2, from, width);
+    }
 }
 
 /// Mixes the colours in the pixel that a border crosses.
-fn soften(row: &Row, px: &mut [Px], half_x: f32, mown: bool, color: impl Fn(usize) -> Rgb) {
+fn soften(row: &Row, px: &mut [Px], half_x: f32, mown: bool, color: impl Fn(usize) -> Px) {
     if !mown {
         return;
     }
-    for index in 0..=STRIPES {
+    for index in first(row, half_x)..=STRIPES {
         let at = (border(index, half_x) - row.x0) / row.dx + 0.5;
-        if at >= 0.0 && at < px.len() as f32 {
-            let share = at - at as usize as f32;
-            let [r, g, b] = mixed(color(kind(index + 1)), color(kind(index)), share);
-            px[at as usize] = [r, g, b, 255];
+        if at >= px.len() as f32 {
+            return;
+        }
+        if at >= 0.0 {
+            let share = ((at - at as usize as f32) * 256.0) as u32;
+            px[at as usize] = between(color(kind(index + 1)), color(kind(index)), share);
         }
     }
 }

@@ -36,6 +36,7 @@ mod ball;
 mod broadcast;
 mod canvas;
 mod color;
+mod crowd;
 mod figure;
 mod goal;
 mod ground;
@@ -48,6 +49,7 @@ mod renderer;
 mod skeleton;
 mod stands;
 mod text;
+mod tile;
 mod view;
 
 /// What is drawn.

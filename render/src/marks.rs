@@ -14,7 +14,7 @@ const SPOT_M: f32 = 0.2;
 /// Radius of the arc at a corner.
 const CORNER_M: f32 = 1.0;
 /// How white the paint is.
-const PAINT: f32 = 0.92;
+const PAINT: f32 = 0.88;
 
 /// A painted shape.
 #[derive(Clone, Copy, Debug)]
@@ -102,11 +102,12 @@ impl Marks {
 /// The share of a row between two y.
 fn share(row: &Row, from: f32, to: f32) -> f32 {
     let (top, bottom) = (row.y - row.dy * 0.5, row.y + row.dy * 0.5);
-    ((to.min(bottom) - from.max(top)) / row.dy).max(0.0)
+    let covered = to.min(bottom) - from.max(top);
+    if covered <= 0.0 { 0.0 } else { covered / row.dy }
 }
 
 fn column(row: &Row, x: f32) -> f32 {
-    (x - row.x0) / row.dx + 0.5
+    (x - row.x0) * row.per_m + 0.5
 }
 
 fn clip(from: f32, to: f32, px: &[Px]) -> std::ops::Range<usize> {
@@ -135,14 +136,29 @@ fn along(row: &Row, px: &mut [Px], x: f32, from: f32, to: f32) {
 /// Paints between two x, with edges as wide as `blur` pixels.
 fn band(row: &Row, px: &mut [Px], from: f32, to: f32, blur: f32, covered: f32) {
     let (left, right) = (column(row, from), column(row, to));
+    if right < -blur || left > px.len() as f32 + blur {
+        return;
+    }
     let edge = 1.0 / blur;
-    let range = clip(left - blur * 0.5, right + blur * 0.5, px);
-    let mut at = range.start as f32 + 0.5;
-    for px in &mut px[range] {
-        let before = within((at - left) * edge + 0.5, 0.0, 1.0);
-        let after = within((at - right) * edge + 0.5, 0.0, 1.0);
-        blend(px, LINE, cover((before - after) * covered * PAINT));
-        at += 1.0;
+    let pad = blur * 0.5 + 1.0;
+    let whole = clip(left - pad, right + pad - 1.0, px);
+    // Between the two edges the line covers every pixel alike.
+    let inner = clip(left + pad, right - pad - 1.0, px);
+    let (start, end) = if inner.is_empty() { (whole.end, whole.end) } else { (inner.start, inner.end) };
+    let mut edges = |range: std::ops::Range<usize>| {
+        let mut at = range.start as f32 + 0.5;
+        for px in &mut px[range] {
+            let before = within((at - left) * edge + 0.5, 0.0, 1.0);
+            let after = within((at - right) * edge + 0.5, 0.0, 1.0);
+            blend(px, LINE, cover((before - after) * covered * PAINT));
+            at += 1.0;
+        }
+    };
+    edges(whole.start..start);
+    edges(end..whole.end);
+    let cover = cover(covered * PAINT);
+    for px in &mut px[start..end] {
+        blend(px, LINE, cover);
     }
 }
 
@@ -151,6 +167,11 @@ fn ring(row: &Row, px: &mut [Px], centre: [f32; 2], radius: f32, keep: Keep) {
     let pad = HALF_M + 1.5 * row.dy.max(row.dx);
     let outer = radius + pad;
     if radius <= 0.0 || away.abs() > outer {
+        return;
+    }
+    let middle = column(row, centre[0]);
+    let wide = outer * row.per_m;
+    if middle + wide < 0.0 || middle - wide > px.len() as f32 {
         return;
     }
     let reach = (outer * outer - away * away).sqrt();

@@ -70,6 +70,7 @@ pub(crate) fn hash(x: u32, y: u32) -> u32 {
 mod tests {
     use super::*;
 
+    #[allow(clippy::disallowed_methods, reason = "the platform's functions are the reference")]
     #[test]
     fn sine_and_cosine_are_close() {
         for i in -1000..1000 {

@@ -2,7 +2,7 @@
 
 use crate::above;
 use crate::broadcast::Broadcast;
-use crate::canvas::{Canvas, Px};
+use crate::canvas::{Canvas, Mask, Px};
 use crate::ground::{Ground, PLAN, paint_all};
 use crate::overlay::Overlays;
 use crate::scene::Scene;
@@ -58,6 +58,7 @@ pub struct Renderer {
     ground: Ground,
     stands: Option<Stands>,
     broadcast: Broadcast,
+    mask: Mask,
     /// For pictures without an opacity.
     rgba: Vec<u8>,
 }
@@ -79,6 +80,7 @@ impl Renderer {
             ground: Ground::new(stadium && width >= GRAIN_FROM),
             stands: stadium.then(|| Stands::new(width, height)),
             broadcast: Broadcast::default(),
+            mask: Mask::default(),
             rgba: Vec::new(),
         })
     }
@@ -122,7 +124,7 @@ impl Renderer {
     /// [`RenderError::Buffer`] if `rgb` has another length.
     pub fn render_rgb(&mut self, scene: &Scene, rgb: &mut [u8]) -> Result<(), RenderError> {
         check(rgb.len(), self.width * self.height * 3)?;
-        self.into_own(scene, |own| {
+        self.draw_own(scene, |own| {
             for (to, from) in rgb.as_chunks_mut::<3>().0.iter_mut().zip(own) {
                 *to = [from[0], from[1], from[2]];
             }
@@ -136,7 +138,7 @@ impl Renderer {
     /// [`RenderError::Buffer`] if `out` has another length.
     pub fn render_gray(&mut self, scene: &Scene, out: &mut [u8]) -> Result<(), RenderError> {
         check(out.len(), self.width * self.height)?;
-        self.into_own(scene, |own| {
+        self.draw_own(scene, |own| {
             for (to, from) in out.iter_mut().zip(own) {
                 *to = gray([from[0], from[1], from[2]]);
             }
@@ -145,7 +147,7 @@ impl Renderer {
     }
 
     /// Draws into memory of its own and hands it over.
-    fn into_own(&mut self, scene: &Scene, take: impl FnOnce(&[Px])) {
+    fn draw_own(&mut self, scene: &Scene, take: impl FnOnce(&[Px])) {
         let mut own = std::mem::take(&mut self.rgba);
         own.resize(self.width * self.height * 4, 0);
         let (px, _) = own.as_chunks_mut::<4>();
@@ -158,15 +160,12 @@ impl Renderer {
         let pitch = sound(&scene.pitch);
         let view = View::new(self.options.camera, &pitch, scene.ball.pos, self.width, self.height);
         let mut canvas = Canvas { px, width: self.width, height: self.height };
-        match (view.eye, &mut self.stands) {
-            (Eye::Stand(stand), Some(stands)) => {
-                stands.paint(&mut canvas, &view, &stand, &pitch, &self.ground);
-                self.broadcast.draw(&mut canvas, &view, scene, &pitch);
-            }
-            _ => {
-                paint_all(&self.ground, &mut canvas, &view, &pitch, &PLAN);
-                above::draw(&mut canvas, &view, before, scene, &pitch);
-            }
+        if let (Eye::Stand(stand), Some(stands)) = (view.eye, &mut self.stands) {
+            stands.paint(&mut canvas, &view, &stand, &pitch, &self.ground);
+            self.broadcast.draw(&mut canvas, &mut self.mask, &view, scene, &pitch);
+        } else {
+            paint_all(&self.ground, &mut canvas, &view, &pitch, &PLAN);
+            above::draw(&mut canvas, &mut self.mask, &view, before, scene, &pitch);
         }
         if Overlays::fit(self.width, self.height) {
             self.options.overlays.draw(&mut canvas, scene, &pitch, self.stands.is_some());

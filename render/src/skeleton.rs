@@ -3,7 +3,9 @@
 use crate::math::{Vec3, cos, sin, unit_or};
 use crate::pose::{Limb, Pose};
 
-/// Lengths of the parts of a body, metres. People are drawn a little stouter than life, so that they can be read.
+/// People are drawn so much larger than life, so that they can be read.
+pub(crate) const GROWN: f32 = 1.14;
+/// Lengths of the parts of a body, metres.
 const HIP_M: f32 = 0.11;
 const THIGH_M: f32 = 0.46;
 const SHIN_M: f32 = 0.45;
@@ -76,7 +78,7 @@ impl Skeleton {
         let ankle = sides.map(|side| knee[side] + parts[side].1 * SHIN_M);
         let lowest = ankle[0].z.min(ankle[1].z);
         let height = pose.hips_m.unwrap_or(ANKLE_M - lowest) + pose.lift_m;
-        let hips = Vec3::new(at.x, at.y, height);
+        let hips = Vec3::Z * height;
         // A foot is at a right angle to its shin.
         let toe = sides.map(|side| {
             let shin = parts[side].1;
@@ -93,9 +95,12 @@ impl Skeleton {
         // The head stays more upright than the trunk.
         let neck = chest + pose.up * 0.03;
         let head = neck + unit_or(pose.up * 2.0 + Vec3::Z, pose.up) * (NECK_M + HEAD_M * 0.5) + trunk.front * 0.03;
-        let above = |p: Vec3| Vec3::new(hips.x + p.x, hips.y + p.y, (hips.z + p.z).max(0.03));
+        let above = |p: Vec3| {
+            let p = (hips + p) * GROWN;
+            Vec3::new(at.x + p.x, at.y + p.y, p.z.max(0.03))
+        };
         Skeleton {
-            hips,
+            hips: above(Vec3::ZERO),
             hip: hip.map(above),
             knee: knee.map(above),
             ankle: ankle.map(above),

@@ -24,7 +24,7 @@ impl Style {
 
     /// Bold text.
     pub(crate) fn bold(size: f32, color: Rgb) -> Style {
-        Style { size, weight: 0.19, stretch: 1.0, color }
+        Style { size, weight: 0.175, stretch: 1.0, color }
     }
 
     fn unit(&self) -> Vec2 {

@@ -56,8 +56,9 @@ pub(crate) struct Row {
     pub(crate) dy: f32,
     /// World x at the middle of the first pixel.
     pub(crate) x0: f32,
-    /// Metres of x per pixel.
+    /// Metres of x per pixel, and pixels per metre.
     pub(crate) dx: f32,
+    pub(crate) per_m: f32,
     /// The camera's x: lines towards it are upright in the picture.
     pub(crate) eye_x: f32,
     /// Pixels that a line along y shifts between this row and the next, per metre from `eye_x`.
@@ -91,19 +92,24 @@ pub(crate) struct Stand {
     pub(crate) sin: f32,
     /// Pixels per metre at one metre's distance.
     pub(crate) focal: f32,
+    /// The picture's row that the camera looks along.
+    pub(crate) centre: f32,
 }
 
 /// The camera's height above the ground, and its distance from the point that it looks at.
-const HEIGHT_M: f32 = 25.0;
-const BACK_M: f32 = 50.0;
+const HEIGHT_M: f32 = 22.0;
+const BACK_M: f32 = 47.0;
+/// How far beyond that point the middle of the picture is, so that the stand is seen.
+const BEYOND_M: f32 = 5.0;
 /// How much of x the middle of a picture shows, at least; tall pictures show less.
-const SHOWN_M: f32 = 50.0;
+const SHOWN_M: f32 = 45.0;
 /// Least height of a picture in units of its distance.
 const SHOWN_UP: f32 = 0.78;
 /// How near to a goal line the camera follows.
 const STOP_M: f32 = 13.0;
-/// The share of the ball's way across that the camera follows.
-const ACROSS: f32 = 0.42;
+/// The share of the ball's way across that the camera follows, and how much more on the near side.
+const ACROSS: f32 = 0.44;
+const NEARER: f32 = 0.16;
 /// Margins of the plan beyond goal lines and touch lines.
 const MARGIN_M: Vec2 = Vec2::new(4.5, 3.5);
 
@@ -129,7 +135,7 @@ impl View {
                 }
                 let scale = stand.focal / depth;
                 let x = self.width as f32 * 0.5 + (p.x - stand.pos.x) * scale;
-                let y = self.height as f32 * 0.5 - (away * stand.sin + up * stand.cos) * scale;
+                let y = stand.centre - (away * stand.sin + up * stand.cos) * scale;
                 Some(Spot { at: Vec2::new(x, y), scale })
             }
         }
@@ -145,13 +151,14 @@ impl View {
                     dy: step,
                     x0: corner.x + 0.5 * step,
                     dx: step,
+                    per_m: scale,
                     eye_x: 0.0,
                     slant: 0.0,
                 })
             }
             Eye::Stand(stand) => {
                 let ray = |y: f32| {
-                    let down = (y - self.height as f32 * 0.5) / stand.focal;
+                    let down = (y - stand.centre) / stand.focal;
                     (stand.cos - down * stand.sin, stand.sin + down * stand.cos)
                 };
                 let (along, fall) = ray(index as f32 + 0.5);
@@ -171,7 +178,7 @@ impl View {
     pub(crate) fn along_x(&self, stand: &Stand, depth: f32, y: f32, dy: f32, slant: f32) -> Row {
         let dx = depth / stand.focal;
         let x0 = stand.pos.x + (0.5 - self.width as f32 * 0.5) * dx;
-        Row { y, dy, x0, dx, eye_x: stand.pos.x, slant }
+        Row { y, dy, x0, dx, per_m: stand.focal / depth, eye_x: stand.pos.x, slant }
     }
 
     /// How flat the ground looks: its height on the screen over its depth.
@@ -187,11 +194,16 @@ fn stand(pitch: &Pitch, ball: [f32; 3], width: f32, height: f32) -> Stand {
     let (half_x, half_y) = (pitch.length_m * 0.5, pitch.width_m * 0.5);
     // The nearer to a goal line, the less the camera follows: it comes to rest without a jerk.
     let t = within(metres(ball[0]) / (half_x + 3.0), -1.0, 1.0);
-    let x = (half_x - STOP_M).max(0.0) * t * (1.3 - 0.3 * t * t);
-    let y = within(metres(ball[1]), -half_y, half_y) * ACROSS;
+    let x = (half_x - STOP_M).max(0.0) * t * (1.5 - 0.5 * t * t);
+    let y = within(metres(ball[1]), -half_y, half_y);
+    let y = y * (ACROSS + NEARER * y / half_y);
     let distance = (HEIGHT_M * HEIGHT_M + BACK_M * BACK_M).sqrt();
     let focal = (width * distance / SHOWN_M).max(height / SHOWN_UP).max(1.0);
-    Stand { pos: Vec3::new(x, y + BACK_M, HEIGHT_M), cos: BACK_M / distance, sin: HEIGHT_M / distance, focal }
+    let ahead = BACK_M + BEYOND_M;
+    let ray = (HEIGHT_M * HEIGHT_M + ahead * ahead).sqrt();
+    // What a tall picture has more than a wide one, it has at the bottom: the stand fills no more of it.
+    let centre = (height * 0.5).min(width * (9.0 / 32.0));
+    Stand { pos: Vec3::new(x, y + BACK_M, HEIGHT_M), cos: ahead / ray, sin: HEIGHT_M / ray, focal, centre }
 }
 
 fn plan(region: Region, pitch: &Pitch, width: f32, height: f32) -> Eye {

@@ -18,10 +18,10 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, unit: f32) {
     let Some(news) = recent.max_by_key(|news| (news.kind, std::cmp::Reverse(news.age_steps))) else { return };
     let age = news.age_steps as f32 + crate::math::within(scene.between, 0.0, 1.0);
     let open = smooth((age + 1.0) / COMES_STEPS);
-    strip(canvas, news, unit, open);
+    strip(canvas, *news, unit, open);
 }
 
-fn strip(canvas: &mut Canvas<'_>, news: &News, unit: f32, open: f32) {
+fn strip(canvas: &mut Canvas<'_>, news: News, unit: f32, open: f32) {
     let words = match news.kind {
         NewsKind::Goal => "GOAL!",
         NewsKind::Offside => "OFFSIDE",

@@ -25,15 +25,17 @@ fn player(team: Side, slot: usize, shift: f32) -> Player {
     let sign = if team == Side::Left { 1.0 } else { -1.0 };
     let x = if role == Role::GK { x } else { x + shift * sign };
     let run = 1.0 + (slot * 7 % 11) as f32 * 0.6;
-    let turn = slot as f32 * 1.9 + if team == Side::Left { 0.3 } else { 2.0 };
-    let vel = if role == Role::GK { [0.0; 2] } else { [run * turn.cos(), run * turn.sin()] };
+    // Directions all around, by the half-angle formula: a sample must be the same on every machine.
+    let half = [0.2, 1.4, -3.0, -0.9, 0.5, 6.0, -0.3, 2.2, -1.6, 0.05, -0.6][(slot * 3 + team.index() * 5) % 11];
+    let (x_way, y_way) = ((1.0 - half * half) / (1.0 + half * half), 2.0 * half / (1.0 + half * half));
+    let vel = if role == Role::GK { [0.0; 2] } else { [run * x_way, run * y_way] };
     Player {
         id: Id { team, slot: slot as u8 },
         number: [1, 3, 4, 5, 2, 6, 8, 10, 11, 9, 7][slot],
         role,
         pos: [x * sign, y * sign],
         vel,
-        facing: if role == Role::GK { [sign, 0.0] } else { [turn.cos(), turn.sin()] },
+        facing: if role == Role::GK { [sign, 0.0] } else { [x_way, y_way] },
         ..Player::default()
     }
 }
@@ -70,7 +72,7 @@ pub(crate) fn kick_off() -> Scene {
         player.vel = [0.0; 2];
         player.facing = [sign, 0.0];
         player.pos[0] = sign * (player.pos[0] * sign - 4.0).min(-2.5);
-        if player.pos[0].hypot(player.pos[1]) < 10.0 && player.id.team == Side::Right {
+        if player.pos[0].abs() < 10.0 && player.pos[1].abs() < 9.0 && player.id.team == Side::Right {
             player.pos[0] = 10.5;
         }
     }

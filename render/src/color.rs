@@ -1,4 +1,4 @@
-//! Colours, and the kits: one accent per team, told apart with every kind of colour vision.
+//! Colours, and the kits: one accent per team, distinct with every kind of colour vision.
 
 use crate::scene::{Player, Role};
 
@@ -16,7 +16,7 @@ pub(crate) const FAINT: Rgb = [160, 172, 186];
 pub(crate) const LINE: Rgb = [238, 246, 238];
 /// Woodwork and net.
 pub(crate) const WOOD: Rgb = [250, 252, 255];
-/// The ring of a player whom an agent plays is the team's accent on white.
+/// The ring of a player that an agent plays is the team's accent on white.
 pub(crate) const RING: Rgb = [255, 255, 255];
 /// The ball on the radar.
 pub(crate) const BALL: Rgb = [255, 255, 255];

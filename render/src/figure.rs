@@ -46,7 +46,7 @@ pub(crate) struct Figure<'a> {
 }
 
 impl Figure<'_> {
-    /// Draws what lies on the ground: the shadow, and the ring of a player whom an agent plays.
+    /// Draws what lies on the ground: the shadow, and the ring of a player that an agent plays.
     pub(crate) fn below(&self, canvas: &mut Canvas<'_>, view: &View, mask: &mut Mask) {
         let at = ground(self.player.pos);
         let Some(foot) = view.spot(at) else { return };

@@ -2,7 +2,7 @@
 
 pub(crate) use glam::{Vec2, Vec3};
 
-/// The furthest place that is told apart from others, metres.
+/// The furthest place that can be distinguished, metres.
 const FAR_M: f32 = 400.0;
 
 /// A number within limits; `lo` for NaN.

@@ -194,7 +194,7 @@ fn diving(facing: Vec3, way: Vec3, speed: f32, progress: f32) -> Pose {
 fn kicking(facing: Vec3, speed: f32, progress: f32) -> Pose {
     let mut pose = upright(facing);
     let (back, through) = (smooth(progress / 0.35), smooth((progress - 0.35) / 0.35));
-    let swing = mix(mix(0.0, -1.0, back), 1.15, through);
+    let swing = mix(mix(0.0, -1.0, back), 1.15, through) - 0.6 * smooth((progress - 0.75) / 0.25);
     let bend = mix(mix(0.2, 1.5, back), 0.12, smooth((progress - 0.38) / 0.2));
     pose.legs = [Limb { swing: mix(0.3, -0.2, progress), spread: 0.1, bend: 0.25 }, Limb { swing, spread: 0.12, bend }];
     pose.arms = [

@@ -1,5 +1,6 @@
 //! What pictures of scenes are: the same everywhere, never a panic, and fine enough to see a metre.
 #![allow(missing_docs, reason = "tests")]
+#![allow(clippy::unwrap_used, reason = "a test may stop")]
 
 #[path = "samples/scenes.rs"]
 mod scenes;

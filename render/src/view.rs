@@ -105,8 +105,10 @@ const BEYOND_M: f32 = 5.0;
 const SHOWN_M: f32 = 45.0;
 /// Least height of a picture in units of its distance.
 const SHOWN_UP: f32 = 0.78;
-/// How near to a goal line the camera follows.
-const STOP_M: f32 = 13.0;
+/// How much is shown behind a goal line where the camera stops following.
+const BEHIND_M: f32 = 9.5;
+/// How far above the camera's direction a picture reaches, over its distance.
+const UPWARD: f32 = 0.244;
 /// The share of the ball's way across that the camera follows, and how much more on the near side.
 const ACROSS: f32 = 0.44;
 const NEARER: f32 = 0.16;
@@ -192,17 +194,18 @@ impl View {
 
 fn stand(pitch: &Pitch, ball: [f32; 3], width: f32, height: f32) -> Stand {
     let (half_x, half_y) = (pitch.length_m * 0.5, pitch.width_m * 0.5);
-    // The nearer to a goal line, the less the camera follows: it comes to rest without a jerk.
-    let t = within(metres(ball[0]) / (half_x + 3.0), -1.0, 1.0);
-    let x = (half_x - STOP_M).max(0.0) * t * (1.5 - 0.5 * t * t);
-    let y = within(metres(ball[1]), -half_y, half_y);
-    let y = y * (ACROSS + NEARER * y / half_y);
     let distance = (HEIGHT_M * HEIGHT_M + BACK_M * BACK_M).sqrt();
     let focal = (width * distance / SHOWN_M).max(height / SHOWN_UP).max(1.0);
+    // The nearer to a goal line, the less the camera follows: it comes to rest without a jerk.
+    let stop = half_x - (width * 0.5 * distance / focal - BEHIND_M).max(2.0);
+    let t = within(metres(ball[0]) / (half_x + 3.0), -1.0, 1.0);
+    let x = stop.max(0.0) * t * (1.5 - 0.5 * t * t);
+    let y = within(metres(ball[1]), -half_y, half_y);
+    let y = y * (ACROSS + NEARER * y / half_y);
     let ahead = BACK_M + BEYOND_M;
     let ray = (HEIGHT_M * HEIGHT_M + ahead * ahead).sqrt();
     // What a tall picture has more than a wide one, it has at the bottom: the stand fills no more of it.
-    let centre = (height * 0.5).min(width * (9.0 / 32.0));
+    let centre = (height * 0.5).min(focal * UPWARD);
     Stand { pos: Vec3::new(x, y + BACK_M, HEIGHT_M), cos: ahead / ray, sin: HEIGHT_M / ray, focal, centre }
 }
 
@@ -244,5 +247,68 @@ pub(crate) fn sound(pitch: &Pitch) -> Pitch {
         six_yard_width_m: fit(pitch.six_yard_width_m, usual.six_yard_width_m, 0.0, across),
         spot_m: fit(pitch.spot_m, usual.spot_m, 0.0, half),
         circle_m: fit(pitch.circle_m, usual.circle_m, 0.0, half),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZES: [(usize, usize); 6] = [(1280, 720), (96, 72), (72, 96), (84, 84), (16, 16), (480, 854)];
+
+    fn views(ball: [f32; 3]) -> impl Iterator<Item = View> {
+        SIZES
+            .into_iter()
+            .map(move |(width, height)| View::new(Camera::Broadcast, &Pitch::default(), ball, width, height))
+    }
+
+    #[test]
+    fn a_row_shows_the_ground_that_is_projected_onto_it() {
+        for view in views([20.0, 7.0, 0.11]) {
+            for index in 0..view.height {
+                let Some(row) = view.row(index) else { continue };
+                let column = view.width as f32 * 0.8;
+                let place = Vec3::new(row.x0 + (column - 0.5) * row.dx, row.y, 0.0);
+                let at = view.spot(place).unwrap().at;
+                assert!((at.y - index as f32 - 0.5).abs() < 0.05 && (at.x - column).abs() < 0.05, "{at} {index}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_ball_is_in_the_picture_wherever_it_is_on_the_pitch() {
+        for x in -11..=11 {
+            for y in -9..=9 {
+                let ball = [x as f32 * 5.0, y as f32 * 4.0, 0.11];
+                for view in views(ball) {
+                    let at = view.spot(Vec3::from_array(ball)).unwrap().at;
+                    let inside = at.x > 0.0 && at.y > 0.0 && at.x < view.width as f32 && at.y < view.height as f32;
+                    assert!(inside, "{ball:?} at {at} of {}x{}", view.width, view.height);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_mirrored_ball_gives_a_mirrored_view() {
+        for (left, right) in views([-31.0, 8.0, 0.11]).zip(views([31.0, 8.0, 0.11])) {
+            let (a, b) =
+                (left.spot(Vec3::new(-40.0, 3.0, 1.0)).unwrap(), right.spot(Vec3::new(40.0, 3.0, 1.0)).unwrap());
+            assert_eq!(a.scale, b.scale);
+            assert!((a.at.x + b.at.x - left.width as f32).abs() < 1e-2 && a.at.y == b.at.y);
+        }
+    }
+
+    #[test]
+    fn the_camera_moves_no_faster_than_the_ball_by_much() {
+        let eye = |x: f32| match View::new(Camera::Broadcast, &Pitch::default(), [x, 0.0, 0.11], 1280, 720).eye {
+            Eye::Stand(stand) => stand.pos.x,
+            Eye::Plan { .. } => f32::NAN,
+        };
+        for step in -700..700 {
+            let x = step as f32 * 0.1;
+            let moved = eye(x + 0.1) - eye(x);
+            assert!((-1e-4..0.12).contains(&moved), "{x}: {moved}");
+        }
     }
 }

@@ -81,7 +81,8 @@ impl Turn {
     }
 }
 
-/// How the ball is turned. A scene has no history: the way along the velocity tells, or the time where it spins in place.
+/// How the ball is turned. A scene has no history: the way along the velocity decides, or the time if it spins in
+/// place.
 fn turned(ball: &Ball, time_s: f32) -> Turn {
     let (pos, vel, spin) = (place(ball), space(ball.vel), space(ball.spin));
     let roll = Vec3::new(-vel.y, vel.x, 0.0);

@@ -106,8 +106,7 @@ pub(crate) fn tidy() -> Result<(), String> {
             }
         }
     }
-    for folder in
-        [
+    for folder in [
         "grammar/src",
         "scenario/src",
         "dsl/src",
@@ -117,8 +116,7 @@ pub(crate) fn tidy() -> Result<(), String> {
         "python/src",
         "xtask/src",
         "lab/src",
-    ]
-    {
+    ] {
         for file in rust_files(&root().join(folder)) {
             let text = read(&file)?;
             let lines = text.split("#[cfg(test)]").next().unwrap_or_default().lines().count();

@@ -39,6 +39,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "wide",
         ],
     ),
+    ("setpiece-render", &["glam", "serde", "thiserror"]),
     ("setpiece-python", &["setpiece", "setpiece-engine", "setpiece-scenario", "numpy", "pyo3", "serde_json", "rayon"]),
 ];
 
@@ -57,6 +58,11 @@ const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
         "the engine is deterministic and reads nothing",
     ),
     ("engine/src", &["Instant::now", "SystemTime"], "the engine knows no clock"),
+    (
+        "render/src",
+        &["std::fs", "std::env", "std::net", "Instant::now", "SystemTime", "thread_local!", "HashMap", "HashSet"],
+        "a picture depends on its scene alone",
+    ),
     ("scenario/src", &["std::fs", "std::env", "HashMap"], "the compiled scenario is plain data"),
     ("python/src", &["rapier3d", "rhai", "pest"], "the binding holds conversions only"),
 ];
@@ -114,9 +120,17 @@ pub(crate) fn tidy() -> Result<(), String> {
             }
         }
     }
-    for folder in
-        ["grammar/src", "scenario/src", "dsl/src", "engine/src", "setpiece/src", "python/src", "xtask/src", "lab/src"]
-    {
+    for folder in [
+        "grammar/src",
+        "scenario/src",
+        "dsl/src",
+        "engine/src",
+        "render/src",
+        "setpiece/src",
+        "python/src",
+        "xtask/src",
+        "lab/src",
+    ] {
         for file in rust_files(&root().join(folder)) {
             let text = read(&file)?;
             let lines = text.split("#[cfg(test)]").next().unwrap_or_default().lines().count();

@@ -174,8 +174,8 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
         restart::face_ball(game);
         let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
         for (i, player) in game.players.iter_mut().enumerate() {
-            let told = drawn.players[i].as_ref().and_then(|start| start.heading_rad);
-            if let Some(heading) = told.filter(|_| taker.is_none_or(|id| id.index() != i)) {
+            let given = drawn.players[i].as_ref().and_then(|start| start.heading_rad);
+            if let Some(heading) = given.filter(|_| taker.is_none_or(|id| id.index() != i)) {
                 player.heading_rad = heading;
                 player.body.facing = crate::math::unit(heading);
             }

@@ -122,7 +122,7 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
     player.active = false;
     player.vel = Vec2::ZERO;
     player.body.kick = None;
-    succeed(game, by.team());
+    replace_keeper(game, by.team());
     if game.owner == Some(by) {
         game.owner = None;
     }
@@ -134,7 +134,7 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
 }
 
 /// Puts the first remaining teammate in goal if all keepers of a team have been sent off.
-pub fn succeed(game: &mut Match, team: Team) {
+pub fn replace_keeper(game: &mut Match, team: Team) {
     let mut sent_off = None;
     for id in game.squad.of(team).ids() {
         let player = game.player(id);
@@ -145,9 +145,9 @@ pub fn succeed(game: &mut Match, team: Team) {
             sent_off = sent_off.or(Some(player.body));
         }
     }
-    let heir = game.team(team).map(|(id, _)| id).next();
-    if let (Some(keeper), Some(heir)) = (sent_off, heir) {
-        let player = &mut game.players[heir.index()];
+    let successor = game.team(team).map(|(id, _)| id).next();
+    if let (Some(keeper), Some(successor)) = (sent_off, successor) {
+        let player = &mut game.players[successor.index()];
         player.role = Role::GK;
         player.body.kickoff = keeper.kickoff;
         player.body.mind.slot = keeper.mind.slot;

@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mouth_is_open_and_the_rear_holds_him() {
+    fn the_mouth_is_open_and_the_rear_holds_players() {
         let inside = run(Vec2::new(52.0, 1.0), Vec2::new(6.0, 0.0));
         assert!((57.1..57.3).contains(&inside.x) && (inside.y - 1.0).abs() < 0.1, "{inside}");
     }

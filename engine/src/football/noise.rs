@@ -37,10 +37,10 @@ pub fn bell(game: &mut Match) -> f32 {
 
 /// Draws whether a bot does something that it does with this frequency.
 pub fn chooses(game: &mut Match, often: f32) -> bool {
-    whim(game) < often
+    bot_roll(game) < often
 }
 
 /// Uniform in 0..1: how far a bot misjudges, or which of several equal choices it takes.
-pub fn whim(game: &mut Match) -> f32 {
+pub fn bot_roll(game: &mut Match) -> f32 {
     game.bot_random.unit()
 }

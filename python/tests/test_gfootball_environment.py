@@ -176,7 +176,7 @@ def test_the_sides_take_turns_to_kick_off_the_left_one_first() -> None:
 
 
 def scored(env: Any) -> tuple[float, dict[str, Any]]:
-    """Runs and shoots through an episode; returns what was paid and the last step's info."""
+    """Runs and shoots through an episode; returns the rewards and the last step's info."""
     env.reset()
     total = 0.0
     for step in range(401):

@@ -1,4 +1,4 @@
-"""What suits learners: the held keys behind `simple115v2`, and scaled numbers."""
+"""Options for learners: held keys after `simple115v2`, and scaled numbers."""
 
 import pickle
 from typing import Any
@@ -60,7 +60,10 @@ def test_the_layout_names_the_held_keys() -> None:
 
 
 def test_masks_tell_which_keys_are_held_and_simple115v2_does_not() -> None:
-    """Two states that `simple115v2` shows alike have other masks; `simple115v2+sticky` tells them apart."""
+    """Two states with the same `simple115v2` have different masks.
+
+    `simple115v2+sticky` distinguishes them.
+    """
     env = setpiece.make(THREE, observation=STICKY)
     free, info = env.reset(seed=1)
     assert info["action_mask"][Action.RIGHT] == 1

@@ -1,4 +1,4 @@
-//! `info`: what a step says beside observation and reward.
+//! `info`: the data of a step besides observation and reward.
 
 use crate::actions::ActionSet;
 use numpy::{PyArray1, PyArrayMethods};
@@ -13,11 +13,11 @@ use setpiece::engine::state::event::Event;
 use setpiece::scenario::pitch::{PLAYERS_MAX, to_normalised};
 use setpiece::scenario::{Qualifier, Team, Verdict};
 
-/// Writes the `info` of steps; keeps the words that recur.
+/// Writes the `info` of steps; keeps the recurring strings.
 pub(crate) struct InfoWriter {
     /// The reward terms' names.
     terms: Vec<Py<PyString>>,
-    /// The players' names, by id; `None` where nobody is.
+    /// The players' names, by id; `None` for empty slots.
     players: Vec<Option<Py<PyString>>>,
     options: InfoOptions,
 }

@@ -234,7 +234,7 @@ fn work(program: &Program, counts: &Counts) -> u64 {
     total
 }
 
-/// A sum over parts that remembers the greatest.
+/// A sum over parts that remembers the largest one.
 struct Total {
     what: &'static str,
     sum: u64,
@@ -293,7 +293,7 @@ mod tests {
     fn loops_multiply_what_stands_in_them() {
         let counts = Counts { teams: [11, 11], all: 22 };
         let mut program = Program { code: vec![Instr::Const(-1.0), each(2), each(1), Instr::Us, Instr::Us], cells: 0 };
-        // The constant, the outer loop, 22 inner loops, 22 · 22 bodies, and what stands behind.
+        // The constant, the outer loop, 22 inner loops, 22 · 22 bodies, and what follows.
         assert_eq!(work(&program, &counts), 1 + 23 + 22 * 23 + 22 * 22 + 1);
         program.code[0] = Instr::Const(1.0);
         assert_eq!(work(&program, &counts), 1 + 12 + 11 * 12 + 11 * 11 + 1);

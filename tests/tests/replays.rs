@@ -1,4 +1,4 @@
-//! A replay plays the episode again, bit for bit, and says so where it can't.
+//! A replay plays the episode again, bit for bit, and reports if it can't.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::continuous;

@@ -37,8 +37,8 @@ struct Stride {
     first_share: f32,
     /// The speed at which the two parts of rolling resistance are the same, m/s.
     even_mps: f32,
-    /// The speed, in units of `even_mps`, is the tangent of an angle that falls evenly while the ball
-    /// rolls. This is the tangent of that fall in one stride.
+    /// The speed, in units of `even_mps`, is the tangent of an angle that falls evenly while the
+    /// ball rolls. This is the tangent of that fall in one stride.
     braked: f32,
 }
 

@@ -118,7 +118,8 @@ fn pool(threads: usize) -> Result<ThreadPool, BatchError> {
 
 /// Plays one episode to its end.
 ///
-/// # Errors [`EpisodeError`] if it has no start, a script fails, or nothing ends it.
+/// # Errors
+/// [`EpisodeError`] if it has no start, a script fails, or nothing ends it.
 pub fn run_episode(
     environment: &mut Environment,
     seed: u64,
@@ -166,7 +167,8 @@ pub fn run_episode(
 /// - `after`: called with every episode as it ends, from any thread, in no order.
 /// - returns: one result per episode, in the order of the indices.
 ///
-/// # Errors [`BatchError`] if the threads can't be started.
+/// # Errors
+/// [`BatchError`] if the threads can't be started.
 pub fn run_episodes<P: Policy>(
     prototype: &Environment,
     seed: u64,
@@ -199,7 +201,8 @@ pub struct Batch<L> {
 impl<L: Send> Batch<L> {
     /// Lanes on this many threads, including the caller's.
     ///
-    /// # Errors [`BatchError`] if the threads can't be started.
+    /// # Errors
+    /// [`BatchError`] if the threads can't be started.
     pub fn new(lanes: Vec<L>, threads: usize) -> Result<Batch<L>, BatchError> {
         let threads = threads.clamp(1, lanes.len().max(1));
         let scratches = std::iter::repeat_with(Scratch::default).take(threads).collect();
@@ -209,7 +212,8 @@ impl<L: Send> Batch<L> {
 
     /// Starts the threads again: a forked process doesn't inherit its parent's threads.
     ///
-    /// # Errors [`BatchError`] if the threads can't be started.
+    /// # Errors
+    /// [`BatchError`] if the threads can't be started.
     pub fn restart_threads(&mut self) -> Result<(), BatchError> {
         if let Some(others) = self.others.take() {
             // The old pool's threads are gone and may have held one of its locks, so dropping it

@@ -110,10 +110,11 @@ impl Drawer {
 
     /// Draws the start of an episode.
     ///
-    /// # Errors [`DrawError`] if no attempt met every requirement.
+    /// # Errors
+    /// [`DrawError`] if no attempt met every requirement.
     ///
-    /// # Determinism Depends only on its arguments. A new draw in the scenario doesn't change the
-    /// others.
+    /// # Determinism
+    /// Depends only on its arguments. A new draw in the scenario doesn't change the others.
     pub fn draw(
         &mut self,
         scenario: &Scenario,

@@ -113,9 +113,10 @@ clone_in_place! {
 impl Environment {
     /// Prepares an environment; it must be reset before its first step.
     ///
-    /// # Errors [`EnvironmentError`] for a reward, parameter or number of agents that the scenario
-    /// doesn't have, a script that isn't valid Rhai, or an unusable snapshot (unreadable, or with
-    /// other players or agents).
+    /// # Errors
+    /// [`EnvironmentError`] for a reward, parameter or number of agents that the scenario doesn't
+    /// have, a script that isn't valid Rhai, or an unusable snapshot (unreadable, or with other
+    /// players or agents).
     pub fn new(scenario: Arc<Scenario>, options: EnvironmentOptions) -> Result<Environment, EnvironmentError> {
         let bindings = bound(&scenario, options.bindings.as_ref())?;
         let scripts = Scripts::compile(&scenario)?;
@@ -161,8 +162,9 @@ impl Environment {
     /// - `index`: the episode of the seed. The default is 0 after a seed, and the next episode
     ///   without one.
     ///
-    /// # Errors [`DrawError`] if no start meets the scenario's requirements. The environment must
-    /// then be reset again.
+    /// # Errors
+    /// [`DrawError`] if no start meets the scenario's requirements. The environment must then be
+    /// reset again.
     pub fn reset(&mut self, seed: Option<u64>, index: Option<u64>) -> Result<(), DrawError> {
         let past = self.past.clone();
         self.begin(seed, index, past.as_deref())
@@ -199,8 +201,9 @@ impl Environment {
 
     /// Plays one step: `actions[i]` is agent i's, in the own frame of its team.
     ///
-    /// # Errors [`StepError`] if the episode has ended or has not begun, if there isn't one action
-    /// per agent (then nothing is played), or if a script failed (which ends the episode).
+    /// # Errors
+    /// [`StepError`] if the episode has ended or has not begun, if there isn't one action per agent
+    /// (then nothing is played), or if a script failed (which ends the episode).
     pub fn step(&mut self, actions: &[Action], scratch: &mut Scratch) -> Result<StepResult, StepError> {
         if !self.running {
             return Err(StepError::NotRunning { begun: self.begun });
@@ -261,7 +264,8 @@ impl Environment {
     /// Replaces the scripts by those of another version of the scenario, at once and with their
     /// memory. False, without any effect, if anything else differs.
     ///
-    /// # Errors [`EnvironmentError`] for a script that isn't valid Rhai.
+    /// # Errors
+    /// [`EnvironmentError`] for a script that isn't valid Rhai.
     pub fn adopt_scripts(&mut self, scenario: &Arc<Scenario>) -> Result<bool, EnvironmentError> {
         if scenario.scripts.len() != self.scenario.scripts.len() {
             return Ok(false);
@@ -279,8 +283,8 @@ impl Environment {
 
     /// Sets the parameters from the next reset on.
     ///
-    /// # Errors [`EnvironmentError`] if a value isn't allowed, or if players or agents would
-    /// change.
+    /// # Errors
+    /// [`EnvironmentError`] if a value isn't allowed, or if players or agents would change.
     pub fn set_bindings(&mut self, bindings: &Bindings) -> Result<(), EnvironmentError> {
         let bindings = bound(&self.scenario, Some(bindings))?;
         let roster = Roster::new(&self.scenario, &bindings, self.options.agents.as_ref())?;
@@ -418,7 +422,8 @@ impl Environment {
 
     /// Writes an observation for an agent.
     ///
-    /// # Errors [`ObserveError`] if there is no such agent, or if the length of `out` isn't the
+    /// # Errors
+    /// [`ObserveError`] if there is no such agent, or if the length of `out` isn't the
     /// observation's.
     pub fn observe(&mut self, floats: Floats, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
         match floats {
@@ -441,7 +446,8 @@ impl Environment {
     /// Writes the scenario's own observation for an agent: quantities in SI units, places
     /// normalised, own frame.
     ///
-    /// # Errors [`ObserveError`] if there is no such agent, or if the length of `out` isn't the
+    /// # Errors
+    /// [`ObserveError`] if there is no such agent, or if the length of `out` isn't the
     /// observation's.
     pub fn observe_vector(&mut self, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
         let n_agents = self.game.agents.len();
@@ -494,7 +500,8 @@ impl Environment {
     /// The start that the scenario draws for the current seed, index and parameters (0 and 0 before
     /// the first episode). An episode that began in a snapshot's state didn't begin there.
     ///
-    /// # Errors [`DrawError`] if no start meets the scenario's requirements.
+    /// # Errors
+    /// [`DrawError`] if no start meets the scenario's requirements.
     pub fn start(&mut self) -> Result<Drawn, DrawError> {
         let (scenario, bindings, roster) = (&self.scenario, &self.bindings, &self.roster);
         let mut drawn = self.drawer.draw(scenario, bindings, roster, self.seed, self.index)?;

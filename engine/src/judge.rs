@@ -146,7 +146,8 @@ impl Judge {
     /// Judges a step; `game` is the state before any restart. If the episode ends, the event `end`
     /// is added.
     ///
-    /// # Errors A hook that failed; the episode can't continue.
+    /// # Errors
+    /// A hook that failed; the episode can't continue.
     pub fn step(&mut self, game: &Match, events: &mut Events) -> Result<Option<Outcome>, ScriptError> {
         let side = endings::judged_side(game);
         let mut scene = self.known.show(|| View::of(game), &self.prev, events.as_slice());

@@ -106,7 +106,8 @@ impl<'a> Opened<'a> {
 
 /// Encodes a match alone, as in a snapshot.
 ///
-/// # Errors None for a match in play.
+/// # Errors
+/// None for a match in play.
 pub fn match_bytes(game: &Match) -> Result<Vec<u8>, SnapshotError> {
     let mut archive = Archive::writing(Vec::new());
     archive.put("match", game)?;

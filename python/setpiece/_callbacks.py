@@ -98,7 +98,7 @@ def refuse_functions(functions: Sequence[RewardFunction]) -> None:
     """Raises `ParameterError` for rewards in Python where only the scenario's rewards can pay."""
     if functions:
         raise ParameterError(
-            f"`{_name(functions[0])}` can't pay here: many matches at once know the rewards of their file alone",
+            f"`{_name(functions[0])}` can't pay here: many matches at once only support the rewards of the file",
             name="rewards",
             help="put environments of `setpiece.make` (one agent each) into a `gymnasium.vector.SyncVectorEnv`",
         )
@@ -127,7 +127,7 @@ class Callbacks:
             names = [_name(function) for function in rewards]
             twice = next(name for name in names if names.count(name) > 1)
             raise ParameterError(
-                f"two rewards are called `{twice}`: each is a term of its own in `info`",
+                f"two rewards are named `{twice}`: each needs its own term in `info`",
                 name="rewards",
                 help="give one another `__name__`",
             )

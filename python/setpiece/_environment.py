@@ -442,7 +442,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Prepares another scenario that can be played in this environment."""
         if self._watcher is not None:
             raise ParameterError(
-                "an environment that watches its scenario's file plays no other",
+                "an environment that watches its scenario's file can't switch to another",
                 name="scenario",
                 help="leave out `watch`",
             )

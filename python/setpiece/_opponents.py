@@ -59,7 +59,7 @@ def native_action_set(action_set: str, opponents: Mapping[str, Opponent] | None)
     """Returns the action set of all agents: opponents may always hand a step over to the bot."""
     if opponents is not None and action_set == "continuous":
         raise ParameterError(
-            "beside opponents the caller presses keys: continuous actions are for all agents", name="action_set"
+            "with opponents the caller must press keys: continuous actions are for all agents", name="action_set"
         )
     return "v2" if opponents is not None and action_set == "default" else action_set
 
@@ -263,7 +263,7 @@ def _policy(who: str, opponent: Opponent) -> Policy:
             return replace(opponent, observation=kind, scale=check_scale(opponent.scale, kind))
         if check_flag("scale", opponent.scale):
             raise ParameterError(
-                f"`opponents[{who!r}]` scales no observation of its own",
+                f"`opponents[{who!r}]` scales nothing without an observation of its own",
                 name="scale",
                 help='name one: `Policy(…, "simple115v2", scale=True)`',
             )

@@ -222,7 +222,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             if agent not in self.agents:
                 gone = agent in self._pickers
                 raise ActionError(
-                    f"an action for `{agent}`, who {'plays no more' if gone else 'is no agent'}",
+                    f"an action for `{agent}`, which {'no longer plays' if gone else 'is not an agent'}",
                     help=None if gone else similar(agent, self.agents),
                 )
         for agent in self.agents:

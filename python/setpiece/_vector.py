@@ -85,7 +85,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         refuse_functions(options.reward_functions)
         if record is not None:
             raise UnavailableError(
-                "a vector records no replays",
+                "a vector can't record replays",
                 name="record",
                 help="play the episode of its `seed` and `index` with `setpiece.make(…, record=…)`",
             )

@@ -209,7 +209,7 @@ def test_what_can_not_be_converted_is_reported(tmp_path: Path, capfd: pytest.Cap
     cut.write_bytes(Path(path).read_bytes()[:-1])
     capfd.readouterr()
     for source, out, why in [
-        (cut, dump, "cut.pitchr`: the replay is cut off"),
+        (cut, dump, "cut.pitchr`: the replay is truncated"),
         (tmp_path / "none.pitchr", dump, "none.pitchr`"),
         (nobody, dump, "nobody was an agent"),
         (numbers, dump, "actions were continuous"),

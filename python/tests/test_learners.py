@@ -213,7 +213,7 @@ def test_an_opponent_sees_its_observation_scaled(kind: str) -> None:
 
 def test_a_policy_that_is_scaled_names_its_observation() -> None:
     for policy, match in (
-        (Policy(lambda _: 0, scale=True), "scales no observation of its own"),
+        (Policy(lambda _: 0, scale=True), "scales nothing without an observation of its own"),
         (Policy(lambda _: 0, "smm", scale=True), "`smm` can't be scaled: its pixels are bytes"),
         (Policy(lambda _: 0, "egocentric", scale="yes"), "expected True or False as `scale`"),  # type: ignore[arg-type]
     ):

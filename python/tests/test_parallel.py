@@ -251,7 +251,7 @@ def test_an_agent_whose_player_is_sent_off_is_terminated(pitch_file: PitchFile) 
     assert terminations == {"hothead": True, "mate": False, "victim": False}
     assert truncations == dict.fromkeys(agents, False)
     assert set(observations) == set(rewards) == set(infos) == set(agents), "the last step is everyone's"
-    with pytest.raises(setpiece.ActionError, match="`hothead`, who plays no more"):
+    with pytest.raises(setpiece.ActionError, match="`hothead`, which no longer plays"):
         env.step({"hothead": 0, "mate": 0, "victim": 0})
     snapshot = env.snapshot()
     observations, *_ = act(env)
@@ -331,7 +331,7 @@ def test_actions_that_are_none_leave_the_episode_untouched() -> None:
     good: dict[str, Any] = {"left_CM_1": 0, "left_CM_2": 5}
     for actions, message in [
         ({"left_CM_1": 0}, "no action for `left_CM_2`"),
-        ({**good, "left_CM_3": 0}, "`left_CM_3`, who is no agent"),
+        ({**good, "left_CM_3": 0}, "`left_CM_3`, which is not an agent"),
         ({**good, "left_CM_2": 19}, r"0\.\.18 for `left_CM_2`, found `19`"),
         ({**good, "left_CM_2": -1}, "found `-1`"),
         ({**good, "left_CM_2": 1.0}, "found `1.0`"),
@@ -366,7 +366,7 @@ def test_seats_that_are_not_there() -> None:
         ({"left": -1}, "`left` is `-1`"),
         ({"left": True}, "`left` is `True`"),
         ({"left": ["nobody"]}, "no agent can play `nobody` of the left side"),
-        ({"left": ["left_CM_1", "left_CM_1"]}, "`left_CM_1` is asked for twice"),
+        ({"left": ["left_CM_1", "left_CM_1"]}, "`left_CM_1` is requested twice"),
         ({"left": 0, "right": 0}, "leaves the caller no agent"),
         ({"max_cycles": 0}, "`max_cycles` is 0"),
         ({"observation": "simple15v2"}, "did you mean `simple115v2`"),

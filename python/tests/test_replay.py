@@ -95,7 +95,7 @@ def test_an_episode_under_way_is_saved(tmp_path: Path, capfd: pytest.CaptureFixt
     env.save_replay(tmp_path / "five.pitchr")
     assert "not ended after 5 steps" in replayed(tmp_path / "five.pitchr", capfd)
     env.restore(env.snapshot())
-    with pytest.raises(setpiece.ReplayError, match="goes on from a restored snapshot"):
+    with pytest.raises(setpiece.ReplayError, match="continues from a restored snapshot"):
         env.save_replay(tmp_path / "none.pitchr")
 
 
@@ -168,7 +168,7 @@ def test_an_environment_that_records_does_so_where_max_cycles_end_it(tmp_path: P
 
 
 def test_a_vector_says_that_it_records_nothing(tmp_path: Path) -> None:
-    with pytest.raises(setpiece.UnavailableError, match="a vector records no replays") as caught:
+    with pytest.raises(setpiece.UnavailableError, match="a vector can't record replays") as caught:
         setpiece.make_vec(CLOSE, 2, record=tmp_path)
     assert caught.value.name == "record"
 

@@ -166,7 +166,7 @@ def test_an_episode_goes_on_where_a_scenario_does_not_fit() -> None:
 
 def test_a_watched_environment_plays_its_file(pitch_file: PitchFile) -> None:
     env = setpiece.make(pitch_file(DRILL), watch=True)
-    with pytest.raises(setpiece.ParameterError, match="plays no other"):
+    with pytest.raises(setpiece.ParameterError, match="switch to another"):
         env.reset(options={"scenario": THREE})
     assert len(play(env, 1)) == 26
 

@@ -75,7 +75,8 @@ pub struct Excess {
 
 /// Checks the totals of a scenario. Its programs need not be verified.
 ///
-/// # Errors The first total beyond its bound.
+/// # Errors
+/// The first total beyond its bound.
 pub fn check(scenario: &Scenario) -> Result<(), Excess> {
     let nodes = scenario.behaviors.iter().map(|behavior| behavior.nodes.len()).sum();
     let parts = [

@@ -36,7 +36,7 @@ impl std::fmt::Display for FormatError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             FormatError::NotAScenario(why) => write!(f, "not a compiled scenario: {why}"),
-            FormatError::Truncated => f.write_str("the compiled scenario is cut off: its end is missing"),
+            FormatError::Truncated => f.write_str("the compiled scenario is truncated: its end is missing"),
             FormatError::Version(found) => write!(
                 f,
                 "the compiled scenario has format version {found}; this build reads version {FORMAT_VERSION}: build it again from its source"
@@ -73,7 +73,8 @@ struct In<'a> {
 
 /// Writes a scenario as text.
 ///
-/// # Errors [`FormatError::Write`] if a constant isn't finite.
+/// # Errors
+/// [`FormatError::Write`] if a constant isn't finite.
 pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     let write = |error: serde_json::Error| FormatError::Write(error.to_string());
     let body = serde_json::to_string(scenario).map_err(write)?;
@@ -95,7 +96,8 @@ fn check_size(bytes: usize, fault: impl Fn(String) -> FormatError) -> Result<(),
 
 /// A number that changes with any part of the scenario: the checksum of its file.
 ///
-/// # Errors [`FormatError::Write`] if a constant isn't finite.
+/// # Errors
+/// [`FormatError::Write`] if a constant isn't finite.
 pub fn digest(scenario: &Scenario) -> Result<u64, FormatError> {
     let body = serde_json::to_string(scenario).map_err(|error| FormatError::Write(error.to_string()))?;
     Ok(fnv1a(body.as_bytes()))
@@ -103,7 +105,8 @@ pub fn digest(scenario: &Scenario) -> Result<u64, FormatError> {
 
 /// Reads a scenario from text. The result is safe to run.
 ///
-/// # Errors [`FormatError`] for anything but an unchanged file of this version.
+/// # Errors
+/// [`FormatError`] for anything but an unchanged file of this version.
 pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
     check_size(text.len(), FormatError::NotAScenario)?;
     if text.trim().is_empty() {

@@ -94,8 +94,9 @@ impl Bindings {
 
     /// Binds a parameter to a value in SI units.
     ///
-    /// # Errors [`ParamError`] if there is no such parameter or the value isn't allowed; nothing is
-    /// changed then.
+    /// # Errors
+    /// [`ParamError`] if there is no such parameter or the value isn't allowed; nothing is changed
+    /// then.
     pub fn set(&mut self, params: &[Param], name: &str, value: f64) -> Result<(), ParamError> {
         let (index, param) = find(params, name)?;
         let value = param.admit(value)?;
@@ -108,7 +109,8 @@ impl Bindings {
     /// Binds a parameter to a value written as in the language: `0.9`, `60%`, `12m`, `on`, `left`,
     /// a word.
     ///
-    /// # Errors Like [`Bindings::set`], and if the text doesn't have the parameter's type.
+    /// # Errors
+    /// Like [`Bindings::set`], and if the text doesn't have the parameter's type.
     pub fn set_text(&mut self, params: &[Param], name: &str, text: &str) -> Result<(), ParamError> {
         let (_, param) = find(params, name)?;
         self.set(params, name, param.parse(text)?)
@@ -125,7 +127,8 @@ fn find<'a>(params: &'a [Param], name: &str) -> Result<(usize, &'a Param), Param
 impl Param {
     /// Reads a value as the language writes it. A bare number is in the type's SI unit.
     ///
-    /// # Errors [`ParamError::Type`] if the text is anything else.
+    /// # Errors
+    /// [`ParamError::Type`] if the text is anything else.
     pub fn parse(&self, text: &str) -> Result<f64, ParamError> {
         use crate::vocabulary::Unit;
         let text = text.trim();
@@ -177,7 +180,8 @@ impl Param {
 
     /// Checks a value against type, range and choices.
     ///
-    /// # Errors [`ParamError`] if it isn't allowed.
+    /// # Errors
+    /// [`ParamError`] if it isn't allowed.
     pub fn admit(&self, value: f64) -> Result<f64, ParamError> {
         let whole = matches!(self.ty, Type::Int | Type::Bool | Type::Team | Type::String);
         if !value.is_finite() || (whole && value.fract() != 0.0) {

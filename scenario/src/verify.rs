@@ -17,7 +17,8 @@ const LOOPS_MAX: usize = 4;
 
 /// Checks a scenario.
 ///
-/// # Errors One sentence about the first problem found.
+/// # Errors
+/// One sentence about the first problem found.
 pub fn verify(scenario: &Scenario) -> Result<(), String> {
     bounds::check(scenario).map_err(|excess| excess.message)?;
     verify_names(scenario)?;

@@ -77,7 +77,8 @@ impl Measured {
 
 /// Plays many matches on threads for a while.
 ///
-/// # Errors [`Error`] if the environment or the threads can't be created, or if an episode fails.
+/// # Errors
+/// [`Error`] if the environment or the threads can't be created, or if an episode fails.
 pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measured, Error> {
     let threads = |why: setpiece_engine::batch::BatchError| Error::Threads(why.to_string());
     let mut batch = Batch::new(lanes(scenario, options)?, options.threads).map_err(threads)?;
@@ -114,7 +115,8 @@ pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measu
 
 /// The microseconds of a step, by phase, on one thread.
 ///
-/// # Errors Like [`measure`].
+/// # Errors
+/// Like [`measure`].
 pub fn phases(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<(Phase, f64)>, Error> {
     let mut lanes = lanes(scenario, options)?;
     let mut scratch = Scratch::default();

@@ -28,14 +28,16 @@ pub fn is_compiled(path: &Path) -> bool {
 
 /// Reads a text file of at most `max` bytes.
 ///
-/// # Errors [`Error::File`] if it is missing, a directory, too large, not UTF-8, or can't be read.
+/// # Errors
+/// [`Error::File`] if it is missing, a directory, too large, not UTF-8, or can't be read.
 pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
     into_text(read_file(path, max)?, path)
 }
 
 /// Reads a regular file of at most `max` bytes. All files of users are read through this function.
 ///
-/// # Errors [`Error::File`] if it is missing, not a regular file, too large, or can't be read.
+/// # Errors
+/// [`Error::File`] if it is missing, not a regular file, too large, or can't be read.
 pub fn read_file(path: &Path, max: u64) -> Result<Vec<u8>, Error> {
     read_bytes(open_regular(path)?, path, max)
 }
@@ -67,7 +69,8 @@ fn open_regular(path: &Path) -> Result<File, Error> {
 
 /// Reads a text of at most `max` bytes; `path` is its name in reports.
 ///
-/// # Errors [`Error::File`] if it is too large, not UTF-8, or can't be read.
+/// # Errors
+/// [`Error::File`] if it is too large, not UTF-8, or can't be read.
 pub fn read(from: impl Read, path: &Path, max: u64) -> Result<String, Error> {
     into_text(read_bytes(from, path, max)?, path)
 }
@@ -85,7 +88,8 @@ fn read_bytes(from: impl Read, path: &Path, max: u64) -> Result<Vec<u8>, Error> 
 
 /// Converts the bytes of a file to text.
 ///
-/// # Errors [`Error::File`] if they aren't UTF-8.
+/// # Errors
+/// [`Error::File`] if they aren't UTF-8.
 pub fn into_text(bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     String::from_utf8(bytes).map_err(|error| {
@@ -253,7 +257,8 @@ fn beside(from: &Path, path: &Path) -> PathBuf {
 
 /// Rejects an output that is one of its inputs, or has the name of a source.
 ///
-/// # Errors [`Error::File`] if it is.
+/// # Errors
+/// [`Error::File`] if it is.
 pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
     if output.extension().is_some_and(|ending| ending == "pitch" || ending == "rhai") {
         let why = FileFault::Write(
@@ -272,7 +277,8 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
 /// Writes a file completely or not at all: a temporary neighbour is renamed over it. All files are
 /// written through this function.
 ///
-/// # Errors [`Error::File`] if it can't be written.
+/// # Errors
+/// [`Error::File`] if it can't be written.
 pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
     let content = content.as_ref();
     check_target(path)?;
@@ -293,7 +299,8 @@ pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
 ///
 /// Of several threads and processes that request one name, only one gets it.
 ///
-/// # Errors [`Error::File`] if it can't be written.
+/// # Errors
+/// [`Error::File`] if it can't be written.
 pub fn write_new(path: &Path, content: impl AsRef<[u8]>) -> Result<bool, Error> {
     if path.symlink_metadata().is_ok() {
         return Ok(false);

@@ -20,7 +20,8 @@ impl Live {
     ///
     /// - `allow_outside`: see [`LoadOptions`].
     ///
-    /// # Errors Like [`load_with`].
+    /// # Errors
+    /// Like [`load_with`].
     pub fn open(source: impl AsRef<OsStr>, allow_outside: bool) -> Result<Live, Error> {
         let source = source.as_ref().to_owned();
         let loaded = load_with(&source, &LoadOptions { allow_outside, ..LoadOptions::default() })?;
@@ -43,7 +44,8 @@ impl Live {
     /// A broken file leaves the last good scenario in place. Files that it fails to import are
     /// watched too.
     ///
-    /// # Errors Like [`load_with`], for the changed files.
+    /// # Errors
+    /// Like [`load_with`], for the changed files.
     pub fn poll(&mut self, timeout: Duration) -> Option<Result<&Loaded, Error>> {
         if !self.watcher.changed(timeout) {
             return None;

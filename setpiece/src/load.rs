@@ -70,7 +70,8 @@ pub struct LoadOptions<'a> {
 
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
 ///
-/// # Errors [`Error`], for every problem with a name, a file or its content.
+/// # Errors
+/// [`Error`], for every problem with a name, a file or its content.
 pub fn load(name_or_path: impl AsRef<OsStr>) -> Result<Loaded, Error> {
     load_with(name_or_path, &LoadOptions::default())
 }
@@ -80,15 +81,17 @@ const BEGUN_LEAST: usize = 4;
 
 /// Like [`load`], with a cast that plays players.
 ///
-/// # Errors Like [`load_with`].
+/// # Errors
+/// Like [`load_with`].
 pub fn load_cast(name_or_path: impl AsRef<OsStr>, cast: &[Cast]) -> Result<Loaded, Error> {
     load_with(name_or_path, &LoadOptions { cast, ..LoadOptions::default() })
 }
 
 /// Like [`load`], with options.
 ///
-/// # Errors Like [`load`], and [`Error::Cast`] for a compiled file with a cast, because such a file
-/// can't be changed.
+/// # Errors
+/// Like [`load`], and [`Error::Cast`] for a compiled file with a cast, because such a file can't be
+/// changed.
 pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     let path = Path::new(name_or_path.as_ref());
     // A path that isn't Unicode must be a file: all names are Unicode.
@@ -117,7 +120,8 @@ pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> 
 
 /// Loads a `.pitch` or a compiled file; its first bytes show which it is.
 ///
-/// # Errors Like [`load`].
+/// # Errors
+/// Like [`load`].
 pub fn load_file(path: &Path) -> Result<Loaded, Error> {
     load_file_with(path, &LoadOptions::default())
 }
@@ -156,22 +160,24 @@ fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Err
 
 /// Compiles a text; `name` is its name in reports.
 ///
-/// # Errors [`Error::Compile`] with every report; [`Error::File`] if it is larger than a file may
-/// be.
+/// # Errors
+/// [`Error::Compile`] with every report; [`Error::File`] if it is larger than a file may be.
 pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
     compile_text_with(text, name, &LoadOptions::default())
 }
 
 /// Like [`compile_text`], with a cast that plays players.
 ///
-/// # Errors Like [`compile_text`].
+/// # Errors
+/// Like [`compile_text`].
 pub fn compile_text_cast(text: &str, name: &str, cast: &[Cast]) -> Result<Loaded, Error> {
     compile_text_with(text, name, &LoadOptions { cast, ..LoadOptions::default() })
 }
 
 /// Like [`compile_text`], with options.
 ///
-/// # Errors Like [`compile_text`].
+/// # Errors
+/// Like [`compile_text`].
 pub fn compile_text_with(text: &str, name: &str, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     if text.len() as u64 > SOURCE_MAX_BYTES {
         return Err(Error::File { path: name.into(), why: FileFault::TooLarge { max: SOURCE_MAX_BYTES } });
@@ -193,14 +199,16 @@ pub struct Checked {
 /// Compiles a name, a path or a file only for its problems. A file of rewards or formations, which
 /// has nothing to run, is checked as if a scenario used it.
 ///
-/// # Errors Like [`load`], except that problems of the text are returned, in order.
+/// # Errors
+/// Like [`load`], except that problems of the text are returned, in order.
 pub fn check(name_or_path: impl AsRef<OsStr>) -> Result<Checked, Error> {
     check_with(name_or_path, &LoadOptions::default())
 }
 
 /// Like [`check`], with options.
 ///
-/// # Errors Like [`check`].
+/// # Errors
+/// Like [`check`].
 pub fn check_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Checked, Error> {
     let failure = match load_with(name_or_path, options) {
         Ok(loaded) => {
@@ -266,7 +274,8 @@ fn is_on_disk(name: &str) -> bool {
 
 /// Binds `name=value` pairs to a scenario's parameters. Values are written as in the language.
 ///
-/// # Errors [`Error::Param`] for the first pair that can't be bound.
+/// # Errors
+/// [`Error::Param`] for the first pair that can't be bound.
 pub fn bind<'a>(scenario: &Scenario, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Bindings, Error> {
     let mut bindings = Bindings::defaults(&scenario.params);
     for (name, value) in pairs {

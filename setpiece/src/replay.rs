@@ -44,7 +44,7 @@ pub enum ReplayError {
     #[error("the replay has version {0}; this build plays version {REPLAY_VERSION}")]
     Version(u32),
     /// It is truncated.
-    #[error("the replay is cut off: its end is missing")]
+    #[error("the replay is truncated: its end is missing")]
     Truncated,
     /// It has been changed.
     #[error("the replay was changed after it was written: its checksum differs")]
@@ -62,7 +62,7 @@ pub enum ReplayError {
     #[error("the replay is larger than {} MiB", BODY_MAX_BYTES >> 20)]
     TooLarge,
     /// How its episode began is unknown.
-    #[error("the episode goes on from a restored snapshot or with changed scripts: a replay can't tell how it began")]
+    #[error("the episode continues from a restored snapshot or with changed scripts: its beginning is unknown")]
     Beginning,
     /// This build plays it differently.
     #[error("step {step}: this build diverges from the recording")]
@@ -147,7 +147,8 @@ pub struct Replay {
 impl Replay {
     /// The episode of an environment, as far as it has been played.
     ///
-    /// # Errors [`Error::Replay`] if no episode has begun, or if its beginning is unknown.
+    /// # Errors
+    /// [`Error::Replay`] if no episode has begun, or if its beginning is unknown.
     pub fn of(environment: &Environment, recorder: &Recorder) -> Result<Replay, Error> {
         if !environment.has_begun() {
             return Err(Error::Replay(ReplayError::NotBegun));
@@ -183,7 +184,8 @@ impl Replay {
 
     /// Encodes the replay.
     ///
-    /// # Errors [`Error::Replay`] if it can't be encoded.
+    /// # Errors
+    /// [`Error::Replay`] if it can't be encoded.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         let corrupt = |why: String| Error::Replay(ReplayError::Corrupt(why));
         let mut body = Vec::new();
@@ -205,14 +207,16 @@ impl Replay {
 
     /// Decodes a replay.
     ///
-    /// # Errors [`Error::Replay`] for anything but an unchanged replay of this version.
+    /// # Errors
+    /// [`Error::Replay`] for anything but an unchanged replay of this version.
     pub fn from_bytes(file: &[u8]) -> Result<Replay, Error> {
         read(file).map_err(Error::Replay)
     }
 
     /// The scenario, bound to the parameters that it was played with.
     ///
-    /// # Errors [`Error::Replay`] if this build can't read it.
+    /// # Errors
+    /// [`Error::Replay`] if this build can't read it.
     pub fn scenario(&self) -> Result<Scenario, Error> {
         let mut scenario = binary::from_bytes(&self.scenario).map_err(|why| corrupt(&why))?;
         if self.params.0.len() != scenario.params.len() {
@@ -226,8 +230,9 @@ impl Replay {
 
     /// Creates an environment that can play it, before its start.
     ///
-    /// # Errors [`Error::Environment`] if this build can't play the scenario like that,
-    /// [`Error::Replay`] if the replay is damaged.
+    /// # Errors
+    /// [`Error::Environment`] if this build can't play the scenario like that, [`Error::Replay`] if
+    /// the replay is damaged.
     pub fn environment(&self) -> Result<Environment, Error> {
         let options = EnvironmentOptions {
             bindings: None,
@@ -273,7 +278,8 @@ impl Replay {
 
     /// Plays it. `each` gets the start, and the environment after every step.
     ///
-    /// # Errors [`Error::Replay`] if it can't be played here, or diverges from the recording.
+    /// # Errors
+    /// [`Error::Replay`] if it can't be played here, or diverges from the recording.
     pub fn play(&self, mut each: impl FnMut(&Environment, &[Action])) -> Result<Environment, Error> {
         let mut environment = self.environment()?;
         let broken = |why: EpisodeError| Error::Episode(Box::new(why));

@@ -63,8 +63,9 @@ pub struct Summary {
 /// Plays the episodes. `progress` is called with the length of each finished episode, from any
 /// thread.
 ///
-/// # Errors [`Error::Environment`] if the options don't fit the scenario, [`Error::Threads`] if
-/// threads can't be started.
+/// # Errors
+/// [`Error::Environment`] if the options don't fit the scenario, [`Error::Threads`] if threads
+/// can't be started.
 pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32) + Sync) -> Result<Summary, Error> {
     if scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
         return Err(Error::Episode(Box::new(EpisodeError::Endless(0))));

@@ -161,7 +161,7 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
 
     let whole = std::fs::read_to_string(&compiled).unwrap();
     let cut = write(folder.path(), "cut.pitchc", &whole[..whole.len() / 2]);
-    fails(&["run", &cut], 1, &["SP0007", "cut off"]);
+    fails(&["run", &cut], 1, &["SP0007", "truncated"]);
     let other = write(folder.path(), "other.pitchc", whole.replacen("\"version\":1", "\"version\":99", 1));
     fails(&["run", &other], 1, &["SP0007", "version 99"]);
     let changed = write(folder.path(), "changed.pitchc", whole.replacen("close", "klose", 1));
@@ -189,8 +189,8 @@ fn the_compact_form_is_the_same_scenario_and_its_problems_are_reported() {
         at(name)
     };
     let cases: [(&str, Change<'_>, &str); 6] = [
-        ("head", &|bytes| bytes.truncate(17), "cut off"),
-        ("half", &|bytes| bytes.truncate(bytes.len() / 2), "cut off"),
+        ("head", &|bytes| bytes.truncate(17), "truncated"),
+        ("half", &|bytes| bytes.truncate(bytes.len() / 2), "truncated"),
         ("version", &|bytes| bytes[8] = 99, "version 99"),
         ("changed", &|bytes| *bytes.last_mut().unwrap() ^= 1, "checksum"),
         ("longer", &|bytes| bytes.push(0), "checksum"),
@@ -263,7 +263,7 @@ fn a_parameter_that_makes_no_start_is_one_clear_error() {
     fails(&["run", &path, "--set", "n=0"], 1, &["SP0701", "the limit is 1 step"]);
     fails(&["run", &path, "--set", "n=2.5"], 1, &["SP0008", "expected a whole number, found `2.5`"]);
     fails(&["run", "academy_corner", "--set", "difficulty=2"], 1, &["SP0008", "is 2, outside 0..1"]);
-    fails(&["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"], 1, &["SP0009", "asked for twice"]);
+    fails(&["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"], 1, &["SP0009", "requested twice"]);
 }
 
 #[test]
@@ -504,7 +504,7 @@ fn a_snapshot_is_taken_and_begun_from() {
     assert_eq!(one["digest"], two["digest"]);
     assert_ne!(one["digest"], start["digest"]);
     let broken = write(folder.path(), "broken.pitchs", &std::fs::read(&path).unwrap()[..200]);
-    fails(&["run", "5_vs_5", "--from", &broken], 1, &["SP0013", "cut off"]);
+    fails(&["run", "5_vs_5", "--from", &broken], 1, &["SP0013", "truncated"]);
     fails(&["run", "academy_corner", "--from", &path], 1, &["SP0013", "left players differ"]);
     fails(&["run", "5_vs_5", "--from", "nowhere.pitchs"], 1, &["SP0001", "nowhere.pitchs"]);
     fails(

@@ -111,7 +111,8 @@ impl Actors {
     /// - `events`: those of the last step.
     /// - `actions`: the agents' actions of this step, by slot.
     ///
-    /// # Errors An `act` hook that failed; the episode can't continue.
+    /// # Errors
+    /// An `act` hook that failed; the episode can't continue.
     pub fn choose(&mut self, game: &mut Match, events: &[Event], actions: &[Action]) -> Result<(), ScriptError> {
         if self.list.is_empty() {
             return Ok(());

@@ -68,7 +68,7 @@ pub enum RosterError {
         known: Vec<String>,
     },
     /// A player requested twice.
-    #[error("`{name}` is asked for twice")]
+    #[error("`{name}` is requested twice")]
     Twice {
         /// The player.
         name: String,
@@ -78,8 +78,9 @@ pub enum RosterError {
 impl Roster {
     /// Determines the roster of a scenario under its parameters.
     ///
-    /// # Errors [`RosterError`] if the requested agents are more than the controllable players, or
-    /// other players.
+    /// # Errors
+    /// [`RosterError`] if the requested agents are more than the controllable players, or other
+    /// players.
     pub fn new(scenario: &Scenario, bindings: &Bindings, choice: Option<&AgentsChoice>) -> Result<Roster, RosterError> {
         let mut drawer = Drawer::new(scenario);
         // Presence and counts don't depend on draws, so any seed gives them.

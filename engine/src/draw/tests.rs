@@ -207,5 +207,5 @@ fn agents_are_given_players() {
     let refused = |names: &[&str]| Roster::new(&scenario, &bindings, Some(&named(names))).unwrap_err().to_string();
     let known = "its controllable players are `left_GK_1`, `left_CM_1`, `left_CF_1`";
     assert_eq!(refused(&["left_CB_1"]), format!("no agent can play `left_CB_1` of the left side: {known}"));
-    assert_eq!(refused(&["left_CM_1", "left_CM_1"]), "`left_CM_1` is asked for twice");
+    assert_eq!(refused(&["left_CM_1", "left_CM_1"]), "`left_CM_1` is requested twice");
 }

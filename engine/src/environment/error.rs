@@ -18,7 +18,7 @@ pub enum EnvironmentError {
         known: Vec<String>,
     },
     /// A reward was requested twice.
-    #[error("reward `{0}` is asked for twice")]
+    #[error("reward `{0}` is requested twice")]
     RewardTwice(String),
     /// A parameter's value isn't allowed.
     #[error(transparent)]

@@ -9,7 +9,8 @@ use std::ops::Range;
 
 /// Checks that the same players and agents take part.
 ///
-/// # Errors [`SnapshotError::Roster`].
+/// # Errors
+/// [`SnapshotError::Roster`].
 pub(super) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
     let there = std::array::from_fn::<bool, PLAYERS_MAX, _>(|i| game.squad.has(PlayerId(i as u8)));
     if let Some(team) = Team::ALL.iter().find(|team| there[places(**team)] != roster.present[places(**team)]) {

@@ -15,9 +15,11 @@ impl Environment {
     /// its infos depend on, including random streams and the memory of rewards, records and
     /// scripts.
     ///
-    /// # Errors [`SnapshotError::Unkept`] if a script's memory holds a function.
+    /// # Errors
+    /// [`SnapshotError::Unkept`] if a script's memory holds a function.
     ///
-    /// # Determinism Equal states give equal bytes.
+    /// # Determinism
+    /// Equal states give equal bytes.
     pub fn snapshot(&self) -> Result<Vec<u8>, SnapshotError> {
         // Writing goes through the same mutable calls as reading, hence the copy.
         let mut copy = self.clone();
@@ -27,8 +29,9 @@ impl Environment {
     /// Continues from a snapshot of any environment with the same scenario, rewards and agents. The
     /// parameters of the next episodes are also the snapshot's.
     ///
-    /// # Errors [`SnapshotError`] for bytes that aren't a snapshot, or one that doesn't fit.
-    /// Nothing has changed then.
+    /// # Errors
+    /// [`SnapshotError`] for bytes that aren't a snapshot, or one that doesn't fit. Nothing has
+    /// changed then.
     pub fn restore(&mut self, snapshot: &[u8]) -> Result<(), SnapshotError> {
         let opened = Opened::of(snapshot)?;
         let its = &opened.about;
@@ -54,8 +57,9 @@ impl Environment {
     /// control are this scenario's, which may be another than the snapshot's. Rewards, records,
     /// steps and random numbers start as at a [reset](Self::reset).
     ///
-    /// # Errors [`ResetError`] for bytes that aren't a snapshot, or one with other players or
-    /// agents (nothing has changed then), and as [`reset`](Self::reset).
+    /// # Errors
+    /// [`ResetError`] for bytes that aren't a snapshot, or one with other players or agents
+    /// (nothing has changed then), and as [`reset`](Self::reset).
     pub fn reset_from(&mut self, snapshot: &[u8], seed: Option<u64>, index: Option<u64>) -> Result<(), ResetError> {
         let past = self.past(snapshot)?;
         Ok(self.begin(seed, index, Some(&past))?)

@@ -94,7 +94,8 @@ impl EndingJudge {
 
     /// Judges a step: the first ending that holds, in their order, else the limit.
     ///
-    /// # Errors A `done` hook that failed.
+    /// # Errors
+    /// A `done` hook that failed.
     pub fn step(
         &mut self,
         game: &Match,

@@ -196,7 +196,8 @@ impl RewardJudge {
 
     /// Judges a step; `scene` shows it to scripts.
     ///
-    /// # Errors The first hook that failed.
+    /// # Errors
+    /// The first hook that failed.
     pub fn step(
         &mut self,
         game: &Match,

@@ -133,7 +133,8 @@ const DONE: &str = "done";
 impl Scripts {
     /// Compiles a scenario's scripts.
     ///
-    /// # Errors The first script that isn't valid Rhai.
+    /// # Errors
+    /// The first script that isn't valid Rhai.
     pub fn compile(scenario: &Scenario) -> Result<Scripts, ScriptLoadError> {
         let memory_bytes = host::MEMORIES_BYTES_MAX / (PLAYERS_MAX * scenario.scripts.len().max(1));
         let compile = |script: &setpiece_scenario::Script| {
@@ -189,7 +190,8 @@ impl Scripts {
 
     /// Calls a script's `reward` hook.
     ///
-    /// # Errors [`ScriptError`] if the hook fails or doesn't return a number.
+    /// # Errors
+    /// [`ScriptError`] if the hook fails or doesn't return a number.
     pub fn reward(
         &self,
         script: u32,
@@ -210,7 +212,8 @@ impl Scripts {
 
     /// Calls a script's `done` hook.
     ///
-    /// # Errors [`ScriptError`] if the hook fails or returns neither a bool nor a label.
+    /// # Errors
+    /// [`ScriptError`] if the hook fails or returns neither a bool nor a label.
     pub fn done(
         &self,
         script: u32,
@@ -231,7 +234,8 @@ impl Scripts {
 
     /// Calls a script's `act` hook for the player of the perspective.
     ///
-    /// # Errors [`ScriptError`] if the hook fails or returns no known action.
+    /// # Errors
+    /// [`ScriptError`] if the hook fails or returns no known action.
     pub fn act(
         &self,
         script: u32,

@@ -22,8 +22,8 @@ const MOST: f32 = 4.0;
 /// Writes agent `agent`'s egocentric observation. The layout is [`super::layout::egocentric`] of
 /// the larger team's size. All zeros for an agent without a player.
 ///
-/// # Errors [`ObserveError`] for unknown agents, or a buffer of another size; nothing is written
-/// then.
+/// # Errors
+/// [`ObserveError`] for unknown agents, or a buffer of another size; nothing is written then.
 pub fn egocentric(game: &Match, agent: usize, team: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), size(team))?;

@@ -18,7 +18,8 @@ use setpiece_scenario::vocabulary::{Action, StickyAction};
 /// - high passes and shots at a throw-in;
 /// - everything but `idle` for an agent without a player on the pitch.
 ///
-/// # Errors [`ObserveError::Agent`] for unknown agents.
+/// # Errors
+/// [`ObserveError::Agent`] for unknown agents.
 pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET], ObserveError> {
     let slot = slot(game, agent)?;
     let mut mask = [false; Action::FULL_SET];

@@ -57,7 +57,8 @@ pub struct Raw {
 
 /// Builds agent `agent`'s raw observation.
 ///
-/// # Errors [`ObserveError::Agent`] for unknown agents.
+/// # Errors
+/// [`ObserveError::Agent`] for unknown agents.
 pub fn raw(game: &Match, agent: usize) -> Result<Raw, ObserveError> {
     let slot = slot(game, agent)?;
     let mut raw = raw_of(game, slot.team);

@@ -20,8 +20,8 @@ const MISSING: f32 = 0.0;
 /// Writes agent `agent`'s observation in the units of [`layout::Layout::scaled`]. `team` is the
 /// larger team's size.
 ///
-/// # Errors [`ObserveError`] for unknown agents, or a buffer of another size; nothing is written
-/// then.
+/// # Errors
+/// [`ObserveError`] for unknown agents, or a buffer of another size; nothing is written then.
 pub fn scaled(game: &Match, agent: usize, of: Scaled, team: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     let factors = match of {
         Scaled::Simple115v2 => {

@@ -11,8 +11,9 @@ const MISSING: f32 = -1.0;
 
 /// Writes agent `agent`'s `simple115v2` observation; the layout is [`super::layout::simple115v2`].
 ///
-/// # Errors [`ObserveError`] for unknown agents, or a buffer that doesn't have 115 numbers; nothing
-/// is written then.
+/// # Errors
+/// [`ObserveError`] for unknown agents, or a buffer that doesn't have 115 numbers; nothing is
+/// written then.
 pub fn simple115v2(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     write_v2(game, agent, SIMPLE115, MISSING, out)
 }
@@ -20,8 +21,9 @@ pub fn simple115v2(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), Ob
 /// Writes agent `agent`'s `simple115v2+sticky` observation: `simple115v2` followed by the held
 /// keys. The layout is [`super::layout::simple115v2_sticky`].
 ///
-/// # Errors [`ObserveError`] for unknown agents, or a buffer that doesn't have 125 numbers; nothing
-/// is written then.
+/// # Errors
+/// [`ObserveError`] for unknown agents, or a buffer that doesn't have 125 numbers; nothing is
+/// written then.
 pub fn simple115v2_sticky(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     write_v2(game, agent, SIMPLE115_STICKY, MISSING, out)
 }
@@ -60,8 +62,9 @@ pub(super) fn write_v2(
 /// Writes agent `agent`'s `simple115` observation: the four blocks of players without gaps. The
 /// layout is [`super::layout::simple115`].
 ///
-/// # Errors [`ObserveError`] for unknown agents, or a buffer that doesn't have 115 numbers; nothing
-/// is written then.
+/// # Errors
+/// [`ObserveError`] for unknown agents, or a buffer that doesn't have 115 numbers; nothing is
+/// written then.
 pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), SIMPLE115)?;

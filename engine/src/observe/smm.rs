@@ -27,8 +27,9 @@ pub fn smm_size(width: usize, height: usize) -> usize {
 /// Planes: own team, opponents, ball, the controlled player (empty without one). Anything outside
 /// is drawn at the edge.
 ///
-/// # Errors [`ObserveError`] for unknown agents, or a buffer whose size isn't [`smm_size`]; nothing
-/// is written then.
+/// # Errors
+/// [`ObserveError`] for unknown agents, or a buffer whose size isn't [`smm_size`]; nothing is
+/// written then.
 pub fn smm(game: &Match, agent: usize, width: usize, height: usize, out: &mut [u8]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), smm_size(width, height))?;

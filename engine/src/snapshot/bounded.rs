@@ -6,7 +6,8 @@ use std::marker::PhantomData;
 
 /// Reads a list of at most `MAX` parts.
 ///
-/// # Errors The format's own if there are more.
+/// # Errors
+/// The format's own if there are more.
 pub(crate) fn bounded<'de, D: Deserializer<'de>, T: Deserialize<'de>, const MAX: usize>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {

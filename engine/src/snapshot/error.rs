@@ -13,7 +13,7 @@ pub enum SnapshotError {
     #[error("the snapshot has version {0}; this build reads version {SNAPSHOT_VERSION}: take it again")]
     Version(u32),
     /// It is truncated.
-    #[error("the snapshot is cut off: its end is missing")]
+    #[error("the snapshot is truncated: its end is missing")]
     Truncated,
     /// Its content isn't what was written.
     #[error("the snapshot was changed after it was taken: its checksum differs")]

@@ -202,7 +202,7 @@ def _check_same(recorded: ScenarioConfig, other: ScenarioConfig) -> None:
         if each.name not in may_differ and getattr(recorded, each.name) != getattr(other, each.name):
             raise TranslationError(
                 f"`{each.name}` is {getattr(recorded, each.name)} in even and {getattr(other, each.name)} in odd"
-                " episodes; a text can't say that",
+                " episodes; a text can't express that",
                 help="write two scenarios, one for each",
             )
     if _kickoff(recorded, other) is not None:

@@ -12,7 +12,8 @@ const HEAD: usize = 8 + 4 + 8 + 8;
 
 /// Writes a scenario in the compact form.
 ///
-/// # Errors [`FormatError::Write`] if a constant isn't finite.
+/// # Errors
+/// [`FormatError::Write`] if a constant isn't finite.
 pub fn to_bytes(scenario: &Scenario) -> Result<Vec<u8>, FormatError> {
     // What one form can't hold, the other mustn't either.
     to_json(scenario)?;
@@ -29,7 +30,8 @@ pub fn to_bytes(scenario: &Scenario) -> Result<Vec<u8>, FormatError> {
 
 /// Reads a scenario in the compact form. The result is safe to run.
 ///
-/// # Errors [`FormatError`] for anything but an unchanged file of this version.
+/// # Errors
+/// [`FormatError`] for anything but an unchanged file of this version.
 pub fn from_bytes(file: &[u8]) -> Result<Scenario, FormatError> {
     check_size(file.len(), FormatError::NotAScenario)?;
     let Some(rest) = file.strip_prefix(MAGIC) else {

@@ -27,7 +27,8 @@ pub const ONCE_NAMES: [&str; 7] = ["create", "reset", "memory", "to_bytes", "fro
 /// Microseconds of each of [`ONCE_NAMES`]: the least of several runs' means, wall time on one
 /// thread.
 ///
-/// # Errors Like [`super::measure`].
+/// # Errors
+/// Like [`super::measure`].
 pub fn once(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<[f64; ONCE_NAMES.len()], Error> {
     let create = || Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment);
     let failed = |why: EpisodeError| Error::Episode(Box::new(why));

@@ -14,7 +14,8 @@ const ROUNDS: usize = 5;
 /// The gain of `options.threads` threads over one (with at most one thread per match), as a share
 /// of the gain of bare arithmetic: the median of several rounds.
 ///
-/// # Errors Like [`measure`].
+/// # Errors
+/// Like [`measure`].
 pub fn scaling(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<f64, Error> {
     let each = options.duration / ROUNDS as u32;
     // A match uses one thread at a time.

@@ -80,8 +80,9 @@ impl Playing {
 
     /// The parameters, the physics and the snapshot to begin from, with the scenario's own rewards.
     ///
-    /// # Errors [`Error::Param`] for an unknown parameter or a value that isn't allowed;
-    /// [`Error::File`] if the snapshot can't be read.
+    /// # Errors
+    /// [`Error::Param`] for an unknown parameter or a value that isn't allowed; [`Error::File`] if
+    /// the snapshot can't be read.
     pub(crate) fn environment(&self, loaded: &Loaded) -> Result<EnvironmentOptions, Error> {
         let pairs = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
         Ok(EnvironmentOptions {

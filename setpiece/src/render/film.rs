@@ -71,8 +71,9 @@ impl Film {
 
 /// Plays an episode and keeps every moment.
 ///
-/// # Errors [`Error::Environment`] if the options don't fit the scenario; [`Error::Episode`] if it
-/// has no start, a script fails, or nothing ends it.
+/// # Errors
+/// [`Error::Environment`] if the options don't fit the scenario; [`Error::Episode`] if it has no
+/// start, a script fails, or nothing ends it.
 pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Error> {
     let fault = |why| Error::Episode(Box::new(why));
     if options.until_step.is_none() && scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
@@ -102,7 +103,8 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
 
 /// Plays a recorded episode again and keeps every moment.
 ///
-/// # Errors [`Error::Replay`] if it can't be played here, or diverges from the recording.
+/// # Errors
+/// [`Error::Replay`] if it can't be played here, or diverges from the recording.
 pub fn replayed(replay: &Replay) -> Result<Film, Error> {
     let mut film: Option<Film> = None;
     let environment = replay.play(|environment, _| match &mut film {

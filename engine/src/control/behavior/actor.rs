@@ -193,7 +193,8 @@ impl<'a> Mind<'a> {
 impl Thread {
     /// Chooses the action of a step.
     ///
-    /// # Errors An `act` hook that failed.
+    /// # Errors
+    /// An `act` hook that failed.
     pub fn step(
         &mut self,
         plan: &Behavior,

@@ -125,7 +125,7 @@ fn bytes_that_are_no_snapshot_of_this_version_are_reported() {
         (b"{}".as_slice(), "not a snapshot: its header isn't recognised"),
         (&newer, &format!("the snapshot has version 99; this build reads version {SNAPSHOT_VERSION}: take it again")),
         (&changed, "the snapshot was changed after it was taken: its checksum differs"),
-        (&snapshot[..100], "the snapshot is cut off: its end is missing"),
+        (&snapshot[..100], "the snapshot is truncated: its end is missing"),
     ] {
         assert_eq!(refused(bytes), words);
     }

@@ -63,7 +63,8 @@ pub(super) fn count_operations(n: u64) -> bool {
 
 /// Counts work on this many bytes, done at a place.
 ///
-/// # Errors The call ends if no operations are left; a script can't catch that.
+/// # Errors
+/// The call ends if no operations are left; a script can't catch that.
 pub(super) fn count_bytes(bytes: usize, at: Position) -> Failable<()> {
     let operations = bytes / BYTES_PER_OPERATION;
     if operations == 0 || count_operations(operations as u64) { Ok(()) } else { over(Why::Size, at) }
@@ -124,7 +125,8 @@ fn keep_shared(value: &Dynamic) {
 
 /// Ends a call. Only `this` outlives it, and it shares nothing with other values.
 ///
-/// # Errors `this` holds something that can't be kept.
+/// # Errors
+/// `this` holds something that can't be kept.
 pub(super) fn end(this: &mut Dynamic) -> Result<(), String> {
     let shared = SHARED.with(RefCell::take);
     if shared.is_empty() {

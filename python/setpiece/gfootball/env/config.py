@@ -45,7 +45,7 @@ def parse_player_definition(definition: str) -> PlayerDefinition:
         key, equals, value = part.partition("=")
         if not equals:
             raise ParameterError(
-                f"`{part}` in `{definition}` is no setting", name="players", help="write `agent:left_players=1`"
+                f"`{part}` in `{definition}` is not a setting", name="players", help="write `agent:left_players=1`"
             )
         settings[key] = value
     # GRF compares with the number 0, so an explicit zero counts as given.

@@ -83,7 +83,7 @@ class Recorder:
             entry = FormationEntry(_place(x, y), PlayerRole(role), bool(lazy), bool(controllable))
         except (TypeError, ValueError):
             raise ParameterError(
-                f"AddPlayer({x!r}, {y!r}, {role!r}) is no player",
+                f"AddPlayer({x!r}, {y!r}, {role!r}) is not a player",
                 name="AddPlayer",
                 help="write two numbers and a role such as `e_PlayerRole_CM`",
             ) from None
@@ -95,7 +95,7 @@ class Recorder:
             self.recorded.ball_position[:2] = _place(x, y)
         except (TypeError, ValueError):
             raise ParameterError(
-                f"SetBallPosition({x!r}, {y!r}) is no place", name="SetBallPosition", help="write two numbers"
+                f"SetBallPosition({x!r}, {y!r}) is not a place", name="SetBallPosition", help="write two numbers"
             ) from None
 
     def EpisodeNumber(self) -> int:  # noqa: N802

@@ -56,8 +56,9 @@ impl Edits {
 
 /// Inserts counting calls into a script's text.
 ///
-/// # Errors A place that Rhai finds elsewhere: it stores lines and columns in two bytes, and has
-/// its own line ends.
+/// # Errors
+/// A place that Rhai finds elsewhere: it stores lines and columns in two bytes, and has its own
+/// line ends.
 pub(in super::super) fn count_copies(source: &str, ast: &AST) -> Result<(String, Edits), (usize, usize)> {
     let functions = functions(ast);
     let pointers = pointers(ast, &functions);

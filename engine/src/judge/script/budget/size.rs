@@ -18,7 +18,8 @@ const ENTRY_BYTES: usize = 64;
 
 /// Computes the total bytes of a value used at a place.
 ///
-/// # Errors It is larger than [`VALUE_BYTES_MAX`], nested too deeply, or being changed.
+/// # Errors
+/// It is larger than [`VALUE_BYTES_MAX`], nested too deeply, or being changed.
 pub(in super::super) fn bytes_of(value: &Dynamic, at: Position) -> Failable<usize> {
     let mut size = Size { bytes: 0, at };
     size.add(value, 0)?;

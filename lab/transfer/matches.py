@@ -23,6 +23,7 @@ KICKED = 1.15
 # How many episodes one environment plays. Episodes of one environment of the real game are similar.
 EPISODES_EACH = 2
 # The counts of a match.
+# fmt: off
 COUNTED = [
     "goals", "conceded", "shots", "wide", "passes", "completed", "owned", "lost", "box", "third",
     "free", "goal_kicks", "corners", "throw_ins", "free_kicks", "set_piece_steps", "kick_keys",

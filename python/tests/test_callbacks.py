@@ -253,7 +253,7 @@ def test_options_that_are_no_functions_are_named() -> None:
     for ends in ("goal", [deep, "goal"], 3):
         with pytest.raises(setpiece.ParameterError, match="`ends` as functions"):
             setpiece.make(TEN, ends=ends)  # type: ignore[arg-type]
-    with pytest.raises(setpiece.ParameterError, match="two rewards are called `<lambda>`"):
+    with pytest.raises(setpiece.ParameterError, match="two rewards are named `<lambda>`"):
         setpiece.make(TEN, rewards=[lambda _: 1.0, lambda _: 2.0])
     taken = Counter()
     taken.__name__ = "time/step"  # type: ignore[attr-defined]

@@ -617,7 +617,7 @@ def test_what_is_not_here_says_so_later() -> None:
         ({"extra_players": ["bott:right_players=1"]}, "did you mean `bot`"),
         ({"extra_players": ["agent:right_players=1"]}, "at most one `agent`"),
         ({"extra_players": ["lazy:right_players=many"]}, "no count"),
-        ({"extra_players": ["lazy:right_players"]}, "no setting"),
+        ({"extra_players": ["lazy:right_players"]}, "not a setting"),
         ({"extra_players": ["replay:right_players=1"]}, "needs a dump"),
         ({"other_config_options": {"action_sett": "v2"}}, "did you mean `action_set`"),
         ({"other_config_options": {"game_engine_random_seed": "x"}}, "game_engine_random_seed"),

@@ -147,8 +147,8 @@ def test_files_that_are_no_replays_are_named(tmp_path: Path) -> None:
     for bad, why in [
         (b"", "not a replay"),
         (b"scenario x {}", "not a replay"),
-        (good[:20], "cut off"),
-        (good[:-1], "cut off"),
+        (good[:20], "truncated"),
+        (good[:-1], "truncated"),
         (version, "version 99"),
         (flipped, "checksum"),
         (good + b"x", "checksum"),

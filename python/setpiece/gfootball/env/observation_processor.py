@@ -174,7 +174,7 @@ def read_dump(path: str) -> list[Trace]:
     except OSError as error:
         raise FileError(f"`{path}` can't be read: {error.strerror}", path=path) from error
     except Exception as error:
-        raise FormatError(f"`{path}` is no dump, or cut off") from error
+        raise FormatError(f"`{path}` is not a dump, or truncated") from error
     if not records or not all(isinstance(each, dict) and "debug" in each for each in records):
-        raise FormatError(f"`{path}` is no dump, or cut off")
+        raise FormatError(f"`{path}` is not a dump, or truncated")
     return records

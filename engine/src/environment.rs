@@ -1,10 +1,9 @@
 //! One match and its judge, as an agent sees them.
 //!
-//! Puts the judge into the order of a step ([`step`]). It judges the state after ten ticks of play,
-//! before the restart that a stop requires. So observations show the restart, but rewards see the
-//! state before it. The environment holds everything that lives as long as an episode. A clone
-//! continues like the original, [`snapshot`] turns one into bytes, and [`hindsight`] starts a new
-//! episode in an old state.
+//! Puts the judge into the order of a step ([`step`]): it judges the state after ten ticks of play,
+//! before the restart that a stop requires. So observations show the restart, but rewards don't. It
+//! holds everything that lives as long as an episode. A clone continues like the original,
+//! [`snapshot`] turns one into bytes, and [`hindsight`] starts a new episode in an old state.
 
 mod error;
 mod fits;
@@ -243,8 +242,8 @@ impl Environment {
     }
 
     /// Ends the episode now, for a reason of the caller's own, as an ending of the scenario would.
-    /// It replaces the limit if that was reached in the same step. No-op before an episode's first
-    /// step, and after an ending of the scenario.
+    /// It replaces a limit reached in the same step. No-op before an episode's first step, and
+    /// after an ending of the scenario.
     pub fn end(&mut self, outcome: Outcome) {
         let ended = self.outcome.as_ref().is_some_and(|outcome| !outcome.truncated);
         if self.started && self.game.step > 0 && !ended {
@@ -341,9 +340,9 @@ impl Environment {
     /// What a player pressed in the last step, in the own frame of their team: their agent's
     /// action, else their behaviour's, else the bot's play expressed as an action.
     ///
-    /// The bot's presses for a player form a stream: each is relative to what the earlier ones
-    /// hold. `None` if nobody plays the player (off the pitch, `ai: lazy`). [`Action::BuiltinAi`]
-    /// if the behaviour hands over to the bot.
+    /// The bot's presses form a stream: each is relative to what the earlier ones hold. `None` if
+    /// nobody plays the player (off the pitch, `ai: lazy`). [`Action::BuiltinAi`] if the behaviour
+    /// hands over to the bot.
     pub fn action_of(&self, player: PlayerId) -> Option<Action> {
         self.game.play.acting.get(player.index()).and_then(|acting| acting.played)
     }
@@ -391,8 +390,7 @@ impl Environment {
         self.judge.rewards().sums(agent)
     }
 
-    /// Payments of the episode that were dropped because their value was impossible (a division by
-    /// zero, a property of nobody).
+    /// Dropped payments of the episode: their value was impossible (such as a division by zero).
     pub fn faults(&self) -> u32 {
         self.judge.rewards().faults() + self.actors.faults()
     }
@@ -423,8 +421,7 @@ impl Environment {
     /// Writes an observation for an agent.
     ///
     /// # Errors
-    /// [`ObserveError`] if there is no such agent, or if the length of `out` isn't the
-    /// observation's.
+    /// [`ObserveError`] for unknown agents, or an `out` of another length.
     pub fn observe(&mut self, floats: Floats, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
         match floats {
             Floats::Simple115 => observe::simple115(&self.game, agent, out),
@@ -447,8 +444,7 @@ impl Environment {
     /// normalised, own frame.
     ///
     /// # Errors
-    /// [`ObserveError`] if there is no such agent, or if the length of `out` isn't the
-    /// observation's.
+    /// [`ObserveError`] for unknown agents, or an `out` of another length.
     pub fn observe_vector(&mut self, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
         let n_agents = self.game.agents.len();
         if agent >= n_agents {
@@ -498,7 +494,7 @@ impl Environment {
     }
 
     /// The start that the scenario draws for the current seed, index and parameters (0 and 0 before
-    /// the first episode). An episode that began in a snapshot's state didn't begin there.
+    /// the first episode). It isn't the start of an episode begun from a snapshot.
     ///
     /// # Errors
     /// [`DrawError`] if no start meets the scenario's requirements.

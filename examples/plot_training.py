@@ -1,9 +1,9 @@
-"""Draws the mean score of training runs against their steps, from the TensorBoard logs of the examples.
+"""Draws the mean score of training runs against their steps, from the examples' logs.
 
     python examples/plot_training.py runs/close runs/empty --out docs/training.png
 
-It needs `matplotlib` and `tensorboard`. A curve bears the name of its folder, or what stands before a `=`:
-`"empty goal=runs/empty"`.
+It needs `matplotlib` and `tensorboard`. A curve has the name of its folder, or the name before a
+`=`: `"empty goal=runs/empty"`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ WINDOW = 10  # log entries
 
 
 def curve(folder: str, tag: str) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the steps and the values of a log, the values as means over the last `WINDOW` entries."""
+    """Returns the steps and values of a log; values are means over the last `WINDOW` entries."""
     log = EventAccumulator(folder, size_guidance={"scalars": 0}).Reload().Scalars(tag)
     values = np.array([entry.value for entry in log])
     means = [values[max(0, at - WINDOW + 1) : at + 1].mean() for at in range(len(values))]

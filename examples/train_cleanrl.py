@@ -1,10 +1,10 @@
-"""Trains PPO in plain PyTorch, in one file, in the manner of CleanRL.
+"""Trains PPO in plain PyTorch, in one file, in the style of CleanRL.
 
     python examples/train_cleanrl.py --scenario academy_empty_goal_close --steps 200000 --out runs/close
 
-It needs `torch` and `tensorboard`. The log in `--out` has the mean score (goals of the left team less those of the
-right per episode), the mean return and the return of every reward term, over the episodes that ended since the last
-entry.
+It needs `torch` and `tensorboard`. The log in `--out` has the mean score (goals of the left team
+minus those of the right per episode), the mean return and the return of every reward term, over the
+episodes that ended since the last entry.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ HIDDEN = 128
 
 
 class Policy(nn.Module):
-    """Two networks over the observation: one rates actions, one foresees the return."""
+    """Two networks over the observation: one rates actions, the other predicts the return."""
 
     def __init__(self, inputs: int, actions: int) -> None:
         super().__init__()
@@ -45,7 +45,7 @@ class Policy(nn.Module):
         self.critic = nn.Sequential(*_body(inputs), _layer(HIDDEN, 1, 1.0))
 
     def actions(self, observations: Tensor, masks: Tensor | None) -> Categorical:
-        """Returns how likely each action is; those that are masked are never drawn."""
+        """Returns the distribution of actions; masked ones are never drawn."""
         logits = self.actor(observations)
         return Categorical(logits=logits if masks is None else logits.masked_fill(masks == 0, -1e9))
 
@@ -67,7 +67,7 @@ def _body(inputs: int) -> list[nn.Module]:
 
 
 class Episodes:
-    """What the episodes that ended since the last log entry brought."""
+    """The results of the episodes that ended since the last log entry."""
 
     def __init__(self) -> None:
         self.sums: dict[str, float] = defaultdict(float)
@@ -84,7 +84,7 @@ class Episodes:
             self.sums["episode/return"] += float(paid[over].sum())
 
     def write(self, writer: SummaryWriter, step: int) -> None:
-        """Writes the means and begins anew."""
+        """Writes the means and resets them."""
         for name, total in self.sums.items():
             writer.add_scalar(name, total / self.ended, step)
         self.__init__()  # type: ignore[misc]
@@ -131,8 +131,8 @@ def train(args: argparse.Namespace) -> Policy:
             ended[at] = torch.from_numpy(over)
             if over.any():
                 episodes.take(infos["final_info"], over)
-            # A time limit is no ending of the play: what would have followed is worth what the critic says of the last
-            # observation, which `observation` no longer is, for the next episode has begun.
+            # A time limit doesn't end the play: the rest is worth the critic's value of the last
+            # observation. `observation` no longer is that one, because the next episode has begun.
             following[at] = 0
             for one in np.flatnonzero(truncated & ~terminated):
                 with torch.no_grad():
@@ -178,9 +178,10 @@ def train(args: argparse.Namespace) -> Policy:
 
 
 def evaluate(policy: Policy, args: argparse.Namespace, episodes: int = 100) -> float:
-    """Returns the mean score of the policy's likeliest actions, in episodes that were not trained on.
+    """Returns the mean score of the policy's likeliest actions, in episodes not trained on.
 
-    Environment k plays seed 1000000 + k, once: were it the first episodes that end, short ones would count for more.
+    Environment k plays seed 1000000 + k, once. Taking the first episodes to end would favour short
+    ones.
     """
     envs = setpiece.make_vec(args.scenario, episodes, threads=args.threads, autoreset_mode="same_step")
     observation, infos = envs.reset(seed=1_000_000)

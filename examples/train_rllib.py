@@ -1,9 +1,10 @@
-"""Trains IMPALA of Ray RLlib: runners in processes of their own, here or all over a cluster, play for one learner.
+"""Trains IMPALA of Ray RLlib: runners in separate processes play for one learner.
 
     python examples/train_rllib.py --scenario academy_empty_goal_close --steps 300000 --out runs/rllib
 
-It needs `setpiece[rllib]` and `tensorboard`, and starts a Ray of its own; `--address` takes that of a cluster. The log
-in `--out` has the same curves as that of `train_cleanrl.py`: score, return and every reward term.
+The processes may be on this machine or all over a cluster. It needs `setpiece[rllib]` and
+`tensorboard`, and starts its own Ray; `--address` uses that of a cluster. The log in `--out` has
+the same curves as that of `train_cleanrl.py`: score, return and every reward term.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ class Terms(RLlibCallback):
     """Logs score, return and reward terms of every episode."""
 
     def on_episode_end(self, *, episode: Any, metrics_logger: Any, **_: Any) -> None:
-        """Takes the last infos; those of one agent are enough, for there is one."""
+        """Reads the last infos; those of the only agent are enough."""
         infos = {agent: infos for agent, infos in episode.get_infos(-1).items() if "setpiece" in infos}
         for info in infos.values():
             paid = info["setpiece"]["return"]
@@ -40,12 +41,12 @@ class Terms(RLlibCallback):
                 **{f"terms/{name}": value for name, value in paid.items()},
             }
             for name, value in values.items():
-                # A metric's name is a path: `/` would open another level.
+                # A metric's name is a path, so `/` would add a level.
                 metrics_logger.log_value((CURVES, name.replace("/", ":")), value, reduce="mean", window=100)
 
 
 def evaluate(module: Any, args: argparse.Namespace, episodes: int = 100) -> float:
-    """Returns the mean score of the policy's likeliest actions; every environment plays one episode."""
+    """Returns the mean score of the likeliest actions; every environment plays one episode."""
     # As in `parallel_env`, an agent keeps its player.
     envs = setpiece.make_vec(args.scenario, episodes, autoreset_mode="same_step", left=1, switching="fixed")
     observation, _ = envs.reset(seed=1_000_000)

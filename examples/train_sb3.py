@@ -2,8 +2,9 @@
 
     python examples/train_sb3.py --scenario academy_empty_goal_close --steps 200000 --out runs/sb3
 
-It needs `setpiece[sb3]` and `tensorboard`, with `--masks` also `sb3-contrib`. The log in `--out` has the same curves as
-that of `train_cleanrl.py`: score, return and every reward term, besides those of Stable-Baselines3.
+It needs `setpiece[sb3]` and `tensorboard`, with `--masks` also `sb3-contrib`. The log in `--out`
+has the same curves as that of `train_cleanrl.py`: score, return and every reward term, besides
+those of Stable-Baselines3.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class Terms(BaseCallback):
 
 
 def evaluate(model: Any, args: argparse.Namespace, episodes: int = 100) -> float:
-    """Returns the mean score of the policy's likeliest actions; every environment plays one episode."""
+    """Returns the mean score of the likeliest actions; every environment plays one episode."""
     envs = setpiece.sb3.make_vec(args.scenario, episodes, seed=1_000_000, threads=args.threads)
     observation: Any = envs.reset()
     score, playing = np.zeros(episodes), np.ones(episodes, bool)
@@ -85,7 +86,7 @@ def main(argv: list[str] | None = None) -> float:
     envs = VecMonitor(
         setpiece.sb3.make_vec(args.scenario, args.envs, seed=args.seed, threads=args.threads, rewards=args.rewards)
     )
-    # The settings of `train_cleanrl.py`.
+    # The same settings as `train_cleanrl.py`.
     model = algorithm(
         "MlpPolicy",
         envs,

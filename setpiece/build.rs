@@ -1,4 +1,5 @@
-//! Embeds every file of the standard library and every page of the error codes: adding one is adding a file.
+//! Embeds every file of the standard library and every page of the error codes. To add one, add its
+//! file.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};

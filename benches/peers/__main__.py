@@ -1,11 +1,12 @@
-"""How fast Setpiece is beside its peers, in one run: writes a page of figures.
+"""Compares Setpiece's speed with its peers, in one run: writes a page of figures.
 
-Install `benches/peers/requirements.txt` and this project's wheel into one environment of its own, then
-`python benches/peers -o docs/performance.md`: see `benches/README.md`.
+Install `benches/peers/requirements.txt` and this project's wheel into a separate environment, then
+run `python benches/peers -o docs/performance.md`: see `benches/README.md`.
 
-All play on one thread, by turns, each in a process of its own, so that whatever else the machine does falls on all
-alike. What contests count is done per second of CPU time; the median of the rounds is told, and a ratio is the
-median of the rounds' ratios. Microseconds and scaling are `setpiece bench`'s own, wall time.
+All run on one thread, in turn, each in its own process, so that other load on the machine affects
+all equally. The unit is work per second of CPU time. The page shows the median of the rounds; a
+ratio is the median of the rounds' ratios. Microseconds and scaling come from `setpiece bench`, in
+wall time.
 """
 
 from __future__ import annotations
@@ -34,40 +35,40 @@ SIDES = (1, 2, 3, 5, 7, 9, 11)
 
 
 def measured(contest: str, player: str, case: str, seconds: float) -> float:
-    """What one of them does, in a process of its own."""
+    """Measures one of them, in a separate process."""
     command = [sys.executable, str(Path(__file__).parent), "--one", contest, player, case, "--seconds", str(seconds)]
-    told = subprocess.run(command, check=True, capture_output=True, text=True)
-    return float(told.stdout.splitlines()[-1])
+    output = subprocess.run(command, check=True, capture_output=True, text=True)
+    return float(output.stdout.splitlines()[-1])
 
 
 def contest_section(name: str, contest: Contest, rounds: int, seconds: float, figures_of: Figures) -> list[str]:
-    """Plays a contest by turns; its section of the page. Notes the medians."""
+    """Runs a contest in turn; returns its section of the page and records the medians."""
     figures: dict[str, dict[str, list[float]]] = {
         case: {player: [] for player in contest.players} for case in contest.cases
     }
     for _ in range(rounds):
         for case, by_player in figures.items():
-            for player, told in by_player.items():
-                told.append(measured(name, player, case, seconds))
-                print(f"{case}, {player}: {told[-1]:,.0f}", file=sys.stderr)
+            for player, figures in by_player.items():
+                figures.append(measured(name, player, case, seconds))
+                print(f"{case}, {player}: {figures[-1]:,.0f}", file=sys.stderr)
     peer = next(iter(contest.players))
     versions = ", ".join(f"{package} {version(package)}" for package in contest.packages)
     lines = [f"## {contest.title}", "", contest.text, f"{versions}; {rounds} rounds of {seconds:g} s.", ""]
     lines += [f"| | player | {contest.unit} | against {peer} |", "| --- | --- | ---: | ---: |"]
     for case, by_player in figures.items():
-        for player, told in by_player.items():
-            ratios = [mine / theirs for mine, theirs in zip(told, by_player[peer], strict=True)]
+        for player, figures in by_player.items():
+            ratios = [mine / theirs for mine, theirs in zip(figures, by_player[peer], strict=True)]
             case_word = f"`{case}`" if "_" in case else case
             ratio = statistics.median(ratios)
             ratio_word = f"{ratio:,.0f}" if ratio >= 10 else f"{ratio:.2g}"
-            lines.append(f"| {case_word} | {player} | {statistics.median(told):,.0f} | {ratio_word} |")
-            figures_of[f"{case}, {player}"] = statistics.median(told)
+            lines.append(f"| {case_word} | {player} | {statistics.median(figures):,.0f} | {ratio_word} |")
+            figures_of[f"{case}, {player}"] = statistics.median(figures)
             figures_of[f"{case}, {player}, ratio"] = ratio
     return [*lines, ""]
 
 
 def alone_section(seconds: float, figures_of: Figures) -> list[str]:
-    """What `setpiece bench` tells: where the time goes, and what is done once."""
+    """The results of `setpiece bench`: the time of each phase, and one-time costs."""
     rows = {scenario: bench(scenario, seconds, "--threads", "1")[0] for scenario in SCENARIOS}
     phases = ("draw", "bots", "reach", "movement", "play", "physics", "referee", "judge", "observe")
     lines = ["## Where the time goes", "", "Microseconds a step, `simple115v2` written after every step.", ""]
@@ -149,7 +150,7 @@ BARS: tuple[tuple[str, str, str, float], ...] = (
 
 
 def bars_section(figures_of: Figures) -> list[str]:
-    """What is aimed at, and whether this run reached it."""
+    """The targets, and whether this run reached them."""
     lines = [
         "## Bars",
         "",
@@ -176,17 +177,17 @@ def bars_section(figures_of: Figures) -> list[str]:
 
 
 def revision() -> str:
-    """The commit that the page is made from, where that is known."""
+    """The commit that the page is made from, if known."""
     command = ["git", "-C", str(Path(__file__).parent), "rev-parse", "--short", "HEAD"]
     try:
-        told = subprocess.run(command, check=True, capture_output=True, text=True)
+        output = subprocess.run(command, check=True, capture_output=True, text=True)
     except (OSError, subprocess.CalledProcessError):
         return "of no known commit"
-    return f"at {told.stdout.strip()}"
+    return f"at {output.stdout.strip()}"
 
 
 def processor() -> str:
-    """What the processor calls itself."""
+    """The processor's name."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text(encoding="utf-8").splitlines() if info.exists() else []
     return next(

@@ -1,4 +1,4 @@
-"""What the peers are measured by."""
+"""The contests with the peers."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Contest:
-    """Some players who do the same: the first is the peer whom the others are set beside.
+    """Players that do the same work: the first is the peer that the others are compared with.
 
-    `players` maps a name to what measures it: of a case and a number of seconds, in units per second of CPU time.
+    `players` maps a name to its measurement: a function of a case and a number of seconds that
+    returns units per second of CPU time.
     """
 
     title: str
@@ -27,7 +28,7 @@ class Contest:
 
 
 def per_cpu_second(act: Callable[[], object], units: int, seconds: float) -> float:
-    """Calls `act`, which does so many units, for a while; returns units per second of the process's CPU time."""
+    """Calls `act`, which does `units` of work, for a while; returns units per CPU second."""
     for _ in range(3):
         act()
     done, cpu, end = 0, time.process_time(), time.monotonic() + seconds
@@ -46,5 +47,5 @@ def native_steps(scenario: str, seconds: float, observation: str) -> float:
 def bench(scenario: str, seconds: float, *options: str) -> list[dict[str, Any]]:
     """The lines of `setpiece bench SCENARIO` with some options."""
     command = [sys.executable, "-m", "setpiece", "bench", scenario, "--seconds", str(seconds), *options]
-    told = subprocess.run([*command, "--format", "jsonl"], check=True, capture_output=True, text=True)
-    return [json.loads(line) for line in told.stdout.splitlines()]
+    output = subprocess.run([*command, "--format", "jsonl"], check=True, capture_output=True, text=True)
+    return [json.loads(line) for line in output.stdout.splitlines()]

@@ -1,4 +1,4 @@
-"""EnvPool's build of Google Research Football: the same scenarios, one agent at random, bots for everyone else."""
+"""EnvPool's build of GRF: the same scenarios, one random agent, bots for everyone else."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def envpool_steps(scenario: str, seconds: float) -> float:
 
 
 def vector_steps(scenario: str, seconds: float) -> float:
-    """Steps per CPU-second of `setpiece.make_vec`, 64 environments, arrays that are written in place."""
+    """Steps per CPU-second of `setpiece.make_vec`, 64 environments, arrays written in place."""
     import numpy as np
     import setpiece
 

@@ -1,10 +1,11 @@
-"""Scenic's sampler: starts drawn from the same distribution under the same requirements."""
+"""Scenic's sampler: starts from the same distribution with the same requirements."""
 
 from __future__ import annotations
 
 from contests import Contest, per_cpu_second
 
-# Metres. Six players and the ball in boxes, some in need of room, as an Academy scenario with draws would have it.
+# Metres. Six players and the ball in boxes, some in need of room, like an Academy scenario with
+# draws.
 SCENIC = """
 class Man:
     width: 0.5

@@ -1,4 +1,4 @@
-"""VMAS's football: both teams of one size, one side at random, the other played by the built-in opponent."""
+"""VMAS's football: teams of one size, one side random, the other its built-in opponent."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from contests import Contest, native_steps, per_cpu_second
 
-# VMAS is made for many environments at once: with more of them than this it is no faster on a processor.
+# VMAS is made for many environments at once; more than this don't make it faster on a processor.
 ENVIRONMENTS = 256
 
 

@@ -1,6 +1,6 @@
 //! What a tick of the ball costs: free, at the goal, at a body, and with rapier on every tick.
 //!
-//! In thread CPU time, so that a busy machine counts little.
+//! Times are thread CPU time, so that other load on the machine matters little.
 #![allow(missing_docs, reason = "criterion's macros write the entry point")]
 
 #[path = "../../setpiece/benches/measure/cpu.rs"]

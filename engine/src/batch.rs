@@ -1,7 +1,8 @@
 //! Many environments at once, on a few threads.
 //!
-//! Parallel over matches, never inside one: what an episode gives depends on its seed and index alone, so results are the
-//! same on any number of threads, and come in the order of the episodes.
+//! Work is parallel over matches, never inside one. The result of an episode depends only on its
+//! seed and index. So results are the same on any number of threads, and come in the order of the
+//! episodes.
 
 use crate::control::agents::Agent;
 use crate::draw::DrawError;
@@ -16,9 +17,9 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Whoever chooses an environment's actions.
+/// Chooses the actions of an environment's agents.
 pub trait Policy {
-    /// An episode has begun.
+    /// Starts an episode.
     fn begin(&mut self, environment: &Environment) {
         let _ = environment;
     }
@@ -33,7 +34,7 @@ impl<F: FnMut(&Environment, usize) -> Action> Policy for F {
     }
 }
 
-/// A ready-made agent as a policy; one that acts at random draws from the episode's seed.
+/// A ready-made agent as a policy. One that acts at random draws from the episode's seed.
 #[derive(Clone, Debug)]
 pub struct ReadyMade {
     agent: Agent,
@@ -57,42 +58,42 @@ impl Policy for ReadyMade {
     }
 }
 
-/// What an episode was.
+/// The result of an episode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpisodeSummary {
     /// Its index.
     pub index: u64,
     /// The name of its ending.
     pub outcome: String,
-    /// Success or failure, where the ending says so.
+    /// Success or failure, if the ending says so.
     pub verdict: Option<Verdict>,
-    /// It ran into its limit.
+    /// Whether it reached its limit.
     pub truncated: bool,
     /// Steps.
     pub length: u32,
     /// Goals, left and right.
     pub score: [u16; 2],
-    /// What each agent was paid.
+    /// The return of each agent.
     pub returns: Vec<f64>,
-    /// Agent by agent, the sums of the terms, in the order of [`Environment::term_names`].
+    /// The sums of the terms, agent by agent, in the order of [`Environment::term_names`].
     pub terms: Vec<Vec<f64>>,
-    /// Payments that were stopped because their value was impossible.
+    /// Payments that were dropped because their value was impossible.
     pub faults: u32,
-    /// What the scenario's records say, by name.
+    /// The values of the scenario's records, by name.
     pub records: Vec<(String, Recorded)>,
-    /// The fingerprint of its last state.
+    /// The fingerprint of the last state.
     pub digest: u64,
-    /// What it was like.
+    /// The figures of the match.
     pub statistics: MatchStatistics,
 }
 
 /// Why an episode was not played to its end.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EpisodeError {
-    /// It has no start.
+    /// No start was found.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// It failed on its way.
+    /// A step failed.
     #[error(transparent)]
     Step(#[from] StepError),
     /// Neither an ending nor a limit came within a day of play.
@@ -100,7 +101,7 @@ pub enum EpisodeError {
     Endless(u32),
 }
 
-/// Steps after which an episode without a limit is given up: a day of play.
+/// After this many steps an episode without a limit is given up: a day of play.
 pub const STEPS_MAX: u32 = 864_000;
 
 /// The threads could not be started.
@@ -118,7 +119,7 @@ fn pool(threads: usize) -> Result<ThreadPool, BatchError> {
 /// Plays one episode to its end.
 ///
 /// # Errors
-/// [`EpisodeError`] where it has no start, a script fails, or nothing ends it.
+/// [`EpisodeError`] if it has no start, a script fails, or nothing ends it.
 pub fn run_episode(
     environment: &mut Environment,
     seed: u64,
@@ -157,16 +158,17 @@ pub fn run_episode(
     })
 }
 
-/// Plays episodes on a pool of threads of its own.
+/// Plays episodes on a new pool of threads.
 ///
 /// - `prototype`: the environment that every worker plays a copy of.
 /// - `episodes`: their indices under `seed`.
-/// - `policy`: makes a worker's policy; what it does must depend on the environment alone (its seed and index too).
-/// - `after`: is told of every episode as it ends, from any thread, in no order.
+/// - `policy`: makes a worker's policy. Its choices must depend only on the environment (including
+///   its seed and index).
+/// - `after`: called with every episode as it ends, from any thread, in no order.
 /// - returns: one result per episode, in the order of the indices.
 ///
 /// # Errors
-/// [`BatchError`] where the threads can't be started.
+/// [`BatchError`] if the threads can't be started.
 pub fn run_episodes<P: Policy>(
     prototype: &Environment,
     seed: u64,
@@ -188,19 +190,19 @@ pub fn run_episodes<P: Policy>(
     Ok(pool(threads)?.install(|| episodes.into_par_iter().map_init(worker, play).collect()))
 }
 
-/// Lanes, a match each, that are worked on together: on a few threads, each with a scratch world of its own.
+/// Lanes, one match each, that a few threads work on together, each with its own scratch world.
 pub struct Batch<L> {
     lanes: Vec<L>,
     scratches: Vec<Scratch>,
-    /// The threads beside the caller's own; none where that does all.
+    /// The threads besides the caller's own; none if the caller's thread is enough.
     others: Option<ThreadPool>,
 }
 
 impl<L: Send> Batch<L> {
-    /// Lanes on so many threads, the caller's among them.
+    /// Lanes on this many threads, including the caller's.
     ///
     /// # Errors
-    /// [`BatchError`] where the threads can't be started.
+    /// [`BatchError`] if the threads can't be started.
     pub fn new(lanes: Vec<L>, threads: usize) -> Result<Batch<L>, BatchError> {
         let threads = threads.clamp(1, lanes.len().max(1));
         let scratches = std::iter::repeat_with(Scratch::default).take(threads).collect();
@@ -208,13 +210,14 @@ impl<L: Send> Batch<L> {
         Ok(Batch { lanes, scratches, others })
     }
 
-    /// Starts the threads again: those of a process are not in its fork.
+    /// Starts the threads again: a forked process doesn't inherit its parent's threads.
     ///
     /// # Errors
     /// [`BatchError`] if the threads can't be started.
     pub fn restart_threads(&mut self) -> Result<(), BatchError> {
         if let Some(others) = self.others.take() {
-            // Its threads are gone, and may have gone with a lock of its own: nobody waits for them.
+            // The old pool's threads are gone and may have held one of its locks, so dropping it
+            // could wait forever.
             std::mem::forget(others);
             self.others = Some(pool(self.scratches.len() - 1)?);
         }
@@ -226,16 +229,18 @@ impl<L: Send> Batch<L> {
         &self.lanes
     }
 
-    /// The lanes, to change.
+    /// The lanes, mutable.
     pub fn lanes_mut(&mut self) -> &mut [L] {
         &mut self.lanes
     }
 
-    /// Does something with every lane and its row: `work` is given the lane's number, the lane, the row and a scratch
-    /// world. Lanes without a row are left alone. Which thread has which lane changes nothing.
+    /// Calls `work` for every lane and its row, with the lane's number, the lane, the row and a
+    /// scratch world. Lanes without a row are skipped. Results don't depend on which thread has
+    /// which lane.
     ///
-    /// A thread goes through a share of its own (the caller's is always the first, whose lanes its cache may still hold),
-    /// then helps the others from the end of theirs: nobody waits for longer than one lane's work.
+    /// Each thread processes its own share first. The caller's share is always the first one, whose
+    /// lanes its cache may still hold. Then the thread helps the others from the end of their
+    /// shares. So nobody waits longer than one lane's work.
     pub fn each<R: Send>(&mut self, rows: Vec<R>, work: impl Fn(usize, &mut L, R, &mut Scratch) + Sync) {
         let length = self.lanes.len().div_ceil(self.scratches.len()).max(1);
         let mut lanes = self.lanes.iter_mut().zip(rows).enumerate();
@@ -296,13 +301,13 @@ mod tests {
     fn who_is_done_helps_the_others() {
         use std::sync::mpsc::channel;
         use std::time::Duration;
-        let (tell, told) = channel();
-        let told = Mutex::new(told);
+        let (send, receive) = channel();
+        let receive = Mutex::new(receive);
         let mut batch = Batch::new(vec![(); 4], 2).unwrap();
         // Lanes 0 and 1 are one thread's share; 0 isn't done before 1 is.
         batch.each(vec![(); 4], |number, (), (), _| match number {
-            0 => told.lock().unwrap().recv_timeout(Duration::from_secs(60)).unwrap(),
-            1 => tell.send(()).unwrap(),
+            0 => receive.lock().unwrap().recv_timeout(Duration::from_secs(60)).unwrap(),
+            1 => send.send(()).unwrap(),
             _ => (),
         });
     }
@@ -337,8 +342,8 @@ mod tests {
             batch.each(vec![Action::Right; 4], |_, lane, action, scratch| {
                 lane.step(&[action], scratch).unwrap();
             });
-            let told: Vec<_> = batch.lanes().iter().map(|lane| (lane.index(), lane.steps())).collect();
-            assert_eq!(told, [(0, 1), (1, 1), (2, 1), (3, 1), (4, 0)]);
+            let found: Vec<_> = batch.lanes().iter().map(|lane| (lane.index(), lane.steps())).collect();
+            assert_eq!(found, [(0, 1), (1, 1), (2, 1), (3, 1), (4, 0)]);
         }
     }
 }

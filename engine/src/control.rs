@@ -1,9 +1,14 @@
 //! What players want to do: agents' actions and the built-in bot.
 //!
-//! Decides every player's intent and planned kick at the start of a step; leaves to `football` what comes of them.
-//! Inside: [`sticky`] keeps held actions, [`driver`] turns an agent's actions into intents (with [`assist`], GRF's
-//! magnet), [`continuous`] reads actions of numbers, [`behavior`] chooses such actions for scripted players, [`bot`]
-//! plays everyone else, [`tell`] says in actions what the bot does, [`agents`] are ready-made agents.
+//! Decides every player's intent and planned kick at the start of a step. `football` plays them
+//! out.
+//!
+//! - [`sticky`] keeps held actions.
+//! - [`driver`] turns an agent's actions into intents, with [`assist`], GRF's magnet.
+//! - [`continuous`] reads continuous actions.
+//! - [`behavior`] chooses actions for scripted players.
+//! - [`bot`] plays everyone else, and [`tell`] expresses its play as actions.
+//! - [`agents`] are ready-made agents.
 
 pub mod agents;
 pub mod assist;
@@ -26,19 +31,21 @@ use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Rule};
 use tell::Before;
 
-/// Steps that a set piece may wait for an agent. (GRF's: it is the twentieth that is hurried.)
+/// Steps that a set piece waits for an agent. (GRF's: the twentieth is hurried.)
 const STALLING_STEPS: u16 = 19;
 
-/// Takes the agents' actions and lets the bots decide: every intent of the step, and what everyone pressed for it.
+/// Applies the agents' actions and lets the bots decide. Sets every intent of the step, and which
+/// key everyone pressed for it.
 pub fn command(game: &mut Match, actions: &[Action], events: &mut Events) {
     let before = decide(game, actions, events);
     tell::record(game, &before);
 }
 
-/// What the bot would press for each agent, by slot, if all were handed over to it now: relative to what the slots hold.
-/// `game` is spent: it stands decided afterwards.
+/// The action that the bot would press for each agent if it played all of them now, by slot,
+/// relative to the held actions. `game` holds the decided state afterwards and is no longer usable.
 ///
-/// [`Action::Idle`] for an agent without a player. Who has a behaviour is told what that presses.
+/// [`Action::Idle`] for an agent without a player. A player with a behaviour gets the behaviour's
+/// action.
 pub fn bot_actions(game: &mut Match) -> ArrayVec<Action, PLAYERS_MAX> {
     let held: ArrayVec<u16, PLAYERS_MAX> = game.agents.iter().map(|slot| slot.sticky).collect();
     let handed = [Action::BuiltinAi; PLAYERS_MAX];
@@ -51,7 +58,7 @@ pub fn bot_actions(game: &mut Match) -> ArrayVec<Action, PLAYERS_MAX> {
     game.agents.iter().zip(&held).map(press).collect()
 }
 
-/// Every intent of the step; says what was under way before the bots decided.
+/// Decides every intent of the step, and returns what was under way before the bots decided.
 fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     game.play.led = [false; 2];
     game.play.rush = [false; 2];
@@ -93,7 +100,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
             game.agents[slot].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         } else {
             game.agents[slot].key = None;
-            // A player that is handed to the bot holds no key.
+            // A player handed to the bot holds no key.
             if let Some(plan) = agent.player.and_then(|id| game.players[id.index()].body.kick.as_mut()) {
                 plan.held = false;
             }
@@ -105,7 +112,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
     before
 }
 
-/// Drives everyone for whom a behaviour has chosen an action and whom no agent drives.
+/// Drives every player that no agent drives and that has a behaviour's action.
 fn drive_scripted(game: &mut Match, events: &mut Events) {
     for id in game.order() {
         let i = id.index();
@@ -130,8 +137,8 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
     }
 }
 
-/// A set piece that an agent doesn't take is taken for it: a short pass is pressed, once, and let go; a key that has been down
-/// since before is let go first. `key`: the kick whose key is down.
+/// Takes a set piece for an agent who doesn't: presses a short pass once and releases it. A key
+/// that was already down is released first. `key`: the kick whose key is down.
 fn hurry(game: &Match, id: PlayerId, action: Action, key: Option<KickKind>) -> Action {
     let asked = game.player(id).body.kick.is_some();
     let waiting = game.play.set_piece.filter(|set_piece| set_piece.taker == id && game.rule(Rule::AntiStalling));

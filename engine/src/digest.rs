@@ -1,12 +1,13 @@
-//! A fingerprint of a match: two states with the same digest are, for all that is seen of them, the same.
+//! A fingerprint of a match: two states with the same digest look the same in every way.
 //!
-//! FNV-1a over 64 bits. Every number enters as its little-endian bytes, floats by their bits with -0.0 folded to 0.0,
-//! in the order of [`of_match`]: clock, score, ball, players by id, possession, mode, agents. The streams of random
-//! numbers enter by what they would give next, so that runs which only happen to look alike differ.
+//! FNV-1a over 64 bits. Every number enters as its little-endian bytes, floats by their bits with
+//! -0.0 folded to 0.0. The order is that of [`of_match`]: clock, score, ball, players by id,
+//! possession, mode, agents. Random streams enter by their next numbers, so runs that only happen
+//! to look alike differ.
 
 use crate::state::{Match, PlayerId};
 
-/// A digest under way.
+/// A digest being computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Digest(u64);
 
@@ -17,20 +18,20 @@ impl Default for Digest {
 }
 
 impl Digest {
-    /// Takes whole numbers.
+    /// Adds whole numbers.
     #[must_use]
     pub fn whole(self, value: u64) -> Digest {
         let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         Digest(value.to_le_bytes().into_iter().fold(self.0, step))
     }
 
-    /// Takes a float by its bits; both zeros are one.
+    /// Adds a float by its bits; both zeros are the same.
     #[must_use]
     pub fn float(self, value: f32) -> Digest {
         self.whole(u64::from((value + 0.0).to_bits()))
     }
 
-    /// Takes floats in order.
+    /// Adds floats in order.
     #[must_use]
     pub fn floats(self, values: impl IntoIterator<Item = f32>) -> Digest {
         values.into_iter().fold(self, Digest::float)
@@ -42,7 +43,7 @@ impl Digest {
     }
 }
 
-/// The digest of a match as it stands.
+/// The digest of a match's current state.
 pub fn of_match(game: &Match) -> u64 {
     let id = |player: Option<PlayerId>| player.map_or(u64::MAX, |player| u64::from(player.0));
     let mut digest = Digest::default()

@@ -1,8 +1,8 @@
-//! A scenario, its parameters and a seed become one concrete start.
+//! Turns a scenario, its parameters and a seed into one concrete start.
 //!
-//! Decides where everybody stands when an episode begins: runs the scenario's start program, checks what the author
-//! requires and what the pitch requires, and redraws everything until all of it holds. What a start means for the game
-//! is `football`'s.
+//! Decides where everybody stands when an episode begins. It runs the scenario's start program,
+//! checks the requirements of the author and of the pitch, and redraws everything until all of them
+//! hold. `football` decides what a start means for the game.
 
 mod place;
 mod roster;
@@ -24,36 +24,37 @@ use setpiece_scenario::pitch::{
 use setpiece_scenario::vocabulary::{Rule, Team};
 use setpiece_scenario::{Bindings, Reg, Scenario};
 
-/// Most attempts at a start that meets its requirements.
+/// The most attempts to find a start that meets its requirements.
 pub const ATTEMPTS_MAX: u32 = 10_000;
-/// Most instructions that are run for one start: what large programs may cost shortens the search.
+/// The most instructions that are run for one start, so that large programs get fewer attempts.
 const WORK_MAX: u64 = 1 << 28;
-/// The attempt whose streams toss the coins of `require … with P`: tossed once per start, so no attempt is its own.
+/// The attempt whose streams toss the coins of `require … with P`. Coins are tossed once per start,
+/// so they belong to no attempt.
 const COIN_ATTEMPT: u32 = u32::MAX;
 
-/// How often single attempts at a start meet what is required.
+/// How often single attempts at a start meet the requirements.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Acceptance {
     /// Attempts made.
     pub attempts: u32,
-    /// Attempts that met everything.
+    /// Attempts that met every requirement.
     pub met: u32,
-    /// The requirement that failed most often, where one did: the author's words, or the pitch's.
+    /// The requirement that failed most often, if one did, in the author's words or the pitch's.
     pub hardest: Option<String>,
 }
 
 impl Acceptance {
-    /// The share of attempts that met everything, 0..1.
+    /// The share of attempts that met every requirement, 0..1.
     pub fn rate(&self) -> f64 {
         f64::from(self.met) / f64::from(self.attempts.max(1))
     }
 }
 
-/// No start was found that meets what is required.
+/// No start was found that meets the requirements.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{} (seed {seed}, episode {index})", self.what())]
 pub struct DrawError {
-    /// The requirement that failed most often: the author's words, or the pitch's.
+    /// The requirement that failed most often, in the author's words or the pitch's.
     pub requirement: String,
     /// In how many attempts it failed.
     pub failures: u32,
@@ -75,7 +76,7 @@ impl DrawError {
     }
 }
 
-/// Draws starts of one scenario; keeps its registers, so that a draw allocates little.
+/// Draws starts of one scenario. It keeps its registers, so that a draw allocates little.
 #[derive(Debug, Default)]
 pub struct Drawer {
     regs: Registers,
@@ -110,10 +111,10 @@ impl Drawer {
     /// Draws the start of an episode.
     ///
     /// # Errors
-    /// [`DrawError`] where no attempt met every requirement.
+    /// [`DrawError`] if no attempt met every requirement.
     ///
     /// # Determinism
-    /// Depends on its arguments alone; a new draw in the scenario shifts no other.
+    /// Depends only on its arguments. A new draw in the scenario doesn't change the others.
     pub fn draw(
         &mut self,
         scenario: &Scenario,
@@ -140,10 +141,11 @@ impl Drawer {
         Err(self.error(scenario, seed, index, attempts))
     }
 
-    /// Estimates how often an attempt at a start succeeds: one attempt each of many episodes.
+    /// Estimates how often an attempt at a start succeeds, with one attempt for each of many
+    /// episodes.
     ///
-    /// - `attempts`: how many at most.
-    /// - `enough`: so many successes end the estimate.
+    /// - `attempts`: the most attempts.
+    /// - `enough`: the estimate ends after this many successes.
     pub fn acceptance(
         &mut self,
         scenario: &Scenario,
@@ -177,7 +179,7 @@ impl Drawer {
         scenario.start.requires.get(which).is_none_or(|require| self.is_random(require.condition))
     }
 
-    /// What to say of a start that was not found.
+    /// Describes why no start was found.
     fn error(&self, scenario: &Scenario, seed: u64, index: u64, attempts: u32) -> DrawError {
         let (which, failures) = self
             .failures
@@ -193,7 +195,7 @@ impl Drawer {
         DrawError { requirement, failures, attempts, seed, index }
     }
 
-    /// A start that was not checked against any requirement: for what is needed before the first episode.
+    /// A start that wasn't checked against the requirements, for use before the first episode.
     pub fn draw_unchecked(&mut self, scenario: &Scenario, bindings: &Bindings, roster: &Roster) -> Drawn {
         let draws = DrawKey { seed: 0, index: 0, attempt: 0 };
         self.begin(bindings, draws);
@@ -213,7 +215,7 @@ impl Drawer {
         self.machine(bindings, draws, &mut faults).run();
     }
 
-    /// The start program at work; its values stand in the registers afterwards.
+    /// The machine of the start program. Its values are in the registers afterwards.
     fn machine<'a>(&'a mut self, bindings: &'a Bindings, draws: DrawKey, faults: &'a mut u32) -> Machine<'a> {
         let (plan, regs) = self.regs.parts();
         Machine {
@@ -237,7 +239,8 @@ impl Drawer {
         }
     }
 
-    /// The requirement that the present attempt fails, if any: the author's come before the pitch's.
+    /// The requirement that this attempt fails, if any; the author's are checked before the
+    /// pitch's.
     fn failed(&self, scenario: &Scenario, roster: &Roster, seed: u64, index: u64) -> Option<usize> {
         let requires = &scenario.start.requires;
         let own = requires.iter().enumerate().position(|(which, require)| {
@@ -266,7 +269,7 @@ impl Drawer {
         Vec2::new(self.value(x) as f32, self.value(y) as f32)
     }
 
-    /// Where a player stands: on the pitch or its rim, whatever a compiled file says.
+    /// Where a player stands: on the pitch or its rim, even if a compiled file says otherwise.
     fn place(&self, at: (Reg, Reg)) -> Vec2 {
         let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
         self.point(at).clamp(-rim, rim)

@@ -1,9 +1,9 @@
-//! One match and its judge, as an agent meets them.
+//! One match and its judge, as an agent sees them.
 //!
-//! Sets the judge into the order of a step ([`step`]): it judges the state as ten ticks of play have left it, before
-//! the restart that a stop calls for. What is observed afterwards therefore shows the restart; what was judged is the
-//! state before it. Holds what lives as long as an episode; a clone goes on as the original does, and [`snapshot`]
-//! makes bytes of it; [`hindsight`] begins a new one in an old state.
+//! Puts the judge into the order of a step ([`step`]): it judges the state after ten ticks of play,
+//! before the restart that a stop requires. So observations show the restart, but rewards don't. It
+//! holds everything that lives as long as an episode. A clone continues like the original,
+//! [`snapshot`] turns one into bytes, and [`hindsight`] starts a new episode in an old state.
 
 mod error;
 mod fits;
@@ -36,31 +36,32 @@ use setpiece_scenario::{Bindings, Reward, Scenario};
 use std::sync::Arc;
 use stopped::Stopped;
 
-/// What a user asks for beside the scenario.
+/// A user's choices besides the scenario.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EnvironmentOptions {
     /// The parameters; their defaults if absent.
     pub bindings: Option<Bindings>,
-    /// Named rewards in place of the scenario's own.
+    /// Named rewards instead of the scenario's own.
     pub rewards: Option<Vec<String>>,
-    /// How the ball's contacts are found, in place of the scenario's own choice.
+    /// How the ball's contacts are found, instead of the scenario's choice.
     pub physics: Option<Physics>,
-    /// Agents in place of the scenario's own.
+    /// Agents instead of the scenario's own.
     pub agents: Option<AgentsChoice>,
-    /// A [snapshot](Environment::snapshot) in whose state every episode begins, in place of the scenario's start.
+    /// A [snapshot](Environment::snapshot) whose state every episode begins in, instead of the
+    /// scenario's start.
     pub from: Option<Arc<[u8]>>,
 }
 
 /// How the ball's contacts are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Physics {
-    /// Rapier is asked where the ball comes near something hard.
+    /// Rapier runs only if the ball comes near something hard.
     Gated,
     /// Rapier runs on every tick.
     Full,
 }
 
-/// What became of the episode in a step.
+/// How a step affected the episode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepResult {
     /// An ending held.
@@ -75,7 +76,7 @@ pub struct Environment {
     scenario: Arc<Scenario>,
     scenario_digest: u64,
     options: Arc<EnvironmentOptions>,
-    /// The state that every episode begins in, where the options have one.
+    /// The state that every episode begins in, if the options have one.
     past: Option<Arc<Match>>,
     bindings: Arc<Bindings>,
     roster: Roster,
@@ -90,11 +91,11 @@ pub struct Environment {
     /// How many of the events belong to the step just played.
     judged: usize,
     statistics: Statistics,
-    /// The episode can be stepped.
+    /// Whether the episode can be stepped.
     running: bool,
-    /// A reset has been tried.
+    /// Whether a reset has been tried.
     begun: bool,
-    /// And has found a start.
+    /// Whether that reset found a start.
     started: bool,
     outcome: Option<Outcome>,
     seed: u64,
@@ -112,8 +113,9 @@ impl Environment {
     /// Prepares an environment; it must be reset before its first step.
     ///
     /// # Errors
-    /// [`EnvironmentError`] for a reward, parameter or number of agents that the scenario doesn't have, or a script
-    /// that is not Rhai, and for a snapshot to begin from that is none or of other players or agents.
+    /// [`EnvironmentError`] for a reward, parameter or number of agents that the scenario doesn't
+    /// have, a script that isn't valid Rhai, or an unusable snapshot (unreadable, or with other
+    /// players or agents).
     pub fn new(scenario: Arc<Scenario>, options: EnvironmentOptions) -> Result<Environment, EnvironmentError> {
         let bindings = bound(&scenario, options.bindings.as_ref())?;
         let scripts = Scripts::compile(&scenario)?;
@@ -155,11 +157,13 @@ impl Environment {
 
     /// Begins an episode.
     ///
-    /// - `seed`: begins a new count of episodes; without it the seed stays.
-    /// - `index`: which episode of the seed; else 0 after a seed, and the next one without.
+    /// - `seed`: restarts the count of episodes; without it the seed stays the same.
+    /// - `index`: the episode of the seed. The default is 0 after a seed, and the next episode
+    ///   without one.
     ///
     /// # Errors
-    /// [`DrawError`] where no start meets the scenario's requirements; the environment must be reset again then.
+    /// [`DrawError`] if no start meets the scenario's requirements. The environment must then be
+    /// reset again.
     pub fn reset(&mut self, seed: Option<u64>, index: Option<u64>) -> Result<(), DrawError> {
         let past = self.past.clone();
         self.begin(seed, index, past.as_deref())
@@ -197,8 +201,8 @@ impl Environment {
     /// Plays one step: `actions[i]` is agent i's, in the own frame of its team.
     ///
     /// # Errors
-    /// [`StepError`] where the episode has ended or has not begun, where there is not one action per agent (nothing is
-    /// played then), and where a script failed (which ends the episode).
+    /// [`StepError`] if the episode has ended or has not begun, if there isn't one action per agent
+    /// (then nothing is played), or if a script failed (which ends the episode).
     pub fn step(&mut self, actions: &[Action], scratch: &mut Scratch) -> Result<StepResult, StepError> {
         if !self.running {
             return Err(StepError::NotRunning { begun: self.begun });
@@ -237,9 +241,9 @@ impl Environment {
         Ok(StepResult { terminated, truncated })
     }
 
-    /// Ends the episode where it stands, for a reason that is the caller's own: as an ending of the scenario would, in
-    /// the place of its limit where that was reached in the same step. Does nothing before an episode's first step and
-    /// where an ending of the scenario has ended it.
+    /// Ends the episode now, for a reason of the caller's own, as an ending of the scenario would.
+    /// It replaces a limit reached in the same step. No-op before an episode's first step, and
+    /// after an ending of the scenario.
     pub fn end(&mut self, outcome: Outcome) {
         let ended = self.outcome.as_ref().is_some_and(|outcome| !outcome.truncated);
         if self.started && self.game.step > 0 && !ended {
@@ -248,19 +252,19 @@ impl Environment {
         }
     }
 
-    /// Steers an agent's player from the next step on: a way of any angle and pace in the place of a held direction,
-    /// until a direction is pressed. Does nothing for no such agent.
+    /// Steers an agent's player from the next step on, with any angle and pace, instead of a held
+    /// direction. Lasts until a direction is pressed. No-op for unknown agents.
     pub fn steer(&mut self, agent: usize, steer: Option<Steer>) {
         if let Some(slot) = self.game.agents.get_mut(agent) {
             slot.steer = steer;
         }
     }
 
-    /// Goes on with another version of the scenario's scripts, at once and with the memory they have; false, and nothing
-    /// done, where anything else is another.
+    /// Replaces the scripts by those of another version of the scenario, at once and with their
+    /// memory. False, without any effect, if anything else differs.
     ///
     /// # Errors
-    /// [`EnvironmentError`] for a script that is not Rhai.
+    /// [`EnvironmentError`] for a script that isn't valid Rhai.
     pub fn adopt_scripts(&mut self, scenario: &Arc<Scenario>) -> Result<bool, EnvironmentError> {
         if scenario.scripts.len() != self.scenario.scripts.len() {
             return Ok(false);
@@ -276,10 +280,10 @@ impl Environment {
         Ok(same)
     }
 
-    /// Binds the parameters anew, from the next reset on.
+    /// Sets the parameters from the next reset on.
     ///
     /// # Errors
-    /// [`EnvironmentError`] where a value is not allowed, or where players or agents would change.
+    /// [`EnvironmentError`] if a value isn't allowed, or if players or agents would change.
     pub fn set_bindings(&mut self, bindings: &Bindings) -> Result<(), EnvironmentError> {
         let bindings = bound(&self.scenario, Some(bindings))?;
         let roster = Roster::new(&self.scenario, &bindings, self.options.agents.as_ref())?;
@@ -295,7 +299,7 @@ impl Environment {
         &self.scenario
     }
 
-    /// What was asked for beside it.
+    /// The user's choices besides the scenario.
     pub fn options(&self) -> &EnvironmentOptions {
         &self.options
     }
@@ -305,7 +309,7 @@ impl Environment {
         &self.bindings
     }
 
-    /// Who takes part.
+    /// The players who take part.
     pub fn roster(&self) -> &Roster {
         &self.roster
     }
@@ -315,13 +319,14 @@ impl Environment {
         self.roster.agents.len()
     }
 
-    /// The agents' ids, in their order: a player's name, else `left_CM_1`; `left_0` where the player changes.
+    /// The agents' ids, in their order: a player's name, else `left_CM_1`; `left_0` if the player
+    /// changes.
     pub fn agent_ids(&self) -> &[String] {
         &self.ids
     }
 
-    /// A player's name, else his team, role and number among its players of that role (`left_CM_1`); none where nobody
-    /// is.
+    /// A player's name, else their team, role and number among the team's players of that role
+    /// (`left_CM_1`). None if the slot is empty.
     pub fn player_name(&self, player: PlayerId) -> Option<String> {
         let present = self.roster.present.get(player.index()).copied().unwrap_or_default();
         present.then(|| player_name(&self.scenario, player.team(), player))
@@ -332,36 +337,40 @@ impl Environment {
         &self.game.agents
     }
 
-    /// What a player pressed in the last step, in the own frame of his team: his agent's action, else that of his
-    /// behaviour, else what the bot did with him, told as an action.
+    /// What a player pressed in the last step, in the own frame of their team: their agent's
+    /// action, else their behaviour's, else the bot's play expressed as an action.
     ///
-    /// The bot's presses of a player are a stream: each is relative to what those before it hold. `None` where nobody
-    /// plays him (off the pitch, `ai: lazy`); [`Action::BuiltinAi`] where his behaviour hands over to the bot.
+    /// The bot's presses form a stream: each is relative to what the earlier ones hold. `None` if
+    /// nobody plays the player (off the pitch, `ai: lazy`). [`Action::BuiltinAi`] if the behaviour
+    /// hands over to the bot.
     pub fn action_of(&self, player: PlayerId) -> Option<Action> {
         self.game.play.acting.get(player.index()).and_then(|acting| acting.played)
     }
 
-    /// What the bot would press for an agent in the next step: see [`Self::bot_actions`]; `None` for no such agent.
+    /// What the bot would press for an agent in the next step: see [`Self::bot_actions`]. `None`
+    /// for unknown agents.
     pub fn bot_action(&self, agent: usize) -> Option<Action> {
         self.bot_actions().get(agent).copied()
     }
 
-    /// What the bot would press for each agent if the next step handed all of them over to it
-    /// ([`Action::BuiltinAi`]), told as an action that goes on from what the agent's slot holds now; a behaviour's
-    /// press where the player has one. [`Action::Idle`] for an agent without a player.
+    /// What the bot would press for each agent if the next step handed all of them to it
+    /// ([`Action::BuiltinAi`]). Each action continues what the agent's slot holds now. A player
+    /// with a behaviour gets the behaviour's action. [`Action::Idle`] for an agent without a
+    /// player.
     ///
-    /// Tries the decision on a copy: neither the match nor its random numbers change.
+    /// Decides on a copy: neither the match nor its random numbers change.
     pub fn bot_actions(&self) -> ArrayVec<Action, PLAYERS_MAX> {
         let mut game = self.game.clone();
         if self.started && !self.actors.is_empty() {
             let handed = [Action::BuiltinAi; PLAYERS_MAX];
-            // A script that fails is left to the step itself: here its player is the bot's.
+            // A failing script is reported by the step itself. Here its player is treated as the
+            // bot's.
             let _ = self.actors.clone().choose(&mut game, self.events(), &handed);
         }
         control::bot_actions(&mut game)
     }
 
-    /// What each agent was paid in the last step.
+    /// The reward of each agent in the last step.
     pub fn rewards(&self) -> &[f32] {
         self.judge.rewards().paid()
     }
@@ -381,23 +390,23 @@ impl Environment {
         self.judge.rewards().sums(agent)
     }
 
-    /// Payments of the episode that were stopped because their value was impossible (a division by zero, a property
-    /// of nobody).
+    /// Dropped payments of the episode: their value was impossible (such as a division by zero).
     pub fn faults(&self) -> u32 {
         self.judge.rewards().faults() + self.actors.faults()
     }
 
-    /// What the scenario's records say so far, in source order.
+    /// The values of the scenario's records so far, in source order.
     pub fn records(&self) -> impl Iterator<Item = (&str, Recorded)> {
         self.judge.records().values()
     }
 
-    /// The names of the numbers of the scenario's own observation (`observe vector`), in order; empty without one.
+    /// The names of the numbers of the scenario's own observation (`observe vector`), in order;
+    /// empty without one.
     pub fn observed_names(&self) -> Vec<String> {
         self.judge.observed_names()
     }
 
-    /// How the numbers of an observation lie.
+    /// The layout of an observation's numbers.
     pub fn layout(&self, floats: Floats) -> Layout {
         match floats {
             Floats::Simple115 => layout::simple115(),
@@ -412,7 +421,7 @@ impl Environment {
     /// Writes an observation for an agent.
     ///
     /// # Errors
-    /// [`ObserveError`] where there is no such agent, or `out` has another length than the observation.
+    /// [`ObserveError`] for unknown agents, or an `out` of another length.
     pub fn observe(&mut self, floats: Floats, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
         match floats {
             Floats::Simple115 => observe::simple115(&self.game, agent, out),
@@ -424,17 +433,18 @@ impl Environment {
         }
     }
 
-    /// How many players the larger team has.
+    /// The number of players of the larger team.
     fn larger_team(&self) -> usize {
         let count = |players: &[bool]| players.iter().filter(|present| **present).count();
         let (left, right) = self.roster.present.split_at(TEAM_MAX);
         count(left).max(count(right))
     }
 
-    /// Writes the scenario's own observation for an agent: quantities in SI units, places normalised, own frame.
+    /// Writes the scenario's own observation for an agent: quantities in SI units, places
+    /// normalised, own frame.
     ///
     /// # Errors
-    /// [`ObserveError`] where there is no such agent, or `out` has another length than the observation.
+    /// [`ObserveError`] for unknown agents, or an `out` of another length.
     pub fn observe_vector(&mut self, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
         let n_agents = self.game.agents.len();
         if agent >= n_agents {
@@ -457,12 +467,12 @@ impl Environment {
         self.outcome.as_ref()
     }
 
-    /// The ending that held already when the episode began, if one did.
+    /// The ending that already held when the episode began, if any.
     pub fn ends_at_start(&self) -> Option<&str> {
         self.judge.endings().holds_at_start()
     }
 
-    /// Whether an episode has been asked for.
+    /// Whether a reset has been tried.
     pub fn has_begun(&self) -> bool {
         self.begun
     }
@@ -472,21 +482,22 @@ impl Environment {
         self.running
     }
 
-    /// The match as it stands, after any restart.
+    /// The current match, after any restart.
     pub fn state(&self) -> &Match {
         &self.game
     }
 
-    /// The match as the last step was judged: where play was stopped in it, as it lay before the restart.
+    /// The match as the last step was judged. If play was stopped in it, this is the state before
+    /// the restart.
     pub fn judged_state(&self) -> &Match {
         self.stopped.get().unwrap_or(&self.game)
     }
 
-    /// The start that the scenario draws for the seed and the index as they are (0 and 0 before the first episode), with
-    /// the parameters as they are. An episode that began in the state of a snapshot began elsewhere.
+    /// The start that the scenario draws for the current seed, index and parameters (0 and 0 before
+    /// the first episode). It isn't the start of an episode begun from a snapshot.
     ///
     /// # Errors
-    /// [`DrawError`] where no start meets the scenario's requirements.
+    /// [`DrawError`] if no start meets the scenario's requirements.
     pub fn start(&mut self) -> Result<Drawn, DrawError> {
         let (scenario, bindings, roster) = (&self.scenario, &self.bindings, &self.roster);
         let mut drawn = self.drawer.draw(scenario, bindings, roster, self.seed, self.index)?;
@@ -514,23 +525,23 @@ impl Environment {
         self.index
     }
 
-    /// Truncation after so many steps.
+    /// The episode is truncated after this many steps.
     pub fn limit_steps(&self) -> Option<u32> {
         self.game.limit_steps
     }
 
-    /// What the episode was like so far.
+    /// The figures of the episode so far.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
     }
 
-    /// A fingerprint of the state as it stands.
+    /// A fingerprint of the current state.
     pub fn digest(&self) -> u64 {
         crate::digest::of_match(&self.game)
     }
 }
 
-/// The scenario's digest; one that no file could hold has none.
+/// The scenario's digest; 0 if no file could hold the scenario.
 fn digest_of(scenario: &Scenario) -> u64 {
     setpiece_scenario::file::digest(scenario).unwrap_or_default()
 }

@@ -1,4 +1,5 @@
-//! Lists of many floats as their bytes, for `#[serde(with = …)]`: read and written at once, little end first.
+//! Lists of many floats as bytes, for `#[serde(with = …)]`: read and written at once,
+//! little-endian.
 
 use serde::de::{Error, Visitor};
 use serde::{Deserializer, Serializer};
@@ -49,7 +50,7 @@ mod tests {
         assert_eq!(bytes.len(), 1 + 3 * 4);
         assert_eq!(postcard::from_bytes::<Lane<3>>(&bytes).unwrap(), lane);
         assert!(postcard::from_bytes::<Lane<2>>(&bytes).is_err());
-        // One byte less, and said so: no whole number of floats.
+        // One byte less, with a matching length: not a whole number of floats.
         bytes[0] -= 1;
         assert!(postcard::from_bytes::<Lane<3>>(&bytes).is_err());
     }

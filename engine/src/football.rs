@@ -1,12 +1,18 @@
 //! The game: players, touches, kicks, the referee.
 //!
-//! Decides everything that happens on the pitch in a tick but two things: how a free ball flies and rebounds is
-//! [`crate::physics`]'s, what players want to do is [`crate::control`]'s. What it all changes is [`crate::state`].
-//! Inside: [`movement`] (with `stride` and [`pace`]), [`separation`] and [`mod@frame`] move bodies; [`reach`] says
-//! who is at the ball first; [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with
-//! [`pass`] and [`shot`]) and [`keeper`] play it, and it may [`bounce`] off a body; [`contact`] says what that means;
-//! [`referee`], [`offside`] and [`foul`] have the [`whistle`] stop play, [`advantage`] lets it run, and
-//! [`mod@restart`] goes on; [`set_piece`] and [`lineup`] say who stands where, [`switching`] whom each agent plays.
+//! Decides everything that happens on the pitch in a tick, with two exceptions. How a free ball
+//! flies and rebounds is [`crate::physics`]'s; what players want to do is [`crate::control`]'s. The
+//! state that it changes is in [`crate::state`]. Inside:
+//!
+//! - [`movement`] (with `stride` and [`pace`]), [`separation`] and [`mod@frame`] move bodies.
+//! - [`reach`] computes who is at the ball first.
+//! - [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and
+//!   [`shot`]) and [`keeper`] play the ball, which may also [`bounce`] off a body. [`contact`]
+//!   decides what that means.
+//! - [`referee`], [`offside`] and [`foul`] let the [`whistle`] stop play, [`advantage`] lets it
+//!   run, and [`mod@restart`] resumes it.
+//! - [`set_piece`] and [`lineup`] decide who stands where, and [`switching`] which player each
+//!   agent controls.
 
 pub mod advantage;
 pub mod begin;

@@ -1,4 +1,5 @@
-//! Copying into what is already there: buffers keep their memory, so that a copy of an episode allocates nothing.
+//! Copying into existing buffers: they keep their memory, so that a copy of an episode allocates
+//! nothing.
 
 /// Implements `Clone` field by field; `clone_from` copies every field into its place.
 macro_rules! clone_in_place {

@@ -1,16 +1,16 @@
 //! The judge: what an episode is worth, and when it ends.
 //!
-//! Decides rewards and endings from what happened in a step; never touches the match. Each step it is shown a
-//! [`View`] of the state before any restart, the view that the step before left behind (after its restart), and the
-//! step's events. Endings are judged first, in their order; the one that holds adds the event `end`, which the rewards
-//! of that last step see.
+//! Decides rewards and endings from what happened in a step; never changes the match. For each step
+//! it gets a [`View`] of the state before any restart, the view that the last step left behind
+//! (after its restart), and the step's events. Endings are judged first, in their order. The one
+//! that holds adds the event `end`, which the rewards of that last step see.
 //!
 //! - [`view`]: the part of a match that programs and scripts may read.
 //! - [`machine`]: runs register programs.
-//! - [`known`]: what both know of an episode beside it.
+//! - [`known`]: what programs and scripts know of an episode besides the view.
 //! - [`rewards`], [`endings`]: what the scenario pays, and how it ends.
 //! - [`records`], [`observation`]: what it measures, and what it shows its agents.
-//! - [`script`]: the same by Rhai hooks.
+//! - [`script`]: the same, by Rhai hooks.
 
 pub mod endings;
 pub mod known;
@@ -52,7 +52,7 @@ pub struct Judge {
     prev: View,
     /// How much of the state is kept in `prev`.
     memory: Memory,
-    /// What `prev` was in the step just judged: what an observation compares with.
+    /// The value of `prev` in the step just judged, for observations that compare with it.
     before: View,
 }
 
@@ -61,7 +61,7 @@ clone_in_place! {
 }
 
 impl Judge {
-    /// Prepares a judge that pays `rewards` to so many agents.
+    /// Prepares a judge that pays `rewards` to this many agents.
     pub fn new(scenario: &Scenario, rewards: Arc<[Reward]>, scripts: Scripts, n_agents: usize) -> Judge {
         let endings: Arc<Endings> = Arc::new(scenario.endings.clone());
         let scripted = rewards.iter().any(|reward| !reward.body.hooks.is_empty())
@@ -78,13 +78,13 @@ impl Judge {
         }
     }
 
-    /// Goes on with other scripts.
+    /// Replaces the scripts.
     pub fn adopt(&mut self, scripts: Scripts) {
         self.rewards.adopt(&scripts);
         self.known.adopt(scripts);
     }
 
-    /// What has been measured.
+    /// The records and what they have measured.
     pub fn records(&self) -> &RecordJudge {
         &self.records
     }
@@ -94,7 +94,7 @@ impl Judge {
         self.observation.iter().flat_map(ObservationJudge::names).map(str::to_owned).collect()
     }
 
-    /// Writes the declared observation of an agent; `false` where there is none of that length.
+    /// Writes the declared observation of an agent. `false` if there is none of that length.
     pub fn observe(&mut self, game: &Match, agent: usize, out: &mut [f32]) -> bool {
         let Some(observation) = &mut self.observation else { return false };
         if out.len() != observation.names().len() || agent >= game.agents.len() {
@@ -105,7 +105,7 @@ impl Judge {
         true
     }
 
-    /// What has been paid.
+    /// The rewards and what they have paid.
     pub fn rewards(&self) -> &RewardJudge {
         &self.rewards
     }
@@ -115,7 +115,7 @@ impl Judge {
         &self.endings
     }
 
-    /// Begins an episode: the match stands at its start.
+    /// Begins an episode; the match is at its start.
     pub fn reset(&mut self, game: &Match, given: &Given<'_>) {
         self.known.begin(given);
         self.prev = View::of(game);
@@ -126,27 +126,28 @@ impl Judge {
         self.records.reset(game, &input);
     }
 
-    /// Writes or reads an episode's memory; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        self.prev.pass("prev", self.memory, archive)?;
+    /// Writes or reads an episode's memory. Before reading, [`Self::reset`] has been called.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        self.prev.archive("prev", self.memory, archive)?;
         if self.observation.is_some() {
-            self.before.pass("before", self.memory, archive)?;
+            self.before.archive("before", self.memory, archive)?;
         }
-        self.known.pass(archive)?;
-        archive.part("endings", |archive| self.endings.pass(archive))?;
-        archive.part("rewards", |archive| self.rewards.pass(archive))?;
-        archive.part("records", |archive| self.records.pass(archive))
+        self.known.archive(archive)?;
+        archive.part("endings", |archive| self.endings.archive(archive))?;
+        archive.part("rewards", |archive| self.rewards.archive(archive))?;
+        archive.part("records", |archive| self.records.archive(archive))
     }
 
-    /// What the episode was given; no numbers before the first.
+    /// What the episode was given; no numbers before the first episode.
     pub(crate) fn given(&self) -> Given<'_> {
         self.known.given()
     }
 
-    /// Judges a step: `game` stands before any restart. Where the episode ends, the event `end` is added.
+    /// Judges a step; `game` is the state before any restart. If the episode ends, the event `end`
+    /// is added.
     ///
     /// # Errors
-    /// A hook that failed; the episode can't go on.
+    /// A hook that failed; the episode can't continue.
     pub fn step(&mut self, game: &Match, events: &mut Events) -> Result<Option<Outcome>, ScriptError> {
         let side = endings::judged_side(game);
         let mut scene = self.known.show(|| View::of(game), &self.prev, events.as_slice());
@@ -163,7 +164,7 @@ impl Judge {
         Ok(outcome)
     }
 
-    /// Remembers the state that the step leaves behind, after its restart: what the next step's `prev` reads.
+    /// Remembers the state that the step leaves behind, after its restart: the next step's `prev`.
     pub fn settle(&mut self, game: &Match) {
         if self.observation.is_some() {
             self.before = self.prev;
@@ -172,7 +173,7 @@ impl Judge {
     }
 }
 
-/// What a judge's scripts are shown.
+/// What a judge's scripts may read.
 fn shown<'a>(known: &'a Known, scene: Option<&'a Arc<Scene>>) -> Option<(&'a Scripts, &'a Arc<Scene>)> {
     scene.map(|scene| (known.scripts(), scene))
 }

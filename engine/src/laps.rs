@@ -3,23 +3,23 @@
 /// A part of an episode's work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// A start is drawn, and the match set up.
+    /// Drawing a start and setting up the match.
     Draw,
-    /// Behaviours and bots decide, actions become intents.
+    /// Behaviours and bots decide, and actions become intents.
     Bots,
-    /// Where the ball will be, and who is there first; restarts too.
+    /// Where the ball will be and who is there first; restarts too.
     Reach,
-    /// Players run, and keep apart.
+    /// Players run, and are kept apart.
     Movement,
     /// Hands, slides, kicks, touches.
     Play,
-    /// The free ball flies, and meets what is hard.
+    /// The free ball flies, and meets hard objects.
     Physics,
     /// Possession, out of play, offside, fouls, advantage.
     Referee,
     /// Rewards, endings, records, statistics.
     Judge,
-    /// Observations are written.
+    /// Writing observations.
     Observe,
 }
 
@@ -38,8 +38,8 @@ impl Phase {
     ];
 }
 
-/// Adds up the time that each phase takes, by a clock that the caller brings: the engine reads none of its own, and what
-/// is measured has no influence on what is played.
+/// Adds up the time of each phase, by a clock that the caller provides. The engine reads no clock
+/// itself, and measuring doesn't influence play.
 #[derive(Clone, Debug, Default)]
 pub struct Laps {
     clock: Option<fn() -> u64>,
@@ -49,19 +49,19 @@ pub struct Laps {
 }
 
 impl Laps {
-    /// Measures by a clock, in whatever unit it has; it must not run backwards.
+    /// Measures by a clock, in any unit. The clock must not run backwards.
     pub fn with(clock: fn() -> u64) -> Laps {
         Laps { clock: Some(clock), last: clock(), ..Laps::default() }
     }
 
-    /// What follows belongs to the next phase that ends.
+    /// Starts the next phase; its time goes to the phase that ends next.
     pub fn start(&mut self) {
         if let Some(clock) = self.clock {
             self.last = clock();
         }
     }
 
-    /// A phase ends here.
+    /// Ends a phase.
     pub fn end(&mut self, phase: Phase) {
         if let Some(clock) = self.clock {
             let now = clock();
@@ -71,7 +71,8 @@ impl Laps {
         }
     }
 
-    /// What a phase took, in the clock's unit, and how often it ended: each time has cost a reading of the clock.
+    /// The time of a phase, in the clock's unit, and how often it ended. Each end costs one reading
+    /// of the clock.
     pub fn of(&self, phase: Phase) -> (u64, u64) {
         (self.spent[phase as usize], self.counts[phase as usize])
     }

@@ -1,13 +1,14 @@
 //! The football game that runs a compiled scenario: everything with a tick.
 //!
-//! - [`draw`]: a scenario, its parameters and a seed become one concrete [`start::Drawn`].
-//! - [`state::Match`]: one simulation, plain data, and its events; [`physics`], [`football`] and [`control`] move
-//!   it on, in the order of [`step`].
+//! - [`draw`]: turns a scenario, its parameters and a seed into one concrete [`start::Drawn`].
+//! - [`state::Match`]: one simulation, plain data, and its events. [`physics`], [`football`] and
+//!   [`control`] move it, in the order of [`step`].
 //! - [`judge`]: rewards and endings, from the state and its events.
-//! - [`observe`]: the state written into the caller's buffers.
-//! - [`environment`]: one match and its judge, as an agent meets them; [`batch`]: many.
+//! - [`observe`]: writes the state into the caller's buffers.
+//! - [`environment`]: one match and its judge, as an agent sees them; [`batch`]: many.
 //! - [`snapshot`]: an episode as bytes, and back.
-//! - [`statistics`], [`digest`]: what a match was like, and a fingerprint of its state; [`laps`]: where the time goes.
+//! - [`statistics`], [`digest`]: figures of a match, and a fingerprint of its state; [`laps`]:
+//!   where the time goes.
 
 pub mod batch;
 pub mod control;

@@ -1,8 +1,8 @@
-//! Transcendental functions, the same bits on every machine: libm in place of the platform's.
+//! Transcendental functions with the same bits on every machine: libm instead of the platform's.
 
 pub use glam::{Vec2, Vec3};
 
-/// The sign of a number; `zero` where it is neither positive nor negative.
+/// The sign of a number; `zero` if it is neither positive nor negative.
 pub fn sign_or(x: f32, zero: f32) -> f32 {
     if x > 0.0 {
         1.0
@@ -48,7 +48,7 @@ pub fn pow(x: f32, y: f32) -> f32 {
     libm::powf(x, y)
 }
 
-/// x to the power of so many eighths, by square roots alone: an eighth of the time of [`pow`].
+/// x to the power of N eighths, by square roots only, in an eighth of the time of [`pow`].
 pub fn eighths<const N: u32>(x: f32) -> f32 {
     let half = x.sqrt();
     let quarter = half.sqrt();
@@ -61,7 +61,7 @@ pub fn unit(heading_rad: f32) -> Vec2 {
     Vec2::new(cos(heading_rad), sin(heading_rad))
 }
 
-/// The heading of a vector, radians, 0 for none.
+/// The heading of a vector, radians; 0 for the zero vector.
 pub fn heading(v: Vec2) -> f32 {
     if v == Vec2::ZERO { 0.0 } else { atan2(v.y, v.x) }
 }
@@ -84,12 +84,12 @@ pub fn mix(a: f32, b: f32, share: f32) -> f32 {
     a + (b - a) * share
 }
 
-/// How far a value is from `low` (0) to `high` (1), no further than either.
+/// How far a value is from `low` (0) to `high` (1), clamped to these ends.
 pub fn share(value: f32, low: f32, high: f32) -> f32 {
     ((value - low) / (high - low)).clamp(0.0, 1.0)
 }
 
-/// A share 0..1, slow at both ends: a cosine's.
+/// A cosine ease: a share 0..1, slow at both ends.
 pub fn ease(share: f32) -> f32 {
     // The ends are frequent, and exact.
     if share == 0.0 || share == 1.0 {

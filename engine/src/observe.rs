@@ -1,9 +1,10 @@
 //! The match as agents see it, written into the caller's buffers.
 //!
-//! Decides the layouts: Google Research Football's, by its conventions. An agent always believes that it attacks towards
-//! +x: for the right team everything is turned by 180°, teams, score and ownership are swapped. Lengths are
-//! normalised ([`setpiece_scenario::pitch`]), directions are the displacement of one step. What GRF documents and
-//! does otherwise follows the documentation: a player who was sent off is shown as a missing one.
+//! Decides the layouts: Google Research Football's, by its conventions. An agent always sees its
+//! team attacking towards +x. For the right team everything is turned by 180°, and teams, score and
+//! ownership are swapped. Lengths are normalised ([`setpiece_scenario::pitch`]), and directions are
+//! the displacement of one step. Where GRF's documentation and behaviour differ, this follows the
+//! documentation: a player who was sent off is shown as missing.
 
 mod egocentric;
 mod frame;
@@ -26,22 +27,22 @@ use crate::state::{AgentSlot, Match};
 /// An observation that is an array of floats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Floats {
-    /// GRF's first one: players without gaps.
+    /// GRF's first layout: players without gaps.
     Simple115,
-    /// GRF's second one.
+    /// GRF's second layout.
     Simple115v2,
-    /// GRF's second one, and the held keys.
+    /// GRF's second layout, plus the held keys.
     Simple115v2Sticky,
-    /// What a player sees from where he is.
+    /// What a player sees from their own place.
     Egocentric,
     /// The scenario's own: `observe vector { … }`.
     Vector,
-    /// One of those above in other units: see [`Floats::scaled`].
+    /// One of the above in other units: see [`Floats::scaled`].
     Scaled(Scaled),
 }
 
-/// An observation that has a scaled form: lengths in 50 m, heights in 10 m, velocities in 10 m/s, 0 for missing
-/// players. Flags and shares stay 0..1.
+/// An observation that has a scaled form: lengths in 50 m, heights in 10 m, velocities in 10 m/s, 0
+/// for missing players. Flags and shares stay 0..1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scaled {
     /// [`Floats::Simple115v2`].
@@ -53,8 +54,8 @@ pub enum Scaled {
 }
 
 impl Floats {
-    /// The scaled form; `None` for `Simple115`, whose columns depend on the teams, and `Vector`, whose units are the
-    /// scenario's.
+    /// The scaled form. `None` for `Simple115`, whose columns depend on the teams, and for
+    /// `Vector`, whose units are the scenario's.
     pub fn scaled(self) -> Option<Floats> {
         Some(Floats::Scaled(match self {
             Floats::Simple115v2 => Scaled::Simple115v2,
@@ -67,7 +68,7 @@ impl Floats {
 }
 
 impl Scaled {
-    /// The observation that it scales.
+    /// The observation that is scaled.
     pub fn plain(self) -> Floats {
         match self {
             Scaled::Simple115v2 => Floats::Simple115v2,
@@ -83,17 +84,17 @@ pub enum ObserveError {
     /// There is no such agent.
     #[error("no agent {agent}: there are {n_agents}")]
     Agent {
-        /// Which was asked for.
+        /// The agent that was requested.
         agent: usize,
-        /// How many there are.
+        /// The number of agents.
         n_agents: usize,
     },
     /// The buffer has another size.
     #[error("expected a buffer of {expected}, found {found}")]
     Size {
-        /// Elements it should have.
+        /// The expected number of elements.
         expected: usize,
-        /// Elements it has.
+        /// The actual number of elements.
         found: usize,
     },
 }

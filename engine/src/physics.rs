@@ -1,6 +1,7 @@
-//! The ball and everything hard it can meet.
+//! The ball and everything hard that it can meet.
 //!
-//! Decides how the ball flies, bounces, rolls and rebounds. Leaves to `football` who kicks it and what that means.
+//! Decides how the ball flies, bounces, rolls and rebounds. `football` decides who kicks it and
+//! what that means.
 
 mod ball;
 pub mod constants;
@@ -44,9 +45,11 @@ pub enum Contact {
     Body(u8),
 }
 
-/// Moves the ball on by one tick of 10 ms: flight, bounce, roll, and rigid contact with woodwork, nets and bodies.
+/// Moves the ball by one tick of 10 ms: flight, bounce, roll, and rigid contact with woodwork, nets
+/// and bodies.
 ///
-/// `full` runs rapier whatever is near; else it is asked only where the swept ball comes near something hard.
+/// `full` always runs rapier. Otherwise rapier runs only if the swept ball comes near something
+/// hard.
 pub fn advance_ball(ball: &mut Ball, bodies: &[Body], full: bool, scratch: &mut Scratch) -> Option<Contact> {
     let bodies = gate::near_bodies(ball, bodies);
     if bodies.is_empty() && flight::lies_still(ball) {
@@ -66,8 +69,8 @@ pub fn advance_ball(ball: &mut Ball, bodies: &[Body], full: bool, scratch: &mut 
     Some(touch.contact)
 }
 
-/// Brakes a ball that rolls along the top of a goal, and brings a slow one that leans on something, and stands on the
-/// ground or on something, to exact rest.
+/// Brakes a ball that rolls along the top of a goal. Brings a slow ball to exact rest if it leans
+/// on something and stands on the ground or on something.
 fn settle(ball: &mut Ball, before: &Ball, held_up: bool) {
     let on_ground = ball.pos.z <= BALL_RADIUS;
     if !held_up && !on_ground {
@@ -76,7 +79,7 @@ fn settle(ball: &mut Ball, before: &Ball, held_up: bool) {
     let speed = ball.vel.length();
     if speed < REST_SPEED {
         if before.vel == Vec3::ZERO {
-            // It lay here already: gravity and the contact were in balance.
+            // It already lay here: gravity and the contact were in balance.
             *ball = *before;
         }
         ball.vel = Vec3::ZERO;

@@ -1,11 +1,12 @@
 //! Random numbers: one small generator per purpose, keyed by the seed.
 //!
-//! A stream is keyed by (seed, index of the episode, purpose), so a new draw in one purpose shifts no other.
+//! A stream's key is (seed, index of the episode, purpose), so a new draw for one purpose doesn't
+//! change the others.
 
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// What a stream is for.
+/// The purpose of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Purpose {
@@ -19,11 +20,12 @@ pub enum Purpose {
     Script = 4,
     /// Agents that act at random.
     Agent = 5,
-    /// `ctx.random()` of scripts that play a player.
+    /// `ctx.random()` of behaviour scripts.
     Behavior = 6,
 }
 
-/// Most proposals of one draw: that so many are refused in a row is less likely than a fault of the machine.
+/// The most proposals of one draw. That all of them are rejected is less likely than a hardware
+/// fault.
 const ATTEMPTS_MAX: usize = 1000;
 
 /// A stream of random numbers.
@@ -40,7 +42,7 @@ impl Stream {
         Stream(Pcg32::from_seed(bytes))
     }
 
-    /// The stream of one draw of one attempt: `key` is the draw's own, from the scenario.
+    /// The stream of one draw of one attempt. `key` is the draw's own, from the scenario.
     pub fn of_draw(seed: u64, index: u64, attempt: u32, key: u64) -> Stream {
         Stream::new(mix(seed ^ mix(key)), index.wrapping_add(u64::from(attempt) << 40), Purpose::Draw)
     }
@@ -77,10 +79,11 @@ impl Stream {
         radius * libm::cos(std::f64::consts::TAU * self.unit_f64())
     }
 
-    /// Normal, given that it lies in low..=high; NaN for ends that are none.
+    /// Normal, given that it lies in low..=high; NaN if the bounds are impossible.
     ///
-    /// Rejection from whatever proposal accepts often: a normal, uniform or, in a tail, exponential one.
-    /// Source: C. P. Robert, Simulation of truncated normal variables, Statistics and Computing 5 (1995).
+    /// Rejection sampling from the proposal that accepts most often: normal, uniform or, in a tail,
+    /// exponential. Source: C. P. Robert, Simulation of truncated normal variables, Statistics and
+    /// Computing 5 (1995).
     pub fn truncated_normal(&mut self, mean: f64, sd: f64, low: f64, high: f64) -> f64 {
         if low.is_nan() || high.is_nan() || low > high || mean.is_nan() || sd.is_nan() {
             return f64::NAN;
@@ -97,7 +100,7 @@ impl Stream {
     /// Standard normal, given that it lies in a..b, where b >= 0.
     fn standard_between(&mut self, a: f64, b: f64) -> f64 {
         let rate = (a + libm::sqrt(a * a + 4.0)) * 0.5;
-        // How far the mass of a tail reaches; beyond it the far end is of no account.
+        // The width of a tail's mass; beyond it the far end hardly matters.
         let wide = if a > 0.0 { b - a > 2.0 / rate } else { b - a > 2.5 };
         for _ in 0..ATTEMPTS_MAX {
             let (z, accepted) = if wide && a > 0.5 {

@@ -1,11 +1,11 @@
-//! Players in rows of four, as many as one instruction works on.
+//! Players in rows of four, as many as one instruction processes.
 
 use setpiece_scenario::pitch::PLAYERS_MAX;
 
-/// Numbers of a row.
+/// Numbers in a row.
 pub(crate) const WIDTH: usize = 4;
-/// Rows that hold everybody.
+/// Rows that hold all players.
 pub(crate) const ROWS: usize = PLAYERS_MAX.div_ceil(WIDTH);
 
-/// A number for each of four.
+/// One number for each of four players.
 pub(crate) type Lane = [f32; WIDTH];

@@ -1,15 +1,17 @@
-//! Snapshots: a whole match as bytes, in the middle of whatever goes on, and back.
+//! Snapshots: a whole match as bytes, at any moment, and back.
 //!
-//! A snapshot holds the match with its streams of random numbers, and what its judge and its scripted players remember:
-//! everything a later step depends on. It begins with a head (version, checksum), says what it is of (the scenario's
-//! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
-//! last the episode around it, which only the same scenario can go on with.
+//! A snapshot holds everything that later steps depend on: the match with its random streams, and
+//! the memory of its judge and of its scripted players. It has four parts. The header has a version
+//! and a checksum. Then comes what it belongs to (the scenario's digest, the rewards). The match
+//! follows; any scenario with the same roster can begin an episode from it. Last comes the episode
+//! around it, which only the same scenario can continue.
 //!
-//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible;
-//!   [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): no list may be endless.
-//! - [`file`]: the head.
+//! - [`archive`]: writing and reading in one function; [`walk`](mod@walk): rejects impossible
+//!   numbers; [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): limits the
+//!   length of lists.
+//! - [`file`]: the header.
 //!
-//! What a snapshot may be asked for stands with [`Environment`](crate::environment::Environment).
+//! [`Environment`](crate::environment::Environment) offers what can be done with a snapshot.
 
 mod archive;
 mod bounded;
@@ -26,7 +28,7 @@ pub(crate) use bounded::bounded;
 use crate::state::Match;
 use serde::{Deserialize, Serialize};
 
-/// What a snapshot is of.
+/// What a snapshot belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct About {
     /// The digest of its scenario.
@@ -35,9 +37,9 @@ pub(crate) struct About {
     pub(crate) scenario: String,
     /// The rewards that are paid.
     pub(crate) rewards: Vec<String>,
-    /// Whether there is an episode around the match.
+    /// Whether the snapshot has an episode around the match.
     pub(crate) started: bool,
-    /// Whether one was asked for, and the key of the last.
+    /// Whether an episode was requested, and the key of the last one.
     pub(crate) begun: bool,
     pub(crate) seed: u64,
     pub(crate) index: u64,
@@ -45,31 +47,31 @@ pub(crate) struct About {
     pub(crate) bindings: Vec<f64>,
 }
 
-/// Writes a snapshot; `pass` hands over the episode around the match.
+/// Writes a snapshot; `episode` writes the episode around the match.
 pub(crate) fn write(
     about: &About,
     game: &Match,
-    pass: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
+    episode: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
 ) -> Result<Vec<u8>, SnapshotError> {
     let mut archive = Archive::writing(file::begun());
     archive.put("about", about)?;
     archive.put("match", game)?;
     let scenes_at = archive.written();
     if about.started {
-        pass(&mut archive)?;
+        episode(&mut archive)?;
     }
-    // What scripts have kept leads to scenes: these come before.
+    // Values that scripts have kept refer to scenes, so these come first.
     let mut shelf = std::mem::take(&mut archive.shelf);
     let mut scenes = Archive::writing(Vec::new());
-    shelf.pass_scenes(&mut scenes)?;
+    shelf.archive_scenes(&mut scenes)?;
     let mut file = archive.into_bytes();
     file.splice(scenes_at..scenes_at, scenes.into_bytes());
     Ok(file::sealed(file))
 }
 
-/// A snapshot that is being read: up to its match it has been.
+/// A snapshot that has been read up to and including its match.
 pub(crate) struct Opened<'a> {
-    /// What it is of.
+    /// What it belongs to.
     pub(crate) about: About,
     /// The match.
     pub(crate) game: Match,
@@ -77,23 +79,23 @@ pub(crate) struct Opened<'a> {
 }
 
 impl<'a> Opened<'a> {
-    /// Reads a snapshot up to its match.
+    /// Reads a snapshot up to and including its match.
     pub(crate) fn of(bytes: &'a [u8]) -> Result<Opened<'a>, SnapshotError> {
         let mut archive = Archive::reading(file::unwrap(bytes)?);
         let (about, game) = (archive.read("about")?, archive.read("match")?);
         Ok(Opened { about, game, archive })
     }
 
-    /// Reads the episode around it, to the end of the bytes.
-    pub(crate) fn pass(
+    /// Reads the episode around the match, to the end of the bytes.
+    pub(crate) fn read_episode(
         mut self,
-        pass: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
+        episode: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
     ) -> Result<(), SnapshotError> {
         let mut shelf = std::mem::take(&mut self.archive.shelf);
-        shelf.pass_scenes(&mut self.archive)?;
+        shelf.archive_scenes(&mut self.archive)?;
         self.archive.shelf = shelf;
         if self.about.started {
-            pass(&mut self.archive)?;
+            episode(&mut self.archive)?;
         }
         match self.archive.rest().len() {
             0 => Ok(()),
@@ -102,10 +104,10 @@ impl<'a> Opened<'a> {
     }
 }
 
-/// A match alone as a snapshot holds it.
+/// Encodes a match alone, as in a snapshot.
 ///
 /// # Errors
-/// None for a match that is played.
+/// None for a match in play.
 pub fn match_bytes(game: &Match) -> Result<Vec<u8>, SnapshotError> {
     let mut archive = Archive::writing(Vec::new());
     archive.put("match", game)?;

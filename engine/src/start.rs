@@ -1,4 +1,4 @@
-//! A concrete start: what a draw of a scenario gives, and what a match begins from.
+//! A concrete start: the result of drawing a scenario, from which a match begins.
 
 use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
@@ -9,11 +9,11 @@ use setpiece_scenario::{Ai, Others};
 /// One concrete start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
-    /// The seed the match's own streams are keyed by.
+    /// The seed of the match's own streams.
     pub seed: u64,
-    /// The episode's index, likewise.
+    /// The episode's index, also part of their key.
     pub index: u64,
-    /// The players, by id (`team * 11 + index`); `None` where nobody is.
+    /// The players, by id (`team * 11 + index`); `None` for empty slots.
     pub players: [Option<DrawnPlayer>; PLAYERS_MAX],
     /// The ball's centre, world metres.
     pub ball_pos: Vec3,
@@ -25,9 +25,9 @@ pub struct Drawn {
     pub owner: Option<PlayerId>,
     /// The kind of start.
     pub kind: StartKind,
-    /// Who takes it.
+    /// The team that takes it.
     pub taker: Option<Team>,
-    /// The team that kicks off first, where the scenario says so.
+    /// The team that kicks off first, if the scenario says so.
     pub first_kickoff: Option<Team>,
     /// Goals at the start.
     pub score: [u16; 2],
@@ -37,9 +37,9 @@ pub struct Drawn {
     pub difficulty: [f32; 2],
     /// Rules by [`Rule::index`]; see [`Rule::default_value`].
     pub rules: [f64; Rule::ALL.len()],
-    /// Truncation after so many steps.
+    /// The episode is truncated after this many steps.
     pub limit_steps: Option<u32>,
-    /// What players without an agent do where they have no `ai` of their own.
+    /// What players without an agent or an `ai` of their own do.
     pub others: Others,
     /// Agent slots, left before right.
     pub agents: Vec<DrawnAgent>,
@@ -50,11 +50,11 @@ pub struct Drawn {
 /// A player of a concrete start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPlayer {
-    /// His role.
+    /// The player's role.
     pub role: Role,
-    /// Who plays him without an agent.
+    /// Who plays them if no agent does.
     pub ai: Ai,
-    /// Whether an agent may be given him.
+    /// Whether an agent may control them.
     pub controllable: bool,
     /// World metres.
     pub pos: Vec2,
@@ -64,13 +64,14 @@ pub struct DrawnPlayer {
     pub heading_rad: Option<f32>,
     /// 0 fresh to 1 exhausted.
     pub fatigue: f32,
-    /// Cards he starts with.
+    /// Cards at the start.
     pub yellow_cards: u8,
-    /// His difficulty, 0..1.
+    /// Their difficulty, 0..1.
     pub difficulty: f32,
     /// Statistics that replace the table's.
     pub stats: Vec<(Stat, f32)>,
-    /// Where he stands when his team kicks off, and when the others do; `pos` in open starts without layouts.
+    /// Where they stand when their team kicks off, and when the other team does. Starts in open
+    /// play without layouts use `pos`.
     pub kickoff: Option<[Vec2; 2]>,
 }
 
@@ -79,6 +80,6 @@ pub struct DrawnPlayer {
 pub struct DrawnAgent {
     /// Its team.
     pub team: Team,
-    /// Its player, for ever; or `None`: the match gives it one and may switch.
+    /// Its player for the whole match. `None`: the match assigns a player and may switch.
     pub fixed: Option<PlayerId>,
 }

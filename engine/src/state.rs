@@ -1,7 +1,8 @@
 //! The match: one simulation, plain data. A copy of it is a snapshot.
 //!
-//! Holds what the game knows, and no rule of it: [`crate::football`] and [`crate::control`] change it. Inside:
-//! [`player`], [`play`] (what the game keeps beside what everyone may see) with [`recent`], and [`event`].
+//! Holds what the game knows, but none of its rules: [`crate::football`] and [`crate::control`]
+//! change it. Inside: [`player`], [`play`] (internal state besides the public one) with [`recent`],
+//! and [`event`].
 
 pub mod event;
 pub mod play;
@@ -22,24 +23,24 @@ use player::KickKind;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{GameMode, Rule, Team};
 
-/// One simulation: no heap but the agent list's inline storage, no engine handle; `clone` is a copy.
+/// One simulation. It has no heap data and no engine handle, so `clone` is a plain copy.
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Match {
-    /// Ticks of 10 ms since the start, dead time not counted.
+    /// Ticks of 10 ms since the start, without dead time.
     pub tick: u32,
     /// Steps since the start.
     pub step: u32,
     /// Steps on the clock at the start.
     pub elapsed_at_start: u32,
-    /// Truncation after so many steps.
+    /// The episode is truncated after this many steps.
     pub limit_steps: Option<u32>,
     /// Goals, left and right.
     pub score: [u16; 2],
     /// The ball.
     pub ball: Ball,
-    /// The roster of this episode: who takes part, sent off or not.
+    /// The players who take part in this episode, sent off or not.
     pub squad: Squad,
-    /// Both teams, by [`PlayerId::index`]; nobody is in a slot that the squad lacks.
+    /// Both teams, by [`PlayerId::index`]; slots outside the squad are empty.
     pub players: [Player; PLAYERS_MAX],
     /// Who has the ball now.
     pub owner: Option<PlayerId>,
@@ -49,7 +50,8 @@ pub struct Match {
     pub last_touch: Option<PlayerId>,
     /// Open play, or which set piece waits to be taken.
     pub mode: GameMode,
-    /// Play was stopped in this step: a goal, the ball out, a foul; the restart comes after judging.
+    /// Whether play was stopped in this step (a goal, the ball out, a foul). The restart comes
+    /// after judging.
     pub dead: bool,
     /// Rules by [`Rule::index`].
     pub rules: [f64; Rule::ALL.len()],
@@ -61,7 +63,7 @@ pub struct Match {
     pub play_random: Stream,
     /// Decisions of bots.
     pub bot_random: Stream,
-    /// What the game keeps beside that: flights, set pieces, the teams' plans.
+    /// Internal state: flights, set pieces, the teams' plans.
     pub play: Play,
 }
 
@@ -89,9 +91,10 @@ impl Match {
         squad.map(|id| (id, self.player(id))).filter(|(_, player)| player.active)
     }
 
-    /// The squad in the order of play: the team that leads, then the other.
+    /// The squad in the order of play: the leading team first.
     ///
-    /// Whatever goes through both teams goes by it, so that a match turned by 180° is the turned match to the bit.
+    /// Every loop through both teams uses this order, so that a match turned by 180° gives exactly
+    /// the turned result.
     pub fn order(&self) -> Ids {
         self.squad.ids_from(self.play.lead)
     }
@@ -101,7 +104,7 @@ impl Match {
         some.ids_from(self.play.lead)
     }
 
-    /// Does something with everyone on the pitch of some players, by id.
+    /// Calls `act` for those of some players who are on the pitch, by id.
     pub fn each(&mut self, of: Squad, mut act: impl FnMut(&mut Player)) {
         for id in of.ids() {
             let player = &mut self.players[id.index()];
@@ -116,7 +119,7 @@ impl Match {
         [self.play.lead, self.play.lead.other()]
     }
 
-    /// Whether an agent, or a behaviour, presses for a player in this step.
+    /// Whether an agent or a behaviour controls a player in this step.
     pub fn is_driven(&self, id: PlayerId) -> bool {
         self.play.driven & (1 << id.0) != 0
     }
@@ -134,21 +137,22 @@ pub struct AgentSlot {
     pub team: Team,
     /// The player it controls now.
     pub player: Option<PlayerId>,
-    /// Whether it may be given another.
+    /// Whether it keeps its player.
     pub fixed: bool,
     /// Held actions as GRF's flags, in the own frame: bit i is `StickyAction` i.
     pub sticky: u16,
-    /// A direction of any angle and pace, held in place of one of the eight.
+    /// A direction with any angle and pace, held instead of one of the eight.
     pub steer: Option<Steer>,
-    /// The kick that the key asks for which has been down since it was asked for: a key that stays down asks once.
+    /// The kick whose key is still down since it requested that kick. A key that stays down
+    /// requests only once.
     pub key: Option<KickKind>,
 }
 
 /// How an agent with continuous actions runs and kicks.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Steer {
-    /// The way, own frame; its length is the pace, 0 to 1 (a sprint).
+    /// The direction, own frame; its length is the pace, from 0 to 1 (a sprint).
     pub way: Vec2,
-    /// The power of a kick, 0..1; 0 leaves it to the kicker.
+    /// The power of a kick, 0..1; 0 lets the kicker decide.
     pub power: f32,
 }

@@ -1,6 +1,6 @@
-//! What a match was like: the figures by which football is told from a scramble.
+//! Figures of a match that tell football from a scramble.
 //!
-//! Filled from the state and the events of every step, before restarts.
+//! Computed from the state and the events of every step, before restarts.
 
 use crate::state::event::Event;
 use crate::state::{Match, PlayerId};
@@ -9,7 +9,7 @@ use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
 /// Players nearer than this to the ball crowd it.
 const CROWD_M: f32 = 8.0;
-/// No player runs further in a step; what is further was a placement.
+/// No player runs further in a step; a longer way was a placement.
 const RUN_MAX_M: f32 = 1.5;
 
 /// Figures of one team.
@@ -17,7 +17,7 @@ const RUN_MAX_M: f32 = 1.5;
 pub struct TeamStatistics {
     /// Passes struck.
     pub passes_attempted: u32,
-    /// Passes that a team mate took.
+    /// Passes that a teammate received.
     pub passes_completed: u32,
     /// Shots struck.
     pub shots: u32,
@@ -47,7 +47,7 @@ pub struct TeamStatistics {
     pub free_kicks: u32,
     /// Penalties awarded.
     pub penalties: u32,
-    /// Metres run by its players together.
+    /// Metres run by all its players.
     pub distance_m: f64,
     /// Steps in which the team had the ball last.
     pub possession_steps: u32,
@@ -60,7 +60,7 @@ pub struct Statistics {
     steps: u32,
     /// Steps in which nobody had the ball.
     loose_steps: u32,
-    /// Spells of possession begun.
+    /// Spells of possession that began.
     spells: u32,
     possession: Option<Team>,
     /// Share of the outfield near the ball, summed over steps.
@@ -85,7 +85,7 @@ impl Default for Statistics {
     }
 }
 
-/// The figures of one match, worked out.
+/// The final figures of one match.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct MatchStatistics {
     /// Left and right.
@@ -94,7 +94,7 @@ pub struct MatchStatistics {
     pub steps: u32,
     /// Passes struck by both.
     pub passes: u32,
-    /// Share of them that were completed; 0 for none.
+    /// Share of them that were completed; 0 without passes.
     pub pass_completion: f64,
     /// Shots by both.
     pub shots: u32,
@@ -113,7 +113,7 @@ pub struct MatchStatistics {
 }
 
 impl Statistics {
-    /// Begins a match.
+    /// Starts counting a match.
     pub fn begin(game: &Match) -> Statistics {
         Statistics {
             positions: game.players.each_ref().map(|player| player.pos.into()),
@@ -205,7 +205,7 @@ impl Statistics {
 }
 
 impl MatchStatistics {
-    /// The average of several matches' figures; teams' counts are left out, as they would not be whole.
+    /// The average figures of several matches, without the teams' counts, which wouldn't be whole.
     pub fn mean(of: &[MatchStatistics]) -> MatchMeans {
         let n = of.len().max(1) as f64;
         // An empty sum of floats is -0.

@@ -1,7 +1,7 @@
-//! The order of a step, and of what comes before the first and after each.
+//! The order of a step, and of what comes before the first step and after each.
 //!
-//! Stands above [`football`](crate::football) and [`control`], of which neither calls the other's turn. Whoever
-//! judges a step does so between [`play`] and [`go_on`].
+//! [`football`](crate::football) and [`control`] don't call each other; this module calls both. The
+//! judge runs between [`play`] and [`go_on`].
 
 use crate::control;
 use crate::football::{begin, clock, fatigue, forecast, reach, recent, restart, switching, tick};
@@ -14,7 +14,7 @@ use crate::state::event::Events;
 use setpiece_scenario::pitch::TICKS_PER_STEP;
 use setpiece_scenario::vocabulary::Action;
 
-/// The match that a drawn start begins with, ready for its first step.
+/// Builds the match of a drawn start, ready for its first step.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = begin::begin(drawn);
     // Each agent's first action is for the player that the start gives it, wherever the ball is. (GRF's.)
@@ -22,7 +22,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     game
 }
 
-/// Before a step: who can be at the ball first, and which player each agent has in it.
+/// Prepares a step: who can reach the ball first, and which player each agent controls.
 pub fn prepare(game: &mut Match) {
     look_ahead(game);
     switching::update(game);
@@ -34,8 +34,9 @@ fn look_ahead(game: &mut Match) {
     reach::assess(game);
 }
 
-/// Plays one step of 100 ms: `actions[i]` is slot i's, in the own frame of its team. Stops early when play stops
-/// (`Match::dead`), so that goals and the ball out of play are judged where they happened.
+/// Plays one step of 100 ms: `actions[i]` is slot i's, in the own frame of its team. Returns early
+/// if play stops (`Match::dead`), so that goals and balls out of play are judged where they
+/// happened.
 pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: &mut Scratch) {
     let from = game.tick;
     if !game.dead {
@@ -58,8 +59,8 @@ pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: 
     }
 }
 
-/// Goes on after a step that has been judged: play that was stopped is restarted (ball and players are placed; dead
-/// time costs no step), and every agent gets its player of the step to come.
+/// Continues after a judged step. If play was stopped, it is restarted (ball and players are
+/// placed; dead time costs no step). Every agent gets its player for the next step.
 pub fn go_on(game: &mut Match) {
     if game.dead {
         restart::apply(game);

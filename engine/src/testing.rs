@@ -1,4 +1,4 @@
-//! What the tests build: programs and scenarios by hand.
+//! Test helpers that build programs and scenarios by hand.
 
 use crate::judge::View;
 use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers};
@@ -46,7 +46,7 @@ impl Code {
         self.program.cells - 1
     }
 
-    /// Goes through the events of a kind by a team, paying `value` for each into `term`.
+    /// Loops over the events of a kind by a team, paying `value` for each into `term`.
     pub(crate) fn give_on(&mut self, kind: EventKind, by: Reg, value: f64, term: u32) {
         let value = self.number(value);
         let filter = EventFilter { kind, qualifier: None, by: Some(Who::Team(by)), to: None };
@@ -56,7 +56,7 @@ impl Code {
     }
 }
 
-/// What a program left behind.
+/// The state that a program leaves behind.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Left {
     pub(crate) regs: Vec<f64>,
@@ -64,7 +64,7 @@ pub(crate) struct Left {
     pub(crate) faults: u32,
 }
 
-/// Runs a program once over memory that the caller keeps.
+/// Runs a program once on memory that the caller keeps.
 pub(crate) fn run(
     program: &Program,
     now: &View,
@@ -129,7 +129,8 @@ pub(crate) fn view(left: [f32; 2], right: [f32; 2], ball: [f32; 3]) -> View {
     view
 }
 
-/// A scenario with these players at constant places, the ball at the centre and a limit of 50 steps; one left agent.
+/// A scenario with these players at constant places, the ball at the centre and a limit of 50
+/// steps; one left agent.
 pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
     let mut code = Code::default();
     let zero = code.number(0.0);
@@ -191,7 +192,7 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
     }
 }
 
-/// +1 for a goal of ours, -1 for one of theirs.
+/// +1 for our goals, -1 for theirs.
 pub(crate) fn scoring() -> Reward {
     let mut code = Code::default();
     let us = code.push(Instr::Us);
@@ -210,7 +211,8 @@ pub(crate) fn scoring() -> Reward {
     }
 }
 
-/// The checkpoints of the standard library with 10 regions of 0.1, as the compiler would write them.
+/// The checkpoints of the standard library with 10 regions of 0.1, as the compiler would write
+/// them.
 pub(crate) fn checkpoints() -> Reward {
     let mut code = Code::default();
     let collected = code.cell();

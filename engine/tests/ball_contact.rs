@@ -1,4 +1,4 @@
-//! The ball and what is hard: woodwork, nets, bodies; the fast mode against the full one.
+//! The ball against hard objects (woodwork, nets, bodies), and the fast mode against the full one.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::{Vec2, Vec3};
@@ -40,7 +40,7 @@ fn standing(id: u8, pos: Vec2) -> Body {
     Body { id, pos, vel: Vec2::ZERO, height_m: 1.8 }
 }
 
-/// A shot and who stands in its way.
+/// A shot and the bodies in its way.
 type Shot = (Ball, Vec<Body>);
 
 /// Shots of every kind, from all over the pitch, at either goal.
@@ -248,7 +248,7 @@ fn a_body_stops_and_damps_the_ball_and_is_named() {
 }
 
 #[test]
-fn a_ball_over_his_head_passes() {
+fn a_ball_over_the_head_passes() {
     let mut scratch = Scratch::default();
     let mut ball = Ball { pos: Vec3::new(0.0, 0.0, 2.2), vel: Vec3::new(25.0, 0.0, 1.0), spin: Vec3::ZERO };
     for _ in 0..20 {

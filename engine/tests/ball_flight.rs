@@ -1,5 +1,5 @@
-//! The ball's free motion against figures measured on Google Research Football's ball (means, and the
-//! series it is drawn from): speeds within 8 %, heights within 25 %.
+//! The ball's free motion against figures measured on Google Research Football's ball (means, and
+//! the series it is drawn from): speeds within 8 %, heights within 25 %.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::{Vec2, Vec3};
@@ -44,8 +44,8 @@ fn assert_speeds(ours: &[(f32, f32)], measured: &[f32]) {
     }
 }
 
-/// Heights above the resting ball within 25 %, but for a hand's breadth near the ground, where a bounce may fall into
-/// the neighbouring step.
+/// Heights above the resting ball within 25 %, except a hand's breadth near the ground, where a
+/// bounce may fall into the neighbouring step.
 fn assert_heights(ours: &[(f32, f32)], measured: &[f32]) {
     for (i, (&(_, height), &wanted)) in ours.iter().zip(measured).enumerate() {
         assert_near(&format!("height after step {i}"), height - 0.11, wanted - 0.11, 0.25, 0.12);
@@ -214,7 +214,8 @@ proptest! {
                 break;
             }
             let after = energy(&ball);
-            // The ground lifts a ball that dipped into it within a tick; a bounce loses far more than that.
+            // The ground lifts a ball that sank into it within a tick; a bounce loses far more than
+            // that.
             prop_assert!(after <= before * 1.000_002 + 1e-3, "tick {tick}: {before} -> {after}, {ball:?}");
             before = after;
         }

@@ -1,4 +1,5 @@
-//! The game as a whole: movement against the measured curves, the referee's cases, agents on scenarios, full matches.
+//! The game as a whole: movement against the measured curves, the referee's cases, agents on
+//! scenarios, full matches.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
@@ -28,7 +29,7 @@ use setpiece_engine::state::player::NEVER;
 use setpiece_engine::step;
 use setpiece_scenario::vocabulary::{Action, EventKind};
 
-/// A match and what it needs to be played.
+/// A match and what is needed to play it.
 struct Bench {
     game: Match,
     events: Events,
@@ -42,7 +43,7 @@ impl Bench {
 
     fn of(start: &setpiece_engine::start::Drawn) -> Bench {
         let mut game = step::begin(start);
-        // In the midst of a match everybody may touch the ball.
+        // In the middle of a match everybody may touch the ball.
         for player in &mut game.players {
             player.body.ready_at = NEVER;
         }

@@ -1,4 +1,5 @@
-//! Where a player can first meet the ball: the search leaps, and finds what a look at every point finds.
+//! Where a player can first meet the ball: the search skips points, and finds the same as a scan of
+//! every point.
 
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -27,8 +28,8 @@ fn player(pos: [f32; 2], vel: [f32; 2], speed_top_mps: f32) -> Player {
     }
 }
 
-/// The meeting as a look at point after point finds it; `None` where they can't be there in time: what they run now fades
-/// over 0.7 s, while they come to run the other way.
+/// The meeting that a scan of every point finds; `None` if they can't be there in time. Their
+/// current run fades over 0.7 s, while they start to run the other way.
 fn met(player: &Player, forecast: &Forecast, tick: u32) -> Option<(Vec2, f32)> {
     let speed = 0.94 * player.body.speed_top_mps;
     let foot = player.pos + player.vel * 0.01 + player.vel.clamp_length_max(0.1);
@@ -42,7 +43,7 @@ fn met(player: &Player, forecast: &Forecast, tick: u32) -> Option<(Vec2, f32)> {
     let mut on_pitch = forecast.from(tick).take_while(|(_, point)| left_pitch(*point).is_none());
     let (time_s, point) = on_pitch.find(near)?;
     let point = point.truncate();
-    // Whoever is there within a moment is there the sooner, the nearer they are.
+    // A player who arrives within a moment counts as sooner the nearer they are.
     let apart = (player.pos + player.vel * 0.08).distance(point);
     Some((point, if time_s < 0.08 { 0.08 * (apart / 0.6).min(1.0) } else { time_s }))
 }
@@ -73,7 +74,7 @@ proptest! {
         if let Some(expected) = met(&player, &forecast, tick) {
             prop_assert_eq!(found, expected);
         } else {
-            // Nowhere in time: he runs to where the way ends, and is late.
+            // Nowhere in time: the player runs to the path's end, and is late.
             let way: Vec<_> = forecast.from(tick).take_while(|(_, point)| left_pitch(*point).is_none()).collect();
             let end = way.last().map_or((player.pos, 0.0), |(time_s, point)| (point.truncate(), *time_s));
             prop_assert!(found.0 == end.0 && (found.1 >= end.1 || found.1.is_nan()), "{found:?} {end:?}");

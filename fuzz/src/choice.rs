@@ -1,18 +1,18 @@
 //! Choices made from the fuzzer's bytes.
 
-/// Reads choices from bytes; behind their end every choice is the first.
+/// Reads choices from bytes; after their end every choice is the first.
 #[derive(Clone, Debug)]
 pub struct Choices<'a> {
     rest: &'a [u8],
 }
 
 impl<'a> Choices<'a> {
-    /// Choices from all of the bytes.
+    /// Reads choices from all of the bytes.
     pub fn new(bytes: &'a [u8]) -> Choices<'a> {
         Choices { rest: bytes }
     }
 
-    /// Whether every byte is used.
+    /// Whether all bytes are used.
     pub fn is_empty(&self) -> bool {
         self.rest.is_empty()
     }
@@ -34,7 +34,7 @@ impl<'a> Choices<'a> {
         usize::from(self.byte()) % n.max(1)
     }
 
-    /// One of some.
+    /// One of several.
     pub fn one<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())]
     }
@@ -49,7 +49,7 @@ impl<'a> Choices<'a> {
         low + (high - low) * f64::from(self.byte()) / 255.0
     }
 
-    /// Everything that is left.
+    /// All remaining bytes.
     pub fn rest(&mut self) -> &'a [u8] {
         std::mem::take(&mut self.rest)
     }

@@ -1,24 +1,24 @@
-//! Edits of a compiled scenario: a few of its numbers, words and lists become others.
+//! Edits of a compiled scenario: replaces some of its numbers, words and lists.
 
 use crate::choice::Choices;
 use serde_json::{Number, Value};
 
-/// Most edits of one scenario.
+/// The most edits of one scenario.
 const EDITS_MAX: usize = 12;
-/// How many values a scenario may hold and still be edited.
+/// A scenario with more values isn't edited.
 const VALUES_MAX: usize = 20_000;
-/// Numbers at which something may begin or end.
+/// Numbers at which behaviour may change.
 const WHOLE: &[i64] = &[0, 1, -1, 2, 10, 11, 21, 22, 64, 255, 256, 100_000, 2_147_483_648, 4_294_967_295, i64::MAX];
 const FLOATS: &[f64] = &[0.0, -0.0, 0.5, -1.0, 1e-300, 1e9, 3.5e38, -1e300, f64::MAX, 55.0, -36.0];
 
-/// Edits as the bytes say until they are used up.
+/// Applies edits until the bytes are used up.
 pub fn edit(body: &mut Value, choices: &mut Choices<'_>) {
     for _ in 0..EDITS_MAX {
         if choices.is_empty() {
             return;
         }
         let n = count(body);
-        // A value may be put into itself, and again.
+        // A value may be put into itself, repeatedly.
         if n > VALUES_MAX {
             return;
         }
@@ -64,7 +64,7 @@ fn change(node: &mut Value, other: Value, choices: &mut Choices<'_>) {
     }
 }
 
-/// How many values there are in a value, itself among them.
+/// The number of values in a value, including itself.
 fn count(value: &Value) -> usize {
     1 + match value {
         Value::Array(list) => list.iter().map(count).sum(),
@@ -73,7 +73,7 @@ fn count(value: &Value) -> usize {
     }
 }
 
-/// The n-th value of a value, itself being the first.
+/// The n-th value of a value; the first is itself.
 fn nth(value: &mut Value, n: usize) -> Option<&mut Value> {
     let Some(mut n) = n.checked_sub(1) else { return Some(value) };
     let children: Vec<&mut Value> = match value {

@@ -1,4 +1,4 @@
-//! A game that is watched: every number that leaves it must be one.
+//! A game under observation: every number that leaves it must be finite.
 
 use crate::choice::Choices;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -10,17 +10,17 @@ use setpiece::scenario::{Bindings, Scenario};
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// How far beyond the rim a player may run before he is put back, m: two ticks at 12 m/s.
+/// How far beyond the rim a player may run before they are put back, m: two ticks at 12 m/s.
 const SLACK_M: f32 = 0.25;
-/// How far from the centre spot a ball can be, m.
+/// The largest possible distance of a ball from the centre spot, m.
 const BALL_MAX_M: f32 = 1.0e4;
 
 thread_local! {
     static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
-/// Plays an episode, or as much of it as `steps`, with the actions that the bytes name. An environment, a start or a
-/// script that is refused is fine.
+/// Plays an episode, at most `steps` steps of it, with actions from the bytes. A rejected
+/// environment, start or script is fine.
 ///
 /// Returns the last state's fingerprint; none without an episode.
 pub fn play(scenario: &Arc<Scenario>, options: EnvironmentOptions, choices: Choices<'_>, steps: u32) -> Option<u64> {
@@ -28,7 +28,7 @@ pub fn play(scenario: &Arc<Scenario>, options: EnvironmentOptions, choices: Choi
     SCRATCH.with_borrow_mut(|scratch| episode(&mut environment, choices, steps, scratch))
 }
 
-/// Plays the episode twice: both must end alike.
+/// Plays the episode twice; both must end in the same state.
 pub fn play_again(scenario: &Arc<Scenario>, choices: &Choices<'_>, steps: u32) {
     let Ok(mut environment) = Environment::new(scenario.clone(), EnvironmentOptions::default()) else { return };
     SCRATCH.with_borrow_mut(|scratch| {
@@ -38,7 +38,7 @@ pub fn play_again(scenario: &Arc<Scenario>, choices: &Choices<'_>, steps: u32) {
     });
 }
 
-/// The options that the bytes choose: parameters within their ranges.
+/// The options from the bytes: parameters within their ranges.
 pub fn options(scenario: &Scenario, choices: &mut Choices<'_>) -> EnvironmentOptions {
     let mut bindings = Bindings::defaults(&scenario.params);
     for (param, value) in scenario.params.iter().zip(&mut bindings.0) {
@@ -59,7 +59,7 @@ fn episode(environment: &mut Environment, mut choices: Choices<'_>, steps: u32, 
         if !environment.is_running() {
             break;
         }
-        // Most of the time what was pressed goes on, so that a player gets somewhere.
+        // Mostly the last press continues, so that a player gets somewhere.
         let pressed = usize::from(choices.byte());
         if let Some(action) = actions.get_mut(pressed / 32 % n_agents.max(1)) {
             *action = Action::ALL[pressed % 32 % Action::ALL.len()];
@@ -74,7 +74,7 @@ fn episode(environment: &mut Environment, mut choices: Choices<'_>, steps: u32, 
     Some(environment.digest())
 }
 
-/// Looks at everything that can be seen of an environment.
+/// Checks everything visible of an environment.
 fn watch(environment: &mut Environment, step: u32) {
     let n_agents = environment.n_agents();
     let declared = environment.observed_names().len();
@@ -140,7 +140,7 @@ fn places_are_sound(environment: &Environment) {
     assert!(ball.vel.is_finite() && ball.spin.is_finite() && ball.pos.length() < BALL_MAX_M, "{ball:?}");
     assert!(ball.pos.z > -0.01, "the ball is in the ground: {ball:?}");
     if let Some(owner) = game.owner {
-        // A set piece of a team without players names its first all the same.
+        // A set piece of a team without players still names its first.
         let nobody = game.team(owner.team()).next().is_none();
         assert!(game.player(owner).active || nobody, "{owner:?} has the ball and is not on the pitch");
     }

@@ -1,6 +1,6 @@
-//! Scenarios assembled from the fuzzer's bytes: nearly all of them compile.
+//! Scenarios generated from the fuzzer's bytes; nearly all of them compile.
 //!
-//! Every choice ends at its first, simplest case when the bytes are used up.
+//! When the bytes are used up, every choice is its first, simplest case.
 
 mod expr;
 mod play;
@@ -24,7 +24,7 @@ struct Writer<'a, 'b> {
     behaviors: Vec<String>,
 }
 
-/// Where an expression stands: what it may say.
+/// The context of an expression, which decides what it may contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum View {
     /// Before the match: places and draws.
@@ -37,23 +37,23 @@ enum View {
     Behavior,
     /// In an observation.
     Observed,
-    /// Where nothing may remember: inside an operator over time, or of a loop's player.
+    /// Without memory: inside a temporal function, or of a loop's player.
     Inner { own: bool },
 }
 
 impl View {
-    /// Whether `me`, `us` and `them` mean something.
+    /// Whether `me`, `us` and `them` have a meaning.
     fn is_own(self) -> bool {
         matches!(self, View::Own | View::Behavior | View::Observed | View::Inner { own: true })
     }
 
-    /// Whether operators over time may stand there.
+    /// Whether temporal functions are allowed.
     fn knows_time(self) -> bool {
         matches!(self, View::World | View::Own | View::Behavior)
     }
 }
 
-/// The text of a scenario that the choices say.
+/// Generates the text of a scenario from choices.
 pub fn scenario(choices: &mut Choices<'_>) -> String {
     let (squads, numbers) = (Default::default(), Vec::new());
     let mut writer = Writer { choices, out: String::new(), squads, numbers, regions: vec![], behaviors: vec![] };
@@ -63,7 +63,7 @@ pub fn scenario(choices: &mut Choices<'_>) -> String {
 
 impl Writer<'_, '_> {
     fn file(&mut self) {
-        // The roster comes first, since everything may name a player of it.
+        // The roster comes first, because everything may name a player of it.
         let sizes = [self.choices.below(12), self.choices.below(12)];
         for (side, letter) in ["p", "q"].into_iter().enumerate() {
             self.squads[side] = (0..sizes[side]).map(|n| format!("{letter}{n}")).collect();

@@ -1,4 +1,5 @@
-//! What the fuzz targets share: choices made from bytes, generated scenarios, seeds, and a game that is watched.
+//! Shared parts of the fuzz targets: choices from bytes, generated scenarios, seeds, and an
+//! observed game.
 
 pub mod choice;
 pub mod edit;

@@ -1,18 +1,18 @@
-//! Seeds: inputs to begin with, made of what the repository holds.
+//! Seeds: initial inputs, made from the contents of the repository.
 
 use crate::choice::Choices;
 use setpiece::scenario::{Scenario, file};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-/// Names the folder into which a target writes its seeds before it begins.
+/// The variable with the folder into which a target writes its seeds before it starts.
 pub const FOLDER: &str = "SETPIECE_FUZZ_SEEDS";
 
-/// How an input of `load` begins: what its other bytes are.
+/// The first byte of an input of `load`: the meaning of the others.
 pub mod load {
     /// The whole file.
     pub const FILE: u8 = b'f';
-    /// The scenario in it; the checksum is made to fit.
+    /// The scenario in it; the checksum is recomputed.
     pub const BODY: u8 = b'b';
     /// Edits of a compiled scenario.
     pub const EDITS: u8 = b'e';
@@ -20,10 +20,10 @@ pub mod load {
 
 /// Largest compiled scenario among the seeds, bytes.
 const BODY_MAX: usize = 12_000;
-/// How many inputs of random bytes are among the seeds of a target that makes choices of them.
+/// How many inputs of random bytes are among the seeds of a target that makes choices.
 const RANDOM: u64 = 48;
 
-/// Writes a target's seeds where [`FOLDER`] says; nothing without it.
+/// Writes a target's seeds into the folder of [`FOLDER`]; no-op without it.
 pub fn write(target: &str) {
     let Some(folder) = std::env::var_os(FOLDER).map(PathBuf::from) else { return };
     std::fs::create_dir_all(&folder).expect("a folder for seeds");
@@ -52,7 +52,7 @@ pub fn body(scenario: &Scenario) -> String {
     serde_json::to_string(scenario).expect("a scenario that can be written")
 }
 
-/// The scenario that the bytes pick.
+/// The scenario chosen by the bytes.
 pub fn pick(choices: &mut Choices<'_>) -> &'static Scenario {
     let all = scenarios();
     &all[usize::from(choices.word()) % all.len()]
@@ -74,7 +74,7 @@ fn loads() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// Every text in the language: the cases of the specification, the library, the examples, those of the pages.
+/// Every text in the language: cases of the specification, the library, the examples, and pages.
 fn texts() -> Vec<String> {
     let mut texts = Vec::new();
     for text in files("tests/spec", "pitch") {
@@ -101,7 +101,7 @@ fn scripts() -> Vec<String> {
     scripts
 }
 
-/// The repository's files of a kind, in order of their paths.
+/// The repository's files with an ending, in order of their paths.
 fn files(folder: &str, ending: &str) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let (mut folders, mut paths) = (vec![root.join(folder)], Vec::new());

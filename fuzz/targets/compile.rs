@@ -41,7 +41,7 @@ fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
     }
 });
 
-/// What a scenario says, but for what is quoted from its text and where a script stands in it.
+/// A scenario's content, except quotations from its text and the places of scripts.
 fn said(scenario: &Scenario) -> String {
     let mut scenario = scenario.clone();
     scenario.start.requires.iter_mut().for_each(|require| require.label.clear());
@@ -49,7 +49,7 @@ fn said(scenario: &Scenario) -> String {
     file::to_json(&scenario).expect("a compiled scenario can be written")
 }
 
-/// Problems point into their files, and can be told in both forms.
+/// Problems point into their files, and can be rendered in both forms.
 fn report(problems: &[Problem], sources: &Sources) {
     for label in problems.iter().flat_map(|problem| problem.words().labels) {
         let source = sources.get(label.span.file).expect("a label in a file");
@@ -63,7 +63,7 @@ fn report(problems: &[Problem], sources: &Sources) {
     assert_eq!(list.len(), problems.len(), "a report in JSON holds every problem");
 }
 
-/// A compiled scenario holds what a loaded one must, and comes back from its file.
+/// A compiled scenario is valid like a loaded one, and survives writing and reading.
 fn survives(scenario: &Scenario) {
     verify::verify(scenario).expect("a compiled scenario holds");
     let text = file::to_json(scenario).expect("a compiled scenario can be written");

@@ -1,4 +1,4 @@
-//! Compiled scenarios from anybody: what loads is played.
+//! Compiled scenarios from anybody: whatever loads is played.
 #![no_main]
 
 use libfuzzer_sys::{Corpus, fuzz_target};
@@ -46,7 +46,7 @@ fn begin() {
 
 /// Loads a file of this body.
 fn with_checksum(body: &str) -> Result<setpiece::scenario::Scenario, FormatError> {
-    // As the file's reader sees it: without the blanks around it.
+    // As the file's reader sees it: without surrounding blanks.
     let body = body.trim_matches([' ', '\t', '\r', '\n']);
     let checksum = file::fnv1a(body.as_bytes());
     file::from_json(&format!(

@@ -1,4 +1,4 @@
-//! Scenarios assembled from bytes, played with actions from bytes.
+//! Scenarios generated from bytes, played with actions from bytes.
 #![no_main]
 
 use libfuzzer_sys::{Corpus, fuzz_target};
@@ -7,9 +7,9 @@ use setpiece_fuzz::{game, generate};
 
 /// Ten ticks each.
 const STEPS: u32 = 60;
-/// Bytes of actions: the seed, and one a step.
+/// Bytes of actions: the seed, and one per step.
 const ACTIONS: usize = STEPS as usize + 1;
-/// When set, the scenarios are shown, and what is wrong with them.
+/// If set, the scenarios and their problems are printed.
 const SHOW: &str = "SETPIECE_FUZZ_SHOW";
 
 fuzz_target!(init: setpiece_fuzz::seed::write("play"), |data: &[u8]| -> Corpus {

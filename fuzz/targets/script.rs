@@ -1,4 +1,4 @@
-//! Any text as a script: checked for every hook, and played where it has one.
+//! Any text as a script: checked for every hook, and played with its hooks.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

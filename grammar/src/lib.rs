@@ -1,6 +1,7 @@
 //! The grammar of the Setpiece language: text to pest pairs.
 //!
-//! The grammar itself is `setpiece.pest`. This crate knows pest only; trees, spans of files and reports are `dsl`'s.
+//! The grammar itself is `setpiece.pest`. This crate only knows pest; trees, spans of files and
+//! reports are in `dsl`.
 
 mod noun;
 mod rules;

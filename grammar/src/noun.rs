@@ -2,7 +2,7 @@
 
 use crate::Rule;
 
-/// What an author calls the thing that a rule reads, with its article: "a point, for example `(0.5, 0)`".
+/// An author's name for what a rule parses, with its article: "a point, for example `(0.5, 0)`".
 #[allow(clippy::too_many_lines, clippy::match_same_arms, reason = "one flat match, in the grammar's order")]
 pub const fn noun(rule: Rule) -> &'static str {
     match rule {
@@ -272,7 +272,7 @@ pub const fn noun(rule: Rule) -> &'static str {
     }
 }
 
-/// The keyword that a rule reads, if it is one.
+/// The keyword that a rule parses, if it is one.
 pub fn keyword(rule: Rule) -> Option<&'static str> {
     format!("{rule:?}").starts_with("kw_").then(|| noun(rule).trim_matches('`'))
 }

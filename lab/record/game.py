@@ -1,4 +1,4 @@
-"""Plays Google Research Football on stages of our own: places, difficulties and a seed for each episode."""
+"""Plays Google Research Football on our own stages, with difficulties and a seed per episode."""
 
 import os
 import sys
@@ -11,7 +11,7 @@ from gfootball.env import config as configs
 from gfootball.env import football_env_core
 
 SCALE = (54.4, 83.6)
-"""Metres of one unit of a place, of the ball and of what is observed."""
+"""Metres per unit of a place, of the ball and of observations."""
 
 STAGE = "stage_of_the_lab"
 
@@ -20,7 +20,7 @@ class Game:
     """One engine; every `reset` plays on another stage."""
 
     def __init__(self, agents):
-        """Starts an engine for so many agents of the left and the right team."""
+        """Starts an engine for this many agents of the left and the right team."""
         self.left_agents = agents[0]
         self.stage = EMPTY
         module = types.ModuleType(STAGE)

@@ -1,15 +1,18 @@
-"""The keys of an agent: a list of keys, each pressed every step until a condition holds (`lab/data/README.md`)."""
+"""The keys of an agent: each is pressed every step until a condition holds.
+
+`lab/data/README.md` describes their format.
+"""
 
 import math
 
 WAYS = ["right", "top_right", "top", "top_left", "left", "bottom_left", "bottom", "bottom_right"]
 
 SHOT_M = 16.0
-"""The scripted agent shoots when it owns the ball nearer to the goal than this."""
+"""The scripted agent shoots when it owns the ball within this distance of the goal."""
 
 
 class Keys:
-    """An agent on its way through a plan."""
+    """An agent working through a plan."""
 
     def __init__(self, plan, agent, team, mirrored):
         self.plan, self.agent, self.team, self.mirrored = plan, agent, team, mirrored

@@ -1,4 +1,4 @@
-"""Plays whole matches of bots in Google Research Football and writes what is counted of each, one match a line.
+"""Plays whole matches of bots in Google Research Football and writes counts, one match a line.
 
 python matches.py LEFT RIGHT COUNT [--first I] > LINES
 """
@@ -12,7 +12,7 @@ from game import Game
 
 SCALE = (54.4, 83.6)
 PLACED_M = 1.5
-"""No player runs further in a step; what is further was a placement."""
+"""No player runs further in a step; a longer way was a placement."""
 
 SET_PIECES = {2: "goal_kicks", 3: "free_kicks", 4: "corners", 5: "throw_ins", 6: "penalties"}
 RIGHT_OUT = [
@@ -28,7 +28,7 @@ RIGHT_BACK = [
 
 
 def stage(left, right, kicks_off_left):
-    """The start of `11_vs_11_stochastic`; who kicks off takes turns."""
+    """The start of `11_vs_11_stochastic`; the teams kick off in turn."""
     first, second = (RIGHT_OUT, RIGHT_BACK) if kicks_off_left else (RIGHT_BACK, RIGHT_OUT)
     return {
         "ball": (0, 0),
@@ -79,7 +79,7 @@ def tally(game, left, right, number, seed):
 
 
 def main():
-    """Plays matches of bots and writes what was counted."""
+    """Plays matches of bots and writes their counts."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("left", type=float)
     parser.add_argument("right", type=float)

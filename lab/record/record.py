@@ -24,7 +24,7 @@ def frac_offset(episode, largest):
 
 
 def stage(scene, row, episode):
-    """Where everybody stands in an episode."""
+    """Everybody's place in an episode."""
     offset = frac_offset(episode, scene.get("jitter", [0, 0]))
     mirror = -1 if mirrored(scene, episode) else 1
 

@@ -9,7 +9,8 @@ use setpiece::run::{RunOptions, Summary, run};
 /// Episodes of every agent on every scenario.
 const EPISODES: u64 = 500;
 
-/// A scenario: theirs for the random and the scripted agent (score, length), and what is wanted of the scripted one.
+/// A scenario with their scores and lengths for the random and the scripted agent, and the required
+/// range for the scripted one.
 type Row = (&'static str, [f64; 2], [f64; 2], [f64; 2], Option<[f64; 2]>);
 
 const ACADEMY: &[Row] = &[
@@ -22,8 +23,8 @@ const ACADEMY: &[Row] = &[
     ("academy_corner", [-0.03, 172.0], [0.06, 160.0], [0.0, 0.2], None),
 ];
 
-/// The matches: theirs for the random agent over 72 matches (mean and how far the true one may be off, 95 %), and for the
-/// scripted one over three.
+/// The matches: their result for the random agent over 72 matches (mean and its 95 % error), and
+/// for the scripted one over three.
 const MATCHES: &[(&str, [f64; 2], f64)] = &[
     ("11_vs_11_easy_stochastic", [-1.9, 0.28], 4.0),
     ("11_vs_11_stochastic", [-2.54, 0.33], 2.0),
@@ -49,7 +50,7 @@ pub(crate) fn measure(episodes: Option<u64>) -> Result<Section, Failure> {
         if let Some(length) = length {
             section.within(format!("{name}: steps, scripted"), short(scripted[1]), length, ours.mean_length);
         } else {
-            section.told.push(format!("Steps, {name}, scripted: {:.0}; theirs {:.0}.", ours.mean_length, scripted[1]));
+            section.notes.push(format!("Steps, {name}, scripted: {:.0}; theirs {:.0}.", ours.mean_length, scripted[1]));
         }
         let ours = play(name, Agent::Random, episodes)?;
         let [low, high] = [random[0] - 0.1, random[0] + 0.1];
@@ -60,7 +61,7 @@ pub(crate) fn measure(episodes: Option<u64>) -> Result<Section, Failure> {
             .iter()
             .map(|(label, _, count)| format!("{label} {:.0} %", f64::from(*count) * 100.0 / episodes as f64))
             .collect();
-        section.told.push(format!("Ends, {name}, random: {}.", ends.join(", ")));
+        section.notes.push(format!("Ends, {name}, random: {}.", ends.join(", ")));
     }
     matches(&mut section, episodes)?;
     Ok(section)

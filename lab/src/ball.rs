@@ -1,4 +1,4 @@
-//! The ball: what leaves the foot, how it flies, bounces and rolls, and what shots come to.
+//! The ball: how it leaves the foot, flies, bounces and rolls, and the results of shots.
 
 use crate::figure::Section;
 use crate::pitch::{Failure, Trial, deviation, mean, text};
@@ -26,11 +26,11 @@ pub(crate) fn measure() -> Result<Section, Failure> {
     Ok(section)
 }
 
-/// What a kick was.
+/// The figures of a kick.
 struct Kick {
-    /// Steps from the press to the ball's leaving.
+    /// Steps from the press until the ball leaves.
     leaves_after: f64,
-    /// Highest level speed of a step, m/s.
+    /// Highest horizontal speed of a step, m/s.
     top_mps: f64,
     /// Highest point of the ball, m.
     peak_m: f64,
@@ -38,7 +38,7 @@ struct Kick {
     aside_deg: f64,
 }
 
-/// How the kicker gets there.
+/// The kicker's run-up.
 #[derive(Clone, Copy)]
 enum RunUp {
     Stand,
@@ -69,7 +69,8 @@ fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, F
             RunUp::Walk | RunUp::Sprint => {
                 trial.step(Action::Right)?;
                 trial.step(if matches!(run_up, RunUp::Sprint) { Action::Sprint } else { Action::Idle })?;
-                // Long enough for the gait; every other length, so that the ball isn't always at the same foot.
+                // Long enough for the gait. The length varies, so that the ball isn't always at the
+                // same foot.
                 trial.steps(Action::Idle, 20 + (seed % 6) as usize)?;
             }
         }
@@ -91,7 +92,7 @@ fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, F
             if kick.leaves_after.is_finite() && f64::from(step) > kick.leaves_after && kick.aside_deg == 0.0 {
                 kick.aside_deg = f64::from(way.y.atan2(way.x)).to_degrees();
             }
-            // What the mate or the frame makes of it is no longer the kick's.
+            // After a contact with a teammate or the frame, the kick no longer counts.
             if trial.state().last_touch.is_some_and(|id| id.in_team() != 1) {
                 break;
             }
@@ -134,7 +135,7 @@ fn kicks(section: &mut Section) -> Result<(), Failure> {
         );
         section.within(format!("{name}: top speed, m/s"), span(speed), [speed[0] * 0.92, speed[1] * 1.08], mean(&top));
         section.within(format!("{name}: peak height, m"), span(peak), [peak[0] * 0.75, peak[1] * 1.25], mean(&high));
-        section.told.push(format!(
+        section.notes.push(format!(
             "Scatter, {name}: speed ±{:.2} m/s, direction ±{:.1}° (theirs {aside}°), height ±{:.2} m.",
             deviation(&top),
             deviation(&of(|k| k.aside_deg)),
@@ -144,7 +145,7 @@ fn kicks(section: &mut Section) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A span as told.
+/// A range as the report shows it.
 fn span([low, high]: [f64; 2]) -> String {
     use crate::figure::short;
     if low == high { short(low) } else { format!("{}–{}", short(low), short(high)) }
@@ -159,7 +160,7 @@ const FREE: &str = "scenario free {
     end limit 200 steps
 }";
 
-/// A ball let go with a level speed from a height.
+/// A ball released with a horizontal speed from a height.
 fn let_go(x: f64, speed: f64, height: f64) -> Result<Trial, Failure> {
     let source =
         FREE.replace('X', &x.to_string()).replace('V', &format!("{speed}m/s")).replace('Z', &format!("{height}m"));

@@ -4,7 +4,7 @@ use crate::figure::{Figure, Section};
 use crate::pitch::Failure;
 use crate::{agents, ball, explained, hands, matches, movement, page};
 
-/// What is asked for.
+/// The command's options.
 #[derive(Default)]
 struct Options {
     check: bool,
@@ -63,7 +63,8 @@ fn outside(sections: &[Section]) -> impl Iterator<Item = &Figure> + Clone {
     sections.iter().flat_map(|section| section.figures.iter().filter(|figure| !figure.is_inside()))
 }
 
-/// Prints what is outside and has no reason, and with `whole` the reasons that explain nothing; fails on it if asked to.
+/// Prints the figures that are outside without a reason, and with `whole` the reasons that explain
+/// nothing. With `check` such figures are a failure.
 fn verdict(sections: &[Section], whole: bool, check: bool) -> Result<(), Failure> {
     let mut bad = Vec::new();
     for section in sections {

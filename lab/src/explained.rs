@@ -1,14 +1,14 @@
-//! Why figures may lie outside: by row, or by group of rows that share a cause.
+//! Reasons why figures may be outside: by row, or by group of rows that share a cause.
 
 use crate::figure::Figure;
 
-/// A cause that puts figures outside, and the rows it puts there.
+/// A cause of figures outside, and their rows.
 pub(crate) struct Reason {
-    /// Rows: what a name contains, all the words of one of these.
+    /// Rows: their name contains all the words of one of these.
     rows: &'static [&'static [&'static str]],
-    /// The figures of these rows that it explains; with none named, all of them.
+    /// The figures of these rows that it explains; all if empty.
     figures: &'static [&'static str],
-    /// The cause, and what shows it.
+    /// The cause, and the evidence.
     pub(crate) why: &'static str,
 }
 
@@ -29,7 +29,7 @@ impl Reason {
     }
 }
 
-/// The numbers of the reasons why a row is outside; none if some figure of it has no reason.
+/// The numbers of the reasons why a row is outside; none if one of its figures has no reason.
 pub(crate) fn explanation(row: &Figure) -> Option<Vec<usize>> {
     let mut numbers = Vec::new();
     for part in row.outside() {
@@ -41,7 +41,7 @@ pub(crate) fn explanation(row: &Figure) -> Option<Vec<usize>> {
     Some(numbers)
 }
 
-/// Reasons that explain nothing any more.
+/// Reasons that no longer explain anything.
 pub(crate) fn idle<'a>(outside: impl Iterator<Item = &'a Figure> + Clone) -> impl Iterator<Item = String> {
     let used: Vec<usize> = outside.filter_map(explanation).flatten().collect();
     let idle = (1..).zip(REASONS).filter(move |(number, _)| !used.contains(number));

@@ -1,9 +1,10 @@
-//! A figure: ours beside the measured one, what it may be, and whether it is.
+//! A figure: ours and the measured one, the allowed range, and whether it is inside.
 
 use crate::explained::explanation;
 use std::fmt::Write as _;
 
-/// A row of the report: one figure of ours beside theirs, or several of one scene. It is inside where all of them are.
+/// A row of the report: one figure of ours and theirs, or several of one scene. It is inside if all
+/// of them are.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
     /// What is measured.
@@ -15,42 +16,43 @@ pub(crate) struct Figure {
 /// One figure of a row.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
-    /// Its name, where a row has several.
+    /// Its name, if a row has several.
     pub(crate) name: String,
     /// Theirs, as measured.
     pub(crate) theirs: String,
-    /// Lowest and highest that ours may be.
+    /// The allowed range of ours.
     pub(crate) range: [f64; 2],
     /// Ours.
     pub(crate) ours: f64,
 }
 
 impl Part {
-    /// A named figure that must be theirs, give or take so much.
+    /// A named figure that must equal theirs within a tolerance.
     pub(crate) fn around(name: &str, theirs: f64, give: f64, ours: f64) -> Part {
         Part { name: name.to_owned(), theirs: short(theirs), range: [theirs - give, theirs + give], ours }
     }
 }
 
-/// The figures of a section of what was measured.
+/// The figures of a section of the measurements.
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
-    /// Its number there; figures count from a hundred times that, from the hundredth on from a thousand times.
+    /// Its number there. Figures count from a hundred times that, and from the hundredth on from a
+    /// thousand times that.
     pub(crate) number: u16,
     /// Its name.
     pub(crate) title: &'static str,
-    /// How ours were taken.
+    /// How ours were measured.
     pub(crate) how: String,
     /// The figures, in order.
     pub(crate) figures: Vec<Figure>,
-    /// What is told without a verdict.
-    pub(crate) told: Vec<String>,
+    /// Notes without a verdict.
+    pub(crate) notes: Vec<String>,
 }
 
 impl Section {
     /// An empty section.
     pub(crate) fn new(number: u16, title: &'static str, how: impl Into<String>) -> Section {
-        Section { number, title, how: how.into(), figures: Vec::new(), told: Vec::new() }
+        Section { number, title, how: how.into(), figures: Vec::new(), notes: Vec::new() }
     }
 
     /// Adds a figure that must lie within a range.
@@ -63,7 +65,7 @@ impl Section {
         self.figures.push(Figure { what: what.into(), parts });
     }
 
-    /// Adds a figure that must be theirs, give or take a share of it.
+    /// Adds a figure that must equal theirs within a share.
     pub(crate) fn near(&mut self, what: impl Into<String>, theirs: f64, share: f64, ours: f64) {
         let give = theirs.abs() * share;
         self.within(what, short(theirs), [theirs - give, theirs + give], ours);
@@ -75,7 +77,7 @@ impl Section {
         if index < 99 { number * 100 + 1 + index as u32 } else { number * 1000 + 1 + index as u32 }
     }
 
-    /// Figures that lie outside, with their numbers.
+    /// Figures that are outside, with their numbers.
     pub(crate) fn outside(&self) -> impl Iterator<Item = (u32, &Figure)> {
         self.figures.iter().enumerate().filter(|(_, figure)| !figure.is_inside()).map(|(i, f)| (self.id(i), f))
     }
@@ -103,7 +105,7 @@ impl Section {
                 figure.ours()
             );
         }
-        for line in &self.told {
+        for line in &self.notes {
             let _ = write!(text, "\n{line}\n");
         }
         text
@@ -111,17 +113,17 @@ impl Section {
 }
 
 impl Figure {
-    /// Whether everything is what it may be.
+    /// Whether all figures are in their ranges.
     pub(crate) fn is_inside(&self) -> bool {
         self.parts.iter().all(Part::is_inside)
     }
 
-    /// The figures of the row that are not what they may be.
+    /// The figures of the row that are outside.
     pub(crate) fn outside(&self) -> impl Iterator<Item = &Part> {
         self.parts.iter().filter(|part| !part.is_inside())
     }
 
-    /// What ours may be, in words.
+    /// The allowed ranges, in words.
     pub(crate) fn wanted(&self) -> String {
         self.joined(Part::wanted)
     }
@@ -131,21 +133,21 @@ impl Figure {
         self.joined(|part| short(part.ours))
     }
 
-    /// Something of every part, in order.
+    /// Joins a text of every part, in order.
     fn joined(&self, what: impl Fn(&Part) -> String) -> String {
         self.parts.iter().map(what).collect::<Vec<_>>().join(" · ")
     }
 }
 
 impl Part {
-    /// Whether ours is what it may be; what is no number never is.
+    /// Whether ours is in the range; NaN never is.
     fn is_inside(&self) -> bool {
-        // Rounding of a decimal limit is forgiven.
+        // Tolerates the rounding of a decimal limit.
         let slack = 1e-6;
         self.ours >= self.range[0] - slack && self.ours <= self.range[1] + slack
     }
 
-    /// What ours may be, in words.
+    /// The allowed range, in words.
     fn wanted(&self) -> String {
         match self.range {
             [low, high] if low == f64::NEG_INFINITY => format!("≤ {}", short(high)),
@@ -155,7 +157,7 @@ impl Part {
     }
 }
 
-/// A number with three digits that count.
+/// A number with three significant digits.
 pub(crate) fn short(value: f64) -> String {
     if !value.is_finite() {
         return "none".to_owned();

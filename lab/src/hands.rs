@@ -1,7 +1,9 @@
-//! Under an agent's hands: scenes with a key in every step, played as they were recorded of Google Research Football.
+//! Play under an agent's control: scenes with a key in every step, played as recorded of Google
+//! Research Football.
 //!
-//! Every scene stands in `lab/data` beside the figures taken of it: how players are placed, which keys are pressed, what
-//! the columns mean. Here the same keys are pressed in our game and the same columns measured.
+//! Every scene is in `lab/data` with its recorded figures: how players are placed, which keys are
+//! pressed, what the columns mean. Here the same keys are pressed in our game, and the same columns
+//! are measured.
 
 mod again;
 mod contact;
@@ -79,7 +81,7 @@ pub(crate) fn runs_with_the_ball(section: &mut Section) -> Result<(), Failure> {
     recorded::measure(section, &runs::TOPIC, None)
 }
 
-/// Every topic, wherever the report has it.
+/// Every topic, in any section of the report.
 fn topics() -> impl Iterator<Item = &'static recorded::Topic> {
     TOPICS.iter().chain([&standing::TOPIC, &runs::TOPIC])
 }
@@ -101,7 +103,7 @@ fn direction(name: &str) -> Option<Action> {
 
 #[cfg(test)]
 mod tests {
-    /// The most figures a row of the report holds.
+    /// The most figures in a row of the report.
     const ROW_MAX: usize = 5;
 
     #[test]

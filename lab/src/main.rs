@@ -1,10 +1,14 @@
-//! The bench on which the game is measured.
+//! The bench that measures the game.
 //!
-//! `lab calibrate [--check] [--write] [--only SECTION] [--count N]` sets our figures beside those measured of Google
-//! Research Football and writes them to `docs/calibration.md`, the sections named only with `--write`. `lab recorded FILE TRACES [--write | --add]` makes figures of what
-//! `lab/record` saw of that game: beside those in `lab/data/FILE`, or in their place. `lab soak [--steps N] [--seed S] [--from SCENARIO]` holds scenarios made up at random
-//! to what must be true of any match; a long run that held is a line of `lab/soak.csv`. `cargo xtask calibrate` and
-//! `cargo xtask soak` build and call it.
+//! - `lab calibrate [--check] [--write] [--only SECTION] [--count N]` compares our figures with
+//!   those measured of Google Research Football. With `--write` it writes them to
+//!   `docs/calibration.md`; with sections named, only these.
+//! - `lab recorded FILE TRACES [--write | --add]` computes figures from `lab/record`'s traces of
+//!   that game, to compare with those in `lab/data/FILE`, or to replace them.
+//! - `lab soak [--steps N] [--seed S] [--from SCENARIO]` plays random scenarios and checks what
+//!   must be true of any match. A long run without a breach adds a line to `lab/soak.csv`.
+//!
+//! `cargo xtask calibrate` and `cargo xtask soak` build and call it.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod agents;
@@ -42,7 +46,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Threads to play on; no figure depends on them.
+/// Number of threads; no figure depends on it.
 pub(crate) fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }

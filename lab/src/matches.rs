@@ -1,4 +1,4 @@
-//! Bot against bot: what whole matches look like, and whether the better bot wins.
+//! Bot against bot: figures of whole matches, and whether the better bot wins.
 
 mod recorded;
 
@@ -11,21 +11,21 @@ use setpiece::engine::state::event::Event;
 use setpiece::engine::statistics::{MatchStatistics, Statistics, TeamStatistics};
 use setpiece::scenario::vocabulary::{Action, EventKind, GameMode, Role};
 
-/// Matches of every pairing.
+/// Matches per pairing.
 const MATCHES: u64 = 200;
-/// Seeds of every pair of the ladder, each played with the sides as they are and swapped.
+/// Seeds per pair of the ladder, each played with the sides unchanged and swapped.
 const LADDER: u64 = 1000;
 /// The scenario of all of them.
 const SCENARIO: &str = "11_vs_11_stochastic";
 
-/// What is counted of one match, as an agent sees it: after restarts.
+/// Counts of one match, as an agent sees it: after restarts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tally {
     counted: MatchStatistics,
     beside: Beside,
 }
 
-/// What the engine's statistics leave out.
+/// Counts that the engine's statistics don't have.
 #[derive(Clone, Debug, Default)]
 struct Beside {
     shot_m: f64,
@@ -87,13 +87,13 @@ impl Tally {
         self.team(0, of) + self.team(1, of)
     }
 
-    /// How many goals more the left team has scored.
+    /// The left team's goal difference.
     fn lead(&self) -> f64 {
         self.team(0, |team| team.goals) - self.team(1, |team| team.goals)
     }
 }
 
-/// Plays matches of two difficulties, seeds from 0 on.
+/// Plays matches of two difficulties, with seeds from 0 on.
 pub(crate) fn play(left: f64, right: f64, matches: u64) -> Result<Vec<Tally>, Failure> {
     let params = [("difficulty", right.to_string()), ("left_difficulty", left.to_string())];
     let prototype = library(SCENARIO, &params)?;
@@ -156,7 +156,7 @@ pub(crate) fn measure(matches: Option<u64>) -> Result<Section, Failure> {
             let difference = mean(&goals);
             section.within("goal difference, 1.0 against 0.05", "+2.8", [2.0, f64::INFINITY], difference);
         }
-        section.told.push(pairing(left, right, theirs, &tallies));
+        section.notes.push(pairing(left, right, theirs, &tallies));
     }
     Ok(section)
 }
@@ -228,8 +228,8 @@ fn equal(section: &mut Section, level: f64, tallies: &[Tally]) -> Result<(), Fai
     for (what, name, give, ours) in counted {
         section.row(format!("{what}, {level} each"), vec![part(&theirs, name, give, ours, tallies.len())]);
     }
-    section.told.push(pairing(level, level, 0.0, tallies));
-    section.told.push(format!(
+    section.notes.push(pairing(level, level, 0.0, tallies));
+    section.notes.push(format!(
         "Besides, {level} each: headers {}, offsides {}, tackles {}, saves {} a match.",
         short(of(&|t| t.beside.headers)),
         short(both(|t| t.offsides)),
@@ -239,7 +239,7 @@ fn equal(section: &mut Section, level: f64, tallies: &[Tally]) -> Result<(), Fai
     Ok(())
 }
 
-/// The ladder of difficulties: the better against the worse, both ways round.
+/// The ladder of difficulties: the better against the worse, on both sides.
 pub(crate) fn ladder(seeds: Option<u64>) -> Result<Section, Failure> {
     let seeds = seeds.unwrap_or(LADDER);
     let mut section = Section::new(
@@ -275,7 +275,7 @@ pub(crate) fn ladder(seeds: Option<u64>) -> Result<Section, Failure> {
         } else {
             section.within(format!("{better} against {worse}: mean"), "–", [0.0, f64::INFINITY], middle);
         }
-        section.told.push(format!("{better} against {worse}: {middle:+.3} ± {half:.3} goals."));
+        section.notes.push(format!("{better} against {worse}: {middle:+.3} ± {half:.3} goals."));
     }
     Ok(section)
 }

@@ -1,11 +1,11 @@
-//! Running, turning, stopping, tiring: one player, nobody against him.
+//! Running, turning, stopping, tiring: one player without opponents.
 
 use crate::figure::Section;
 use crate::pitch::{Failure, Trial, mean, text};
 use glam::Vec2;
 use setpiece::scenario::vocabulary::Action;
 
-/// A man alone; the ball far away, or at his feet.
+/// A player alone; the ball is far away, or at their feet.
 const ALONE: &str = "scenario alone {
     rules { offside: off, assist: off }
     agents { left: [runner] }
@@ -15,7 +15,7 @@ const ALONE: &str = "scenario alone {
     end limit 3000 steps
 }";
 
-/// How he runs.
+/// The player's gait.
 #[derive(Clone, Copy, PartialEq)]
 enum Gait {
     Dribble,
@@ -36,7 +36,7 @@ impl Gait {
     }
 }
 
-/// Speeds step by step from a standstill, without the ball, sprinting.
+/// Speeds per step from a standstill, without the ball, sprinting.
 const SPRINT: [f64; 20] = [
     0.36, 2.19, 3.11, 3.93, 4.69, 5.07, 5.34, 5.86, 6.31, 6.69, 6.97, 7.19, 7.36, 7.48, 7.57, 7.64, 7.69, 7.73, 7.75,
     7.77,
@@ -46,7 +46,7 @@ pub(crate) fn measure() -> Result<Section, Failure> {
     let mut section = Section::new(
         2,
         "Movement",
-        "One player (index 1 of his team), nobody against him; speeds from the places at the steps' ends, 100 ms a step. \
+        "One player (index 1 of the team) without opponents; speeds from the places at the steps' ends, 100 ms per step. \
          Limits: ±5 % on speeds, ±1 step on times, 10 % or 0.4 m/s on the points of a curve, ±0.03 on tiredness. Rows \
          with the ball are means over many starts, with the limits of section 6.",
     );
@@ -62,13 +62,13 @@ fn start(with_ball: bool) -> Result<Trial, Failure> {
     let ball = if with_ball { "(-0.79, 0.1)" } else { "(0.9, -0.35)" };
     let mut trial = Trial::new(text(&ALONE.replace("BALL", ball))?, 0)?;
     if with_ball {
-        // He takes the ball first.
+        // The player takes the ball first.
         trial.steps(Action::Idle, 12)?;
     }
     Ok(trial)
 }
 
-/// His speed in every step after the keys are pressed, one a step, m/s.
+/// The player's speed in every step after the keys are pressed, one per step, m/s.
 fn speeds(trial: &mut Trial, keys: &[Action], steps: usize) -> Result<Vec<f64>, Failure> {
     let mut before = trial.place()?;
     let mut speeds = Vec::with_capacity(steps);
@@ -124,39 +124,41 @@ fn curves(section: &mut Section) -> Result<(), Failure> {
 
 fn turns(section: &mut Section) -> Result<(), Failure> {
     let cases = [
-        // Steps until the direction is new, until the speed is back; for 45° and 90°; steps to a stop, its way.
+        // Steps until the direction is new, until the speed is back; for 45° and 90°; steps to a
+        // stop, its way.
         ("walk without the ball", Gait::Walk, [[2, 5], [2, 5]], [[3, 5], [5, 8]], [3, 5], 1.1),
         ("sprint without the ball", Gait::Sprint, [[3, 5], [6, 8]], [[5, 7], [12, 14]], [5, 6], 2.4),
     ];
     for (name, gait, half, full, stop, way) in cases {
         for (turn, degrees, [direction, speed]) in [(Action::BottomRight, 45, half), (Action::Bottom, 90, full)] {
             let [turned, fast] = turn_steps(gait, turn)?;
-            section.within(format!("steps to turn by {degrees}°, {name}"), told(direction), wide(direction), turned);
+            section.within(format!("steps to turn by {degrees}°, {name}"), limits(direction), wide(direction), turned);
             section.within(
                 format!("steps until 90 % of the speed is back after {degrees}°, {name}"),
-                told(speed),
+                limits(speed),
                 wide(speed),
                 fast,
             );
         }
         let [steps, metres] = stop_of(gait)?;
-        section.within(format!("steps to a stop, {name}"), told(stop), wide(stop), steps);
-        section.told.push(format!("Way of a stop, {name}: {metres:.1} m; theirs {way} m (no limit stated)."));
+        section.within(format!("steps to a stop, {name}"), limits(stop), wide(stop), steps);
+        section.notes.push(format!("Way of a stop, {name}: {metres:.1} m; theirs {way} m (no limit stated)."));
     }
     Ok(())
 }
 
-/// Limits as told.
-fn told([low, high]: [u32; 2]) -> String {
+/// Limits as the report shows them.
+fn limits([low, high]: [u32; 2]) -> String {
     if low == high { low.to_string() } else { format!("{low}–{high}") }
 }
 
-/// Limits of steps and one more on either side.
+/// Limits of steps, with one more on either side.
 fn wide([low, high]: [u32; 2]) -> [f64; 2] {
     [f64::from(low) - 1.0, f64::from(high) + 1.0]
 }
 
-/// Steps until the velocity points within 12° of a new direction, and until it also has 90 % of the old speed.
+/// Steps until the velocity points within 12° of a new direction, and until it also has 90 % of the
+/// old speed.
 fn turn_steps(gait: Gait, turn: Action) -> Result<[f64; 2], Failure> {
     let mut trial = start(false)?;
     speeds(&mut trial, &[Action::Right, gait.action()], 35)?;
@@ -180,7 +182,7 @@ fn turn_steps(gait: Gait, turn: Action) -> Result<[f64; 2], Failure> {
     Ok([turned, fast])
 }
 
-/// Steps until he stands, and the metres they take.
+/// Steps until the player stands, and the metres that they take.
 fn stop_of(gait: Gait) -> Result<[f64; 2], Failure> {
     let mut trial = start(false)?;
     speeds(&mut trial, &[Action::Right, gait.action()], 40)?;
@@ -189,7 +191,7 @@ fn stop_of(gait: Gait) -> Result<[f64; 2], Failure> {
         let before = trial.place()?;
         trial.step(if step == 1 { Action::ReleaseDirection } else { Action::Idle })?;
         if trial.place()?.distance(before) * 10.0 < 0.1 {
-            // In the step before this one he came to his stand.
+            // The player stopped in the step before this one.
             return Ok([f64::from(step - 1), f64::from(before.distance(from))]);
         }
     }

@@ -1,4 +1,4 @@
-//! `docs/calibration.md`: sections that were measured take the place of their older selves.
+//! `docs/calibration.md`: measured sections replace their older versions.
 
 use crate::explained::REASONS;
 use crate::figure::Section;
@@ -12,7 +12,7 @@ const HEAD: &str = "# Calibration\n\nSetpiece's game beside Google Research Foot
                     |---|---|---|---|---|\n";
 const LAST: &str = "Explained";
 
-/// Writes the page with these sections; others stay as they are.
+/// Writes the page with these sections; others stay unchanged.
 pub(crate) fn write(sections: &[Section]) -> Result<(), Failure> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/calibration.md");
     let before = std::fs::read_to_string(&path).unwrap_or_default();

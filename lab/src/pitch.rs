@@ -1,4 +1,4 @@
-//! A scenario under measurement: compiled from a text or the library, stepped with actions.
+//! A scenario being measured: compiled from a text or the library, stepped with actions.
 
 use glam::{Vec2, Vec3};
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -6,10 +6,11 @@ use setpiece::engine::state::event::Event;
 use setpiece::engine::state::{Match, Player};
 use setpiece::scenario::vocabulary::Action;
 
-/// How much further out than the ball a script of GRF's places a player: 55 and 84.96 m for 54.4 and 83.6 m.
+/// How much further out than the ball a GRF script places a player: 55 and 84.96 m for 54.4 and
+/// 83.6 m.
 const PLACED: [f64; 2] = [55.0 / 54.4, 84.96 / 83.6];
 
-/// What went wrong, in words.
+/// An error message.
 pub(crate) type Failure = String;
 
 /// The environment of a library scenario with parameters.
@@ -27,7 +28,8 @@ pub(crate) fn text(source: &str) -> Result<Environment, Failure> {
     Environment::new(loaded.scenario, EnvironmentOptions::default()).map_err(|why| why.to_string())
 }
 
-/// The environment of a text whose players stand where a script of GRF's places them: on a wider scale than the ball.
+/// The environment of a text whose players stand where a GRF script places them: on a wider scale
+/// than the ball.
 pub(crate) fn script(source: &str) -> Result<Environment, Failure> {
     let mut pieces = source.split(" at (");
     let mut placed = pieces.next().unwrap_or_default().to_owned();
@@ -45,7 +47,7 @@ pub(crate) fn script(source: &str) -> Result<Environment, Failure> {
     text(&placed)
 }
 
-/// An episode under way whose first agent is led by hand.
+/// A running episode whose first agent is controlled by hand.
 pub(crate) struct Trial {
     environment: Environment,
     scratch: Scratch,
@@ -90,7 +92,7 @@ impl Trial {
         self.environment.state()
     }
 
-    /// What happened in the last step.
+    /// The events of the last step.
     pub(crate) fn events(&self) -> &[Event] {
         self.environment.events()
     }
@@ -102,7 +104,7 @@ impl Trial {
         Ok(game.player(id))
     }
 
-    /// Where the agent's player is.
+    /// The place of the agent's player.
     pub(crate) fn place(&self) -> Result<Vec2, Failure> {
         Ok(self.me()?.pos)
     }

@@ -1,4 +1,4 @@
-//! Long runs over scenarios made up at random, every step held to what must be true of any match.
+//! Long runs over random scenarios; every step must fulfil what is true of any match.
 
 mod properties;
 mod scramble;
@@ -16,16 +16,16 @@ use std::process::Command;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Steps where nothing else is asked for.
+/// Default number of steps.
 const STEPS: u64 = 10_000_000;
-/// A run of so many steps has a line in the log; a shorter one is but a look.
+/// A run of at least this many steps adds a line to the log.
 const LOGGED: u64 = 1_000_000;
 /// Longest episode of a scenario, steps.
 const EPISODE: u32 = 600;
 /// Episodes of every scenario.
 const EPISODES: u64 = 4;
 
-/// What a run has seen.
+/// What a run has covered.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
     steps: u64,
@@ -37,7 +37,7 @@ struct Count {
 }
 
 impl Count {
-    /// Both together.
+    /// The sum of both.
     fn with(self, other: Count) -> Count {
         Count {
             steps: self.steps + other.steps,
@@ -50,14 +50,14 @@ impl Count {
     }
 }
 
-/// What has not held: the first case of each kind, and how many there were.
+/// Breaches: the first case of each kind, and the number of cases.
 type Breaches = BTreeMap<String, (u64, Failure)>;
 
-/// What a run is asked for.
+/// The options of a run.
 struct Options {
     steps: u64,
     seed: u64,
-    /// The scenario to begin with: the one that a breach has named.
+    /// The scenario to begin with, as named by a breach.
     from: u64,
 }
 
@@ -76,9 +76,9 @@ pub(crate) fn soak(args: &[String]) -> Result<(), Failure> {
             if let Err(breach) = play(seed, which, &mut scratch, &mut count)
                 && let Ok(mut breaches) = breaches.lock()
             {
-                breaches.entry(kind_of(&breach.what)).or_insert((0, breach.told)).0 += 1;
+                breaches.entry(kind_of(&breach.what)).or_insert((0, breach.report)).0 += 1;
             }
-            // A scenario that can't be played counts as a step: the run ends all the same.
+            // A scenario that can't be played counts as a step, so that the run still ends.
             done.fetch_add((count.steps - before).max(1), Ordering::Relaxed);
         }
         count
@@ -94,11 +94,11 @@ pub(crate) fn soak(args: &[String]) -> Result<(), Failure> {
     if breaches.is_empty() {
         return if steps < LOGGED || from > 0 { Ok(()) } else { log(seed, total) };
     }
-    let told: Vec<Failure> = breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
-    Err(told.join("\n"))
+    let reports: Vec<Failure> = breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
+    Err(reports.join("\n"))
 }
 
-/// What a breach is like: its words without its numbers.
+/// The kind of a breach: its words without the numbers.
 fn kind_of(what: &str) -> String {
     what.chars().filter(|c| !c.is_ascii_digit() && !"-.,".contains(*c)).collect()
 }
@@ -118,35 +118,35 @@ fn options(args: &[String]) -> Result<Options, Failure> {
     Ok(options)
 }
 
-/// Who acts in an episode.
+/// How agents act in an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Habit {
-    /// Nobody does anything.
+    /// Idle.
     Idle,
-    /// Every agent at random, every step.
+    /// Every agent acts at random in every step.
     Random,
-    /// The bot for every agent.
+    /// The bot plays every agent.
     Bot,
-    /// Every agent holds what it did for a while, the bot now and then.
+    /// Every agent keeps its action for a while; sometimes the bot plays.
     Slow,
 }
 
-/// Habits, each as often as it comes up.
+/// Habits, each as often as it is drawn.
 const HABITS: [Habit; 5] = [Habit::Random, Habit::Random, Habit::Bot, Habit::Slow, Habit::Idle];
 
-/// Something that has not held.
+/// A property that was breached.
 struct Breach {
     what: Failure,
-    /// The same with its scenario and the moment.
-    told: Failure,
+    /// The same, with its scenario and the moment.
+    report: Failure,
 }
 
-/// Plays some episodes of a scenario made up from a seed.
+/// Plays some episodes of a random scenario derived from a seed.
 fn play(seed: u64, which: u64, scratch: &mut Scratch, count: &mut Count) -> Result<(), Breach> {
     let mut random = Stream::new(seed, which, Purpose::Agent);
     let source = scramble::scenario(&mut random, EPISODE);
     let tell = |what: Failure, when: String| Breach {
-        told: format!("seed {seed}, scenario {which}{when}: {what}\n{source}"),
+        report: format!("seed {seed}, scenario {which}{when}: {what}\n{source}"),
         what,
     };
     let mut environment = text(&source).map_err(|why| tell(why, String::new()))?;

@@ -1,9 +1,9 @@
-//! The bench itself, in short: it plays, measures and says what is wrong.
+//! A short test of the bench: it plays, measures and reports errors.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::process::Command;
 
-/// What the bench prints, and whether it was content.
+/// The bench's output, and whether it succeeded.
 fn lab(args: &[&str]) -> (String, bool) {
     let output = Command::new(env!("CARGO_BIN_EXE_lab")).args(args).output().unwrap();
     (String::from_utf8(output.stdout).unwrap(), output.status.success())
@@ -11,24 +11,24 @@ fn lab(args: &[&str]) -> (String, bool) {
 
 #[test]
 fn scenarios_made_up_at_random_hold() {
-    let (told, held) = lab(&["soak", "--steps", "10000", "--seed", "1"]);
-    assert!(held, "{told}");
-    assert!(told.contains("goals: "), "{told}");
+    let (output, held) = lab(&["soak", "--steps", "10000", "--seed", "1"]);
+    assert!(held, "{output}");
+    assert!(output.contains("goals: "), "{output}");
 }
 
 #[test]
 fn every_section_measures_every_figure() {
     for (section, figures) in [("2", 50), ("3", 75), ("4", 50), ("5", 30), ("6", 1500), ("7", 6)] {
-        let (told, _) = lab(&["calibrate", "--only", section, "--count", "2"]);
-        let rows: Vec<&str> = told.lines().filter(|line| line.starts_with("| C-")).collect();
+        let (output, _) = lab(&["calibrate", "--only", section, "--count", "2"]);
+        let rows: Vec<&str> = output.lines().filter(|line| line.starts_with("| C-")).collect();
         assert!(rows.len() >= figures, "section {section} has {} figures", rows.len());
         let found = rows.iter().filter(|row| !row.contains("| none |")).count();
-        assert!(found * 10 >= rows.len() * 8, "section {section} measures {found} of {}: {told}", rows.len());
+        assert!(found * 10 >= rows.len() * 8, "section {section} measures {found} of {}: {output}", rows.len());
     }
 }
 
 #[test]
-fn what_is_asked_for_wrongly_is_told() {
+fn wrong_arguments_are_reported() {
     for (args, words) in [
         (vec![], "lab calibrate"),
         (vec!["soak", "--steps"], "`--steps` wants a number"),
@@ -36,7 +36,7 @@ fn what_is_asked_for_wrongly_is_told() {
         (vec!["calibrate", "--only", "x"], "`--only` wants a number"),
         (vec!["calibrate", "--all"], "no option `--all`"),
     ] {
-        let (told, content) = lab(&args);
-        assert!(!content && told.contains(words), "{args:?}: {told}");
+        let (output, succeeded) = lab(&args);
+        assert!(!succeeded && output.contains(words), "{args:?}: {output}");
     }
 }

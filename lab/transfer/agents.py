@@ -1,7 +1,7 @@
-"""Twelve agents that play by rules: for whole matches and scenes, from places alone.
+"""Twelve rule-based agents for whole matches and scenes, using only places.
 
-Each is a function of a scene and of its own memory; it names an action. `Player` presses it and remembers what it
-holds. Most press their direction again in every step, as many agents do.
+Each is a function of a scene and of its own memory, and names an action. `Player` presses it and
+remembers what it holds. Most press their direction again in every step, as many agents do.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ Policy = Callable[[Scene, Memory], str]
 
 
 def direction(way: np.ndarray) -> str:
-    """The direction nearest to a way (y towards the bottom)."""
+    """The direction nearest to a vector (y towards the bottom)."""
     return WAYS[int(np.round(np.arctan2(way[1], way[0]) / (np.pi / 4))) % 8]
 
 
 def run(memory: Memory, way: np.ndarray, sprint: bool = True) -> str:
-    """The next press on the way: the direction first, then the gait."""
+    """The next press for running: the direction first, then the gait."""
     wanted = direction(way)
     if memory.get("direction") != wanted:
         return wanted
@@ -46,12 +46,12 @@ def run(memory: Memory, way: np.ndarray, sprint: bool = True) -> str:
 
 
 def to_goal(scene: Scene) -> np.ndarray:
-    """The way to the middle of the goal, metres."""
+    """The vector to the middle of the goal, metres."""
     return GOAL - scene.place
 
 
 def chase(scene: Scene, memory: Memory, slides: bool = False) -> str:
-    """Without the ball: run to where it will be, goal-side of it while the others have it."""
+    """Without the ball: runs to where it will be, on the goal side while opponents have it."""
     spot = scene.ball + scene.ball_step * 3.0
     if not scene.our_ball and np.linalg.norm(spot - scene.place) > 6.0:
         spot = spot + np.array([-3.0, 0.0])
@@ -61,7 +61,7 @@ def chase(scene: Scene, memory: Memory, slides: bool = False) -> str:
 
 
 def best_mate(scene: Scene, forward: float) -> tuple[int, float] | None:
-    """The mate in the field who is free and most worth a pass: index and clearance in metres."""
+    """The free outfield teammate most worth a pass: index and clearance in metres."""
     best = None
     for i, mate in enumerate(scene.ours):
         if i in (0, scene.me):
@@ -78,7 +78,7 @@ def best_mate(scene: Scene, forward: float) -> tuple[int, float] | None:
 
 
 def lane(scene: Scene, to: np.ndarray) -> float:
-    """How far the nearest opponent is from the line to a place, metres, at most 8."""
+    """The distance of the nearest opponent from the line to a place, metres, at most 8."""
     way = to - scene.place
     length = max(float(np.linalg.norm(way)), 0.1)
     ahead = way / length
@@ -96,7 +96,7 @@ def aimed(memory: Memory, way: np.ndarray, kick: str) -> str:
 
 
 def runner(scene: Scene, memory: Memory) -> str:
-    """Sprints at goal and shoots from 18 m, whatever happens."""
+    """Sprints at goal and shoots from 18 m in any case."""
     if not scene.mine:
         return chase(scene, memory)
     if np.linalg.norm(to_goal(scene)) < 18.0:
@@ -127,7 +127,7 @@ def charger(scene: Scene, memory: Memory) -> str:
 
 
 def passer(scene: Scene, memory: Memory) -> str:
-    """Passes short to the free mate further up as soon as an opponent is near."""
+    """Passes short to the free teammate further up as soon as an opponent is near."""
     if not scene.mine:
         return chase(scene, memory)
     if np.linalg.norm(to_goal(scene)) < 17.0:
@@ -139,7 +139,7 @@ def passer(scene: Scene, memory: Memory) -> str:
 
 
 def builder(scene: Scene, memory: Memory) -> str:
-    """Keeps the ball moving: a short pass after every twelve steps on it, walking in between."""
+    """Keeps the ball moving: a short pass after every twelve steps on it, walking meanwhile."""
     if not scene.mine:
         memory["held"] = 0
         return chase(scene, memory)
@@ -177,7 +177,7 @@ def crosser(scene: Scene, memory: Memory) -> str:
 
 
 def cutter(scene: Scene, memory: Memory) -> str:
-    """Runs down the wing, cuts in at the box and shoots across the goal."""
+    """Runs down the wing, cuts inside at the box and shoots across the goal."""
     if not scene.mine:
         return chase(scene, memory)
     side = 1.0 if scene.place[1] >= 0 else -1.0
@@ -207,7 +207,7 @@ def dribbler(scene: Scene, memory: Memory) -> str:
 
 
 def presser(scene: Scene, memory: Memory) -> str:
-    """Hunts the ball and slides for it; with it looks for a mate at once."""
+    """Hunts the ball and slides for it; with the ball, looks for a teammate at once."""
     if not scene.mine:
         return chase(scene, memory, slides=True)
     if np.linalg.norm(to_goal(scene)) < 18.0:
@@ -219,7 +219,7 @@ def presser(scene: Scene, memory: Memory) -> str:
 
 
 def counter(scene: Scene, memory: Memory) -> str:
-    """Waits behind the ball; with it plays one long ball forward from the own half, then runs."""
+    """Waits behind the ball; with it, plays one long ball from the own half, then runs."""
     if not scene.mine:
         if scene.our_ball:
             return chase(scene, memory)
@@ -234,7 +234,7 @@ def counter(scene: Scene, memory: Memory) -> str:
 
 
 def hammerer(scene: Scene, memory: Memory) -> str:
-    """Presses a kick in every step: short passes up the pitch, shots near the goal, held on and on."""
+    """Presses a kick in every step: short passes up the pitch, shots near the goal."""
     if np.linalg.norm(to_goal(scene)) < 20.0 and scene.our_ball:
         return "shot"
     if scene.mine and scene.pressed(6.0):
@@ -264,7 +264,7 @@ AGENTS: dict[str, Policy] = {
 
 
 class Player:
-    """A policy at the keys: remembers what it holds."""
+    """Plays a policy with keys, and remembers what it holds."""
 
     def __init__(self, policy: Policy) -> None:
         self.policy = policy

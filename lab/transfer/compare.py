@@ -1,7 +1,7 @@
-"""Agents by rules in both games: plays them here, beside the recorded runs there.
+"""Rule-based agents in both games: plays them here, and compares with recorded runs.
 
-The runs of Google Research Football 2.10.2 lie in `recorded/`, one file a scenario, as `matches.py gfootball` wrote
-them; the latest runs here are stored beside them, under `here`.
+The runs of Google Research Football 2.10.2 are in `recorded/`, one file per scenario, as
+`matches.py gfootball` wrote them. The latest runs here are stored with them, under `here`.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def ranks(values: list[float]) -> np.ndarray:
 
 
 def correlation(here: list[float], there: list[float]) -> float:
-    """Spearman's rank correlation; NaN where one side has no order."""
+    """Spearman's rank correlation; NaN if one side has no order."""
     a, b = ranks(here), ranks(there)
     if a.std() == 0 or b.std() == 0:
         return float("nan")
@@ -41,7 +41,10 @@ def recorded() -> list[Path]:
 
 
 def play_here(scenarios: list[str], episodes: int) -> None:
-    """Plays the agents here where runs are recorded: a quarter of `episodes` in scenes, a twentieth in matches."""
+    """Plays the agents here in every recorded scenario.
+
+    Scenes get a quarter of `episodes`, matches a twentieth.
+    """
     football = importlib.import_module("setpiece.gfootball.env")
     for file in recorded():
         runs = json.loads(file.read_text())
@@ -59,7 +62,7 @@ def play_here(scenarios: list[str], episodes: int) -> None:
 
 
 def section(scenario: str, there: dict, here: dict) -> str:
-    """The table of a scenario and what it comes to."""
+    """The table of a scenario and its summary."""
     names = [name for name in AGENTS if name in there]
     counts = {row["episodes"] for row in there.values()}, {row["episodes"] for row in here.values()}
     lines = [

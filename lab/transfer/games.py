@@ -1,4 +1,4 @@
-"""Both games behind one form: batches of episodes that show the super mini map."""
+"""Both games with one interface: batches of episodes that show the super mini map."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from places import Tracker
 from policy import Policy, draw
 
 ENVS_MAX = 8
-"""Most games at once in an evaluation."""
+"""The most games at once in an evaluation."""
 
 
 @dataclass
 class Turn:
-    """What a step of all games brought; arrays have a leading axis of games.
+    """The result of a step of all games; arrays have a leading axis of games.
 
-    After the last map of an episode the next step starts another one, whatever action it is given.
+    After the last map of an episode the next step starts another one, and ignores its action.
     """
 
     maps: np.ndarray  # uint8 (envs, 72, 96, 4)
@@ -53,7 +53,7 @@ class Here:
 
 
 class There:
-    """The real game's engine, as EnvPool's wheel brings it."""
+    """The real game's engine, from EnvPool's wheel."""
 
     def __init__(self, scenario: str, envs: int, seed: int) -> None:
         """Makes `envs` games with the seeds from `seed` upwards."""
@@ -85,9 +85,10 @@ def there_version() -> str:
 
 
 def play(policy: Policy, game: Here | There, episodes: int, drawn: bool, seed: int) -> np.ndarray:
-    """Plays episodes of a policy, its likeliest actions or drawn ones; returns the final goal differences, int64.
+    """Plays episodes of a policy; returns the final goal differences, int64.
 
-    Every game plays its share of the episodes: were it the first ones to end, short ones would count for more.
+    It uses the likeliest actions or drawn ones. Every game plays its share of the episodes, because
+    taking the first ones to end would favour short episodes.
     """
     rng = np.random.default_rng(seed)
     quota = np.full(game.envs, episodes // game.envs) + (np.arange(game.envs) < episodes % game.envs)

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 Z = 1.959964
-# Student's t at 97.5 % by degrees of freedom; beyond the last one the normal distribution is near enough.
+# Student's t at 97.5 % by degrees of freedom; beyond the last one the normal distribution is near
+# enough.
 # fmt: off
 T = [
     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
@@ -17,7 +18,7 @@ T = [
 
 
 def mean_interval(scores: np.ndarray) -> tuple[float, float]:
-    """Returns the interval of the mean: Wilson's where every score is 0 or 1, otherwise Student's t."""
+    """Returns the interval of the mean: Wilson's for scores of 0 or 1, otherwise Student's t."""
     count, mean = len(scores), float(np.mean(scores))
     if np.isin(scores, (0, 1)).all():
         scale = 1 + Z * Z / count
@@ -30,10 +31,10 @@ def mean_interval(scores: np.ndarray) -> tuple[float, float]:
 
 
 def share_interval(here: np.ndarray, there: np.ndarray) -> tuple[float, float, float] | None:
-    """Returns the mean there over the mean here and its interval; None where the score here may be 0.
+    """Returns the mean there over the mean here and its interval; None if this may be 0.
 
-    The interval is built from those of the two means (Donner and Zou, "Closed-form confidence intervals for functions
-    of the normal mean and standard deviation", 2012).
+    The interval is built from those of the two means (Donner and Zou, "Closed-form confidence
+    intervals for functions of the normal mean and standard deviation", 2012).
     """
     a, b = float(np.mean(there)), float(np.mean(here))
     (a_low, a_high), (b_low, b_high) = mean_interval(there), mean_interval(here)

@@ -1,6 +1,7 @@
-"""Whole matches of the agents by rules, in one game: `python matches.py GAME OUT [--scenario S] [--episodes N]`.
+"""Whole matches of rule-based agents in one game.
 
-GAME is `gfootball` (Google Research Football's package, where it is installed) or `setpiece.gfootball` (the drop-in).
+`python matches.py GAME OUT [--scenario S] [--episodes N]`: GAME is `gfootball` (Google Research
+Football's package, if installed) or `setpiece.gfootball` (the drop-in).
 """
 
 from __future__ import annotations
@@ -17,11 +18,11 @@ import numpy as np
 from agents import AGENTS, Player
 from scene import METRES, scene_of_raw
 
-# A free ball that moves faster has been kicked, metres a step.
+# A free ball that moves faster has been kicked, metres per step.
 KICKED = 1.15
-# How many episodes one environment plays. Episodes of one environment of the real game go much alike.
+# How many episodes one environment plays. Episodes of one environment of the real game are similar.
 EPISODES_EACH = 2
-# What is counted of a match.
+# The counts of a match.
 # fmt: off
 COUNTED = [
     "goals", "conceded", "shots", "wide", "passes", "completed", "owned", "lost", "box", "third",
@@ -32,7 +33,7 @@ COUNTED = [
 
 
 class Tally:
-    """What is counted of a match, from raw observations alone."""
+    """The counts of a match, from raw observations."""
 
     def __init__(self) -> None:
         self.counts = dict.fromkeys(COUNTED, 0)
@@ -83,7 +84,7 @@ class Tally:
             self.flight = None
 
     def launch(self, at: np.ndarray, way: np.ndarray, step: int) -> dict:
-        """A kick of ours: a shot if it goes towards the goal's surroundings from near enough."""
+        """A kick of ours: a shot if it goes towards the goal's surroundings and is near enough."""
         shot = False
         if way[0] > 0.3 and at[0] > 15.0:
             y = at[1] + way[1] * (54.4 - at[0]) / way[0]
@@ -104,7 +105,7 @@ class Tally:
 
 
 def play(create, name: str, episodes: int, limit: int) -> dict:
-    """Plays episodes of an agent, `EPISODES_EACH` in each environment that `create` makes; returns the totals."""
+    """Plays episodes of an agent, `EPISODES_EACH` per environment; returns the totals."""
     totals: dict[str, float] = {}
     speeds: list[float] = []
     goals = []

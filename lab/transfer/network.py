@@ -40,7 +40,7 @@ class Mlp:
             bias[:] = 0
 
     def forward(self, inputs: np.ndarray) -> list[np.ndarray]:
-        """Returns the inputs and what every layer makes of them; the last one is the output."""
+        """Returns the inputs and the output of every layer."""
         seen = [inputs]
         for weights, bias in self.layers[:-1]:
             sums = seen[-1] @ weights
@@ -51,7 +51,7 @@ class Mlp:
         return seen
 
     def backward(self, seen: list[np.ndarray], slope: np.ndarray, into: Mlp) -> None:
-        """Writes the gradient into `into`, given what `forward` returned and the loss's slope by the output."""
+        """Writes the gradient into `into`, from the result of `forward` and the loss's slope."""
         for at in range(len(self.layers) - 1, -1, -1):
             weights, bias = into.layers[at]
             np.matmul(seen[at].T, slope, out=weights)
@@ -69,7 +69,7 @@ class Adam:
         self.mean, self.square = np.zeros_like(weights), np.zeros_like(weights)
 
     def step(self, gradient: np.ndarray, rate: float, norm_max: float) -> None:
-        """Takes a step against the gradient, whose norm is held to `norm_max`."""
+        """Takes a step against the gradient, whose norm is limited to `norm_max`."""
         gradient = gradient * min(1.0, norm_max / (float(np.linalg.norm(gradient)) + 1e-8))
         self.steps += 1
         self.mean += 0.1 * (gradient - self.mean)

@@ -1,4 +1,7 @@
-"""The options of `cargo xtask transfer`, with the standard library alone: they are checked before anything is built."""
+"""The options of `cargo xtask transfer`, checked before anything is built.
+
+Uses only the standard library.
+"""
 
 from __future__ import annotations
 
@@ -31,12 +34,12 @@ UPDATE = 128 * 64
 
 
 def is_match(scenario: str) -> bool:
-    """Whether a scenario is a whole match: a score isn't held to 1, and an episode takes 3,000 steps."""
+    """Whether a scenario is a whole match: scores may exceed 1, episodes take 3,000 steps."""
     return scenario.startswith("11_vs_11")
 
 
 def episodes_of(scenario: str, episodes: int) -> int:
-    """Returns how many episodes of a scenario are played where scenes get `episodes`."""
+    """Returns the number of episodes of a scenario if scenes get `episodes`."""
     return max(2, episodes // MATCH_SHARE) if is_match(scenario) else episodes
 
 

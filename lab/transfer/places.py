@@ -1,7 +1,8 @@
 """Reads places from the super mini map: the same numbers for the maps of both games.
 
-A map is `(72, 96, 4)` uint8 with the planes own team, opponents, ball, controlled player; a stack of maps has the
-newest one last on its last axis. A marked pixel is a place, known to a cell of 1.13 m by 1.03 m.
+A map is `(72, 96, 4)` uint8 with the planes own team, opponents, ball, controlled player; a stack
+of maps has the newest one last on its last axis. A marked pixel is a place, known to a cell of 1.13
+m by 1.03 m.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ BALL, ME = 0, 1
 def metres(cells: np.ndarray) -> np.ndarray:
     """Converts cells to the places of their centres.
 
-    `cells` is `(…, 2)`, column and row; the result is float32 `(…, 2)`, x and y in metres from the centre spot.
+    `cells` is `(…, 2)`, column and row; the result is float32 `(…, 2)`, x and y in metres from the
+    centre spot.
     """
     size = np.array([WIDTH, HEIGHT], np.float32)
     return ((np.asarray(cells, np.float32) + 0.5) / size * 2.0 - 1.0) * EDGES_M
@@ -33,13 +35,14 @@ def metres(cells: np.ndarray) -> np.ndarray:
 def marks(maps: np.ndarray) -> list[np.ndarray]:
     """Finds the marked cells of every plane.
 
-    `maps` is uint8 `(envs, 72, 96, 4 k)`. For each of the four planes the result is float32 `(envs, most, 2)`: column
-    and row of every mark, in reading order, and infinity behind the last one of an environment.
+    `maps` is uint8 `(envs, 72, 96, 4 k)`. For each of the four planes the result is float32 `(envs,
+    most, 2)`: column and row of every mark, in reading order, and infinity behind the last one of
+    an environment.
     """
     envs = len(maps)
     newest = np.ascontiguousarray(maps[..., -PLANES:])
     size = HEIGHT * WIDTH * PLANES
-    # Nearly all bytes are 0: eight at a time are skipped.
+    # Nearly all bytes are 0, so eight at a time are skipped.
     words = newest.reshape(-1).view(np.uint64)
     marked = np.flatnonzero(words != 0)
     word, byte = np.nonzero(words[marked].view(np.uint8).reshape(-1, 8))
@@ -61,9 +64,9 @@ def marks(maps: np.ndarray) -> list[np.ndarray]:
 def assign(before: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Finds each player among the marked cells: the nearest pairs first.
 
-    `before` is `(envs, players, 2)`, where they were; `cells` `(envs, most, 2)`. Returns where they are and whether
-    they are there, `(envs, players)` bool. Players without a cell of their own share the nearest one; if that is
-    too far away, they are missing and keep their place.
+    `before` is `(envs, players, 2)`, where they were; `cells` `(envs, most, 2)`. Returns where they
+    are and whether they are there, `(envs, players)` bool. Players without a cell of their own
+    share the nearest one; if that is too far away, they are missing and keep their place.
     """
     with np.errstate(invalid="ignore"):
         away = np.square(before[:, :, None] - cells[:, None]).sum(-1)
@@ -92,7 +95,7 @@ def assign(before: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 @dataclass
 class Roster:
-    """Who plays, by their places at the start: float32 `(players, 2)`, column and row."""
+    """The players, by their places at the start: float32 `(players, 2)`, column and row."""
 
     own: np.ndarray
     opponents: np.ndarray
@@ -111,8 +114,8 @@ class Roster:
     def of(cls, opening: np.ndarray) -> Roster:
         """Reads the players of the first maps of an episode, `(maps, 72, 96, 4 k)`.
 
-        Players who start in the same cell are one mark on the first map; the map with the most marks tells how many
-        they are.
+        Players who start in the same cell are one mark on the first map; the map with the most
+        marks tells how many they are.
         """
         teams = []
         for team in marks(opening)[:2]:
@@ -125,8 +128,8 @@ class Roster:
 class Tracker:
     """Follows the players of `envs` games from map to map.
 
-    A player keeps one slot throughout an episode: slots are assigned by their start places. So the features have the
-    same order in both games.
+    A player keeps one slot throughout an episode: slots are assigned by their start places. So the
+    features have the same order in both games.
     """
 
     def __init__(self, roster: Roster, envs: int) -> None:
@@ -139,10 +142,10 @@ class Tracker:
     def see(self, maps: np.ndarray, first: np.ndarray) -> np.ndarray:
         """Returns the features of the next maps, float32 `(envs, roster.features)`.
 
-        `maps` is uint8 `(envs, 72, 96, 4 k)`; `first` is `(envs,)` bool: an episode starts with this map.
-        Features: x and y, metres, of the ball, the controlled player, own team, opponents; the way from the controlled
-        player to the ball; a flag for each player who is there; then how far each of the first ones has come since 1,
-        2 and 3 maps ago.
+        `maps` is uint8 `(envs, 72, 96, 4 k)`; `first` is `(envs,)` bool: an episode starts with
+        this map. Features: x and y, metres, of the ball, the controlled player, own team,
+        opponents; the way from the controlled player to the ball; a flag for each player who is
+        there; then how far each of the first ones has come since 1, 2 and 3 maps ago.
         """
         *teams, balls, mine = marks(maps)
         there = []
@@ -176,8 +179,9 @@ class Tracker:
     def _start(self, first: np.ndarray) -> None:
         """Fills the stack of episodes that start with their first map.
 
-        On that map the real game marks its keeper as the controlled player and from the next one on the player at the
-        ball: both games' first maps are read as if the player nearest to the ball was marked.
+        On that map the real game marks its keeper as the controlled player and from the next one on
+        the player at the ball: both games' first maps are read as if the player nearest to the ball
+        was marked.
         """
         newest = self.places[0]
         own = newest[first, 2 : 2 + len(self.roster.own)]

@@ -11,9 +11,9 @@ from places import Roster
 
 ACTIONS = 19
 CLIP = 5.0
-"""Scaled inputs are held within this."""
+"""Scaled inputs are clamped to this."""
 SCALE_MIN = 0.5
-"""Least deviation that inputs are divided by: what stands still in one game may move by a cell in the other."""
+"""Least deviation of inputs: what is constant in one game may move by a cell in the other."""
 
 
 class Scale:
@@ -39,7 +39,7 @@ class Scale:
 
 
 def scaled(inputs: np.ndarray, mean: np.ndarray, divisor: np.ndarray) -> np.ndarray:
-    """Returns the inputs as a network takes them, float32."""
+    """Returns the inputs in the form for a network, float32."""
     return np.clip((inputs - mean) / divisor, -CLIP, CLIP)
 
 

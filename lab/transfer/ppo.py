@@ -27,28 +27,33 @@ ENTROPY = 0.01
 VALUE = 0.5
 NORM_MAX = 0.5
 HIDDEN_M = 0.6
-"""How far off a place may be for an episode of the training, metres: about half a cell."""
+"""Error of a place throughout a training episode, metres: about half a cell."""
 FLICKER_M = 0.2
-"""How much it varies from step to step, standard deviation in metres."""
+"""Its variation from step to step, standard deviation in metres."""
 RECENT = 1_000
 """Episodes of the score that is reported and that may end the training."""
 
 
 class Blur:
-    """Moves the places that a policy trains on: by as much as a cell hides, for an episode and from step to step.
+    """Moves the places that a policy trains on, by as much as a cell hides.
 
-    A policy that has only seen exact courses takes another cell for another world.
+    One part is constant for an episode, the other changes from step to step. A policy that has only
+    seen exact paths can't handle rounded ones.
     """
 
     def __init__(self, roster: Roster, envs: int, rng: np.random.Generator) -> None:
         places = 2 * (2 + roster.players)
         self.rng, self.envs, self.places = rng, envs, places
-        # The way to the ball and the flags lie between the places and the ways since the last maps.
+        # The vector to the ball and the flags lie between the places and the movements since the
+        # last maps.
         self.ways = slice(places + 2 + roster.players, roster.features)
         self.offsets = np.zeros((envs, places), np.float32)
 
     def move(self, features: np.ndarray, first: np.ndarray) -> np.ndarray:
-        """Returns the features `(envs, features)` moved; `first` is `(envs,)` bool: an episode starts with them."""
+        """Returns the moved features `(envs, features)`.
+
+        `first` is `(envs,)` bool: an episode starts with them.
+        """
         drawn = self.rng.uniform(-HIDDEN_M, HIDDEN_M, self.offsets.shape).astype(np.float32)
         self.offsets = np.where(first[:, None], drawn, self.offsets)
         moved = features.copy()
@@ -116,10 +121,10 @@ def log_softmax(logits: np.ndarray) -> np.ndarray:
 
 
 def advantages(rewards: np.ndarray, values: np.ndarray, terminated: np.ndarray, over: np.ndarray) -> np.ndarray:
-    """Returns the advantages, `(steps, envs)`; `values` has one row more, the last maps'.
+    """Returns the advantages, `(steps, envs)`; `values` has one more row, for the last maps.
 
-    The map behind an episode's last step is its own last one, so that one cut off by time is worth what the critic
-    says of it.
+    The map after an episode's last step is its own last one, so that a truncated episode is worth
+    what the critic estimates.
     """
     gains = np.zeros_like(rewards)
     gain = np.zeros_like(rewards[0])
@@ -166,7 +171,7 @@ def train(
             actions[at] = draw(logits, rng)
             logs[at] = log_softmax(logits)[np.arange(ENVS), actions[at]]
             turn = game.step(actions[at])
-            # The step after an episode's last one only starts the next: nothing is to be learnt from it.
+            # The step after an episode's last one only starts the next, so it teaches nothing.
             idle[at], first = ended, ended
             ended = turn.terminated | turn.truncated
             paid[at], terminated[at], over[at] = turn.rewards, turn.terminated, ended
@@ -193,7 +198,7 @@ def train(
 
 
 def opening(game: Here) -> Roster:
-    """Reads the players from the first second of an episode without a press."""
+    """Reads the players from the first second of an episode without any press."""
     maps = [game.reset()[0].copy()]
     for _ in range(10):
         maps.append(game.step(np.zeros(game.envs, np.int64)).maps[0].copy())

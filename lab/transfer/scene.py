@@ -1,4 +1,4 @@
-"""What an agent of this folder sees: places in Google Research Football's coordinates, read from raw observations."""
+"""What an agent of this folder sees: places in GRF's coordinates, from raw observations."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Metres of a unit along x and y, so that distances are distances on the pitch.
+# Metres per unit along x and y, so that distances are those on the pitch.
 METRES = np.array([54.4, 83.6], dtype=np.float64)
 
 
 @dataclass
 class Scene:
-    """One moment as the left team sees it; places and ways in metres, (0, 0) the centre spot, y towards the bottom."""
+    """One moment as the left team sees it, in metres.
+
+    (0, 0) is the centre spot, and y points towards the bottom.
+    """
 
     ball: np.ndarray  # (2,) metres
     ball_step: np.ndarray  # (2,) metres since the step before
@@ -30,7 +33,7 @@ class Scene:
         return self.ours[self.me]
 
     def pressed(self, within: float = 4.0) -> bool:
-        """Whether an opponent in the field is so near, metres."""
+        """Whether an outfield opponent is within this distance, metres."""
         return bool(self.nearest_opponent() < within)
 
     def nearest_opponent(self) -> float:
@@ -45,7 +48,10 @@ AT_FEET = 1.7
 
 
 def scene_of(ball, ball_before, height, me, ours, theirs, step) -> Scene:
-    """A scene from places in metres; who has the ball is reckoned from places alone, alike in every source."""
+    """A scene from places in metres.
+
+    The owner of the ball is derived from places, in the same way for every source.
+    """
     away = np.linalg.norm(ours - ball, axis=1)
     their_away = np.linalg.norm(theirs - ball, axis=1) if len(theirs) else np.array([99.0])
     low = height < 1.0
@@ -56,7 +62,7 @@ def scene_of(ball, ball_before, height, me, ours, theirs, step) -> Scene:
 
 
 def scene_of_raw(raw: dict, ball_before, step: int) -> Scene:
-    """A scene from a raw observation of Google Research Football's form."""
+    """A scene from a raw observation in Google Research Football's form."""
     ball = raw["ball"][:2] * METRES
     return scene_of(
         ball,

@@ -17,16 +17,16 @@ from policy import Policy
 from ppo import train
 
 REWARDS = "scoring,checkpoints"
-"""What policies are trained for: with goals alone, scenes that random play never scores in teach nothing."""
+"""The rewards of training: with goals alone, scenes in which random play never scores teach nothing."""
 ENOUGH = 0.97
-"""A scene's training ends when the mean score of the last 1,000 episodes is this, with drawn actions."""
+"""Training on a scene ends at this mean score of the last 1,000 episodes, with drawn actions."""
 WANTED = 0.85
 """The share of its score that a policy should keep."""
 SEED_HERE = 1_000_000
 """Evaluations here start from this seed, which no training reaches."""
 KINDS = ("likeliest", "drawn")
 NOT_STORED = Path(__file__).resolve().parents[2] / "target" / "transfer"
-"""Weights between their training and the end of their evaluation."""
+"""Weights after training, until their evaluation ends."""
 
 
 def both(scenario: str, options: argparse.Namespace) -> None:
@@ -36,7 +36,7 @@ def both(scenario: str, options: argparse.Namespace) -> None:
     NOT_STORED.mkdir(parents=True, exist_ok=True)
     weights = NOT_STORED / f"{scenario}.npz"
     made.policy.save(weights)
-    # What is stored is what is played: saving rounds the weights.
+    # The stored policy is played, because saving rounds the weights.
     policy = Policy.load(weights)
     count = episodes_of(scenario, options.episodes)
     record = {
@@ -69,7 +69,7 @@ def again(scenario: str, options: argparse.Namespace) -> None:
 
 
 def scores(policy: Policy, scenario: str, game: type[Here] | type[There], episodes: int, seed: int) -> dict:
-    """Plays a policy's likeliest and drawn actions; returns how many episodes had each goal difference."""
+    """Plays a policy's likeliest and drawn actions; counts episodes by goal difference."""
     result: dict = {"seed": seed}
     for kind in KINDS:
         matches = game(scenario, min(ENVS_MAX, episodes), seed)
@@ -102,7 +102,7 @@ def ends_of(counts: dict[str, int]) -> np.ndarray:
 
 
 def table(records: list[dict]) -> str:
-    """Returns the page's table of policies and what it comes to."""
+    """Returns the page's table of policies and its summary."""
     lines = [
         "| scenario | steps | actions | here | there | kept |",
         "|---|---|---|---|---|---|",
@@ -133,6 +133,6 @@ def table(records: list[dict]) -> str:
 def cell(ends: np.ndarray) -> str:
     """Returns a mean score with its interval."""
     low, high = mean_interval(ends)
-    # Adding 0 makes a rounded -0 a plain 0.
+    # Adding 0 turns a rounded -0 into 0.
     mean, low, high = (round(value, 2) + 0.0 for value in (float(ends.mean()), low, high))
     return f"{mean:.2f} ({low:.2f} to {high:.2f})"

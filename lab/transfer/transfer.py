@@ -1,7 +1,7 @@
-"""Agents in both games, in one page: `cargo xtask transfer` makes the environment and runs this.
+"""Agents in both games, on one page: `cargo xtask transfer` sets up and runs this.
 
-Trains policies here and plays them in both games (`trained.py`), plays agents by rules (`compare.py`), and writes
-`docs/transfer.md`.
+Trains policies here and plays them in both games (`trained.py`), plays rule-based agents
+(`compare.py`), and writes `docs/transfer.md`.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def write_page() -> None:
 
 
 def main(argv: list[str]) -> None:
-    """Trains and plays; writes the page after every scenario, so that a stopped run keeps what it has."""
+    """Trains and plays; writes the page after every scenario, so that nothing is lost."""
     options = parse(argv)
     for scenario in sorted(options.scenario, key=is_match):
         if not options.recorded:

@@ -1,8 +1,8 @@
-"""What the Python layer costs a step, beside the engine: `python python/benches/layer.py`.
+"""The cost of the Python layer per step, on top of the engine: `python python/benches/layer.py`.
 
-The baseline is one thread of a native batch of 256 matches, which plays, observes and judges, but makes no Python
-objects. What `make` takes beyond it is the layer's; what `make_vec` takes is told apart within each step. The match is
-one man against nobody.
+The baseline is one thread of a native batch of 256 matches, which plays, observes and judges, but
+makes no Python objects. What `make` takes beyond it is the layer's cost; for `make_vec` it is
+measured within each step. The match is one player against nobody.
 """
 
 import time
@@ -66,7 +66,7 @@ def main() -> None:
         whole = microseconds(lambda: envs.step(actions), steps) / n
         return batch.microseconds / steps / n, whole
 
-    # In turn, so that whatever else the machine does falls on all of them alike; the least of each counts.
+    # In turn, so that other load on the machine affects all of them equally; the minimum counts.
     rounds = [(*vector(), microseconds(lambda: env.step(0), 5_000)) for _ in range(25)]
     native, _, single = (min(times) for times in zip(*rounds, strict=True))
     layer = min(whole - inside for inside, whole, _ in rounds)

@@ -7,10 +7,15 @@ from setpiece._native import run_command
 
 
 def main() -> int:
-    """Runs the command with the process's arguments and returns its exit code: 0, 1 (input) or 2 (usage)."""
-    # Python only notes an interrupt and lets native code go on; the default action ends the process at once.
+    """Runs the command with the process's arguments; returns its exit code.
+
+    The codes are 0, 1 (input) or 2 (usage).
+    """
+    # Python only records an interrupt and lets native code continue; the default action ends the
+    # process at once.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    # What reads scripts or writes dumps is Python and runs here; the other commands need not wait for it.
+    # Commands that read scripts or write dumps are Python and run here; the others needn't import
+    # it.
     if sys.argv[1:2] == ["import"]:
         from setpiece.gfootball._import import main as import_main
 

@@ -1,4 +1,4 @@
-"""Actions read from whatever they are given as."""
+"""Reads actions from whatever form they are given in."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 def array_of(value: Any) -> NDArray[Any] | None:
-    """Returns a value as an array; None where it can't be one, as lists of different lengths can't."""
+    """Returns a value as an array; None if it can't be one, such as lists of different lengths."""
     try:
         return np.asarray(value)
     except (ValueError, TypeError):
@@ -17,7 +17,7 @@ def array_of(value: Any) -> NDArray[Any] | None:
 
 
 def integers(value: Any, shape: tuple[int, ...], n_actions: int) -> NDArray[np.int64] | None:
-    """Reads actions of a shape, each in 0..n_actions; None where they are something else."""
+    """Reads actions of a shape, each in 0..n_actions; None for anything else."""
     array = array_of(value)
     if array is None or array.shape != shape:
         return None

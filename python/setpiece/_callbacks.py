@@ -1,4 +1,4 @@
-"""Rewards and endings in Python, beside those of the scenario's file."""
+"""Rewards and endings in Python, in addition to those of the scenario's file."""
 
 from __future__ import annotations
 
@@ -17,20 +17,21 @@ from setpiece._opponents import SIDES
 from setpiece._words import is_text
 
 NONE = "none"
-"""In the place of names: none of the scenario's rewards."""
+"""Instead of names: none of the scenario's rewards."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """A step of 100 ms as one agent lived it: what rewards and endings in Python are called with.
+    """A step of 100 ms as one agent saw it, the argument of rewards and endings in Python.
 
     - `agent`, `team`: its id, as in `env.agents`, and its side.
-    - `action`: what it did: an int, or float32 `(4,)` with continuous actions.
-    - `before`, `now`: raw observations of the agent before and after the step, dicts in its own frame: it attacks
-      towards +x, and `left_team` is its own. Where play stopped, `now` shows the restart; what led to it is in `events`
-      and `now["score"]`.
-    - `events`: what happened, as `info["events"]` tells it: in the world's frame, teams `"left"` and `"right"`.
-    - `outcome`: how the episode ended with this step, for rewards; else None.
+    - `action`: its action: an int, or float32 `(4,)` with continuous actions.
+    - `before`, `now`: raw observations of the agent before and after the step, dicts in its own
+      frame: it attacks towards +x, and `left_team` is its own. If play stopped, `now` shows the
+      restart; what led to it is in `events` and `now["score"]`.
+    - `events`: what happened, as in `info["events"]`: in the world's frame, teams `"left"` and
+      `"right"`.
+    - `outcome`: for rewards, how the episode ended with this step; else None.
     """
 
     agent: str
@@ -43,13 +44,13 @@ class Step:
 
 
 RewardFunction = Callable[[Step], float]
-"""A reward in Python: what an agent is paid for a step, added to what the file pays."""
+"""A reward in Python: an agent's payment for a step, added to those of the file."""
 
 EndFunction = Callable[[Step], bool | str | None]
-"""An ending in Python: False, None or an empty string to go on; True, or a label, to end the episode."""
+"""An ending in Python: False, None or "" to continue; True or a label to end the episode."""
 
 Rewards = str | RewardFunction | Sequence[str | RewardFunction] | None
-"""Names that replace the scenario's own choice of rewards, functions that pay beside it, or both."""
+"""Names that replace the scenario's own choice of rewards, functions that add to it, or both."""
 
 Ends = EndFunction | Sequence[EndFunction] | None
 """Functions that end episodes."""
@@ -74,9 +75,10 @@ def read_rewards(rewards: Rewards) -> tuple[list[str] | None, list[RewardFunctio
 
 
 def copied(given: Rewards | Ends, memo: dict[int, Any]) -> Any:
-    """Returns rewards or endings with copies of the functions; what some share, those copied with the memo share too.
+    """Returns rewards or endings with copies of the functions.
 
-    Raises `CallbackError` for a function that can't be copied.
+    Whatever they share with other functions copied under the same memo stays shared. Raises
+    `CallbackError` for a function that can't be copied.
     """
     if given is None or isinstance(given, str):
         return given
@@ -93,10 +95,10 @@ def copied(given: Rewards | Ends, memo: dict[int, Any]) -> Any:
 
 
 def refuse_functions(functions: Sequence[RewardFunction]) -> None:
-    """Raises `ParameterError` for rewards in Python, where the scenario's rewards alone can pay."""
+    """Raises `ParameterError` for rewards in Python where only the scenario's rewards can pay."""
     if functions:
         raise ParameterError(
-            f"`{_name(functions[0])}` can't pay here: many matches at once know the rewards of their file alone",
+            f"`{_name(functions[0])}` can't pay here: many matches at once only support the rewards of the file",
             name="rewards",
             help="put environments of `setpiece.make` (one agent each) into a `gymnasium.vector.SyncVectorEnv`",
         )
@@ -111,10 +113,10 @@ def read_ends(ends: Ends) -> list[EndFunction]:
 
 
 class Callbacks:
-    """The rewards and endings in Python of one environment, and what they need to remember."""
+    """The rewards and endings in Python of one environment, with their memory."""
 
     tally: dict[str, Any]
-    """What each function has paid since the last `reset` or `restore`: a float, or float64 `(n,)`."""
+    """Each function's payments since the last `reset` or `restore`: a float, or float64 `(n,)`."""
 
     def __init__(
         self, rewards: Sequence[RewardFunction], ends: Sequence[EndFunction], *, show_events: bool = False
@@ -125,7 +127,7 @@ class Callbacks:
             names = [_name(function) for function in rewards]
             twice = next(name for name in names if names.count(name) > 1)
             raise ParameterError(
-                f"two rewards are called `{twice}`: each is a term of its own in `info`",
+                f"two rewards are named `{twice}`: each needs its own term in `info`",
                 name="rewards",
                 help="give one another `__name__`",
             )
@@ -146,13 +148,16 @@ class Callbacks:
         self.go_on(views, info)
 
     def check(self, info: dict[str, Any]) -> None:
-        """Raises `ParameterError` where a function is called as a reward of the scenario, told by its first `info`."""
+        """Raises `ParameterError` for a function with the name of a scenario's reward.
+
+        The first `info` shows these names.
+        """
         for name in self.rewards:
             if name in info["reward_terms"]:
                 raise ParameterError(f"`{name}` is a reward of the scenario too", name="rewards")
 
     def go_on(self, views: list[dict[str, Any]], info: dict[str, Any]) -> None:
-        """Goes on in the middle of an episode."""
+        """Continues in the middle of an episode."""
         self._events_of(info)
         nothing = [0.0] * len(views)
         info["reward_terms"].update({name: _shaped(nothing) for name in self.rewards})
@@ -169,10 +174,10 @@ class Callbacks:
         result: tuple[Any, bool, bool, dict[str, Any]],
         end: Callable[[str], dict[str, Any]],
     ) -> tuple[Any, bool, bool, dict[str, Any]]:
-        """Judges a step of these agents: takes and returns reward, terminated, truncated and `info`.
+        """Judges a step of these agents; takes and returns reward, terminated, truncated, `info`.
 
-        Puts the functions' terms into `info`. Where one of them ends the episode, `end` ends the match with its label
-        and returns what the last `info` tells of that. Raises `CallbackError`.
+        Puts the functions' terms into `info`. If one of them ends the episode, `end` ends the match
+        with its label and returns the summary for the last `info`. Raises `CallbackError`.
         """
         reward, terminated, truncated, info = result
         events = self._events_of(info)
@@ -199,7 +204,7 @@ class Callbacks:
         return reward, terminated, truncated, info
 
     def _events_of(self, info: dict[str, Any]) -> list[dict[str, Any]]:
-        """The events of a step; takes them out of an `info` that wasn't asked for any."""
+        """The events of a step; removed from an `info` that the caller wanted without events."""
         events: list[dict[str, Any]] = info["events"] if self._show_events else info.pop("events")
         return events
 
@@ -230,7 +235,7 @@ def _action(act: NDArray[Any]) -> Any:
 
 
 def _shaped(values: list[float]) -> Any:
-    """Values by agent as `info` has them: a float for one, float64 `(n,)` for n."""
+    """Values by agent in the shape of `info`: a float for one, float64 `(n,)` for n."""
     return values[0] if len(values) == 1 else np.array(values)
 
 
@@ -257,8 +262,8 @@ def _call(function: Callable[[Step], Any], agent: str, step: Step) -> Any:
 
 
 def failed(function: Callable[..., Any], agent: str | None, error: Exception) -> CallbackError:
-    """The error for a caller's function that raised one, for an agent or for nobody."""
-    whom = "" if agent is None else f" for `{agent}`"
+    """Builds the error for a failed function of the caller, for an agent or for nobody."""
+    of_agent = "" if agent is None else f" for `{agent}`"
     return CallbackError(
-        f"`{_name(function)}` failed{whom}: {type(error).__name__}: {error}", function=_name(function), agent=agent
+        f"`{_name(function)}` failed{of_agent}: {type(error).__name__}: {error}", function=_name(function), agent=agent
     )

@@ -1,4 +1,4 @@
-"""Behaviours and scripts that play in the place of opponents: the engine plays them."""
+"""Behaviours and scripts as opponents: the engine plays them."""
 
 from __future__ import annotations
 
@@ -19,20 +19,21 @@ if TYPE_CHECKING:
 
 
 class Casting(NamedTuple):
-    """Who plays a team, or one player of it."""
+    """What plays a team, or one player of it."""
 
     team: int
     """0 left, 1 right."""
     place: int | None
-    """The player's place in the team; None for the whole team."""
+    """The player's index in the team; None for the whole team."""
     ai: str
-    """What the scenario would write behind `ai:`."""
+    """The scenario's text after `ai:`."""
 
 
 def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
-    """Returns the sides and agents that behaviours play, with what stands behind `ai:`.
+    """Returns the sides and agents that behaviours play, with the text after `ai:`.
 
-    Beside them the agents that the bot was named for: it plays them in a side that a behaviour plays, too.
+    Agents assigned to the bot are included: the bot plays them even in a side that a behaviour
+    plays.
     """
     words = {who: _ai(one) for who, one in read_opponents(opponents).items() if is_word(one)}
     if all(word == BOT for word in words.values()):
@@ -41,19 +42,20 @@ def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
 
 
 def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] | None:
-    """Returns the opponents for a scenario that has its behaviours already."""
+    """Returns the opponents for a scenario that already has its behaviours."""
     scripted = behaviors(opponents)
     return {who: BOT if who in scripted else one for who, one in read_opponents(opponents).items()} or None
 
 
 def scripted_scenario(scenario: Source, options: EnvOptions, params: Mapping[str, ParamValue]) -> Scenario:
-    """Returns a scenario whose players are played by the behaviors and scripts of `options`.
+    """Returns a scenario whose players are played by the behaviours and scripts of `options`.
 
-    A side's behavior plays its players who have no `ai` of their own, an agent's the player that the agent keeps.
-    `params` are bound to find out the agents; the scenario is returned without them.
+    A side's behaviour plays its players without an `ai` of their own; an agent's behaviour plays
+    the player that the agent keeps. `params` are bound only to determine the agents; the returned
+    scenario doesn't have them.
 
-    Raises `ParameterError` for a behavior that the scenario hasn't got, for an agent that isn't there or changes
-    players, and for a compiled scenario, which is as it is.
+    Raises `ParameterError` for an unknown behaviour, for an agent that doesn't exist or that
+    changes players, and for a compiled scenario, which can't be changed.
     """
     ai, outside = options.scripted, options.allow_outside
     if not ai:
@@ -77,7 +79,7 @@ def scripted_scenario(scenario: Source, options: EnvOptions, params: Mapping[str
             return _native.load_cast(path_of(scenario), casting, allow_outside=outside)
         return _native.compile_cast(text, name_of(scenario), casting, allow_outside=outside)
     except CompileError as error:
-        # A scenario that has errors of its own raises those here.
+        # A scenario with errors of its own raises them here.
         base = load(scenario, allow_outside=outside)
         first = next(one for one in error.diagnostics if one.severity == "error")
         message = f"`{base.name}` can't be played with {words}: {first.message}"
@@ -85,7 +87,7 @@ def scripted_scenario(scenario: Source, options: EnvOptions, params: Mapping[str
 
 
 def _of_agent(who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str, str]) -> Casting | None:
-    """Whose `ai` an agent's opponent is; None for a bot that is there anyway."""
+    """The player whose `ai` an agent's opponent is; None for a bot that plays them anyway."""
     agent = next((agent for agent in agents if agent.id == who), None)
     if agent is None:
         raise no_agent(who, [agent.id for agent in agents])
@@ -93,15 +95,15 @@ def _of_agent(who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str,
         return None
     if agent.place is None:
         raise ParameterError(
-            f"`{word}` can't play `{who}`, who changes players: a behaviour plays one of them",
+            f"`{word}` can't play `{who}`, which changes players: a behaviour plays only one player",
             name="opponents",
-            help=f"let him keep his player (`switching='fixed'`), or give it the whole side: {SIDES[agent.team]!r}",
+            help=f"let it keep its player (`switching='fixed'`), or name the side: {SIDES[agent.team]!r}",
         )
     return Casting(agent.team, agent.place, word)
 
 
 def _ai(opponent: str | PathLike[str]) -> str:
-    """What stands behind `ai:`: a behaviour as it is, a script's file as one."""
+    """The text after `ai:`: a behaviour unchanged, a script's file as a behaviour."""
     if not ends_with(opponent, ".rhai"):
         return fspath(opponent)
     path = Path(opponent).resolve().as_posix()

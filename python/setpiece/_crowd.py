@@ -15,7 +15,7 @@ from setpiece._vocabulary import Action
 
 
 class Crowd:
-    """The agents of a vector of matches, some of them the caller's, each other one with the opponent who plays it.
+    """The agents of a vector of matches: the caller's, and those of opponents.
 
     An opponent is asked once for all matches: it sees a row for each of its agents, match by match.
     """
@@ -26,10 +26,11 @@ class Crowd:
     def actions(
         self, given: Any, observations: NDArray[Any], look: Callable[[str, bool], list[Any]]
     ) -> NDArray[np.int64]:
-        """Returns everyone's actions, int64 `(num_envs, agents)`: the caller's, and what the opponents say.
+        """Returns everyone's actions, int64 `(num_envs, agents)`: the caller's and the opponents'.
 
-        `observations` has a row for every match and agent; `look` observes each match in another observation. Raises
-        `ActionError` for the caller's actions, `OpponentError` where an opponent fails.
+        `observations` has a row for every match and agent; `look` observes each match in another
+        kind of observation. Raises `ActionError` for the caller's actions, `OpponentError` if an
+        opponent fails.
         """
         table = self._table
         actions = np.full((self._num_envs, table.n_agents), int(Action.BUILTIN_AI), np.int64)
@@ -47,7 +48,7 @@ class Crowd:
         mine, n_actions = len(self._table.mine), self._table.n_actions
         shape = (self._num_envs,) if mine == 1 else (self._num_envs, mine)
         array = array_of(given)
-        # Of any shape with as many numbers, as in a vector without opponents.
+        # Accepts any shape with the right number of values, as a vector without opponents does.
         actions = None if array is None else integers(array.ravel(), (self._num_envs * mine,), n_actions)
         if actions is None:
             raise ActionError(f"expected integers in 0..{n_actions - 1} of shape {shape}, found `{given!r}`")

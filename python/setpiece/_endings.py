@@ -1,4 +1,4 @@
-"""How episodes of a vector have ended: what single environments tell in their last `info`, as columns."""
+"""How episodes of a vector have ended: a single environment's last `info`, as columns."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ Column = NDArray[Any]
 
 
 def endings(batch: Batch, over: NDArray[np.bool_], pick: Picker, n_actions: int) -> dict[str, Any]:
-    """Returns `outcome`, `records` and `setpiece` of the environments that are `over`, as their `infos` have them.
+    """Returns `outcome`, `records` and `setpiece` of the environments that are `over`.
 
-    `pick` takes the caller's part of what depends on the agent. A column has a row for every environment; what the
-    others have in it is None, NaN in a record of numbers, else 0.
+    They have the same content as in the environments' `infos`. `pick` takes the caller's part of
+    what depends on the agent. A column has a row for every environment; rows of running ones are
+    None, NaN in a record of numbers, or 0.
     """
     n_envs, terms = len(over), batch.terms
     outcomes = np.full(n_envs, None, dtype=object)
@@ -40,11 +41,11 @@ def endings(batch: Batch, over: NDArray[np.bool_], pick: Picker, n_actions: int)
 
 
 def _enter(columns: dict[str, Column], at: int, values: Mapping[str, Any], fresh: Callable[[str, Any], Column]) -> None:
-    """Writes an environment's row; a column that isn't there yet is made for the first value in it."""
+    """Writes an environment's row; a column is created for the first value in it."""
     for name, value in values.items():
         if name not in columns:
             columns[name] = fresh(name, value)
-        # Of None NumPy makes NaN.
+        # NumPy converts None to NaN.
         columns[name][at] = value
 
 

@@ -1,4 +1,4 @@
-"""What an environment is made with: one value, validated once and handed down."""
+"""The options of an environment: one value, validated once and passed down."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RENDER_MODES = ("ansi",)
 
 
 class VectorArguments(TypedDict, total=False):
-    """The arguments that `setpiece.make` and `setpiece.make_vec` share; what they mean is said in `setpiece.make`."""
+    """The arguments of `setpiece.make` and `setpiece.make_vec`; `setpiece.make` describes them."""
 
     left: Seats
     right: Seats
@@ -38,7 +38,7 @@ class VectorArguments(TypedDict, total=False):
 
 
 class EnvArguments(VectorArguments, total=False):
-    """The arguments of a single environment, but for its files: `watch`, `on_reload`, `record`, `record_when`."""
+    """A single environment's arguments, except `watch`, `on_reload`, `record`, `record_when`."""
 
     ends: Ends
     events: bool
@@ -49,16 +49,17 @@ class EnvArguments(VectorArguments, total=False):
 class EnvOptions:
     """Validated arguments of an environment or a vector; the native module reads its attributes.
 
-    What depends on the scenario (names of players, rewards and parameters) is validated where a scenario is made ready.
+    What depends on the scenario (names of players, rewards and parameters) is validated when a
+    scenario is prepared.
     """
 
     left: Seats
     right: Seats
     switching: Literal["auto", "fixed"] | None
     scripted: dict[str, str]
-    """The behaviors and scripts among the opponents: by side or agent, the text of `ai:`."""
+    """The behaviours and scripts among the opponents: by side or agent, the text of `ai:`."""
     opponents: dict[str, Opponent] | None
-    """The opponents of a scenario that has its behaviors already."""
+    """The opponents of a scenario that already has its behaviours."""
     observation: str
     reward_names: list[str] | None
     """Names of the scenario's rewards; None for its own choice."""
@@ -81,9 +82,10 @@ class EnvOptions:
 
     @classmethod
     def read(cls, arguments: Mapping[str, Any], known: type = EnvArguments) -> EnvOptions:
-        """Validates arguments; those left out have the defaults of `setpiece.make`.
+        """Validates arguments; omitted ones have the defaults of `setpiece.make`.
 
-        Raises `ParameterError` for a wrong value, `TypeError` for a name that isn't among the `known` ones.
+        Raises `ParameterError` for a wrong value, `TypeError` for a name that isn't among the
+        `known` ones.
         """
         for name in arguments:
             if name not in known.__annotations__:
@@ -123,11 +125,11 @@ class EnvOptions:
 
     @property
     def needs_events(self) -> bool:
-        """Whether the native `info` lists events: for the caller, or for rewards and endings in Python."""
+        """Whether the native `info` lists events: for the caller, or for functions in Python."""
         return self.events or bool(self.reward_functions or self.ends)
 
     def callbacks(self) -> Callbacks | None:
-        """Returns the rewards and endings in Python with a memory of their own, None where there are none."""
+        """Returns rewards and endings in Python with separate memory; None without any."""
         if not self.reward_functions and not self.ends:
             return None
         return Callbacks(self.reward_functions, self.ends, show_events=self.events)

@@ -39,43 +39,47 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 COPIED = ("spec", "_np_random", "_np_random_seed", "_playing", "_same_agents")
-"""Attributes that a copy or pickle has as they are."""
+"""Attributes that a copy or pickle keeps unchanged."""
 
 
 class FootballEnv(gymnasium.Env[Any, Any]):
     """One match of a scenario, judged by the scenario's own rewards and endings.
 
-    Actions are `Action` numbers, 0..18; observations are in the agent's own frame: it always attacks towards +x.
+    Actions are `Action` numbers, 0..18. Observations are in the agent's own frame: it always
+    attacks towards +x.
 
     - One agent: action `Discrete(19)`, reward a float, observation without an agent axis.
-    - n agents: action `MultiDiscrete([19] * n)`, reward float32 `(n,)`, observation with a leading axis n (a tuple of n
-      dicts for `"raw"`), left team's agents first.
-    - No agents (`agents { left: 0 }`): as n agents with n = 0. The bots play, and `step([])` goes on; what is left to
-      look at is `info`, `played` and `render`.
+    - n agents: action `MultiDiscrete([19] * n)`, reward float32 `(n,)`, observation with a leading
+      axis n (a tuple of n dicts for `"raw"`), left team's agents first.
+    - No agents (`agents { left: 0 }`): like n agents with n = 0. The bots play, `step([])` advances
+      the match, and `info`, `played` and `render` show it.
 
-    With `action_set="v2"` there is a 20th action, `Action.BUILTIN_AI`: the bot (or the behaviour of the scenario's
-    player) plays this step, and what the agent held is released.
+    With `action_set="v2"` there is a 20th action, `Action.BUILTIN_AI`: the bot (or the behaviour of
+    the scenario's player) plays this step, and the agent's held keys are released.
 
-    `info` has in every step `score` [left, right], `reward_terms` {"reward/label": paid in this step} and `action_mask`
-    (int8 `(19,)`, or `(n, 19)`; 20 with `v2`, 33 with `full`, the 6 kinds with `continuous`); with `events=True` also
-    `events`; with `bot_action=True` also `bot_action`: what the bot would press in the state that is observed (an int,
-    or int64 `(n,)`), going on from what the agent holds. In the last step it has also:
+    In every step `info` has `score` [left, right], `reward_terms` {"reward/label": paid in this
+    step} and `action_mask` (int8 `(19,)`, or `(n, 19)`; 20 with `v2`, 33 with `full`, the 6 kinds
+    with `continuous`). With `events=True` it also has `events`. With `bot_action=True` it also has
+    `bot_action`: what the bot would press in the observed state (an int, or int64 `(n,)`), relative
+    to what the agent holds. In the last step it also has:
 
     - `outcome`: the ending's name; `records`: the scenario's own records.
-    - `setpiece`: `return` by term, `length` in steps, `seed`, `index`, `digest` of the final state, `success`: whether
-      the ending is one that the scenario calls a success, whoever plays, `faults`: payments that were impossible (a
-      division by zero) and left out, and `scenario`: the scenario's digest.
+    - `setpiece`: a dict with `return` by term, `length` in steps, `seed`, `index`, `digest` of the
+      final state, `success`: whether the ending is one that the scenario calls a success, whoever
+      plays, `faults`: payments that were impossible (a division by zero) and dropped, and
+      `scenario`: the scenario's digest.
 
-    With `opponents` some of the scenario's agents are played by others; the caller's are what is left, and all that is
-    said above is said of those.
+    With `opponents`, others play some of the scenario's agents. The caller has the remaining ones,
+    and everything above refers to those.
 
-    `rewards` and `ends` may be functions, whose terms and labels stand among those of the scenario: see `make`. `reset`
-    may go over to another scenario.
+    `rewards` and `ends` may be functions; their terms and labels appear among those of the
+    scenario: see `make`. `reset` may switch to another scenario.
 
-    With `watch=True` every `reset` looks whether the scenario's file, an import or a script has changed, and begins the
-    episode under the new scenario; its `info` has `scenario`, the digest of what is played. With `watch="now"` every
-    `step` looks too, and where nothing but scripts has changed it goes on with them at once, and with their memory. A
-    change of the last 50 ms or so may wait for the next look.
+    With `watch=True` every `reset` checks whether the scenario's file, an import or a script has
+    changed, and begins the episode with the new scenario; its `info` has `scenario`, the digest of
+    the scenario in use. With `watch="now"` every `step` checks too: if only scripts have changed,
+    they are replaced at once and keep their memory. A change of the last 50 ms or so may wait for
+    the next check.
     """
 
     metadata = {"render_modes": [*RENDER_MODES], "render_fps": 10}
@@ -83,7 +87,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     scenario: Scenario
     """The scenario, with the parameters it was made with."""
     agents: tuple[str, ...]
-    """The caller's agents in order: a player's name, `left_CM_1`, or `left_0` for one that changes players."""
+    """The caller's agents in order: a player's name, `left_CM_1`, or `left_0` if it can switch."""
 
     def __init__(
         self,
@@ -106,10 +110,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._set_up(found, options)
 
     def _set_up(self, scenario: Scenario, options: EnvOptions) -> None:
-        """Makes everything that isn't about files, before the first episode."""
+        """Sets up everything except files, before the first episode."""
         self._options, self.render_mode = options, options.render_mode
         self._callbacks = options.callbacks()
-        # Whether another scenario must have the same agents, by name: PettingZoo's keep theirs.
+        # Whether another scenario must have the same agents, by name: PettingZoo's agents are
+        # fixed.
         self._same_agents = False
         self._enter(self._ready(scenario))
         self.action_space, self.observation_space = self._match.action_space, self._match.observation_space
@@ -124,25 +129,27 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Draws a new start and returns its observation and `info`.
 
-        - `seed`: 0..2**64-1; begins a new series of episodes at index 0. Without it the index counts on. The start and
-          the play are a function of seed, index, parameters and actions.
+        - `seed`: 0..2**64-1; starts a new series of episodes at index 0. Without it the index
+          continues. The start and the play are a function of seed, index, parameters and actions.
         - `options`:
-          - `{"params": {…}}` binds parameters for this and the following episodes, until other `params` are given;
-          - `{"scenario": …}` goes over to another scenario, given as to `setpiece.make`, under its own parameters and
-            the `params` beside it: from here on the environment is one made with these two and the same arguments
-            otherwise. The spaces must stay;
+          - `{"params": {…}}` binds parameters for this and the following episodes, until other
+            `params` are given;
+          - `{"scenario": …}` switches to another scenario, in any form that `setpiece.make`
+            accepts, with its own parameters and the given `params`. From then on the environment is
+            like one made with these two and otherwise the same arguments. The spaces must stay;
           - `{"episode": n}` sets the index;
-          - `{"snapshot": bytes}` begins this episode in the state that a snapshot was taken in, of this scenario or of
-            another with the same players and agents: places, ball, whatever goes on, score, cards, fatigue and clock
-            are the snapshot's, rules, difficulty and limit the scenario's; rewards, records and random numbers begin
-            anew.
+          - `{"snapshot": bytes}` begins this episode in the state of a snapshot of this scenario,
+            or of another with the same players and agents. Places, ball, everything under way,
+            score, cards, fatigue and clock are the snapshot's; rules, difficulty and limit are the
+            scenario's; rewards, records and random numbers start as at any reset.
 
-        Raises `ParameterError` for options or parameters that are not there and for a scenario that would change the
-        spaces, what `setpiece.make` does for one that can't be read, `SnapshotError` for a snapshot that does not fit,
-        `DrawError` where no start meets the scenario's requirements, `CallbackError` where a reward or ending in Python
-        or `on_reload` fails. The environment keeps its scenario then; a change of a watched file has been taken over
-        all the same. A `reset` that is refused for what it was given leaves a running episode as it is; one that fails
-        with `DrawError` or `CallbackError`, or that has taken over a change, ends it.
+        Raises `ParameterError` for unknown options or parameters and for a scenario that would
+        change the spaces, what `setpiece.make` does for one that can't be read, `SnapshotError` for
+        a snapshot that doesn't fit, `DrawError` if no start meets the scenario's requirements,
+        `CallbackError` if a reward or ending in Python or `on_reload` fails. The environment then
+        keeps its scenario, but a changed watched file has still been reloaded. A `reset` that is
+        rejected because of its arguments doesn't change a running episode. One that fails with
+        `DrawError` or `CallbackError`, or that has reloaded a change, ends it.
         """
         with self._turn:
             return self._begun(seed, read_reset_options(options))
@@ -150,13 +157,14 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Plays 100 ms and returns observation, reward, terminated, truncated and `info`.
 
-        - `action`: an integer 0..18 (0..19 with `action_set="v2"`, 0..32 with `"full"`), or for n agents n of
-          them; with `"continuous"` four numbers, or `(n, 4)`.
+        - `action`: an integer 0..18 (0..19 with `action_set="v2"`, 0..32 with `"full"`), or for n
+          agents n of them; with `"continuous"` four numbers, or `(n, 4)`.
 
-        `terminated` is an ending of the scenario (a goal, the ball lost), `truncated` its time limit. Raises
-        `ActionError` for another action, `ScriptError` where a script of the scenario fails, `OpponentError` where an
-        opponent does, `CallbackError` where a reward or ending in Python or `on_reload` does; after these three a
-        `reset` begins anew, with whatever change `on_reload` was to be told of.
+        `terminated` is an ending of the scenario (a goal, the ball lost), `truncated` its time
+        limit. Raises `ActionError` for another action, `ScriptError` if a script of the scenario
+        fails, `OpponentError` if an opponent fails, `CallbackError` if a reward or ending in Python
+        or `on_reload` fails. After the last three only `reset` can continue, with the change that
+        `on_reload` was called for.
         """
         with self._turn:
             if not self._playing:
@@ -186,37 +194,38 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return observation, reward, terminated, truncated, info
 
     def close(self) -> None:
-        """Ends it: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
+        """Closes the environment; `reset` and `step` then raise `ClosedEnvironmentError`."""
         self._playing, self._turn.closed = False, True
         super().close()
 
     def save_replay(self, path: str | PathLike[str]) -> None:
-        """Writes the episode as far as it has been played: `setpiece replay FILE` plays it again, bit for bit.
+        """Writes the episode as far as it has been played.
 
-        Raises `ReplayError` before the first episode, after `restore` and with scripts that have changed in its middle,
-        `FileError` where it can't be written, `ParameterError` where `path` is no path.
+        `setpiece replay FILE` plays it again, bit for bit. Raises `ReplayError` before the first
+        episode, after `restore`, and if scripts have changed during the episode; `FileError` if it
+        can't be written; `ParameterError` if `path` isn't a path.
         """
         with one_thread:
             write(check_path("path", path), self._native.replay())
 
     def snapshot(self) -> bytes:
-        """Returns the whole episode as it stands, in some kilobytes: see `restore`.
+        """Returns the whole current episode as bytes, a few kilobytes: see `restore`.
 
-        The bytes hold the match in the middle of whatever goes on, rewards, records, scripts' memory and the streams of
-        random numbers; they are the same on every machine, and good for this version of the scenario. Raises
-        `SnapshotError` where a script keeps a function in its memory.
+        The bytes hold the match at any moment, rewards, records, scripts' memory and random
+        streams. They are the same on every machine, and valid for this version of the scenario.
+        Raises `SnapshotError` if a script keeps a function in its memory.
         """
         with one_thread:
             return self._native.snapshot()
 
     def restore(self, snapshot: bytes) -> tuple[Any, dict[str, Any]]:
-        """Goes on where a snapshot was taken, by whichever environment of this scenario, rewards and agents.
+        """Continues from a snapshot of any environment with this scenario, rewards and agents.
 
-        Returns the observation and `info` of the step after which it was taken; every later step is that of the
-        straight run, but for what opponents, and rewards and endings in Python, remember. Behaviours and scripts among
-        the `opponents` make another scenario: its snapshots are for environments with the same ones. Raises
-        `SnapshotError` for anything else, and nothing has changed then; `ClosedEnvironmentError` for a closed
-        environment.
+        Returns the observation and `info` of the step after which it was taken. Later steps equal
+        those of the original run, except for the memory of opponents and of rewards and endings in
+        Python. Behaviours and scripts among the `opponents` make another scenario: its snapshots
+        are for environments with the same ones. Raises `SnapshotError` for anything else, without
+        any change; `ClosedEnvironmentError` for a closed environment.
         """
         snapshot = check_snapshot(snapshot)
         with self._turn:
@@ -237,27 +246,27 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     @property
     def last_reload(self) -> Reload | None:
-        """What became of the last change of the scenario's files; None before the first."""
+        """The result of the last change of the scenario's files; None before the first."""
         return None if self._watcher is None else self._watcher.last
 
     @property
     def slots(self) -> list[_native.AgentInfo]:
-        """All agents of the scenario in order, the opponents' too.
+        """All agents of the scenario in order, including the opponents'.
 
-        `id`, `team` (0 left, 1 right) and `place`: the place in its team of the player it keeps, None where it changes
-        players.
+        `id`, `team` (0 left, 1 right) and `place`: the index in its team of the player it keeps,
+        None if it changes players.
         """
         with one_thread:
             return self._native.agents
 
     @property
     def observation(self) -> str:
-        """What the caller's agents see: a name of `setpiece.make`."""
+        """The kind of observation of the caller's agents: a name of `setpiece.make`."""
         return self._options.observation
 
     @property
     def observation_layout(self) -> Layout:
-        """How one agent's observation lies: the blocks of an array's last axis, or the keys of a dict.
+        """The layout of one agent's observation: an array's blocks, or a dict's keys.
 
         >>> import setpiece
         >>> setpiece.make("academy_corner").observation_layout[4]
@@ -272,9 +281,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return self._options.action_set
 
     def look(self, observation: str, scale: bool = False) -> Any:
-        """Returns what all of `slots` see now in an observation of any kind, whatever the environment's own.
+        """Returns what all of `slots` see now, in any kind of observation.
 
-        `scale` is that of `setpiece.make`. Looking changes nothing. Raises `ResetNeeded` before the first episode.
+        `scale` is that of `setpiece.make`. Looking changes nothing. Raises `ResetNeeded` before the
+        first episode.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
@@ -290,9 +300,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return self._native.look(kind, scale)
 
     def clone(self) -> FootballEnv:
-        """Returns an independent environment in the same state, with the same opponents; it doesn't watch or record.
+        """Returns an independent environment in the same state, with the same opponents.
 
-        Raises `CallbackError` for a reward or ending in Python that can't be copied, else what `snapshot` does.
+        It doesn't watch or record. Raises `CallbackError` for a reward or ending in Python that
+        can't be copied, otherwise like `snapshot`.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_corner")
@@ -304,17 +315,17 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return deepcopy(self)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Returns what copies and pickles are made of: the options, the scenario and a snapshot of the episode.
+        """Returns the state for copies and pickles: options, scenario and a snapshot.
 
         A copy doesn't watch or record.
         """
         begun = self._native.episode is not None
         return {
-            # The scenario is bound already; another one that a `reset` gives has its own parameters.
+            # The scenario is already bound; another one passed to `reset` has its own parameters.
             "options": replace(self._options, params={}),
             "scenario": self.scenario,
             "snapshot": self.snapshot() if begun else None,
-            # Neither a stack of frames nor what opponents were shown follows from the snapshot.
+            # The snapshot contains neither a stack of frames nor what opponents were shown.
             "frames": self._native.frames() if begun else None,
             "seen": None if self._table is None else self._table.seen,
             "tally": None if self._callbacks is None else self._callbacks.tally,
@@ -323,7 +334,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """Makes the environment of a copy or pickle."""
+        """Restores the environment of a copy or pickle."""
         self._record, self._watcher = None, None
         self._set_up(state["scenario"], state["options"])
         if state["snapshot"] is not None:
@@ -356,12 +367,12 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return self._match.table
 
     def _enter(self, match: Match) -> None:
-        """Goes over to a match."""
+        """Switches to a match."""
         self._match = match
         self.scenario, self.agents = match.scenario, match.agents
 
     def _ready(self, scenario: Scenario, params: Mapping[str, ParamValue] | None = None) -> Match:
-        """Makes a scenario ready under parameters; None: those that the environment was made with."""
+        """Prepares a scenario with parameters; None: those that the environment was made with."""
         bound = self._options.params if params is None else params
         return match_of(scenario.with_params(**bound), self._options)
 
@@ -378,7 +389,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         at = at if wanted.episode is None else wanted.episode
         params = self._params if wanted.params is None else wanted.params
         if switched is not None:
-            # Its parameters are bound already, as those of `make` are.
+            # Its parameters are already bound, like those of `make`.
             params = {}
         if self._watcher is not None:
             before, running = self._match, self._playing
@@ -396,7 +407,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         observation, info = match.shown(observation, info)
         if self._callbacks is not None:
             self._callbacks.begin(views, info)
-        # A reset that fails leaves no trace, but that nothing may be played any more.
+        # A failed reset leaves no trace, except that no episode is running.
         if switched is not None:
             self._enter(switched)
         self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
@@ -409,28 +420,29 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def _rehearse(
         self, switched: Match | None, seed: int, episode: int, params: dict[str, ParamValue], snapshot: bytes | None
     ) -> None:
-        """Raises what a `reset` is refused for, before it touches the running episode.
+        """Raises what a `reset` is rejected for, before it affects the running episode.
 
-        A native `reset` that refuses has forgotten what was played, and maybe bound the parameters.
+        A native `reset` that fails has already dropped the running episode, and may have bound the
+        parameters.
         """
         native = _native.Environment(self.scenario, self._options) if switched is None else switched.native
-        # No refusals: those come again, and end the episode.
+        # These aren't rejections: they would be raised again, and end the episode.
         with one_thread, suppress(DrawError, ScriptError):
             _, info = native.reset(seed, episode, params, snapshot)
             if self._callbacks is not None:
                 self._callbacks.check(info)
 
     def _take_over(self, watcher: Watcher, match: Match, reload: Reload | None) -> None:
-        """Plays another match from here on, and tells of the change that brought it."""
+        """Switches to another match, and reports the change that caused it."""
         self._enter(match)
         if reload is not None:
             watcher.tell(reload)
 
     def _switched(self, source: Source, params: Mapping[str, ParamValue] | None) -> Match:
-        """Makes another scenario ready that can be played in this environment."""
+        """Prepares another scenario that can be played in this environment."""
         if self._watcher is not None:
             raise ParameterError(
-                "an environment that watches its scenario's file plays no other",
+                "an environment that watches its scenario's file can't switch to another",
                 name="scenario",
                 help="leave out `watch`",
             )
@@ -445,7 +457,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return match
 
     def _cut(self, label: str, info: dict[str, Any]) -> None:
-        """Ends the episode by a limit of the caller's, and tells of that in the `info` of its last step."""
+        """Ends the episode by a limit of the caller's, and adds the summary to its last `info`."""
         info.update(self._match.end(label, truncated=True))
         if self._callbacks is not None:
             info["setpiece"]["return"].update(self._callbacks.tally)
@@ -460,17 +472,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             summary["replay"] = self._record.end(self._native, self.scenario.name, info["score"])
 
     def action_masks(self) -> NDArray[np.int8]:
-        """Returns what `info["action_mask"]` shows now: 1 where an action can change something, else 0."""
+        """Returns the current `info["action_mask"]`: 1 for actions with an effect, else 0."""
         with one_thread:
             mask = self._native.action_mask()
         return mask if self._table is None else self._table.mask(mask)
 
     def played(self) -> dict[str, int]:
-        """Returns what every player pressed in the last step, by his name: `Action` numbers in his own frame.
+        """Returns what every player pressed in the last step, by their name.
 
-        An agent's player has its action, a scripted one that of his behaviour (19 where it hands over to the bot), and
-        everyone else what the bot did with him, told as an action: step by step a stream, each press going on from
-        those before. Who is played by nobody is left out.
+        The values are `Action` numbers in the player's own frame. An agent's player has the agent's
+        action. A scripted player has the behaviour's action (19 if it hands over to the bot).
+        Everyone else has the bot's play expressed as actions: a stream over the steps, in which
+        each press is relative to the earlier ones. Players that nobody plays are left out.
 
         >>> import setpiece
         >>> env = setpiece.make("academy_empty_goal", action_set="v2")
@@ -483,7 +496,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return self._native.played()
 
     def render(self) -> str | None:
-        """Returns a drawing of the pitch in text, for `render_mode="ansi"`; None without a render mode."""
+        """Returns a text drawing for `render_mode="ansi"`; None without a render mode."""
         if self.render_mode is None:
             return None
         with one_thread:

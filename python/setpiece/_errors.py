@@ -1,4 +1,4 @@
-"""Everything that can go wrong, as one tree of exceptions under `SetpieceError`."""
+"""All errors of the package, as one tree of exceptions under `SetpieceError`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class Label:
-    """A place that a diagnostic points at: lines and columns count from 1, columns in characters; the end is behind."""
+    """The place of a diagnostic: lines and columns from 1, columns in characters, end exclusive."""
 
     file: str
     line: int
@@ -20,7 +20,7 @@ class Label:
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """A problem that the compiler found; the first label is the place itself, the others explain it."""
+    """A problem that the compiler found; the first label is its place, the others explain it."""
 
     code: str
     severity: Literal["error", "warning"]
@@ -35,7 +35,7 @@ class Diagnostic:
 
 
 class SetpieceError(Exception):
-    """Any error of this package; `code` is the stable code where there is one, `help` says what to do instead."""
+    """Any error of this package: `code` is the stable code, if any, `help` what to do instead."""
 
     code: str | None
     help: str | None
@@ -51,7 +51,7 @@ class SetpieceError(Exception):
 
 
 class CompileError(SetpieceError):
-    """A text has errors; `diagnostics` lists every error and warning, `str()` is the rendered report."""
+    """A text has errors: `diagnostics` lists errors and warnings, `str()` is the full report."""
 
     diagnostics: list[Diagnostic]
 
@@ -61,7 +61,10 @@ class CompileError(SetpieceError):
 
 
 class FileError(SetpieceError, OSError):
-    """A file is missing, a directory, too large, not UTF-8, or can't be read or written; `path` names it."""
+    """A file is missing, a directory, too large, not UTF-8, or can't be read or written.
+
+    `path` names it.
+    """
 
     path: str
 
@@ -71,7 +74,7 @@ class FileError(SetpieceError, OSError):
 
 
 class UnknownScenarioError(SetpieceError, LookupError):
-    """Neither a scenario of the library nor a file has this name; `name` is what was asked for."""
+    """Neither a scenario of the library nor a file has this name; `name` is the requested one."""
 
     name: str
 
@@ -81,11 +84,11 @@ class UnknownScenarioError(SetpieceError, LookupError):
 
 
 class FormatError(SetpieceError):
-    """A compiled scenario is cut off, changed, of another version, or none at all."""
+    """A compiled scenario is truncated, changed, of another version, or not a scenario."""
 
 
 class ParameterError(SetpieceError, ValueError):
-    """A parameter or option is unknown, of another type, or out of its range; `name` says which."""
+    """A parameter or option is unknown, of another type, or out of range; `name` names it."""
 
     name: str
 
@@ -99,11 +102,11 @@ class RewardError(SetpieceError, ValueError):
 
 
 class DrawError(SetpieceError):
-    """No start could be drawn: the scenario's requirements are never met together."""
+    """No start could be drawn: the scenario's requirements never hold together."""
 
 
 class ScriptError(SetpieceError):
-    """A script failed while an episode ran; says where, in which hook, and in which episode."""
+    """A script failed in an episode; names the place, the hook and the episode."""
 
     script: str
     line: int
@@ -133,28 +136,36 @@ class ScriptError(SetpieceError):
 
 
 class SnapshotError(SetpieceError, ValueError):
-    """Bytes are no snapshot, damaged, of another scenario, or of other players; a running episode goes on."""
+    """Bytes are not a snapshot, or damaged, or of another scenario or other players.
+
+    A running episode is unchanged.
+    """
 
 
 class ActionError(SetpieceError, ValueError):
-    """An action is of another type or shape, or out of range; the episode is untouched."""
+    """An action has the wrong type or shape, or is out of range; the episode is unchanged."""
 
 
 class ReplayError(SetpieceError, ValueError):
-    """An episode can't be recorded: none has begun, or it went on from a snapshot or with changed scripts.
+    """An episode can't be recorded or replayed.
 
-    Or a recorded one can't be played again: its file is no replay, damaged, or of a version that plays otherwise.
+    Recording fails if no episode has begun, or if it continues from a snapshot or with changed
+    scripts. Replaying fails if the file isn't a replay, is damaged, or comes from a version that
+    plays differently.
     """
 
 
 class InUseError(SetpieceError, RuntimeError):
-    """Two threads use one environment at the same time, or somebody whom it asks plays it; each needs its own."""
+    """An environment is used by two threads at once, or by code that it called itself.
+
+    Each user needs their own environment.
+    """
 
 
 class OpponentError(SetpieceError, RuntimeError):
-    """A player that isn't the caller's failed: it raised (`__cause__`) or gave something that is no action.
+    """An opponent failed: it raised (`__cause__`) or returned something that isn't an action.
 
-    `slots` names whom it plays, `side` their team where it is one.
+    `slots` names the agents that it plays, `side` their team if they are on one.
     """
 
     slots: tuple[str, ...]
@@ -174,10 +185,11 @@ class OpponentError(SetpieceError, RuntimeError):
 
 
 class CallbackError(SetpieceError, RuntimeError):
-    """A reward or ending in Python failed: it raised (`__cause__`) or gave something that is no payment or verdict.
+    """A reward or ending in Python failed.
 
-    Or it can't be copied, as a copy of its environment needs; or an `on_reload` raised. `function` names it, `agent`
-    whose step it judged; None where it judged none.
+    It raised (`__cause__`), returned something that isn't a payment or verdict, or can't be copied
+    with its environment; or an `on_reload` raised. `function` names it; `agent` is the agent whose
+    step it judged, None without one.
     """
 
     function: str
@@ -197,7 +209,10 @@ class CallbackError(SetpieceError, RuntimeError):
 
 
 class GrfScriptError(SetpieceError, RuntimeError):
-    """A script of Google Research Football's form failed: `__cause__` is what it raised, `path` the script."""
+    """A script in Google Research Football's format failed.
+
+    `__cause__` is what it raised, `path` the script.
+    """
 
     path: str
 
@@ -207,7 +222,7 @@ class GrfScriptError(SetpieceError, RuntimeError):
 
 
 class MissingPackageError(SetpieceError, ImportError):
-    """An optional package isn't installed; `name` says which, `help` how to get it."""
+    """An optional package isn't installed; `name` names it, `help` says how to install it."""
 
     name: str
 
@@ -217,7 +232,7 @@ class MissingPackageError(SetpieceError, ImportError):
 
 
 class UnavailableError(SetpieceError, NotImplementedError):
-    """What is asked for is no part of this version; `name` says what."""
+    """The requested feature isn't supported in this version; `name` names it."""
 
     name: str
 

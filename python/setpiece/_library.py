@@ -40,7 +40,7 @@ def _entries() -> tuple[Entry, ...]:
 
 
 def list() -> builtins.list[Entry]:
-    """Returns the scenarios of the library, by name; each entry is its name and has `title` and `players`.
+    """Returns the scenarios of the library by name; an entry is a name with `title` and `players`.
 
     >>> import setpiece
     >>> "academy_corner" in setpiece.list()
@@ -50,7 +50,10 @@ def list() -> builtins.list[Entry]:
 
 
 def register_envs() -> None:
-    """Registers every scenario of the library as `setpiece/NAME-v0`; importing the package has done it already."""
+    """Registers every scenario of the library as `setpiece/NAME-v0`.
+
+    Importing the package has already done it.
+    """
     for name in _entries():
         env_id = f"{NAMESPACE}/{name}-v0"
         if env_id not in gymnasium.registry:

@@ -1,4 +1,4 @@
-"""A scenario made ready to be played: who plays it, what they see and what they can do."""
+"""A scenario prepared for play: who plays it, what they see and what they can do."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 class Match:
     """A scenario with its native environment, the caller's agents and their spaces.
 
-    `digest` is the scenario's; `table` seats the opponents, where there are any; `slots` are the caller's agents.
+    `digest` is the scenario's; `table` seats the opponents, if any; `slots` are the caller's
+    agents.
     """
 
     scenario: Scenario
@@ -42,9 +43,9 @@ class Match:
         return (observation, info) if self.table is None else self.table.shown(observation, info)
 
     def end(self, label: str, *, truncated: bool = False) -> dict[str, Any]:
-        """Ends the episode for a reason of the caller's; returns what the last `info` tells the caller of that."""
-        told = self.native.end(label, label == "success", truncated)
-        return told if self.table is None else self.table.told(told)
+        """Ends the episode for the caller's own reason; returns the caller's part of the summary."""
+        summary = self.native.end(label, label == "success", truncated)
+        return summary if self.table is None else self.table.info(summary)
 
     def views(self) -> list[dict[str, Any]]:
         """Returns the raw observation of each of the caller's agents."""
@@ -53,9 +54,10 @@ class Match:
         return [*raws] if self.table is None else [raws[at] for at in self.table.mine]
 
     def change(self, before: Match, *, agents: bool, players: bool) -> str | None:
-        """Returns in words what keeps an environment that plays another match from going on with this one, or None.
+        """Returns in words why an environment can't switch from another match to this one, or None.
 
-        The spaces must stay; with `agents` the caller's agents too, with `players` how many players each side has.
+        The spaces must stay; with `agents` the caller's agents too, with `players` how many players
+        each side has.
         """
         spaces_of = {
             "action space": (before.action_space, self.action_space),
@@ -69,7 +71,7 @@ class Match:
 
 
 def match_of(scenario: Scenario, options: EnvOptions) -> Match:
-    """Makes a scenario ready."""
+    """Prepares a scenario."""
     native = _native.Environment(scenario, options)
     agents, table = native.agents, None
     if options.opponents is not None:

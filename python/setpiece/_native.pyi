@@ -1,4 +1,4 @@
-"""The compiled module: what of it the package uses; `setpiece` re-exports what is public."""
+"""The compiled module, as far as the package uses it; `setpiece` re-exports the public part."""
 
 from collections.abc import Sequence
 from os import PathLike
@@ -48,7 +48,7 @@ ACTION_SETS: Final[dict[str, int]]
 CONTINUOUS: Final[tuple[list[float], list[float]]]
 KINDS: Final[tuple[str, ...]]
 
-# What is read of `setpiece._env_options.EnvOptions`.
+# The attributes read from `setpiece._env_options.EnvOptions`.
 class _Options(Protocol):
     @property
     def observation(self) -> str: ...
@@ -75,7 +75,7 @@ class _Options(Protocol):
     @property
     def switching(self) -> str | None: ...
 
-# What is read of `setpiece._casting.Casting`.
+# The attributes read from `setpiece._casting.Casting`.
 class _Casting(Protocol):
     @property
     def team(self) -> int: ...

@@ -18,13 +18,15 @@ ACTION_COUNTS = (19, 20)
 
 
 def onnx_policy(path: str | PathLike[str]) -> Callable[[NDArray[Any]], NDArray[np.int64]]:
-    """Returns what plays an ONNX model: observations `(n, …)` to the actions int64 `(n,)` of greatest logit.
+    """Returns a policy from an ONNX file: observations `(n, …)` to the actions of greatest logit.
 
-    The model has one input, the observation with a batch axis before it (`(batch, 115)` for `simple115v2`, `(batch, 72,
-    96, 4)` for `smm`; the batch free, or 1) as float, double or uint8, and as its first output the logits `(batch, 19)`
-    or `(batch, 20)`. Of equal logits the first wins. It runs on the CPU in one thread, and so always alike.
+    Actions are int64 `(n,)`. The model has one input, the observation with a batch axis in front
+    (`(batch, 115)` for `simple115v2`, `(batch, 72, 96, 4)` for `smm`; the batch free, or 1), as
+    float, double or uint8. Its first output is the logits `(batch, 19)` or `(batch, 20)`. Of equal
+    logits the first wins. It runs on the CPU in one thread, so results are always the same.
 
-    Raises `FileError`, `FormatError`, `MissingPackageError`, and `ParameterError` where `path` is no path.
+    Raises `FileError`, `FormatError`, `MissingPackageError`, and `ParameterError` if `path` isn't a
+    path.
     """
     file = check_path("path", path)
     runtime = need("onnxruntime", "onnx", "a policy from an `.onnx` file")

@@ -26,16 +26,20 @@ BOT = "bot"
 
 @dataclass(frozen=True)
 class Policy:
-    """Something that plays agents of an environment, with what it wants to see.
+    """A policy that plays agents of an environment, with the observation that it wants.
 
-    - `play`: a function of observations that returns actions, the path of an `.onnx` file, or an object with the
-      `predict` of Stable-Baselines3.
-    - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the caller sees, stacked as his.
-    - `batched`: True: it gets the observations of all its n agents at once, an array with a leading axis n (a tuple of
-      n dicts for `"raw"`), and returns n actions. False: it gets one agent's and returns one, agent by agent.
-    - `scale`: whether that `observation` is scaled, as in `setpiece.make`. What the caller sees is scaled as theirs is.
+    - `play`: a function of observations that returns actions, the path of an `.onnx` file, or an
+      object with the `predict` of Stable-Baselines3.
+    - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the caller
+      sees, including the stack.
+    - `batched`: True: it gets the observations of all its n agents at once, an array with a leading
+      axis n (a tuple of n dicts for `"raw"`), and returns n actions. False: it gets one agent's and
+      returns one, agent by agent.
+    - `scale`: whether that `observation` is scaled, as in `setpiece.make`. With None as
+      `observation`, the caller's scale applies.
 
-    Every agent sees itself attack towards +x. Actions are integers 0..19; 19 hands the step over to the bot.
+    Every agent sees itself attacking towards +x. Actions are integers 0..19; 19 hands the step over
+    to the bot.
     """
 
     play: Callable[[Any], Any] | str | PathLike[str] | Any
@@ -48,14 +52,14 @@ Look = tuple[str, bool]
 """The name of an observation, and whether it is scaled."""
 
 Opponent = Policy | Callable[[Any], Any] | str | PathLike[str] | Any
-"""Who plays agents instead of the caller; the forms are told in `setpiece.make`."""
+"""What plays agents instead of the caller; `setpiece.make` describes the forms."""
 
 
 def native_action_set(action_set: str, opponents: Mapping[str, Opponent] | None) -> str:
-    """Returns the set of everyone's actions: opponents may hand a step over to the bot, whatever the caller may."""
+    """Returns the action set of all agents: opponents may always hand a step over to the bot."""
     if opponents is not None and action_set == "continuous":
         raise ParameterError(
-            "beside opponents the caller presses keys: continuous actions are for all agents", name="action_set"
+            "with opponents the caller must press keys: continuous actions are for all agents", name="action_set"
         )
     return "v2" if opponents is not None and action_set == "default" else action_set
 
@@ -73,13 +77,13 @@ class Seat:
 
     @property
     def look(self) -> Look | None:
-        """What the opponent asks to see; None: what everyone is shown."""
+        """The observation that the opponent wants; None: the caller's."""
         policy = self.policy
         return None if policy.observation is None else (policy.observation, policy.scale)
 
 
 class Table:
-    """The agents of a match, some of them the caller's, each other one with the opponent who plays it."""
+    """The agents of a match: the caller's, and those of opponents."""
 
     n_agents: int
     """How many agents there are."""
@@ -88,9 +92,9 @@ class Table:
     mine: list[int]
     """The caller's agents, among all."""
     seats: list[Seat]
-    """The opponents that are asked: the engine plays the others."""
+    """The opponents that are asked for actions; the engine plays the others."""
     seen: Any
-    """What all agents were shown last: what opponents see who ask for nothing else."""
+    """What all agents were shown last; opponents without their own observation see this."""
 
     def __init__(self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], n_actions: int) -> None:
         self.n_agents, self.n_actions = len(agents), n_actions
@@ -111,16 +115,16 @@ class Table:
 
     @property
     def observations(self) -> set[Look]:
-        """What opponents see who ask for something."""
+        """The observations of opponents with their own."""
         return {seat.look for seat in self.seats if seat.look is not None}
 
     def shown(self, observation: Any, info: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
-        """Returns the caller's part of what all agents see, and keeps the rest for the opponents."""
+        """Returns the caller's part of what all agents see; keeps the rest for the opponents."""
         self.seen = observation
-        return self._pick(observation), self.told(info)
+        return self._pick(observation), self.info(info)
 
-    def told(self, info: dict[str, Any]) -> dict[str, Any]:
-        """Returns the caller's part of what an `info` tells of everyone."""
+    def info(self, info: dict[str, Any]) -> dict[str, Any]:
+        """Returns the caller's part of an `info` about everyone."""
         return pick_info(info, self._pick, self.n_agents, self.n_actions)
 
     def paid(self, reward: Any) -> Any:
@@ -133,10 +137,10 @@ class Table:
         return self._pick(mask)[..., : self.n_actions]
 
     def actions(self, action: Any, look: Callable[[str, bool], Any]) -> list[int]:
-        """Returns everyone's action: the caller's, and what the opponents say to the last thing shown.
+        """Returns everyone's actions: the caller's, and the opponents' for the last observation.
 
-        `look` observes the match in another observation. Raises `ActionError` for the caller's action, `OpponentError`
-        where an opponent fails.
+        `look` observes the match in another kind of observation. Raises `ActionError` for the
+        caller's action, `OpponentError` if an opponent fails.
         """
         all_actions = [int(Action.BUILTIN_AI)] * self.n_agents
         for at, one in zip(self.mine, self._read_actions(action), strict=True):
@@ -162,7 +166,7 @@ class Table:
 
 
 def ask(seat: Seat, seen: Any, n: int) -> list[int]:
-    """Returns the n actions of an opponent for what its agents see, row by row; raises `OpponentError`."""
+    """Returns an opponent's n actions for what its agents see; raises `OpponentError`."""
     n_actions = ACTION_SETS["v2"]
     if seat.policy.batched:
         given = _asked(seat, seat.agents, seen)
@@ -173,7 +177,7 @@ def ask(seat: Seat, seen: Any, n: int) -> list[int]:
     # The agents of one match after those of another.
     agents = [seat.agents[at % len(seat.agents)] for at in range(n)]
     given = [_asked(seat, (agent,), one) for agent, one in zip(agents, seen, strict=True)]
-    # All at once is quicker than one by one.
+    # All at once is faster than one by one.
     actions = integers(given, (n,), n_actions)
     if actions is not None:
         return _listed(actions)
@@ -181,7 +185,7 @@ def ask(seat: Seat, seen: Any, n: int) -> list[int]:
 
 
 def _one_action(seat: Seat, agent: str, given: Any) -> int:
-    """The action that an opponent gave for one agent."""
+    """Reads the action that an opponent returned for one agent."""
     action = integers(given, (), ACTION_SETS["v2"])
     if action is None:
         raise _no_action(seat, (agent,), "an integer", given)
@@ -189,7 +193,7 @@ def _one_action(seat: Seat, agent: str, given: Any) -> int:
 
 
 def _asked(seat: Seat, agents: tuple[str, ...], seen: Any) -> Any:
-    """What an opponent answers for these of its agents."""
+    """Calls an opponent for these of its agents."""
     try:
         return seat.play(seen)
     except Exception as error:
@@ -203,7 +207,7 @@ def _listed(actions: NDArray[np.int64]) -> list[int]:
 
 
 def _no_action(seat: Seat, agents: tuple[str, ...], expected: str, given: Any) -> OpponentError:
-    """The error for what an opponent gave for these of its agents."""
+    """Builds the error for an opponent's wrong answer for these of its agents."""
     last = ACTION_SETS["v2"] - 1
     why = f"gave no action: expected {expected} in 0..{last}, found `{given!r}`"
     return OpponentError(f"the opponent {_of(agents)} {why}", slots=seat.agents, side=seat.side)
@@ -214,7 +218,7 @@ def _of(agents: tuple[str, ...]) -> str:
 
 
 def read_opponents(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opponent]:
-    """Returns opponents, an empty mapping where there are none, or raises `ParameterError`."""
+    """Returns opponents, an empty mapping without any, or raises `ParameterError`."""
     if opponents is None:
         return {}
     if not isinstance(opponents, Mapping):
@@ -223,7 +227,7 @@ def read_opponents(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opp
 
 
 def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> dict[int, str]:
-    """Who of the opponents plays which agent: one named himself, else his side's."""
+    """Which opponent plays which agent: one named for the agent, else its side's."""
     ids = [agent.id for agent in agents]
     owner: dict[int, str] = {}
     for who, opponent in opponents.items():
@@ -244,7 +248,7 @@ def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> d
 
 
 def no_agent(who: str, ids: Sequence[str]) -> ParameterError:
-    """The error for an opponent of somebody who isn't there."""
+    """Builds the error for an opponent of an unknown agent."""
     return ParameterError(
         f"no agent `{who}`; opponents play `left`, `right` or one of {', '.join(f'`{one}`' for one in ids)}",
         name="opponents",
@@ -259,7 +263,7 @@ def _policy(who: str, opponent: Opponent) -> Policy:
             return replace(opponent, observation=kind, scale=check_scale(opponent.scale, kind))
         if check_flag("scale", opponent.scale):
             raise ParameterError(
-                f"`opponents[{who!r}]` scales no observation of its own",
+                f"`opponents[{who!r}]` scales nothing without an observation of its own",
                 name="scale",
                 help='name one: `Policy(…, "simple115v2", scale=True)`',
             )
@@ -276,7 +280,7 @@ def _policy(who: str, opponent: Opponent) -> Policy:
 
 
 def _function(policy: Policy) -> Callable[[Any], Any]:
-    """What is called with observations."""
+    """The function that is called with observations."""
     if is_onnx(policy.play):
         return onnx_policy(policy.play)
     predict = getattr(policy.play, "predict", None)
@@ -289,7 +293,7 @@ def _function(policy: Policy) -> Callable[[Any], Any]:
 
 @dataclass(frozen=True)
 class _Predictor:
-    """The `predict` of Stable-Baselines3: deterministic, and it returns actions and a state."""
+    """The `predict` of Stable-Baselines3: deterministic, returns actions and a state."""
 
     predict: Callable[..., Any]
 
@@ -298,7 +302,7 @@ class _Predictor:
 
 
 def is_word(opponent: object) -> TypeGuard[str | PathLike[str]]:
-    """Whether it is the bot, a behaviour or a script: the engine plays it."""
+    """Whether it is the bot, a behaviour or a script, which the engine plays."""
     return ends_with(opponent, ".rhai") or (isinstance(opponent, str) and not is_onnx(opponent))
 
 
@@ -308,5 +312,5 @@ def is_onnx(opponent: object) -> TypeGuard[str | PathLike[str]]:
 
 
 def ends_with(opponent: object, ending: str) -> bool:
-    """Whether it is the path of a file of a kind."""
+    """Whether it is the path of a file with an ending."""
     return isinstance(opponent, str | PathLike) and str(fspath(opponent)).endswith(ending)

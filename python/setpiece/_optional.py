@@ -1,4 +1,4 @@
-"""Packages that only some uses need."""
+"""Optional packages."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from setpiece._errors import MissingPackageError
 
 
 def need(module: str, extra: str, what: str) -> ModuleType:
-    """Imports a module, or raises `MissingPackageError` with the extra of this package that brings it."""
+    """Imports a module, or raises `MissingPackageError` naming the extra that installs it."""
     try:
         return import_module(module)
     except ModuleNotFoundError as error:
-        # A package that is there but lacks something itself tells that better.
+        # A package that exists but lacks a dependency raises a better error itself.
         if error.name is None or error.name.split(".")[0] != module.split(".")[0]:
             raise
         package = module.split(".")[0]

@@ -1,4 +1,4 @@
-"""Options that several kinds of environments take, checked."""
+"""Options shared by several kinds of environments, validated."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from setpiece._source import Source
 from setpiece._words import similar
 
 ParamValue = bool | int | float | str
-"""A parameter's value: SI units, or a string as the language writes it (`"12m"`, `"60%"`, `"left"`)."""
+"""A parameter's value: SI units, or a string as in the language (`"12m"`, `"60%"`, `"left"`)."""
 
 RESET_OPTIONS = ("episode", "params", "scenario", "snapshot")
 NUMBER_MAX = 2**64 - 1
@@ -24,7 +24,7 @@ NUMBER_MAX = 2**64 - 1
 
 @dataclass(frozen=True)
 class ResetOptions:
-    """The `options` of a single environment's `reset`; None for what isn't given."""
+    """The `options` of a single environment's `reset`; None if not given."""
 
     episode: int | None
     params: dict[str, ParamValue] | None
@@ -45,7 +45,7 @@ def read_reset_options(options: Mapping[str, Any] | None) -> ResetOptions:
 
 
 def check_keys(options: Mapping[str, Any] | None, known: tuple[str, ...]) -> Mapping[str, Any]:
-    """Returns the options of a `reset`, or raises `ParameterError` for one that isn't known."""
+    """Returns the options of a `reset`, or raises `ParameterError` for an unknown one."""
     options = {} if options is None else options
     if not isinstance(options, Mapping):
         raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
@@ -60,7 +60,7 @@ def check_keys(options: Mapping[str, Any] | None, known: tuple[str, ...]) -> Map
 
 
 def check_params(params: object) -> dict[str, ParamValue] | None:
-    """Returns parameters, None where there are none, or raises `ParameterError`."""
+    """Returns parameters, None without any, or raises `ParameterError`."""
     if params is not None and not isinstance(params, Mapping):
         raise ParameterError(f"expected `params` as a mapping, found `{params!r}`", name="params")
     return None if params is None else dict(params)
@@ -96,7 +96,7 @@ def check_path(name: str, value: object) -> Path:
 
 
 def _is_encodable(path: str) -> bool:
-    """Whether a file can be called so: no path has surrogates other than those that stand for its bytes."""
+    """Whether a file can have this name: its only surrogates may be those that stand for bytes."""
     try:
         fsencode(path)
     except UnicodeEncodeError:

@@ -27,7 +27,7 @@ from setpiece._vocabulary import Action
 from setpiece._words import similar
 
 STANDS = np.array([0, 0, -1, 0], np.float32)
-"""The continuous action of an agent that plays no more."""
+"""The continuous action of an agent that no longer plays."""
 
 SWITCHING = re.compile(r"(left|right)_\d+")
 """The id of an agent that changes players."""
@@ -36,7 +36,7 @@ Step = tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool],
 
 
 class ParallelFootballEnv(ParallelEnv[str, Any, int]):
-    """One match whose agents act at once: `setpiece.parallel_env` tells what there is to it."""
+    """One match with simultaneous agents: see `setpiece.parallel_env`."""
 
     metadata: dict[str, Any]
     env: FootballEnv
@@ -48,7 +48,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     state_space: spaces.Box
 
     def __init__(self, env: FootballEnv, max_cycles: int | None = None, record: Record | None = None) -> None:
-        """Takes an environment whose agents keep their players, and where its episodes are recorded."""
+        """Takes an environment with fixed agents, and the folder of its recordings."""
         if not env.agents:
             raise ParameterError(
                 f"`{env.scenario.name}` leaves the caller no agent", name="left", help="seat some: `left='all'`"
@@ -56,7 +56,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         for slot in env.slots:
             if SWITCHING.fullmatch(slot.id):
                 raise ParameterError(
-                    f"the agent `{slot.id}` of `{env.scenario.name}` changes players: here everyone keeps his",
+                    f"the agent `{slot.id}` of `{env.scenario.name}` changes players: here agents keep their players",
                     name="scenario",
                     help='make it with `switching="fixed"`',
                 )
@@ -81,7 +81,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         n_agents = len(self.possible_agents)
         self._pickers = {agent: Picker(n_agents, at) for at, agent in enumerate(self.possible_agents)}
         self._cycles = 0
-        # Not the environment's own: here an episode also ends with `max_cycles`, or when all have been sent off.
+        # Recorded here, because an episode also ends with `max_cycles`, or when all have been sent
+        # off.
         self._record = record
 
     @property
@@ -90,7 +91,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         return self.env.scenario
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
-        """Returns the space of what an agent sees, always the same object."""
+        """Returns the space of an agent's observations, always the same object."""
         return self.observation_spaces[self._known(agent)]
 
     def action_space(self, agent: str) -> spaces.Space[Any]:
@@ -99,7 +100,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
 
     @property
     def observation_layout(self) -> Layout:
-        """How an agent's observation lies: see `FootballEnv.observation_layout`."""
+        """The layout of an agent's observation: see `FootballEnv.observation_layout`."""
         return self.env.observation_layout
 
     def reset(
@@ -107,8 +108,8 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
         """Draws a new start; `seed` and `options` are those of `FootballEnv.reset`.
 
-        Another scenario has to have the same agents and as many players. An option that isn't there is warned of
-        and left alone: PettingZoo's wrappers and tests hand in their own.
+        Another scenario must have the same agents and the same number of players. An unknown option
+        causes a warning and is ignored, because PettingZoo's wrappers and tests pass their own.
         """
         if isinstance(options, Mapping):
             for unknown in [key for key in options if key not in RESET_OPTIONS]:
@@ -124,12 +125,13 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         return self._begun(observation, info)
 
     def step(self, actions: dict[str, Any]) -> Step:
-        """Plays 100 ms; `actions` has one for each of `agents`: an integer, or with continuous actions four numbers.
+        """Plays 100 ms; `actions` has one for each of `agents`.
 
-        Raises `ActionError` for an action that is none, one too few or one too many; the episode is untouched then.
+        An action is an integer, or four numbers with continuous actions. Raises `ActionError` for
+        an invalid, missing or superfluous action; the episode is then unchanged.
         """
         if not self.agents:
-            # Taking the turn says so where it is closed: a `reset` wouldn't help then.
+            # Taking the turn reports that it is closed; a `reset` wouldn't help then.
             with self.env._turn:
                 raise gymnasium.error.ResetNeeded("call `reset` before `step`: no agent is playing")
         acting = self.agents
@@ -162,21 +164,21 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         self.env.save_replay(path)
 
     def snapshot(self) -> bytes:
-        """Returns the whole episode as it stands: see `FootballEnv.snapshot`."""
+        """Returns the whole current episode as bytes: see `FootballEnv.snapshot`."""
         return self.env.snapshot()
 
     def restore(self, snapshot: bytes) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-        """Goes on where a snapshot was taken: see `FootballEnv.restore`. `max_cycles` are counted from here."""
+        """Continues from a snapshot: see `FootballEnv.restore`; `max_cycles` counts from here."""
         observation, info = self.env.restore(snapshot)
         self._cycles = 0
         return self._begun(observation, info)
 
     def render(self) -> Any:
-        """Returns what `FootballEnv.render` does."""
+        """Returns the result of `FootballEnv.render`."""
         return self.env.render()
 
     def close(self) -> None:
-        """Ends it: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
+        """Closes the environment; then `reset` and `step` raise `ClosedEnvironmentError`."""
         self.agents = []
         self.env.close()
 
@@ -190,7 +192,10 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         )
 
     def _begun(self, observation: Any, info: dict[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-        """What `reset` and `restore` return; from a snapshot an episode may begin without a man, or at its end."""
+        """The result of `reset` and `restore`.
+
+        An episode from a snapshot may begin without some player, or at its end.
+        """
         infos = self._infos(info, self.possible_agents)
         over, gone = "outcome" in info, self._gone()
         self.agents = [agent for agent in self.possible_agents if not (over or agent in gone)]
@@ -217,7 +222,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             if agent not in self.agents:
                 gone = agent in self._pickers
                 raise ActionError(
-                    f"an action for `{agent}`, who {'plays no more' if gone else 'is no agent'}",
+                    f"an action for `{agent}`, which {'no longer plays' if gone else 'is not an agent'}",
                     help=None if gone else similar(agent, self.agents),
                 )
         for agent in self.agents:
@@ -242,7 +247,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         return rows[0] if len(rows) == 1 else np.stack(rows)
 
     def _read(self, agent: str, action: Any) -> int:
-        """One agent's action; says whose is wrong."""
+        """Reads one agent's action; the error names the agent."""
         read = integers(action, (), self._n_actions)
         if read is None:
             raise ActionError(f"expected an integer in 0..{self._n_actions - 1} for `{agent}`, found `{action!r}`")

@@ -1,4 +1,4 @@
-"""PettingZoo: environments of many agents, and their names in its registry."""
+"""PettingZoo: multi-agent environments, and their names in its registry."""
 
 from __future__ import annotations
 
@@ -44,26 +44,29 @@ def parallel_env(
     record_when: When = "always",
     allow_outside: bool = False,
 ) -> ParallelFootballEnv:
-    """Makes a PettingZoo `ParallelEnv` of a scenario: any number of agents on each side, each with a player of its own.
+    """Makes a PettingZoo `ParallelEnv` of a scenario, in which every agent keeps its player.
 
-    The arguments are those of `setpiece.make` but `switching` (nobody changes players), `copy`, `watch` and
-    `on_reload`; and `max_cycles`: every agent is truncated after so many steps, if the scenario has not ended before;
-    None leaves it to the scenario.
+    The arguments are those of `setpiece.make`, except `switching` (nobody changes players), `copy`,
+    `watch` and `on_reload`. In addition, `max_cycles` truncates every agent after this many steps
+    if the scenario hasn't ended before; None leaves it to the scenario.
 
-    - Agents are named as their players (`anna`, `left_CM_1`) and keep them. Everyone sees himself attack towards +x;
-      observations, actions 0..18 and spaces are those of one agent of `FootballEnv`, rewards floats.
-    - Rewards in Python are called for each agent; an ending in Python, asked once a step with the step of the first
-      agent of `possible_agents`, ends the episode for all.
-    - `info` of an agent: its `action_mask` (int8 `(19,)`), `reward_terms`, `return` and `bot_action`; `score` [left,
-      right] and `events` are everyone's.
-    - A replay is recorded (`record`, `record_when`) when nobody is left in `agents`, after `max_cycles` too; the last
-      `info["setpiece"]` of those who were has `replay`.
-    - An agent whose player is sent off is terminated and leaves `agents` for the rest of the episode; the others play
-      on. When the scenario ends all terminate, at its limit all are truncated, and `agents` is empty.
-    - `state()`: float32, one view of the whole match in the world's frame, in which left attacks towards +x. For
-      every player, the left team's first in source order: x, y, dx, dy (as in raw observations), tiredness, booked, on
-      the pitch, has the ball (8 numbers); then the ball: x, y, z, dx, dy, dz, spin x, y, z; one-hot game mode (7);
-      score left, right; steps left / 1000 (0 without a limit). Its space is `state_space`.
+    - Agents have the names of their players (`anna`, `left_CM_1`) and keep them; each side may have
+      any number. Every agent sees itself attacking towards +x. Observations, actions 0..18 and
+      spaces are those of one agent of `FootballEnv`, rewards are floats.
+    - Rewards in Python are called for each agent. An ending in Python is called once per step, with
+      the step of the first agent of `possible_agents`, and ends the episode for all.
+    - `info` of an agent: its `action_mask` (int8 `(19,)`), `reward_terms`, `return` and
+      `bot_action`; `score` [left, right] and `events` are everyone's.
+    - A replay is recorded (`record`, `record_when`) when `agents` becomes empty, also after
+      `max_cycles`; the last `info["setpiece"]` of the remaining agents has `replay`.
+    - An agent whose player is sent off is terminated and leaves `agents` for the rest of the
+      episode; the others play on. When the scenario ends, all terminate; at its limit all are
+      truncated; then `agents` is empty.
+    - `state()`: float32, one view of the whole match in the world's frame, in which left attacks
+      towards +x. For every player, the left team's first in source order: x, y, dx, dy (as in raw
+      observations), tiredness, booked, on the pitch, has the ball (8 numbers); then the ball: x, y,
+      z, dx, dy, dz, spin x, y, z; one-hot game mode (7); score left, right; steps left / 1000 (0
+      without a limit). Its space is `state_space`.
 
     Raises what `setpiece.make` does, and `MissingPackageError` without the package `pettingzoo`.
 
@@ -76,7 +79,8 @@ def parallel_env(
     >>> rewards["right_CB_1"]
     0.0
     """
-    # Before any other name is bound: what the caller gave, but for what isn't the environment's.
+    # Before any other name is bound, so that these are the caller's arguments, except those that
+    # aren't the environment's.
     arguments: dict[str, Any] = {**locals()}
     for name in ("max_cycles", "record", "record_when"):
         del arguments[name]
@@ -88,10 +92,10 @@ def parallel_env(
 
 
 def register_pettingzoo() -> None:
-    """Registers every scenario of the library with PettingZoo, as with Gymnasium: `setpiece/NAME-v0`.
+    """Registers every scenario of the library with PettingZoo, as `setpiece/NAME-v0`.
 
-    `pettingzoo.make("parallel", "setpiece/academy_corner-v0", left=3)` makes it then. Raises `MissingPackageError`
-    without a PettingZoo that has a registry (1.27).
+    Then `pettingzoo.make("parallel", "setpiece/academy_corner-v0", left=3)` makes one. Raises
+    `MissingPackageError` without a PettingZoo that has a registry (1.27).
 
     >>> import pettingzoo, setpiece
     >>> setpiece.register_pettingzoo()

@@ -25,14 +25,16 @@ Agent = Callable[[Any], Any] | Opponent
 
 @dataclass(frozen=True)
 class Played:
-    """What became of a match between two agents.
+    """The result of a match between two agents.
 
-    - `score`: goals of left and right; `winner`: who has more, or whose opponent failed; None for a draw.
-    - `rewards`: what the agents of each side were paid in all, on average over a side's agents.
-    - `length`: steps played; `outcome`: the ending's name, None where an agent failed.
-    - `seed`, `digest`: the same agents on the same seed end in the same state, and this is its hash; None where an
-      agent failed.
-    - `actions`: int8 `(length, n)`: what the n agents of `slots` pressed, from which the match can be played again.
+    - `score`: goals of left and right; `winner`: the side with more goals, or whose opponent
+      failed; None for a draw.
+    - `rewards`: the return of each side, the average over its agents.
+    - `length`: steps played; `outcome`: the ending's name, None if an agent failed.
+    - `seed`, `digest`: the same agents with the same seed end in the same state, and this is its
+      hash; None if an agent failed.
+    - `actions`: int8 `(length, n)`: the actions of the n agents of `slots`, with which the match
+      can be played again.
     - `errors`: by side, the error of an agent that failed.
     """
 
@@ -49,7 +51,7 @@ class Played:
 
 
 class KaggleObservation(dict[str, Any]):
-    """An observation as Kaggle's football environment gives it: a dict whose keys are attributes too."""
+    """An observation of Kaggle's football environment: a dict whose keys are attributes too."""
 
     def __getattr__(self, name: str) -> Any:
         try:
@@ -72,16 +74,18 @@ def play(
 ) -> Played:
     """Plays one match between two agents and returns a `Played`.
 
-    - `left_agent`, `right_agent`: a function as Kaggle's football environment calls it. It gets `players_raw`, a raw
-      observation for each of its n players with lists in the place of arrays; `controlled_players`, n; and `step`,
-      how many have been played. It returns a list of n actions 0..19, or one action where n is 1. Both see themselves
-      as the left team. Else anything that `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, the
-      path of an `.onnx` or `.rhai` file; a policy sees `simple115v2` where it doesn't say.
-    - `left`, `right`: how many play on each side, as in `setpiece.make`; None: as the scenario says, or where it leaves
-      a side without agents, one on each, or one against the other side's, who is always the player nearest the ball.
+    - `left_agent`, `right_agent`: a function as in Kaggle's football environment. It gets
+      `players_raw`, a raw observation for each of its n players with lists instead of arrays;
+      `controlled_players`, n; and `step`, the number of steps played. It returns a list of n
+      actions 0..19, or one action if n is 1. Both see themselves as the left team. Or anything that
+      `opponents` of `setpiece.make` takes for a side: `"bot"`, a `Policy`, the path of an `.onnx`
+      or `.rhai` file; a policy sees `simple115v2` unless it says otherwise.
+    - `left`, `right`: how many play on each side, as in `setpiece.make`; None: as the scenario
+      says. If the scenario leaves a side without agents, each side has one, or that side has one
+      against the other side's agents. Such an agent controls the player nearest the ball.
     - `seed`, `params`, `rewards`: as in `setpiece.make`.
-    - `on_error`: `"raise"` raises the `OpponentError` of an agent that fails; with `"lose"` it loses, and the error
-      stands in `errors`.
+    - `on_error`: `"raise"` raises the `OpponentError` of an agent that fails; with `"lose"` it
+      loses, and the error is in `errors`.
 
     >>> import setpiece
     >>> def runner(observation):
@@ -111,7 +115,7 @@ def play(
 
 
 class _Clock:
-    """Steps that have been played."""
+    """The number of steps played."""
 
     steps = 0
 
@@ -159,7 +163,7 @@ def _winner(score: tuple[int, int], errors: Mapping[str, OpponentError]) -> Lite
 
 
 def _opponent(agent: Agent, clock: _Clock) -> Opponent:
-    """An agent as an opponent: a plain function is Kaggle's, all else sees what environments show by default."""
+    """An agent as an opponent: plain functions are Kaggle's, others get the default observation."""
     if isinstance(agent, Policy):
         return agent if agent.observation else replace(agent, observation="simple115v2")
     if callable(getattr(agent, "predict", None)) or is_onnx(agent):

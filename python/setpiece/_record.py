@@ -1,4 +1,4 @@
-"""Recording episodes as files that play them again."""
+"""Recording episodes as files that can be played again."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def read_record(folder: str | PathLike[str] | None, when: When) -> Record | None
 
 
 class Record:
-    """A folder, and which episodes are written there."""
+    """A folder, and which episodes are written to it."""
 
     def __init__(self, folder: str | PathLike[str], when: When) -> None:
         every = isinstance(when, int | np.integer) and not isinstance(when, bool) and when >= 1
@@ -38,16 +38,17 @@ class Record:
                 f"`record_when` is {when!r}; it can be 'always', 'goal' or a count", name="record_when"
             )
         self._folder, self._when = check_path("record", folder), when
-        # Now, not when an episode has been played that can't be written.
+        # Now, so that an unwritable folder is reported before an episode is played.
         make_folder(self._folder)
         self._ended = 0
         self._failed = False
 
     def end(self, native: _native.Environment, name: str, score: Sequence[int]) -> str | None:
-        """Writes the episode that has just ended, if it is one of those; returns where.
+        """Writes the episode that has just ended, if it is to be recorded; returns its path.
 
-        One that was restored in its middle has no beginning to be played from: it is none of them. Raises `FileError`
-        for the first that can't be written (a full disk), and records no more: what is played goes on.
+        An episode that was restored has no beginning to replay, so it is never recorded. Raises
+        `FileError` for the first one that can't be written (a full disk), and records no more; play
+        continues.
         """
         wanted = self._wants(score)
         self._ended += 1
@@ -77,26 +78,26 @@ class Record:
 
 
 def write(path: Path, replay: bytes) -> None:
-    """Writes a replay and the folders it lies in; `FileError` where it can't."""
+    """Writes a replay and creates its folders; raises `FileError` if it can't."""
     make_folder(path.parent)
     _native.write(path, replay)
 
 
 def make_folder(folder: Path) -> None:
-    """Makes a folder and those it lies in, where they aren't there; `FileError` where it can't."""
+    """Creates a folder and its parents if they don't exist; raises `FileError` if it can't."""
     with _writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
 
 
 def _write_beside(folder: Path, stem: str, replay: bytes) -> Path:
-    """Writes a replay, with a number behind its name where one of the same draw lies there already; returns where."""
+    """Writes a replay; appends a number to its name if that is taken. Returns the path."""
     free = folder / f"{stem}.pitchr"
     if free.parent != folder:
-        # No scenario is called so that it leads out of the folder; whatever called this would.
+        # No scenario has a name that leads out of the folder, but a caller could pass one.
         raise FileError(f"`{free}` doesn't lie in `{folder}`", path=str(free))
     make_folder(folder)
     for number in count(2):
-        # Whoever makes the file has the name: other threads and processes may write there too.
+        # The creator of the file owns the name; other threads and processes may write there too.
         if _native.write_new(free, replay):
             break
         free = folder / f"{stem}_{number}.pitchr"
@@ -105,7 +106,7 @@ def _write_beside(folder: Path, stem: str, replay: bytes) -> Path:
 
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
-    """Raises `FileError` where something can't be written."""
+    """Raises `FileError` if something can't be written."""
     try:
         yield
     except OSError as error:

@@ -1,4 +1,4 @@
-"""What happened to a scenario's file while an environment watched it."""
+"""Changes of a scenario's file while an environment watches it."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from setpiece._source import Source, path_of, text_of
 
 @dataclass(frozen=True)
 class Reload:
-    """A changed file, and what became of it; see `FootballEnv.last_reload`.
+    """A changed file and the result; see `FootballEnv.last_reload`.
 
-    - `state`: `"applied"`, `"broken"` (it doesn't compile) or `"held back"` (it would change the environment's spaces);
-      unless it was applied, the scenario before it goes on.
-    - `scenario`: the new scenario; None where it is broken.
+    - `state`: `"applied"`, `"broken"` (it doesn't compile) or `"held back"` (it would change the
+      environment's spaces). Unless it was applied, the previous scenario stays in use.
+    - `scenario`: the new scenario; None if it is broken.
     - `error`: why it is broken: a `CompileError` or `FileError`.
     - `why`: the state in one sentence.
     """
@@ -32,12 +32,12 @@ class Reload:
 
 
 class Watcher:
-    """The files of a scenario, looked at for changes."""
+    """The files of a scenario, checked for changes."""
 
     scenario: Scenario
-    """The scenario as it was found first."""
+    """The scenario as first loaded."""
     last: Reload | None
-    """What became of the last change; None before the first."""
+    """The result of the last change; None before the first."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class Watcher:
         self.at_once = watch == "now"
 
     def at_reset(self, match: Match, ready: Callable[[Scenario], Match]) -> tuple[Match, Reload | None]:
-        """Returns the match to play from here on, that of the changed files or the one given, and what to tell."""
+        """Returns the match to play from now on, changed or given, and what to report."""
         fresh, broken = self._changed()
         if fresh is None:
             return match, broken
@@ -71,7 +71,10 @@ class Watcher:
         return new, Reload("applied", fresh, None, f"`{fresh.name}` is played from this episode on")
 
     def at_step(self, match: Match, params: Mapping[str, ParamValue]) -> tuple[Match, Reload | None]:
-        """Takes over changed scripts at once; other changes wait for a reset. Returns the match and what to tell."""
+        """Applies changed scripts at once; other changes wait for a reset.
+
+        Returns the match to play and what to report.
+        """
         fresh, broken = self._changed()
         if fresh is None or fresh is self._waiting:
             return match, broken
@@ -87,7 +90,7 @@ class Watcher:
         return new, Reload("applied", fresh, None, f"the scripts of `{fresh.name}` are run from this step on")
 
     def tell(self, reload: Reload) -> None:
-        """Tells of a change that has been taken over, or not; raises `CallbackError` where `on_reload` fails."""
+        """Reports a change, applied or not; raises `CallbackError` if `on_reload` fails."""
         self.last = reload
         if self._on_reload is None:
             return
@@ -97,7 +100,7 @@ class Watcher:
             raise failed(self._on_reload, None, error) from error
 
     def _changed(self) -> tuple[Scenario | None, Reload | None]:
-        """The scenario of files that have changed, or one that is still waiting; or what broke them."""
+        """The scenario of changed files, or one that is still waiting; or what broke them."""
         try:
             return self._live.poll() or self._waiting, None
         except SetpieceError as error:

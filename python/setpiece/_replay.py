@@ -29,29 +29,31 @@ Pressed = Action | NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Moment:
-    """A moment of an episode: the start, or what a step came to. What is told of agents stands under their ids."""
+    """A moment of an episode: the start, or the result of a step. Keys are agents' ids."""
 
     step: int
     """Steps played so far, of 100 ms; 0 is the start."""
     observations: dict[str, Any]
     """What each agent sees now, in its own frame: it attacks towards +x."""
     actions: dict[str, Pressed]
-    """What each agent did in this step: an `Action`, or float32 `(4,)` of continuous ones. Empty at the start."""
+    """Each agent's action in this step: an `Action`, or float32 `(4,)`. Empty at the start."""
     rewards: dict[str, float]
-    """What each agent was paid for it; empty at the start."""
+    """Each agent's reward for it; empty at the start."""
     events: list[dict[str, Any]]
-    """What happened in it: as `info["events"]`."""
+    """What happened in it, as in `info["events"]`."""
     info: dict[str, Any]
-    """What `FootballEnv.step` told: `score` [left, right], at the end `outcome` too."""
+    """The `info` of `FootballEnv.step`: `score` [left, right], at the end `outcome` too."""
 
 
 class Replay:
-    """A recorded episode; iterating plays it again, bit for bit, and gives the `Moment` of the start and of every step.
+    """A recorded episode; iterating plays it again, bit for bit, and yields its `Moment`s.
+
+    They are the start, and the result of every step.
 
     - `path`: a file that `record=` or `save_replay` wrote.
 
-    Raises `FileError` where the file can't be read, `ReplayError` where it is no replay, or one that is cut off,
-    changed or of another version, `ParameterError` where `path` is no path.
+    Raises `FileError` if the file can't be read, `ReplayError` if it isn't a replay, or is
+    truncated, changed or of another version, `ParameterError` if `path` isn't a path.
 
     >>> import setpiece, tempfile
     >>> path = f"{tempfile.mkdtemp()}/three.pitchr"
@@ -75,13 +77,13 @@ class Replay:
     length: int
     """Steps."""
     digest: str
-    """The fingerprint of the last state, 16 hexadecimal digits: that of the last `info["setpiece"]`."""
+    """The digest of the last state, 16 hexadecimal digits, as in the last `info["setpiece"]`."""
     agents: tuple[_native.AgentInfo, ...]
-    """Who acted, opponents too, in order: `id` and `team` (0 left, 1 right)."""
+    """The agents, opponents included, in order: `id` and `team` (0 left, 1 right)."""
     action_set: str
-    """The smallest set that has all that was pressed: `"default"`, `"v2"` or `"full"`; or `"continuous"`."""
+    """The smallest set with all actions used: `"default"`, `"v2"`, `"full"` or `"continuous"`."""
     snapshot: bytes | None
-    """The snapshot that it began in; None where it began as its scenario does."""
+    """The snapshot that it began in; None if it began at the scenario's start."""
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self.path = check_path("path", path)
@@ -107,15 +109,17 @@ class Replay:
 
     @property
     def outcome(self) -> str | None:
-        """The name of the ending; None where the episode was written down before it ended."""
+        """The name of the ending; None if the episode was saved before it ended."""
         return self._end.get("outcome")
 
     def moments(self, observation: str = "raw") -> Iterator[Moment]:
-        """Plays the episode from its start and gives every moment of it, with observations of any kind.
+        """Plays the episode from its start and yields every moment, with observations of any kind.
 
-        - `observation`: one of those of `setpiece.make`; `sticky_actions` of raw ones are those of `action_set`.
+        - `observation`: one of those of `setpiece.make`; `sticky_actions` of raw ones are those of
+          `action_set`.
 
-        Raises `ReplayError` where this build comes to another end, and `ScriptError` where a script fails.
+        Raises `ReplayError` if this build diverges from the recording, and `ScriptError` if a
+        script fails.
         """
         kind = check_observation(observation)
         acts = self._recorded.acts
@@ -133,13 +137,13 @@ class Replay:
             yield self._moment(step + 1, observed, now, np.atleast_1d(reward).tolist(), info)
 
     def _compare(self, native: _native.Environment, step: int) -> None:
-        """Raises where the last state is not the one that was recorded."""
+        """Raises if the last state isn't the recorded one."""
         if step == self.length and native.digest != self.digest:
             raise self._differs(step)
 
     @cached_property
     def _end(self) -> dict[str, Any]:
-        """What the last step told."""
+        """The summary from the last step."""
         info: dict[str, Any] = {}
         for moment in self:
             info = moment.info
@@ -160,19 +164,19 @@ class Replay:
 
     @contextmanager
     def _named(self) -> Iterator[None]:
-        """Names the file in what is wrong with it."""
+        """Adds the file's name to errors about it."""
         try:
             yield
         except (ReplayError, SnapshotError, ParameterError) as error:
             raise ReplayError(f"`{self.path}`: {error.args[0]}", code=BAD_REPLAY, help=error.help) from error
 
     def _differs(self, step: int) -> ReplayError:
-        why = f"step {step}: this build plays the episode otherwise than the one that wrote it"
+        why = f"step {step}: this build diverges from the recording"
         return ReplayError(f"`{self.path}`: {why}", code=BAD_REPLAY)
 
 
 def _pressed(act: _native.RecordedAct) -> Pressed:
-    """What an agent did in a step, as `FootballEnv.step` takes it."""
+    """An agent's action in a step, in the form that `FootballEnv.step` takes."""
     number, steer = act.action, act.steer
     if steer is None:
         return Action(number)

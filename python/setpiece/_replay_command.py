@@ -1,4 +1,4 @@
-"""`setpiece replay FILE`: plays a recorded episode again, and tells or converts it."""
+"""`setpiece replay FILE`: plays a recorded episode again, and describes or converts it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Examples:
 """
 FORMATS = {
     "text": "in a few lines (the default)",
-    "jsonl": "a JSON object for the start and for every step, a line each",
+    "jsonl": "one JSON object per line, for the start and for every step",
     "grf": "a dump of Google Research Football, for `script_helpers`; needs -o",
 }
 COLOURS = ("auto", "always", "never")
@@ -27,14 +27,14 @@ def main(arguments: Sequence[str]) -> int:
     """Runs the command and returns its exit code: 0, 1 (input) or 2 (usage)."""
     parser = argparse.ArgumentParser(
         prog="setpiece replay",
-        description="Play a recorded episode again, bit for bit, and tell what it was",
+        description="Play a recorded episode again, bit for bit, and describe it",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("file", metavar="FILE", help="a recorded episode (.pitchr)")
-    told = "; ".join(f"{name}: {what}" for name, what in FORMATS.items())
-    parser.add_argument("--format", metavar="FORMAT", choices=FORMATS, default="text", help=f"how to tell it: {told}")
+    formats = "; ".join(f"{name}: {what}" for name, what in FORMATS.items())
+    parser.add_argument("--format", metavar="FORMAT", choices=FORMATS, default="text", help=formats)
     parser.add_argument("-o", "--output", metavar="OUT.dump", help="where a dump is written")
     parser.add_argument("--color", metavar="WHEN", choices=COLOURS, help=f"{', '.join(COLOURS)}: colour the output")
     try:

@@ -1,4 +1,4 @@
-"""Observations and infos of many agents, taken apart: what some of them, or one, would have been given."""
+"""Splits observations and infos of many agents into those of some of them, or of one."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ import numpy as np
 class Picker:
     """Takes from a value of n agents the part of one (a number) or of several (a list).
 
-    A value of several agents has a leading axis (arrays) or a part for each (tuples, lists); that of one has none, and
-    so has what is taken for one.
+    A value of several agents has a leading axis (arrays) or a part for each (tuples, lists). A
+    value of one has neither, and the part of one has neither.
     """
 
     n_agents: int
     who: int | list[int]
 
     def __call__(self, value: Any) -> Any:
-        """Returns the part of those picked."""
+        """Returns the part of the picked agents."""
         if isinstance(self.who, int):
             return value if self.n_agents == 1 else _plain(value[self.who])
         rows = _listed(value) if self.n_agents == 1 else value
@@ -30,7 +30,7 @@ class Picker:
 
 
 def pick_info(info: dict[str, Any], pick: Picker, n_agents: int, n_actions: int) -> dict[str, Any]:
-    """Returns the info with what tells of agents picked; masks are those of the first `n_actions` actions."""
+    """Returns the info of the picked agents; masks are those of the first `n_actions` actions."""
     picked = dict(info)
     if "reward_terms" in info:
         picked["reward_terms"] = {name: pick(paid) for name, paid in info["reward_terms"].items()}
@@ -48,7 +48,7 @@ def pick_info(info: dict[str, Any], pick: Picker, n_agents: int, n_actions: int)
 
 
 def split_info(info: dict[str, Any], n_agents: int) -> list[dict[str, Any]]:
-    """Returns for each agent the info that it alone would have been given."""
+    """Returns for each agent the info that it would get alone."""
     if n_agents == 1:
         return [info]
     paid = _split_terms(info["reward_terms"], n_agents)
@@ -74,5 +74,5 @@ def _plain(value: Any) -> Any:
 
 
 def _listed(value: Any) -> Any:
-    """The value of one agent as that of a list of one."""
+    """The value of one agent, as that of a list of one."""
     return (value,) if isinstance(value, dict) else np.asarray(value)[None]

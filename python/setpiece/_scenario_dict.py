@@ -1,4 +1,4 @@
-"""Scenarios as dicts, and the texts that they are written to."""
+"""Scenarios as dicts, and the texts that they are converted to."""
 
 from __future__ import annotations
 
@@ -13,8 +13,10 @@ from setpiece._errors import ParameterError
 from setpiece._words import similar
 
 Value = bool | float | str | Sequence[Any] | Mapping[str, Any]
-"""A value: True and False are `on` and `off`, a tuple is `(a, b)`, a dict `{ key: value }`; a string is the language's
-own words: `"lazy"`, `"3m/s"`, `"uniform(-0.1, 0.1)"`."""
+"""A value: True and False are `on` and `off`, a tuple is `(a, b)`, a dict `{ key: value }`.
+
+A string is written as in the language: `"lazy"`, `"3m/s"`, `"uniform(-0.1, 0.1)"`.
+"""
 
 Place = tuple[float | str, float | str] | tuple[float | str, float | str, Mapping[str, Value]] | str
 Player = tuple[str, float | str, float | str] | tuple[str, float | str, float | str, Mapping[str, Value]] | str
@@ -23,21 +25,24 @@ DEFAULT_NAME = "from_dict"
 
 
 class ScenarioDict(TypedDict, total=False):
-    """A scenario as a dict; every key may be left out. `pitch_text` shows what becomes of it.
+    """A scenario as a dict; every key may be left out. `pitch_text` shows its text.
 
-    Places are x, y in the world's frame, normalised as GRF's: goals at (-1, 0) and (1, 0), +y down. Wherever a string
-    stands for a value, it is what the language writes there.
+    Places are x, y in the world's frame, normalised like GRF's: goals at (-1, 0) and (1, 0), +y
+    down. A string instead of a value is written as in the language.
 
-    - `name`: a word; `"from_dict"` without it. `extends`: a scenario of the library, as `"academy"`.
+    - `name`: a word; `"from_dict"` without it. `extends`: a scenario of the library, such as
+      `"academy"`.
     - `ball`: `(x, y)`, `(x, y, {option: value})`, or words: `"ahead of carrier by 1m"`.
-    - `left`, `right`: lists of players: `(role, x, y)`, `(role, x, y, {option: value})` with the options of the
-      language (`ai`, `velocity`, `stats`, …) and `name`, or words: `"3 CB in right.box"`.
+    - `left`, `right`: lists of players: `(role, x, y)`, `(role, x, y, {option: value})` with the
+      options of the language (`ai`, `velocity`, `stats`, …) and `name`, or words: `"3 CB in
+      right.box"`.
     - `difficulty`: `{"left": 1.0, "right": 0.6}`.
-    - `agents`: `{"left": count, "all" or names, "right": …, "others": "hold", "switching": "fixed"}`.
+    - `agents`: `{"left": count, "all" or names, "right": …, "others": "hold", "switching":
+      "fixed"}`.
     - `rules`: `{"offside": False, …}`.
     - `limit`: steps, or words: `"30s"`.
-    - `rewards`: a list of names or words: `"scoring"`, `"checkpoints(regions: 5) * 0.5"`,
-      `"effort { give -0.01 when ball in left.half as 'back' }"` (with double quotes).
+    - `rewards`: a list of names or words: `"scoring"`, `"checkpoints(regions: 5) * 0.5"`, `"effort
+      { give -0.01 when ball in left.half as 'back' }"` (with double quotes).
     - `ends`: a list of words: `"success scored when goal by left"`.
     """
 
@@ -59,15 +64,15 @@ SIDES = ("left", "right")
 
 
 def scenario_name(scenario: Mapping[str, Any]) -> str:
-    """Returns the name of a scenario of this form."""
+    """Returns the name of a scenario in this form."""
     return str(scenario.get("name", DEFAULT_NAME))
 
 
 def pitch_text(scenario: ScenarioDict) -> str:
-    """Returns the text of a scenario that is given as a dict, laid out as `setpiece fmt` does.
+    """Returns the text of a scenario that is given as a dict, in the layout of `setpiece fmt`.
 
-    Raises `ParameterError` for a key or value that isn't of this form; whether the text has a meaning, the compiler
-    says.
+    Raises `ParameterError` for a key or value that doesn't fit this form. The compiler checks the
+    meaning of the text.
 
     >>> import setpiece
     >>> print(setpiece.pitch_text({"ball": (0.8, 0), "left": [("CF", 0.75, 0, {"name": "anna"})], "limit": 50}))

@@ -1,8 +1,8 @@
-"""How agents are asked for, instead of those that the scenario seats."""
+"""How agents are requested instead of those that the scenario defines."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 Seats = int | str | Sequence[str] | None
-"""How many agents play on a side: a count, `"all"`, the names of players, or None for what the scenario says."""
+"""The agents of a side: a count, `"all"`, names of players, or None for the scenario's."""

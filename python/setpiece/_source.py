@@ -1,4 +1,4 @@
-"""What a scenario can be given as: a name, a path, a text, a dict, or compiled."""
+"""The forms of a scenario: a name, a path, a text, a dict, or compiled."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from setpiece._native import Scenario
 from setpiece._scenario_dict import ScenarioDict, pitch_text, scenario_name
 
 Source = Scenario | ScenarioDict | str | PathLike[str]
-"""A scenario: compiled, as a `ScenarioDict`, its name in the library, the path of its file, or its text."""
+"""A scenario: compiled, a `ScenarioDict`, a name in the library, a file's path, or a text."""
 
 
 def load(source: Source, *, allow_outside: bool = False) -> Scenario:
-    """Loads a scenario: a name of the library, the path of a `.pitch` or `.pitchc` file, a text, or a `ScenarioDict`.
+    """Loads a scenario: a name of the library, the path of a file, a text, or a `ScenarioDict`.
 
-    A string with a `{` is a text. Imports and scripts lie in the file's folder or below (a text's: in the working
-    directory), unless `allow_outside` permits other places. Raises `UnknownScenarioError`, `FileError`,
-    `CompileError`, `FormatError`, and `ParameterError` for a dict that is none.
+    Files are `.pitch` or `.pitchc`. A string with a `{` is a text. Imports and scripts must be in
+    the file's folder or below (for a text: in the working directory), unless `allow_outside`
+    permits other places. Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`,
+    and `ParameterError` for a dict that isn't a scenario.
 
     >>> import setpiece
     >>> setpiece.load("academy_corner")
@@ -34,7 +35,7 @@ def load(source: Source, *, allow_outside: bool = False) -> Scenario:
 
 
 def text_of(source: Source) -> str | None:
-    """Returns the text of a scenario that is given as one, or as a dict; None for names, paths and compiled ones."""
+    """Returns the text of a scenario given as a text or a dict; None for other forms."""
     if isinstance(source, Mapping):
         return pitch_text(source)
     is_text = isinstance(source, str) and "{" in source and not source.endswith((".pitch", ".pitchc"))
@@ -42,7 +43,7 @@ def text_of(source: Source) -> str | None:
 
 
 def name_of(source: Source) -> str:
-    """Returns what reports call a text."""
+    """Returns the name of a text in reports."""
     return scenario_name(source) if isinstance(source, Mapping) else "<text>"
 
 

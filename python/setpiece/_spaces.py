@@ -15,7 +15,7 @@ from setpiece._options import check_flag
 from setpiece._words import check_word
 
 COUNT_MAX = 2**32 - 1
-"""Greatest count of goals or steps: the engine counts in 32 bits."""
+"""The largest count of goals or steps: the engine counts in 32 bits."""
 
 OBSERVATIONS = ("simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "raw", "vector")
 
@@ -28,17 +28,17 @@ UNSCALED = {
 """Observations that can't be scaled, and why."""
 
 ALIASES = {"extracted": "smm"}
-"""GRF's names of observations that have another here."""
+"""GRF's names of observations that have another name here."""
 
 SIZE_MAX = 1024
-"""Most pixels of a super mini map on either side."""
+"""The most pixels of a super mini map on either side."""
 
 STACK_MAX = 64
-"""Most observations of a stack."""
+"""The most observations of a stack."""
 
 
 class Observing(Protocol):
-    """Whatever observes: a native environment, or a batch of them."""
+    """Anything that observes: a native environment, or a batch of them."""
 
     @property
     def agents(self) -> list[_native.AgentInfo]: ...
@@ -55,7 +55,7 @@ class Observing(Protocol):
 
 
 class Block(NamedTuple):
-    """A block of numbers on the last axis of an observation, which mean the like."""
+    """A block on the last axis of an observation: related numbers."""
 
     start: int
     length: int
@@ -73,7 +73,7 @@ class Key(NamedTuple):
 
 
 Layout = tuple[Block, ...] | tuple[Key, ...]
-"""How an observation lies: blocks of an array, or the keys of a dict."""
+"""The layout of an observation: blocks of an array, or the keys of a dict."""
 
 
 def check_observation(name: object) -> str:
@@ -129,7 +129,7 @@ def one_action_space(action_set: str) -> spaces.Discrete | spaces.Box:
 
 
 def action_space(n_agents: int, action_set: str) -> spaces.Space[Any]:
-    """Returns the space of one agent's action, or of several agents' actions: of none where nobody acts."""
+    """Returns the space of one agent's action, or of several agents' (or no agents') actions."""
     one = one_action_space(action_set)
     if n_agents == 1:
         return one
@@ -141,10 +141,10 @@ def action_space(n_agents: int, action_set: str) -> spaces.Space[Any]:
 def observation_space(
     native: Observing, observation: str, agents: Sequence[_native.AgentInfo] | None = None
 ) -> spaces.Space[Any]:
-    """Returns the space of what `reset` and `step` observe: all agents of an environment, or some of them.
+    """Returns the space of the observations of all agents of an environment, or of some of them.
 
-    With several agents, or none, an array gains a leading axis, and a raw observation becomes a tuple with one part per
-    agent.
+    With several agents, or none, an array gains a leading axis, and a raw observation becomes a
+    tuple with one part per agent.
     """
     agents = native.agents if agents is None else agents
     n_agents = len(agents)
@@ -161,21 +161,21 @@ def observation_space(
 
 
 def difference(before: spaces.Space[Any], after: spaces.Space[Any]) -> str | None:
-    """Returns in words how a space would change; None where it stays."""
+    """Returns in words how a space would change; None if it stays the same."""
     if before == after:
         return None
     if isinstance(before, spaces.Tuple) and isinstance(after, spaces.Tuple) and len(before) == len(after):
         return next(why for pair in zip(before.spaces, after.spaces, strict=True) if (why := difference(*pair)))
     if isinstance(before, spaces.Dict) and isinstance(after, spaces.Dict):
-        # Raw observations have the same keys: only their shapes depend on the scenario.
+        # Raw observations have the same keys; only their shapes depend on the scenario.
         name = next(name for name in before if before[name] != after[name])
         return f"{difference(before[name], after[name])} at `{name}`"
-    if _told(before) == _told(after):
-        return f"of {_told(before)} would have other bounds"
-    return f"would change from {_told(before)} to {_told(after)}"
+    if _described(before) == _described(after):
+        return f"of {_described(before)} would have other bounds"
+    return f"would change from {_described(before)} to {_described(after)}"
 
 
-def _told(space: spaces.Space[Any]) -> str:
+def _described(space: spaces.Space[Any]) -> str:
     if isinstance(space, spaces.Box):
         return f"{space.dtype} {space.shape}"
     if isinstance(space, spaces.MultiDiscrete):
@@ -193,7 +193,7 @@ def one_observation_space(native: Observing, observation: str, team: int) -> spa
 
 
 def observation_layout(native: Observing, observation: str, stack: int) -> Layout:
-    """Returns how one agent's observation lies: the blocks of its last axis, or the keys of a dict."""
+    """Returns the layout of one agent's observation: the last axis's blocks, or a dict's keys."""
     if observation == "raw":
         space = _raw_space(native.players, 0, native.held_actions)
         return tuple(
@@ -244,7 +244,7 @@ def _typed(space: spaces.Space[Any]) -> tuple[str, tuple[int, ...]]:
 
 
 def _raw_space(players: tuple[int, int], team: int, held_actions: int) -> spaces.Dict:
-    """Returns the space of one agent's raw observation; its own team is the left one, whichever it is."""
+    """Returns the space of one agent's raw observation; its own team is always the left one."""
     place, stride = np.array([2.0, 1.5]), np.array([1.0, 1.0])
 
     def around(bound: NDArray[np.float64], size: int) -> spaces.Box:

@@ -1,4 +1,4 @@
-"""The global state of a match: what a centralised critic sees."""
+"""The global state of a match, for a centralised critic."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STEPS_UNIT = 1000.0
 
 
 def state_space(players: tuple[int, int]) -> spaces.Box:
-    """Returns the space of the state of so many players, left and right."""
+    """Returns the space of the state with this many players, left and right."""
     n_players, n_modes = sum(players), len(GameMode)
     spin, count, time = 1.0, float(COUNT_MAX), COUNT_MAX / STEPS_UNIT
     player, flags, ball = [2.0, 1.5, 1.0, 1.0], [1.0] * 4, [1.0, 1.0, 10.0]
@@ -31,9 +31,9 @@ def state_space(players: tuple[int, int]) -> spaces.Box:
 
 
 def state(raw: dict[str, Any], team: int) -> NDArray[np.float32]:
-    """Returns the state, float32, from a raw observation of an agent of a team; the layout is `parallel_env`'s."""
+    """Returns the state, float32, from a raw observation of a team's agent: see `parallel_env`."""
     sides = ("left_team", "right_team") if team == 0 else ("right_team", "left_team")
-    # The right team's agents see the pitch turned by half a turn.
+    # The right team's agents see the pitch turned by 180°.
     turn = 1.0 if team == 0 else -1.0
     parts: list[NDArray[Any]] = []
     for number, side in enumerate(sides):

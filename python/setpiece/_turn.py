@@ -1,4 +1,4 @@
-"""Whose turn it is with an environment: one thread's at a time, and of nobody whom it asks."""
+"""The turn of an environment: one thread's at a time, and never that of code it calls."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ from setpiece._errors import InUseError
 
 
 class Turn:
-    """The turn of whoever resets, steps or restores an environment, taken by `with`.
+    """The turn to reset, step or restore an environment, taken by `with`.
 
-    Another thread can't have it meanwhile, nor can somebody else's code that is asked in the middle: a reward, an
-    ending, an opponent, `on_reload`. Raises `InUseError` for these, `ClosedEnvironmentError` where it is `closed`.
+    Meanwhile no other thread can have it, and neither can code that the environment calls: a
+    reward, an ending, an opponent, `on_reload`. Raises `InUseError` for these,
+    `ClosedEnvironmentError` if it is `closed`.
     """
 
     __slots__ = ("_taken", "closed")
 
     closed: bool
-    """Whether nobody can have it any more."""
+    """Whether the environment is closed."""
 
     def __init__(self) -> None:
         self._taken = self.closed = False
@@ -32,13 +33,13 @@ class Turn:
             )
         self._taken = True
 
-    # Three names: gathering them in a tuple takes time, and this is in every step.
+    # Three names, because building a tuple takes time, and this runs in every step.
     def __exit__(self, _kind: object, _error: object, _trace: object) -> None:
         self._taken = False
 
 
 class _OneThread:
-    """Around one call of the native module: raises `InUseError` where another thread is in the middle of one."""
+    """Wraps a call of the native module; raises `InUseError` if another thread is inside one."""
 
     __slots__ = ()
 
@@ -46,7 +47,7 @@ class _OneThread:
         pass
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _trace: object) -> None:
-        # The binding's word for a second thread.
+        # The binding's message about a second thread.
         if kind is RuntimeError and "borrowed" in str(error):
             raise InUseError("another thread is using this environment: make one for each thread") from None
 

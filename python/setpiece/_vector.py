@@ -35,13 +35,13 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 ENVS_MAX = 65_536
-"""Most environments of a vector."""
+"""The most environments of a vector."""
 
 THREADS_MAX = 1_024
-"""Most threads of a vector."""
+"""The most threads of a vector."""
 
 TOGETHER = ("threads", "autoreset_mode")
-"""What a vector takes and a single environment does not."""
+"""Arguments of a vector that a single environment doesn't have."""
 
 RESET_OPTIONS = ("reset_mask", "params", "episode")
 
@@ -49,20 +49,23 @@ RESET_OPTIONS = ("reset_mask", "params", "episode")
 class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     """`num_envs` matches of one scenario, stepped together on a few threads.
 
-    Every array has a leading axis `num_envs`; with several agents in a match a second one follows. What is shown is
-    written in place: with `copy=False` the same arrays are returned every time.
+    Every array has a leading axis `num_envs`; with several agents in a match a second one follows.
+    Observations are written in place: with `copy=False` the same arrays are returned every time.
 
-    - `step(actions)`: actions `(num_envs,)` or `(num_envs, agents)`; returns observations, rewards (float64
-      `(num_envs,)`; float32 is what one environment of several agents pays, `(num_envs, agents)`), terminations,
-      truncations (bool `(num_envs,)`) and infos.
-    - `infos`, in Gymnasium's form, always: `action_mask` (int8), `score` (int64 `(num_envs, 2)`), `reward_terms`
-      {"reward/label": float64}. Where episodes have ended also `setpiece`, `outcome`, `records` {name: float64, NaN
-      where there is none, or objects} and their masks `_setpiece`, `_outcome`, `_records`.
-    - `metadata["autoreset_mode"]`: `NEXT_STEP` begins the next episode in the step after the last, whose action is left
-      alone; `SAME_STEP` at once, with the last observation in `infos["final_obs"]` and the last infos in
-      `infos["final_info"]`; `DISABLED` when `reset(options={"reset_mask": …})` asks for it.
-    - `reset(seed=s)` gives environment k the seed s + k; a list gives each its own, None leaves one as it is. Each
-      counts its episodes from there, so a vector plays what `num_envs` single environments would.
+    - `step(actions)`: actions `(num_envs,)` or `(num_envs, agents)`; returns observations, rewards
+      (float64 `(num_envs,)`; with several agents float32 `(num_envs, agents)`, as in a single
+      environment), terminations, truncations (bool `(num_envs,)`) and infos.
+    - `infos`, in Gymnasium's form, always: `action_mask` (int8), `score` (int64 `(num_envs, 2)`),
+      `reward_terms` {"reward/label": float64}. If episodes have ended, also `setpiece`, `outcome`,
+      `records` {name: float64, NaN without a value, or objects} and their masks `_setpiece`,
+      `_outcome`, `_records`.
+    - `metadata["autoreset_mode"]`: `NEXT_STEP` begins the next episode in the step after the last,
+      whose action is ignored; `SAME_STEP` begins it at once, with the last observation in
+      `infos["final_obs"]` and the last infos in `infos["final_info"]`; `DISABLED` waits for
+      `reset(options={"reset_mask": …})`.
+    - `reset(seed=s)` gives environment k the seed s + k; a list gives each its own, None keeps an
+      environment's seed. Each counts its episodes from there, so a vector plays the same as
+      `num_envs` single environments.
     """
 
     metadata = {"render_modes": [*RENDER_MODES], "render_fps": 10, "autoreset_mode": AutoresetMode.NEXT_STEP}
@@ -82,7 +85,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         refuse_functions(options.reward_functions)
         if record is not None:
             raise UnavailableError(
-                "a vector records no replays",
+                "a vector can't record replays",
                 name="record",
                 help="play the episode of its `seed` and `index` with `setpiece.make(…, record=…)`",
             )
@@ -112,7 +115,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 self._batch.look(*kind)
             if not mine:
                 raise ParameterError("the opponents leave the caller no agent", name="opponents")
-        # One agent of the caller's has no axis of its own; a run of them needs no copy.
+        # The caller's only agent has no axis of its own; a contiguous range of agents needs no
+        # copy.
         run = bool(mine) and mine == [*range(mine[0], mine[-1] + 1)]
         self._pick: Any = mine[0] if len(mine) == 1 else slice(mine[0], mine[-1] + 1) if run else mine
         self._part = Picker(len(agents), mine[0] if len(mine) == 1 else mine)
@@ -136,11 +140,12 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         """Draws new starts and returns their observations and infos.
 
         - `seed`: an integer s (environment k gets s + k), or one for each environment.
-        - `options`: `{"reset_mask": bool array}` begins episodes of those marked alone; `{"params": {…}}` binds
-          parameters of all, from their next episodes on; `{"episode": n}` sets the index.
+        - `options`: `{"reset_mask": bool array}` begins only the episodes that it marks;
+          `{"params": {…}}` binds parameters of all environments, from their next episodes on;
+          `{"episode": n}` sets the index.
 
-        Raises `ParameterError` for other options, and the episodes go on; `DrawError` where no start meets the
-        scenario's requirements.
+        Raises `ParameterError` for other options, and the episodes continue; `DrawError` if no
+        start meets the scenario's requirements.
         """
         with self._turn:
             mask, params, episode = self._read_options(options)
@@ -161,9 +166,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def step(self, actions: Any) -> tuple[Any, Any, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Plays 100 ms of every match.
 
-        Raises `ActionError` for actions of another shape or number and `OpponentError` where an opponent fails, and
-        nothing has been played then; `ScriptError` where a script of the scenario fails: its episode has ended, the
-        others have been played.
+        Raises `ActionError` for actions of another shape or number and `OpponentError` if an
+        opponent fails; nothing has been played then. Raises `ScriptError` if a script of the
+        scenario fails: its episode has ended, and the others have been played.
         """
         with self._turn:
             if not self._begun:
@@ -188,30 +193,30 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             return self._shown(), *self._outcomes(), infos
 
     def close_extras(self, **kwargs: Any) -> None:
-        """Ends them: `reset` and `step` then raise Gymnasium's `ClosedEnvironmentError`."""
+        """Closes the environments; `reset` and `step` then raise `ClosedEnvironmentError`."""
         self._turn.closed = True
         super().close_extras(**kwargs)
 
     @property
     def observation_layout(self) -> Layout:
-        """How one agent's observation lies: the blocks of its last axis."""
+        """The layout of one agent's observation: the blocks of its last axis."""
         with one_thread:
             return observation_layout(self._batch, self._options.observation, self._options.stack)
 
     def action_masks(self) -> NDArray[np.int8]:
-        """Returns what `infos["action_mask"]` shows now."""
+        """Returns the current `infos["action_mask"]`."""
         masks: NDArray[np.int8] = self._of_agents(self._arrays.masks)[..., : self._n_actions].copy()
         return masks
 
     def render(self) -> tuple[str, ...] | None:
-        """Returns a drawing of every pitch in text, for `render_mode="ansi"`; None without a render mode."""
+        """Returns text drawings for `render_mode="ansi"`; None without a render mode."""
         if self.render_mode is None:
             return None
         with one_thread:
             return tuple(self._batch.drawing(at) for at in range(self.num_envs))
 
     def _read(self, given: Any) -> NDArray[Any]:
-        """Everyone's actions: the caller's, and what opponents say; the batch reads the numbers."""
+        """Everyone's actions: the caller's and the opponents'; the batch reads the numbers."""
         if self._crowd is not None:
             return self._crowd.actions(given, self._arrays.observations, self._look)
         actions = array_of(given)
@@ -220,12 +225,12 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         return actions
 
     def _look(self, observation: str, scale: bool) -> list[Any]:
-        """Observes each match in another observation."""
+        """Observes each match in another kind of observation."""
         with one_thread:
             return self._batch.look(observation, scale)
 
     def _begin_again(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> dict[str, Any]:
-        """Begins the next episode of those that have ended, and puts the end of the last into `final_obs`."""
+        """Begins the next episode where one has ended; the end of the last is in `final_obs`."""
         final = {key: value.copy() if isinstance(value, np.ndarray) else value for key, value in infos.items()}
         final["reward_terms"] = {name: paid.copy() for name, paid in infos["reward_terms"].items()}
         last = np.full(self.num_envs, None, dtype=object)
@@ -240,9 +245,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _tell(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> None:
         """Adds how episodes have ended."""
-        told = endings(self._batch, over, self._part, self._n_actions)
-        told["setpiece"]["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
-        for key, value in told.items():
+        ended = endings(self._batch, over, self._part, self._n_actions)
+        ended["setpiece"]["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
+        for key, value in ended.items():
             infos[key], infos[f"_{key}"] = value, over.copy()
 
     def _infos(self) -> dict[str, Any]:
@@ -266,7 +271,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         return self._of_agents(arrays.rewards).copy(), arrays.terminated.copy(), arrays.truncated.copy()
 
     def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
-        """The part of the caller's agents, without their axis where there is one."""
+        """The part of the caller's agents, without their axis if there is one agent."""
         return array[:, self._pick]
 
     def _read_options(
@@ -325,15 +330,18 @@ def make_vec(
 ) -> FootballVectorEnv:
     """Makes `num_envs` environments of a scenario that are stepped together.
 
-    - `threads`: how many play; None: one per core. Results don't depend on them.
-    - `autoreset_mode`: when an episode that has ended is followed by the next: see `FootballVectorEnv`.
-    - `copy`: False returns the same array of observations every time, overwritten by the next `step`.
-    - `record`: for single environments; here it raises `UnavailableError`.
-    - `opponents`: asked once for all environments: a policy over batches sees `num_envs` rows for each of its agents.
-    - The rest is as in `setpiece.make`; raw observations, and rewards and endings in Python, are for single
-      environments.
+    - `threads`: the number of threads; None: one per core. Results don't depend on it.
+    - `autoreset_mode`: when the next episode begins after one has ended: see `FootballVectorEnv`.
+    - `copy`: False returns the same array of observations every time, overwritten by the next
+      `step`.
+    - `record`: only for single environments; here it raises `UnavailableError`.
+    - `opponents`: called once for all environments: a policy with batches sees `num_envs` rows for
+      each of its agents.
+    - The rest is as in `setpiece.make`. Raw observations, and rewards and endings in Python, are
+      only for single environments.
 
-    `gymnasium.make_vec(envs.spec, num_envs=n)` makes another such vector, `envs.spec.make()` a single environment.
+    `gymnasium.make_vec(envs.spec, num_envs=n)` makes another such vector, `envs.spec.make()` a
+    single environment.
 
     >>> import numpy, setpiece
     >>> envs = setpiece.make_vec("academy_3_vs_1_with_keeper", 4, seed=7)
@@ -342,7 +350,8 @@ def make_vec(
     >>> observations.shape, rewards.shape, infos["action_mask"].shape
     ((4, 115), (4,), (4, 19))
     """
-    # Before any other name is bound: what the caller gave, but for the number, which Gymnasium gives again.
+    # Before any other name is bound, so that these are the caller's arguments, without the number,
+    # which Gymnasium passes again.
     arguments: dict[str, Any] = {**locals()}
     del arguments["num_envs"]
     envs = FootballVectorEnv(num_envs=num_envs, **arguments)
@@ -356,7 +365,10 @@ def make_vec(
 
 
 def one_of(**kwargs: Any) -> FootballEnv:
-    """Makes a single environment from the arguments of a vector, but those that only it has: see `envs.spec.make()`."""
+    """Makes a single environment from a vector's arguments, without vector-only ones.
+
+    `envs.spec.make()` calls it.
+    """
     return FootballEnv(**{name: value for name, value in kwargs.items() if name not in TOGETHER})
 
 

@@ -52,7 +52,7 @@ class Action(IntEnum):
 
 
 class GameMode(IntEnum):
-    """Open play, or the set piece that waits to be taken: `game_mode` of raw observations."""
+    """Open play, or the pending set piece: `game_mode` of raw observations."""
 
     NORMAL = 0
     KICK_OFF = 1

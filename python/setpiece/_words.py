@@ -1,4 +1,4 @@
-"""Names that a user may have misspelt."""
+"""Suggestions for misspelt names."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from setpiece._errors import ParameterError
 
 
 def similar(name: object, known: Iterable[str]) -> str | None:
-    """Returns a question that suggests the known name nearest to one that isn't."""
+    """Returns a question that suggests the known name nearest to an unknown one."""
     found = get_close_matches(str(name), list(known), n=1)
     return f"did you mean `{found[0]}`?" if found else None
 
 
 def is_text(text: str) -> bool:
-    """Whether a string is Unicode text: one with a lone surrogate can't be handed to the engine or written."""
+    """Whether a string is valid Unicode; lone surrogates can't reach the engine or a file."""
     try:
         text.encode()
     except UnicodeEncodeError:
@@ -24,7 +24,7 @@ def is_text(text: str) -> bool:
 
 
 def check_word(option: str, name: object, known: tuple[str, ...]) -> str:
-    """Returns an option's value, or raises `ParameterError` where it is none of those known."""
+    """Returns an option's value, or raises `ParameterError` if it isn't a known one."""
     if isinstance(name, str) and name in known:
         return name
     raise ParameterError(

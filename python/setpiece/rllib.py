@@ -27,10 +27,11 @@ Step = tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool],
 
 
 class RllibFootballEnv(MultiAgentEnv):
-    """A scenario as an RLlib `MultiAgentEnv`: the agents, observations, rewards and infos of `setpiece.parallel_env`.
+    """A scenario as an RLlib `MultiAgentEnv`, with everything of `setpiece.parallel_env`.
 
-    `agents` are those that still play, `possible_agents` all; `__all__` is true once nobody is left. Its `config` holds
-    the keyword arguments of `setpiece.parallel_env`, at least `scenario`.
+    Agents, observations, rewards and infos are the same. `agents` are those that still play,
+    `possible_agents` all; `__all__` is true once `agents` is empty. Its `config` holds the keyword
+    arguments of `setpiece.parallel_env`, at least `scenario`.
     """
 
     def __init__(self, config: Mapping[str, Any]) -> None:
@@ -68,7 +69,7 @@ class RllibFootballEnv(MultiAgentEnv):
         )
 
     def render(self) -> Any:
-        """Returns what `FootballEnv.render` does."""
+        """Returns the result of `FootballEnv.render`."""
         return self.env.render()
 
     def close(self) -> None:
@@ -77,5 +78,5 @@ class RllibFootballEnv(MultiAgentEnv):
 
 
 def register(name: str = "setpiece") -> None:
-    """Registers scenarios with Ray Tune under a name; `env_config` holds the keyword arguments of `parallel_env`."""
+    """Registers scenarios with Ray Tune; `env_config` holds the arguments of `parallel_env`."""
     register_env(name, RllibFootballEnv)

@@ -38,7 +38,7 @@ __all__ = ["Sb3VecEnv", "make_vec"]
 FINAL = ("final_info", "final_obs")
 
 ALONE = ("ends", "events", "bot_action", "watch", "on_reload", "record", "record_when")
-"""What `setpiece.make` takes and a batch does not."""
+"""Arguments of `setpiece.make` that a batch doesn't have."""
 
 Indices = int | Iterable[int] | None
 
@@ -46,10 +46,10 @@ Indices = int | Iterable[int] | None
 class Sb3VecEnv(VecEnv):
     """A Gymnasium vector environment as a `VecEnv` of Stable-Baselines3.
 
-    It takes any `gymnasium.vector.VectorEnv` that resets an environment in the step in which its episode ends
-    (`AutoresetMode.SAME_STEP`). Infos of such a step are those of the last step, with `terminal_observation` and
-    `TimeLimit.truncated`; the infos of the reset stand in `reset_infos`. `env_method("action_masks")` gives the masks
-    that `MaskablePPO` of sb3-contrib asks for.
+    It takes any `gymnasium.vector.VectorEnv` that resets an environment in the step in which its
+    episode ends (`AutoresetMode.SAME_STEP`). Infos of such a step are those of the last step, with
+    `terminal_observation` and `TimeLimit.truncated`; the infos of the reset are in `reset_infos`.
+    `env_method("action_masks")` returns the masks for `MaskablePPO` of sb3-contrib.
     """
 
     def __init__(self, envs: VectorEnv[Any, Any, Any]) -> None:
@@ -70,7 +70,7 @@ class Sb3VecEnv(VecEnv):
         options = self._options[0]
         if any(other != options for other in self._options):
             raise ParameterError("environments of one batch share their reset options", name="options")
-        # One after the other, as `seed` gives them out and vector environments do too.
+        # One after the other, like the seeds of `seed` and of vector environments.
         observation, infos = self.envs.reset(seed=self._seeds[0], options=options or None)
         self._reset_seeds()
         self._reset_options()
@@ -79,19 +79,22 @@ class Sb3VecEnv(VecEnv):
         return observation
 
     def seed(self, seed: int | None = None) -> Sequence[int | None]:
-        """Sets the seeds of the next `reset`, one after the other from `seed`, and returns them.
+        """Sets the seeds of the next `reset`, consecutive from `seed`, and returns them.
 
-        Raises `ParameterError` for what is no seed; None takes one at random.
+        Raises `ParameterError` for anything that isn't a seed; None takes a random one.
         """
         seeds: Sequence[int | None] = super().seed(None if seed is None else check_number("seed", seed))
         return seeds
 
     def step_async(self, actions: Any) -> None:
-        """Takes everyone's actions."""
+        """Stores everyone's actions."""
         self._actions = actions
 
     def step_wait(self) -> tuple[Any, NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
-        """Plays 100 ms; returns observations, rewards float32 `(n,)`, dones bool `(n,)` and a list of n infos."""
+        """Plays 100 ms; returns observations, rewards, dones and infos.
+
+        Rewards are float32 `(n,)`, dones bool `(n,)`, infos a list of n.
+        """
         observation, rewards, terminations, truncations, infos = self.envs.step(self._actions)
         self._masks = infos.get("action_mask")
         dones = terminations | truncations
@@ -109,7 +112,7 @@ class Sb3VecEnv(VecEnv):
         self.envs.close()
 
     def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
-        """Returns an attribute of each environment; a batch has it for all at once."""
+        """Returns an attribute of each environment; a batch has one value for all."""
         if attr_name == "action_masks" and self._masks is not None:
             return [lambda at=at: self._mask(at) for at in self._get_indices(indices)]
         if isinstance(self.envs, SyncVectorEnv):
@@ -117,7 +120,7 @@ class Sb3VecEnv(VecEnv):
         return [getattr(self.envs, attr_name)] * len(list(self._get_indices(indices)))
 
     def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
-        """Sets an attribute of environments; that of a batch can only be set for all at once."""
+        """Sets an attribute of environments; a batch's can only be set for all at once."""
         at = list(self._get_indices(indices))
         if isinstance(self.envs, SyncVectorEnv):
             for one in at:
@@ -128,7 +131,7 @@ class Sb3VecEnv(VecEnv):
             raise ParameterError(f"`{attr_name}` of a batch can only be set for all environments", name="indices")
 
     def env_method(self, method_name: str, *args: Any, indices: Indices = None, **kwargs: Any) -> list[Any]:
-        """Calls a method of each environment; a batch has of theirs `action_masks` alone."""
+        """Calls a method of each environment; those of a batch only have `action_masks`."""
         if method_name != "action_masks" and not isinstance(self.envs, SyncVectorEnv):
             raise AttributeError(f"the environments are one batch: none of them has `{method_name}` alone")
         return [method(*args, **kwargs) for method in self.get_attr(method_name, indices)]
@@ -136,7 +139,7 @@ class Sb3VecEnv(VecEnv):
     def env_is_wrapped(
         self, wrapper_class: type[gymnasium.Wrapper[Any, Any, Any, Any]], indices: Indices = None
     ) -> list[bool]:
-        """Whether each environment is wrapped so; those of a batch never are."""
+        """Whether each environment has this wrapper; those of a batch have none."""
         at = list(self._get_indices(indices))
         if not isinstance(self.envs, SyncVectorEnv):
             return [False] * len(at)
@@ -148,7 +151,7 @@ class Sb3VecEnv(VecEnv):
         return [None] * self.num_envs if images is None else list(images)
 
     def action_masks(self) -> NDArray[np.int8]:
-        """Returns where an action can change something now: int8 `(num_envs, 19)`, 20 with `action_set="v2"`."""
+        """Returns which actions have an effect now: int8 `(num_envs, 19)`, 20 with `"v2"`."""
         if self._masks is None:
             raise gymnasium.error.ResetNeeded("call `reset` before `action_masks`")
         return self._masks
@@ -168,21 +171,22 @@ def make_vec(
 ) -> Sb3VecEnv:
     """Makes a `VecEnv` of n environments; `kwargs` are those of `setpiece.make`.
 
-    - `seed`: that of the first environment's first episode; each other one has the next higher one.
-    - `threads`: how many play; None: one per core. Results don't depend on them.
+    - `seed`: the seed of the first environment's first episode; the others have consecutive ones.
+    - `threads`: the number of threads; None: one per core. Results don't depend on it.
 
-    The environments are one batch (`setpiece.make_vec`). What a batch can't do (`events`, `bot_action`, `watch`,
-    `record`, rewards and endings in Python, raw observations) is played by single environments, one after the other;
-    each has rewards and endings of its own, copies of those given.
+    The environments are one batch (`setpiece.make_vec`). What a batch can't do (`events`,
+    `bot_action`, `watch`, `record`, rewards and endings in Python, raw observations) is played by
+    single environments, one after the other; each has its own copies of rewards and endings.
 
-    Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one agent: raises
-    `ParameterError` for a scenario that leaves the caller none or several, `CallbackError` for a reward or ending that
-    can't be copied, and else what `setpiece.make` does.
+    Wrap it in `VecMonitor` for the mean return and length in its log. Stable-Baselines3 trains one
+    agent. Raises `ParameterError` for a scenario that gives the caller no agent or several,
+    `CallbackError` for a reward or ending that can't be copied, and otherwise what `setpiece.make`
+    does.
     """
     if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
         raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
     envs: VectorEnv[Any, Any, Any]
-    # A file that is watched, or played by behaviours, has to stay one.
+    # A file that is watched, or played by behaviours, must stay a file.
     if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")):
         scenario = load(scenario, allow_outside=check_flag("allow_outside", kwargs.get("allow_outside", False)))
     alone = any(kwargs.get(name) for name in ALONE) or bool(read_rewards(kwargs.get("rewards"))[1])
@@ -199,7 +203,7 @@ def make_vec(
 
 
 def _alone(scenario: Source, kwargs: dict[str, Any]) -> FootballEnv:
-    # What rewards and endings remember belongs to one environment.
+    # Each environment needs its own memory of rewards and endings.
     memo: dict[int, Any] = {}
     own = {name: copied(kwargs[name], memo) for name in ("rewards", "ends") if name in kwargs}
     env = make(scenario, **(kwargs | own))
@@ -217,12 +221,12 @@ def _check_one(agents: Sequence[str], scenario: Scenario) -> None:
 
 
 def _listed(infos: dict[str, Any], n: int) -> list[dict[str, Any]]:
-    """The infos of a vector environment as one dict for each."""
+    """Splits the infos of a vector environment into one dict per environment."""
     return [_one(infos, at) for at in range(n)]
 
 
 def _one(infos: dict[str, Any], at: int) -> dict[str, Any]:
-    """What the infos of a vector environment say of one: a key `k` is its own where `_k` says so."""
+    """The infos of one environment: a key `k` applies if `_k` says so."""
     return {
         key: _at(value, at)
         for key, value in infos.items()

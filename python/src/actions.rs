@@ -1,4 +1,4 @@
-//! Actions: what Python may give for one.
+//! Actions: the forms in which Python may pass one.
 
 use crate::errors;
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
@@ -9,10 +9,10 @@ use setpiece::engine::state::Steer;
 use setpiece::scenario::Action;
 use setpiece::scenario::vocabulary::StickyAction;
 
-/// Longest part of a value that an error shows, characters.
+/// Longest value that an error shows, characters.
 const SHOWN_MAX: usize = 60;
 
-/// What an agent may do in a step.
+/// The actions available to an agent.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum ActionSet {
     /// A set of Google Research Football's actions: the numbers below a size.
@@ -21,7 +21,7 @@ pub(crate) enum ActionSet {
     Continuous,
 }
 
-/// What an agent does in a step.
+/// An agent's action in a step.
 #[derive(Clone, Copy)]
 pub(crate) struct Act {
     /// The key it presses.
@@ -31,12 +31,12 @@ pub(crate) struct Act {
 }
 
 impl Act {
-    /// Nothing is pressed.
+    /// Presses nothing.
     pub(crate) const IDLE: Act = Act { action: Action::Idle, steer: None };
 }
 
 impl ActionSet {
-    /// The sets by name.
+    /// The action sets by name.
     pub(crate) const NAMED: [(&'static str, ActionSet); 4] = [
         ("default", ActionSet::Keys(Action::DEFAULT_SET)),
         ("v2", ActionSet::Keys(Action::V2_SET)),
@@ -44,12 +44,12 @@ impl ActionSet {
         ("continuous", ActionSet::Continuous),
     ];
 
-    /// The set of a name in `setpiece.make`.
+    /// The set with a name of `setpiece.make`.
     pub(crate) fn from_name(name: &str) -> Option<ActionSet> {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, set)| set)
     }
 
-    /// The keys that a mask of it tells of.
+    /// The keys that a mask of this set covers.
     pub(crate) fn masked(self) -> &'static [Action] {
         match self {
             ActionSet::Keys(size) => &Action::ALL[..size],
@@ -57,14 +57,14 @@ impl ActionSet {
         }
     }
 
-    /// How many held actions its raw observations show.
+    /// The number of held actions in its raw observations.
     pub(crate) fn held(self) -> usize {
         if self == ActionSet::Keys(Action::FULL_SET) { StickyAction::ALL.len() } else { StickyAction::DEFAULT_SET }
     }
 }
 
-/// Reads one action per agent: an integer (or a sequence of one) for one agent, a sequence of n for n; with continuous
-/// actions four numbers, or n rows of four.
+/// Reads one action per agent: an integer (or a sequence of one) for one agent, a sequence of n for
+/// n; with continuous actions four numbers, or n rows of four.
 ///
 /// Raises `ActionError` for anything else; `acts` may then be partly overwritten.
 pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, acts: &mut [Act]) -> PyResult<()> {
@@ -81,7 +81,7 @@ pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, acts: &mut [Act]) -
     if several(given, size, acts) { Ok(()) } else { Err(wrong(given, size, acts.len())) }
 }
 
-/// An action by its number: any integer of Python's or `NumPy`'s, but no truth value.
+/// Reads an action by its number: any integer of Python or `NumPy`, but not a bool.
 pub(crate) fn one(given: &Bound<'_, PyAny>, size: usize) -> Option<Action> {
     if given.is_instance_of::<PyBool>() {
         return None;
@@ -91,7 +91,7 @@ pub(crate) fn one(given: &Bound<'_, PyAny>, size: usize) -> Option<Action> {
 }
 
 fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [Act]) -> bool {
-    // What has keys has no order; a text's letters are no actions.
+    // A value with keys has no order, and the letters of a text aren't actions.
     let unordered =
         given.is_instance_of::<PyString>() || given.is_instance_of::<PyDict>() || given.is_instance_of::<PySet>();
     if unordered || given.len().ok() != Some(acts.len()) {
@@ -112,25 +112,25 @@ fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [Act]) -> bool {
 fn read_numbers(given: &Bound<'_, PyAny>, acts: &mut [Act]) -> PyResult<()> {
     let py = given.py();
     let n_agents = acts.len();
-    let told = |why: &str| {
+    let wrong = |why: &str| {
         let shape = if n_agents == 1 { "(4,)".to_owned() } else { format!("({n_agents}, 4)") };
         let message = format!("expected numbers of shape {shape}: x, y, kind, power; {why}");
         errors::raise_plain(py, "ActionError", &message)
     };
-    let array = floats(given).ok_or_else(|| told(&format!("found `{}`", shown(given))))?;
+    let array = floats(given).ok_or_else(|| wrong(&format!("found `{}`", shown(given))))?;
     if array.shape() != [n_agents, 4] && (n_agents != 1 || array.shape() != [4]) {
-        return Err(told(&format!("found the shape {:?}", array.shape())));
+        return Err(wrong(&format!("found the shape {:?}", array.shape())));
     }
     let values = array.readonly().as_array().iter().copied().collect::<Vec<f32>>();
     for (act, row) in acts.iter_mut().zip(values.chunks_exact(4)) {
         let (steer, action) = continuous::decode([row[0], row[1], row[2], row[3]])
-            .ok_or_else(|| told(&format!("found {row:?}, which is not all numbers")))?;
+            .ok_or_else(|| wrong(&format!("found {row:?}, which is not all numbers")))?;
         *act = Act { action, steer: Some(steer) };
     }
     Ok(())
 }
 
-/// Whatever `NumPy` reads as float32.
+/// Converts to float32 whatever `NumPy` can.
 pub(crate) fn floats<'py>(given: &Bound<'py, PyAny>) -> Option<Bound<'py, PyArrayDyn<f32>>> {
     if let Ok(array) = given.cast::<PyArrayDyn<f32>>() {
         return Some(array.clone());
@@ -173,7 +173,7 @@ fn wrong(given: &Bound<'_, PyAny>, size: usize, n_agents: usize) -> PyErr {
     }
 }
 
-/// Whether an action of a range is among what was given.
+/// Whether the given value includes an action in a range.
 fn holds(given: &Bound<'_, PyAny>, range: std::ops::Range<usize>) -> bool {
     let within = |item: &Bound<'_, PyAny>| item.extract::<usize>().is_ok_and(|number| range.contains(&number));
     within(given) || given.try_iter().is_ok_and(|mut items| items.any(|item| item.is_ok_and(|item| within(&item))))

@@ -1,7 +1,7 @@
-//! Many matches in one: what `setpiece.FootballVectorEnv` is made of.
+//! Many matches in one: the core of `setpiece.FootballVectorEnv`.
 //!
-//! Everything that an agent is shown lies in arrays with a row for each environment, which are written in place, on a
-//! few threads, without the interpreter.
+//! Everything that an agent sees is in arrays with a row per environment. They are written in
+//! place, on a few threads, without the interpreter.
 
 use crate::actions::{self, Act, ActionSet};
 use crate::environment::{AgentInfo, Prepared, SMM_SIZE, agents_of, from_episode, players_of, prepare};
@@ -23,20 +23,20 @@ use setpiece::scenario::{Action, Verdict};
 struct Lane {
     engine: Engine,
     film: Film,
-    /// The episode has ended and no other has begun.
+    /// Whether the episode has ended and no other has begun.
     over: bool,
-    /// What failed in the last step.
+    /// The failure of the last step.
     fault: Option<ResetError>,
     broken: Option<StepError>,
 }
 
-/// The newest observations of a match.
+/// The latest observations of a match.
 enum Film {
     Floats(Stack<f32>),
     Map(Stack<u8>),
 }
 
-/// What a match writes into in a step.
+/// The row that a match writes into in a step.
 struct Row<'a> {
     observation: Rows<'a>,
     rewards: &'a mut [f64],
@@ -49,7 +49,7 @@ struct Row<'a> {
     begun: &'a mut bool,
 }
 
-/// What is written into a row.
+/// The options of writing a row.
 #[derive(Clone, Copy)]
 struct View {
     kind: Kind,
@@ -61,22 +61,22 @@ enum Rows<'a> {
     Map(&'a mut [u8]),
 }
 
-/// A number of matches of one scenario that are stepped together.
+/// Several matches of one scenario that are stepped together.
 #[pyclass(module = "setpiece._native")]
 pub(crate) struct Batch {
     lanes: Lanes<Lane>,
     kind: Kind,
     stack: usize,
     action_set: ActionSet,
-    /// Whether a step begins the next episode where the last one has ended.
+    /// Whether a step begins the next episode after one has ended.
     next_step: bool,
     acts: Vec<Act>,
-    /// The process whose threads play.
+    /// The process that owns the threads.
     process: u32,
 }
 
-/// The arrays of a batch, a row for each environment: rewards (n, agents), terms (n, agents, terms), masks
-/// (n, agents, actions), score (n, 2), terminated, truncated, begun (n).
+/// The arrays of a batch, with a row per environment: rewards (n, agents), terms (n, agents,
+/// terms), masks (n, agents, actions), score (n, 2), terminated, truncated, begun (n).
 #[pyclass(module = "setpiece._native", frozen)]
 pub(crate) struct Arrays {
     #[pyo3(get)]
@@ -139,7 +139,7 @@ impl Batch {
         self.lanes.lanes().first().map(|lane| players_of(&lane.engine)).unwrap_or_default()
     }
 
-    /// How many held actions raw observations would show.
+    /// The number of held actions in raw observations.
     #[getter]
     fn held_actions(&self) -> usize {
         self.action_set.held()
@@ -157,20 +157,20 @@ impl Batch {
         self.lanes.lanes().first().map(|lane| observation::blocks(self.kind, &lane.engine)).unwrap_or_default()
     }
 
-    /// Least and greatest value of every number of one observation of floats; none for others.
+    /// Bounds of every number of one observation of floats; none for others.
     #[getter]
     fn bounds(&self, py: Python<'_>) -> Option<observation::Bounds> {
         let (Kind::Floats(floats), Some(lane)) = (self.kind, self.lanes.lanes().first()) else { return None };
         Some(observation::bounds(py, floats, &lane.engine))
     }
 
-    /// The names of the terms of rewards, in the order of the arrays.
+    /// The names of the reward terms, in the order of the arrays.
     #[getter]
     fn terms(&self) -> Vec<String> {
         self.lanes.lanes().first().map(|lane| lane.engine.term_names().to_vec()).unwrap_or_default()
     }
 
-    /// New arrays for what this batch shows.
+    /// New arrays for this batch.
     fn arrays(&self, py: Python<'_>) -> PyResult<Arrays> {
         let n = self.lanes.lanes().len();
         let Some(lane) = self.lanes.lanes().first() else {
@@ -204,8 +204,9 @@ impl Batch {
         Ok(())
     }
 
-    /// Begins episodes: of the environments that `which` marks, each with its seed, or with its next index. With `keep`
-    /// the arrays go on telling how the last episode ended, beside the first observation of the new one.
+    /// Begins episodes of the environments that `which` marks, each with its seed, or with its next
+    /// index. With `keep` the arrays still show how the last episode ended, next to the first
+    /// observation of the new one.
     fn reset(
         &mut self,
         py: Python<'_>,
@@ -227,10 +228,11 @@ impl Batch {
                 lane.begin(seed, index, view, keep, row);
             }
         })?;
-        self.told(py)
+        self.raise_failure(py)
     }
 
-    /// Plays a step of every environment; those whose episode has ended begin the next, as their mode says.
+    /// Plays a step of every environment. Those whose episode has ended begin the next, according
+    /// to their mode.
     fn step(&mut self, py: Python<'_>, arrays: &Arrays, action: &Bound<'_, PyAny>) -> PyResult<()> {
         self.read(action)?;
         let agents = self.acts.len() / self.lanes.lanes().len().max(1);
@@ -246,11 +248,11 @@ impl Batch {
         });
         self.acts = acts;
         played?;
-        self.told(py)
+        self.raise_failure(py)
     }
 
-    /// What became of the episode of an environment that has ended: outcome, records, success, length, seed, index,
-    /// digest, faults, return by term and agent.
+    /// The summary of an environment's ended episode: outcome, records, success, length, seed,
+    /// index, digest, faults, return by term and agent.
     fn summary<'py>(&self, py: Python<'py>, at: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(lane) = self.lanes.lanes().get(at) else { return Ok(None) };
         let engine = &lane.engine;
@@ -270,7 +272,8 @@ impl Batch {
         Ok(Some(dict))
     }
 
-    /// What all agents of each environment see now in an observation of any kind; looking changes nothing.
+    /// The current observations of all agents of each environment, of any kind. Looking changes
+    /// nothing.
     #[pyo3(signature = (observation, scale = false))]
     fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let wanted = Wanted { name: observation, size: SMM_SIZE, scale };
@@ -289,7 +292,8 @@ impl Batch {
 }
 
 impl Batch {
-    /// Reads everyone's actions: integers `(n,)` or `(n, agents)`; with continuous actions a last axis of four.
+    /// Reads everyone's actions: integers `(n,)` or `(n, agents)`; with continuous actions a last
+    /// axis of four.
     fn read(&mut self, given: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = given.py();
         let flat = given.call_method1("reshape", (-1,)).ok();
@@ -325,7 +329,7 @@ impl Batch {
         }
     }
 
-    /// Does something with every match and its row, on the threads.
+    /// Runs a function on every match and its row, on the threads.
     fn each(
         &mut self,
         py: Python<'_>,
@@ -375,8 +379,9 @@ impl Batch {
         Ok(())
     }
 
-    /// Raises what has failed in a step, the first environment's; it has ended then, the others have been played.
-    fn told(&mut self, py: Python<'_>) -> PyResult<()> {
+    /// Raises the failure of the first environment that failed in a step. Its episode has ended;
+    /// the others have been played.
+    fn raise_failure(&mut self, py: Python<'_>) -> PyResult<()> {
         let mut first = None;
         for lane in self.lanes.lanes_mut() {
             let broken = lane.broken.take().map(|why| from_episode(py, why.into()));
@@ -452,10 +457,10 @@ impl Lane {
         self.show(view, &mut row, false);
     }
 
-    /// Writes what is seen of the match as it stands.
+    /// Writes the observations of the current match.
     fn show(&mut self, view: View, row: &mut Row<'_>, first: bool) {
         let n_agents = self.engine.n_agents();
-        // The buffers have the sizes that the engine asked for: what can't be written is left as it is.
+        // The buffers have the sizes that the engine requires, so this can't fail.
         let _ = observe(&mut self.engine, &mut self.film, view.kind, &mut row.observation, n_agents, first);
         let size = view.action_set.masked().len();
         for (agent, mask) in row.mask.chunks_exact_mut(size).enumerate() {

@@ -6,7 +6,7 @@ use setpiece::dsl::problem::Problem;
 use setpiece::dsl::report::{Diagnostic, DiagnosticLabel, Format, diagnostics, render};
 use setpiece::dsl::source::Sources;
 
-/// Columns that a rendered report wraps at.
+/// Columns at which a rendered report wraps.
 const WIDTH: usize = 100;
 
 /// The rendered report, without colour: what `str()` of a `CompileError` shows.

@@ -1,4 +1,4 @@
-//! Environments: one match, its judge, and the arrays an agent sees.
+//! Environments: one match, its judge, and the arrays that an agent sees.
 
 use crate::actions::{self, Act, ActionSet};
 use crate::errors;
@@ -27,7 +27,7 @@ use setpiece::scenario::{Action, Team, Verdict};
 /// Width and height of GRF's super mini map.
 pub(crate) const SMM_SIZE: (usize, usize) = (SMM_WIDTH, SMM_HEIGHT);
 
-/// Who acts: an agent of an environment.
+/// An agent of an environment.
 #[pyclass(frozen, module = "setpiece._native")]
 pub(crate) struct AgentInfo {
     /// Its id: a player's name, `left_CM_1`, or `left_0` for one that changes players.
@@ -36,21 +36,21 @@ pub(crate) struct AgentInfo {
     /// Its team: 0 left, 1 right.
     #[pyo3(get)]
     team: usize,
-    /// The place in its team of the player it keeps; `None` where it changes players.
+    /// The index in its team of the player it keeps; `None` if it changes players.
     #[pyo3(get)]
     place: Option<usize>,
 }
 
-/// Which episode of a scenario is played.
+/// The key of an episode of a scenario.
 #[pyclass(frozen, get_all, module = "setpiece._native")]
 pub(crate) struct EpisodeKey {
     /// The seed of its series.
     seed: u64,
-    /// Its place in the series.
+    /// Its index in the series.
     index: u64,
 }
 
-/// One match of a scenario, judged and observed: what `setpiece.FootballEnv` is made of.
+/// One match of a scenario, judged and observed: the core of `setpiece.FootballEnv`.
 #[pyclass(module = "setpiece._native")]
 pub(crate) struct Environment {
     engine: Engine,
@@ -86,7 +86,7 @@ impl Environment {
         self.engine.observed_names()
     }
 
-    /// How many held actions raw observations show.
+    /// The number of held actions in raw observations.
     #[getter]
     fn held_actions(&self) -> usize {
         self.action_set.held()
@@ -104,14 +104,14 @@ impl Environment {
         observation::blocks(self.kind, &self.engine)
     }
 
-    /// Least and greatest value of every number of one observation of floats: two float32 `(n,)`; none for others.
+    /// Bounds of every number of one observation of floats: two float32 `(n,)`; none for others.
     #[getter]
     fn bounds(&self, py: Python<'_>) -> Option<observation::Bounds> {
         let Kind::Floats(floats) = self.kind else { return None };
         Some(observation::bounds(py, floats, &self.engine))
     }
 
-    /// What all agents see now in an observation of any kind; looking changes nothing.
+    /// The current observations of all agents, of any kind. Looking changes nothing.
     #[pyo3(signature = (observation, scale = false))]
     fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Bound<'py, PyAny>> {
         let kind = Wanted { name: observation, size: SMM_SIZE, scale }.of(py, &self.engine)?;
@@ -119,12 +119,12 @@ impl Environment {
         observer.observe(py, &mut self.engine, true)
     }
 
-    /// What a stack of observations holds, as bytes.
+    /// The content of a stack of observations, as bytes.
     fn frames<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.observer.frames())
     }
 
-    /// Puts back what a stack of observations held.
+    /// Restores the content of a stack of observations.
     fn set_frames(&mut self, frames: &[u8]) {
         self.observer.set_frames(frames);
     }
@@ -135,19 +135,19 @@ impl Environment {
         players_of(&self.engine)
     }
 
-    /// Goes on with another version of the scenario's scripts at once; False, and nothing done, where anything else is
-    /// another.
+    /// Replaces the scripts by those of another version of the scenario, at once. False, without
+    /// any effect, if anything else differs.
     fn adopt_scripts(&mut self, py: Python<'_>, scenario: &Scenario) -> PyResult<bool> {
         let adopted = self.engine.adopt_scripts(scenario.inner()).map_err(|error| from_engine(py, error))?;
         if adopted {
-            // What was played before was played by others.
-            self.recorder.lose();
+            // The recording began with other scripts.
+            self.recorder.invalidate();
         }
         Ok(adopted)
     }
 
-    /// Begins the episode of a seed and an index under parameters, in the state of a snapshot where there is one;
-    /// returns observation and info.
+    /// Begins the episode of a seed and an index with parameters, optionally in the state of a
+    /// snapshot. Returns observation and info.
     #[pyo3(signature = (seed, episode, params, snapshot = None))]
     fn reset<'py>(
         &mut self,
@@ -158,7 +158,7 @@ impl Environment {
         snapshot: Option<&[u8]>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         let bindings = bind(py, &self.engine.scenario().params, params)?;
-        self.recorder.lose();
+        self.recorder.invalidate();
         self.engine.set_bindings(&bindings).map_err(|error| from_engine(py, error))?;
         let engine = &mut self.engine;
         py.detach(|| match snapshot {
@@ -179,11 +179,11 @@ impl Environment {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// Goes on where a snapshot was taken; returns the observation and info of its step.
+    /// Continues from a snapshot; returns the observation and info of its step.
     fn restore<'py>(&mut self, py: Python<'py>, snapshot: &[u8]) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         let engine = &mut self.engine;
         py.detach(|| engine.restore(snapshot)).map_err(|why| from_snapshot(py, why))?;
-        self.recorder.lose();
+        self.recorder.invalidate();
         self.seen(py)
     }
 
@@ -194,7 +194,7 @@ impl Environment {
         engine.has_begun().then(|| EpisodeKey { seed: engine.seed(), index: engine.index() })
     }
 
-    /// Whether each agent has nobody left to play: his player was sent off.
+    /// Whether each agent's player was sent off, leaving it nobody to control.
     #[getter]
     fn gone(&self) -> Vec<bool> {
         let game = self.engine.state();
@@ -218,7 +218,8 @@ impl Environment {
         Ok(params)
     }
 
-    /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the interpreter meanwhile.
+    /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the
+    /// interpreter lock while playing.
     fn step<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
         actions::read(action, self.action_set, &mut self.acts)?;
         for agent in 0..self.acts.len() {
@@ -227,7 +228,7 @@ impl Environment {
         self.play(py, None)
     }
 
-    /// Ends the episode where it stands, for a reason of the caller's; returns outcome, records and summary.
+    /// Ends the episode now for a reason of the caller's; returns outcome, records and summary.
     fn end<'py>(
         &mut self,
         py: Python<'py>,
@@ -237,12 +238,12 @@ impl Environment {
     ) -> PyResult<Bound<'py, PyDict>> {
         let verdict = success.then_some(Verdict::Success);
         self.engine.end(Outcome { label: label.into(), verdict, truncated });
-        let told = PyDict::new(py);
-        self.info.sum_up(py, &self.engine, &told)?;
-        Ok(told)
+        let summary = PyDict::new(py);
+        self.info.sum_up(py, &self.engine, &summary)?;
+        Ok(summary)
     }
 
-    /// Plays the step of a recorded episode: as `step` with what the agents did in it.
+    /// Plays the step of a recorded episode: like `step`, with the recorded actions.
     fn replayed<'py>(&mut self, py: Python<'py>, replay: &Replay) -> PyResult<Bound<'py, PyTuple>> {
         let n_agents = self.actions.len();
         let acts = replay.inner().acts().skip(self.engine.steps() as usize * n_agents).take(n_agents);
@@ -258,7 +259,7 @@ impl Environment {
         format!("{:016x}", self.engine.digest())
     }
 
-    /// The episode as far as it has been played, as bytes that play it again.
+    /// The episode as far as it has been played, as the bytes of a replay.
     fn replay<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = Recording::of(&self.engine, &self.recorder).and_then(|replay| replay.to_bytes());
         Ok(PyBytes::new(py, &bytes.map_err(|why| errors::from_facade(py, &why))?))
@@ -269,8 +270,8 @@ impl Environment {
         self.info.played(py, &self.engine)
     }
 
-    /// 1 where an action can change something now, else 0: int8 `(19,)`, or `(n, 19)` for n agents; 20 with `v2`, 33 with
-    /// `full`, the 6 kinds with `continuous`.
+    /// 1 for actions with an effect now, else 0: int8 `(19,)`, or `(n, 19)` for n agents; 20 with
+    /// `v2`, 33 with `full`, the 6 kinds with `continuous`.
     fn action_mask<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.info.action_mask(py, &self.engine)
     }
@@ -282,7 +283,7 @@ impl Environment {
 }
 
 impl Environment {
-    /// An engine with everything around it: how it is observed and told of.
+    /// Wraps an engine with its observer and info writer.
     pub(crate) fn around(py: Python<'_>, engine: Engine, kind: Kind, shown: Shown, info: InfoOptions) -> Environment {
         let action_set = info.actions;
         Environment {
@@ -299,7 +300,7 @@ impl Environment {
         }
     }
 
-    /// Notes what an agent does in the step to come.
+    /// Sets an agent's action of the next step.
     fn press(&mut self, agent: usize, act: Act) {
         self.actions[agent] = act.action;
         if act.steer.is_some() {
@@ -308,7 +309,7 @@ impl Environment {
         self.recorder.note(act.action, act.steer);
     }
 
-    /// Plays the step, of a recorded episode where there is one.
+    /// Plays the step, with the actions of a recorded episode if given.
     fn play<'py>(&mut self, py: Python<'py>, recorded: Option<&Recording>) -> PyResult<Bound<'py, PyTuple>> {
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
         let played = py.detach(|| engine.step(actions, scratch));
@@ -330,7 +331,7 @@ impl Environment {
         (observation, reward, terminated, truncated, info).into_pyobject(py)
     }
 
-    /// What is observed, and the info.
+    /// The observation and the info.
     fn seen<'py>(&mut self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         Ok((self.observer.observe(py, &mut self.engine, true)?, self.info.write(py, &self.engine)?))
     }
@@ -364,14 +365,14 @@ pub(crate) fn players_of(engine: &Engine) -> (usize, usize) {
     (count(Team::Left), count(Team::Right))
 }
 
-/// An engine, and how it is observed and acted.
+/// An engine with its observation and action set.
 pub(crate) struct Prepared {
     pub(crate) engine: Engine,
     pub(crate) kind: Kind,
     pub(crate) action_set: ActionSet,
 }
 
-/// Makes the engine of a scenario with its agents, what is observed and how it is acted, validated.
+/// Creates the validated engine of a scenario with its agents, observation and action set.
 pub(crate) fn prepare(py: Python<'_>, scenario: &Scenario, options: &EnvOptions<'_>) -> PyResult<Prepared> {
     let (rewards, agents) = (options.rewards.clone(), read_seats(py, &options.seats())?);
     let engine =

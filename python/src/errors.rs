@@ -1,4 +1,4 @@
-//! Errors: what the facade says becomes an exception of `setpiece._errors`.
+//! Converts errors of the facade to exceptions of `setpiece._errors`.
 
 use crate::diagnostics;
 use pyo3::prelude::*;
@@ -132,7 +132,7 @@ pub(crate) fn from_param(py: Python<'_>, why: ParamError, params: &[Param]) -> P
     from_facade(py, &Error::Param { similar: similar.map(str::to_owned), why })
 }
 
-/// A `ParameterError` about something that the facade does not know of.
+/// A `ParameterError` about something that the facade doesn't know.
 pub(crate) fn parameter(py: Python<'_>, name: &str, message: &str) -> PyErr {
     let fields = PyDict::new(py);
     match fields.set_item("name", name).and_then(|()| fields.set_item("code", Code::BadParameter.to_string())) {

@@ -1,11 +1,11 @@
-//! What Python hands over: texts and paths, checked.
+//! Checks texts and paths from Python.
 
 use crate::errors;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 use std::path::PathBuf;
 
-/// A text, or `ParameterError` for anything else, and for a string that no text can hold (a lone surrogate).
+/// A text; `ParameterError` for anything else, and for an invalid string (a lone surrogate).
 pub(crate) fn text(name: &str, given: &Bound<'_, PyAny>) -> PyResult<String> {
     let py = given.py();
     let Ok(text) = given.cast::<PyString>() else {
@@ -18,7 +18,7 @@ pub(crate) fn text(name: &str, given: &Bound<'_, PyAny>) -> PyResult<String> {
     })
 }
 
-/// A path, or `ParameterError` for what is none: another type, a lone surrogate, a NUL.
+/// A path; `ParameterError` for anything else: another type, a lone surrogate, a NUL.
 pub(crate) fn path(name: &str, given: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
     let py = given.py();
     let path = given.extract::<PathBuf>().map_err(|_| {

@@ -1,4 +1,4 @@
-//! `info`: what a step says beside observation and reward.
+//! `info`: the data of a step besides observation and reward.
 
 use crate::actions::ActionSet;
 use numpy::{PyArray1, PyArrayMethods};
@@ -13,23 +13,23 @@ use setpiece::engine::state::event::Event;
 use setpiece::scenario::pitch::{PLAYERS_MAX, to_normalised};
 use setpiece::scenario::{Qualifier, Team, Verdict};
 
-/// Writes the `info` of steps; keeps the words that recur.
+/// Writes the `info` of steps; keeps the recurring strings.
 pub(crate) struct InfoWriter {
     /// The reward terms' names.
     terms: Vec<Py<PyString>>,
-    /// The players' names, by id; `None` where nobody is.
+    /// The players' names, by id; `None` for empty slots.
     players: Vec<Option<Py<PyString>>>,
     options: InfoOptions,
 }
 
-/// What `info` is asked for beside what it always has.
+/// The optional parts of `info`.
 #[derive(Clone, Copy)]
 pub(crate) struct InfoOptions {
-    /// The actions that the mask is about.
+    /// The actions that the mask covers.
     pub(crate) actions: ActionSet,
     /// Whether it lists events.
     pub(crate) events: bool,
-    /// Whether it tells what the bot would do.
+    /// Whether it shows the bot's action.
     pub(crate) bot_action: bool,
 }
 
@@ -80,8 +80,8 @@ impl InfoWriter {
         Ok(())
     }
 
-    /// Which actions can change something: int8 `(19,)` for one agent, `(n, 19)` for n; 20 with the set `v2`, 33 with
-    /// `full`, the 6 kinds with `continuous`.
+    /// Which actions have an effect: int8 `(19,)` for one agent, `(n, 19)` for n; 20 with the set
+    /// `v2`, 33 with `full`, the 6 kinds with `continuous`.
     pub(crate) fn action_mask<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
         let n_agents = engine.n_agents();
         let size = self.options.actions.masked().len();
@@ -96,7 +96,7 @@ impl InfoWriter {
         Ok(mask.reshape([n_agents, size])?.into_any())
     }
 
-    /// What every player pressed in the last step, by name; who is played by nobody is left out.
+    /// Every player's presses in the last step, by name. Players that nobody plays are left out.
     pub(crate) fn played<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
         let played = PyDict::new(py);
         for (id, name) in self.players.iter().enumerate() {
@@ -127,7 +127,8 @@ impl InfoWriter {
         Ok(terms)
     }
 
-    /// An event: `x`, `y` normalised and `z` in metres, in the world's frame; `length` in metres, `speed` in m/s.
+    /// An event: `x`, `y` normalised and `z` in metres, in the world's frame; `length` in metres,
+    /// `speed` in m/s.
     fn event<'py>(&self, py: Python<'py>, event: &Event) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
         let player = |id: Option<PlayerId>| id.and_then(|id| self.players.get(id.index())?.as_ref());
@@ -147,8 +148,9 @@ impl InfoWriter {
     }
 }
 
-/// The records: floats (`None` where one could not be computed), `(x, y)` for a place, float64 arrays for series:
-/// `(steps,)` or `(steps, 2)`; with several agents what depends on the agent is a list.
+/// The records: floats (`None` if it could not be computed), `(x, y)` for a place, float64 arrays
+/// for series: `(steps,)` or `(steps, 2)`. With several agents, values that depend on the agent are
+/// lists.
 pub(crate) fn records<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     for (name, value) in engine.records() {
@@ -182,7 +184,7 @@ fn bot_action<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAn
     Ok(PyArray1::from_iter(py, actions.iter().map(|action| action.index() as i64)).into_any())
 }
 
-/// Writes which actions of a set can change something for an agent, 1 or 0; zeros for no such agent.
+/// Writes which actions of a set have an effect for an agent, 1 or 0; zeros for unknown agents.
 pub(crate) fn write_mask(set: ActionSet, engine: &Engine, agent: usize, row: &mut [i8]) {
     let Ok(mask) = observe::action_mask(engine.state(), agent) else { return row.fill(0) };
     for (out, action) in row.iter_mut().zip(set.masked()) {

@@ -1,4 +1,4 @@
-//! The Python module `setpiece._native`: conversions between Python and the facade, nothing else.
+//! The Python module `setpiece._native`: only conversions between Python and the facade.
 
 mod actions;
 mod batch;
@@ -55,7 +55,8 @@ mod _native {
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 
-    /// Runs the command `setpiece` with arguments and returns its exit code: 0, 1 (input) or 2 (usage).
+    /// Runs the command `setpiece` with arguments and returns its exit code: 0, 1 (input) or 2
+    /// (usage).
     #[pyfunction]
     fn run_command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
         let words = std::iter::once(OsString::from("setpiece")).chain(arguments);

@@ -8,10 +8,10 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// A scenario and the watch on its file, imports and scripts.
+/// A scenario and a watcher on its file, imports and scripts.
 #[pyclass(frozen, module = "setpiece._native")]
 pub(crate) struct Live {
-    /// Python may ask from several threads.
+    /// Python may call from several threads.
     inner: Mutex<Facade>,
 }
 
@@ -36,7 +36,8 @@ impl Live {
         Scenario::from_loaded(py, loaded)
     }
 
-    /// The new scenario where a file has changed since the last call, else None; waits for at most `timeout` seconds.
+    /// The new scenario if a file has changed since the last call, else None; waits for at most
+    /// `timeout` seconds.
     #[pyo3(signature = (timeout = 0.0))]
     fn poll(&self, py: Python<'_>, timeout: f64) -> PyResult<Option<Scenario>> {
         let timeout = Duration::try_from_secs_f64(timeout)

@@ -12,7 +12,7 @@ use setpiece::engine::observe::{Floats, ObserveError, Raw, RawTeam, raw, smm};
 /// Planes of a super mini map.
 const PLANES: usize = 4;
 
-/// What is observed.
+/// The kind of an observation.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// float32 `(n,)`.
@@ -43,7 +43,7 @@ impl Kind {
         })
     }
 
-    /// The scaled form; none for what has no floats, or none with units that are known.
+    /// The scaled form; none for kinds without floats or without known units.
     fn scaled(self) -> Option<Kind> {
         let Kind::Floats(floats) = self else { return None };
         floats.scaled().map(Kind::Floats)
@@ -64,7 +64,7 @@ impl Kind {
     }
 }
 
-/// The observation that a caller asks for.
+/// The observation that a caller requests.
 #[derive(Clone, Copy)]
 pub(crate) struct Wanted<'a> {
     /// Its name in `setpiece.make`.
@@ -93,10 +93,10 @@ impl Wanted<'_> {
     }
 }
 
-/// How observations are handed out.
+/// How observations are returned.
 #[derive(Clone, Copy)]
 pub(crate) struct Shown {
-    /// How many of the newest observations are shown at once.
+    /// How many of the latest observations are shown at once.
     pub(crate) stack: usize,
     /// Whether every call returns a new array.
     pub(crate) copy: bool,
@@ -114,9 +114,9 @@ pub(crate) struct BlockInfo {
     start: usize,
     /// How many there are.
     length: usize,
-    /// What they are.
+    /// Their meaning.
     meaning: String,
-    /// The unit they are in.
+    /// Their unit.
     unit: &'static str,
 }
 
@@ -140,7 +140,7 @@ pub(crate) fn write_map(
     smm(engine.state(), agent, width, height, out)
 }
 
-/// The last few observations of a number of agents, one behind the other on the last axis, the oldest first.
+/// The latest observations of several agents, stacked on the last axis, the oldest first.
 #[derive(Clone)]
 pub(crate) struct Stack<T> {
     depth: usize,
@@ -154,7 +154,7 @@ impl<T: Element + Copy + Default> Stack<T> {
         Stack { depth, planes, fresh: if depth > 1 { vec![T::default(); one] } else { Vec::new() } }
     }
 
-    /// Puts the newest observation behind those that `held` has, in the place of the oldest; the first one of an
+    /// Appends the latest observation to those in `held`, replacing the oldest. The first one of an
     /// episode fills all places.
     pub(crate) fn push(
         &mut self,
@@ -181,27 +181,28 @@ impl<T: Element + Copy + Default> Stack<T> {
     }
 }
 
-/// Writes observations; with several agents an array has a leading axis, raw observations are a tuple.
+/// Writes observations; with several agents an array has a leading axis, raw observations are a
+/// tuple.
 pub(crate) enum Observer {
     /// Arrays of float32.
     Floats(Floats, Film<f32>),
     /// Arrays of uint8.
     Map((usize, usize), Film<u8>),
-    /// Dicts, with so many held actions.
+    /// Dicts, with this number of held actions.
     Raw(usize),
 }
 
-/// The arrays of an environment: the same one every time, or a new one.
+/// The arrays of an environment: always the same one, or a new one each time.
 pub(crate) struct Film<T> {
     shape: Vec<usize>,
     shared: Option<Py<PyArrayDyn<T>>>,
     stack: Stack<T>,
-    /// What a stack holds, all agents'; empty where there is none.
+    /// The content of all agents' stacks; empty without stacks.
     held: Vec<T>,
 }
 
 impl Observer {
-    /// Prepares observations of every agent; without `copy` arrays are written over by the next step.
+    /// Prepares observations of every agent; without `copy` the next step overwrites the arrays.
     pub(crate) fn new(
         py: Python<'_>,
         kind: Kind,
@@ -221,7 +222,7 @@ impl Observer {
         }
     }
 
-    /// What the agents see of the match as it stands; `first` in an episode.
+    /// The agents' observations of the current match; `first` in an episode.
     pub(crate) fn observe<'py>(
         &mut self,
         py: Python<'py>,
@@ -251,7 +252,7 @@ impl Observer {
         }
     }
 
-    /// What a stack holds, as bytes; empty where there is none.
+    /// The content of a stack, as bytes; empty without a stack.
     pub(crate) fn frames(&self) -> Vec<u8> {
         match self {
             Observer::Floats(_, film) => film.held.iter().flat_map(|value| value.to_le_bytes()).collect(),
@@ -260,7 +261,7 @@ impl Observer {
         }
     }
 
-    /// Puts back what a stack held; nothing where it is of another size.
+    /// Restores the content of a stack; no-op if the size differs.
     pub(crate) fn set_frames(&mut self, bytes: &[u8]) {
         match self {
             Observer::Floats(_, film) if bytes.len() == 4 * film.held.len() => {
@@ -297,7 +298,7 @@ impl<T: Element + Copy + Default> Film<T> {
             Some(array) => array.bind(py).clone(),
             None => PyArrayDyn::zeros(py, self.shape.as_slice(), false),
         };
-        // Only a shared array can be: a user has set its flag.
+        // Only a shared array can be read-only, if the user has set its flag.
         let read_only =
             "the array of observations is read-only: leave it writeable, or make the environment with `copy=True`";
         let locked = || errors::raise_plain(py, "SetpieceError", read_only);
@@ -330,7 +331,7 @@ pub(crate) fn blocks(kind: Kind, engine: &Engine) -> Vec<BlockInfo> {
         .collect()
 }
 
-/// Least and greatest value of every number of one observation of floats, float32 `(n,)`.
+/// Bounds of every number of one observation of floats, float32 `(n,)`.
 #[pyclass(frozen, get_all, module = "setpiece._native")]
 pub(crate) struct Bounds {
     low: Py<PyArray1<f32>>,

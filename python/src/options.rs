@@ -1,4 +1,4 @@
-//! What an environment is made with, handed over as one value.
+//! The options of an environment, passed as one value.
 
 use crate::observation::{Shown, Wanted};
 use crate::seats::Seats;
@@ -29,17 +29,17 @@ pub(crate) struct EnvOptions<'py> {
 }
 
 impl<'py> EnvOptions<'py> {
-    /// What an agent sees.
+    /// The observation of an agent.
     pub(crate) fn wanted(&self) -> Wanted<'_> {
         Wanted { name: &self.observation, size: self.size, scale: self.scale }
     }
 
-    /// How it is shown.
+    /// How it is returned.
     pub(crate) fn shown(&self) -> Shown {
         Shown { stack: self.stack, copy: self.copy }
     }
 
-    /// Who plays.
+    /// The agents.
     pub(crate) fn seats(&self) -> Seats<'_, 'py> {
         Seats { left: self.left.as_ref(), right: self.right.as_ref(), switching: self.switching.as_ref() }
     }

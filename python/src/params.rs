@@ -5,7 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString, PyTuple};
 use setpiece::scenario::{self as compiled, Bindings, ParamError, Type};
 
-/// A parameter of a scenario; lengths, times and speeds are metres, seconds and m/s, angles radians.
+/// A parameter of a scenario; lengths, times and speeds are metres, seconds and m/s, angles
+/// radians.
 #[pyclass(frozen, module = "setpiece")]
 pub(crate) struct Param {
     inner: compiled::Param,
@@ -31,13 +32,14 @@ impl Param {
         &self.inner.doc
     }
 
-    /// The type in the language: `number`, `int`, `bool`, `percent`, `length`, `duration`, `speed`, `team`, `string`, …
+    /// The type in the language: `number`, `int`, `bool`, `percent`, `length`, `duration`, `speed`,
+    /// `team`, `string`, …
     #[getter]
     fn r#type(&self) -> &str {
         self.inner.ty.name()
     }
 
-    /// The value it has unless an episode binds another.
+    /// The value unless an episode binds another.
     #[getter]
     fn default<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.inner, self.inner.default)
@@ -49,7 +51,7 @@ impl Param {
         self.inner.range
     }
 
-    /// The values it may have, if it is a list of words or numbers; else empty.
+    /// The allowed values, if it is a list of words or numbers; else empty.
     #[getter]
     fn choices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         if self.inner.choices.is_empty() {
@@ -85,7 +87,8 @@ pub(crate) fn to_python<'py>(py: Python<'py>, param: &compiled::Param, value: f6
     })
 }
 
-/// A scenario's defaults with some parameters bound: numbers in SI units, or strings as the language writes them.
+/// A scenario's defaults with some parameters bound: numbers in SI units, or strings as the
+/// language writes them.
 pub(crate) fn bind(py: Python<'_>, params: &[compiled::Param], given: &Bound<'_, PyDict>) -> PyResult<Bindings> {
     let mut bindings = Bindings::defaults(params);
     for (name, value) in given {
@@ -130,7 +133,7 @@ fn bind_one(
     let ty = params.iter().find(|param| param.name == name).map(|param| param.ty);
     let wrong = || -> Result<(), Fault> {
         let found = value.repr()?.to_string();
-        // An unknown name is told as such, whatever the value.
+        // An unknown name is reported as such, whatever the value.
         Err(match ty {
             Some(ty) => ParamError::Type { name: name.to_owned(), ty, found }.into(),
             None => {
@@ -152,7 +155,7 @@ fn bind_one(
     wrong()
 }
 
-/// Whether a value is a number of another library: numpy's scalars.
+/// Whether a value is a number of another library, such as numpy's scalars.
 fn has_number(value: &Bound<'_, PyAny>) -> bool {
     value.hasattr("__float__").unwrap_or_default() && !value.hasattr("__len__").unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! Recorded episodes: what `setpiece.Replay` is made of.
+//! Recorded episodes: the core of `setpiece.Replay`.
 
 use crate::actions::ActionSet;
 use crate::environment::{Environment, SMM_SIZE};
@@ -13,21 +13,21 @@ use setpiece::replay::{REPLAY_MAX_BYTES, Replay as Recording};
 use setpiece::scenario::Action;
 use std::path::PathBuf;
 
-/// What an agent did in a step.
+/// An agent's action in a step.
 #[pyclass(frozen, get_all, module = "setpiece._native")]
 pub(crate) struct RecordedAct {
     /// The action's number.
     action: usize,
-    /// How it steered; None where it pressed keys.
+    /// How it steered; None if it pressed keys.
     steer: Option<Py<RecordedSteer>>,
 }
 
 /// How an agent with continuous actions steered.
 #[pyclass(frozen, get_all, module = "setpiece._native")]
 pub(crate) struct RecordedSteer {
-    /// The way to run.
+    /// The direction to run, x.
     x: f32,
-    /// The way to run.
+    /// The direction to run, y.
     y: f32,
     /// The power of a kick.
     power: f32,
@@ -44,7 +44,7 @@ impl Replay {
         &self.inner
     }
 
-    /// The smallest set of actions that has all that was done.
+    /// The smallest action set with all actions used.
     fn set(&self) -> ActionSet {
         if self.inner.acts().any(|(_, steer)| steer.is_some()) {
             return ActionSet::Continuous;
@@ -92,20 +92,20 @@ impl Replay {
         format!("{:016x}", self.inner.digest)
     }
 
-    /// The snapshot that it began in; None where it began as its scenario does.
+    /// The snapshot that it began in; None if it began at the scenario's start.
     #[getter]
     fn snapshot<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyBytes>> {
         self.inner.from().map(|from| PyBytes::new(py, from))
     }
 
-    /// The name of the smallest set of actions that has all that was done.
+    /// The name of the smallest action set with all actions used.
     #[getter]
     fn action_set(&self) -> &'static str {
         let set = self.set();
         ActionSet::NAMED.iter().find(|(_, known)| *known == set).map_or("full", |(name, _)| name)
     }
 
-    /// What the agents did, agent by agent, step by step.
+    /// The agents' actions, agent by agent, step by step.
     #[getter]
     fn acts(&self, py: Python<'_>) -> PyResult<Vec<RecordedAct>> {
         let act = |(action, steer): (Action, Option<setpiece::engine::state::Steer>)| {
@@ -116,7 +116,7 @@ impl Replay {
         self.inner.acts().map(act).collect()
     }
 
-    /// An environment that it can be played in with `replayed`, before its start.
+    /// An environment that can play it with `replayed`, before its start.
     fn environment(&self, py: Python<'_>, observation: &str) -> PyResult<Environment> {
         let engine = self.inner.environment().map_err(|error| errors::from_facade(py, &error))?;
         let kind = Wanted { name: observation, size: SMM_SIZE, scale: false }.of(py, &engine)?;

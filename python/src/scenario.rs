@@ -8,12 +8,12 @@ use setpiece::scenario::{self as compiled, Bindings, Team};
 use setpiece::{Cast, CastTarget, LoadOptions, Loaded};
 use std::sync::Arc;
 
-/// A compiled scenario: what `setpiece.load` and `setpiece.compile` return. It never changes.
+/// A compiled scenario, as returned by `setpiece.load` and `setpiece.compile`. It is immutable.
 #[pyclass(frozen, module = "setpiece")]
 pub(crate) struct Scenario {
-    /// The defaults of its parameters are the values they are bound to.
+    /// The defaults of its parameters are their bound values.
     inner: Arc<compiled::Scenario>,
-    /// What the compiler warned of.
+    /// The compiler's warnings.
     warnings: Py<PyList>,
 }
 
@@ -22,7 +22,7 @@ impl Scenario {
         &self.inner
     }
 
-    /// One that came without warnings.
+    /// A scenario without warnings.
     pub(crate) fn of(py: Python<'_>, inner: compiled::Scenario) -> Scenario {
         Scenario { inner: Arc::new(inner), warnings: PyList::empty(py).unbind() }
     }
@@ -57,7 +57,7 @@ impl Scenario {
         &self.inner.doc
     }
 
-    /// 16 hexadecimal digits that change with anything in it, the values it is bound to included.
+    /// 16 hexadecimal digits that change with any part of it, including the bound values.
     #[getter]
     fn digest(&self, py: Python<'_>) -> PyResult<String> {
         let digest = compiled::file::digest(&self.inner)
@@ -65,7 +65,7 @@ impl Scenario {
         Ok(format!("{digest:016x}"))
     }
 
-    /// The parameters by name, in the file's order; the mapping can't be changed.
+    /// The parameters by name, in the file's order; the mapping is immutable.
     #[getter]
     fn params<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyMappingProxy>> {
         let params = PyDict::new(py);
@@ -81,16 +81,17 @@ impl Scenario {
         self.inner.rewards.iter().map(|reward| reward.name.as_str()).collect()
     }
 
-    /// What the compiler warned of: a list of `Diagnostic`.
+    /// The compiler's warnings: a list of `Diagnostic`.
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> Bound<'py, PyList> {
-        // A copy: the scenario never changes.
+        // A copy, because the scenario is immutable.
         self.warnings.bind(py).get_slice(0, usize::MAX)
     }
 
-    /// Returns the scenario with parameters bound: SI units, or strings as the language writes them (`"12m"`, `"60%"`).
+    /// Returns the scenario with parameters bound: SI units, or strings as the language writes them
+    /// (`"12m"`, `"60%"`).
     ///
-    /// Raises `ParameterError` for a name, a type or a value that the scenario does not allow.
+    /// Raises `ParameterError` for a name, a type or a value that the scenario doesn't allow.
     #[pyo3(signature = (**params))]
     fn with_params(&self, py: Python<'_>, params: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
         let mut inner = compiled::Scenario::clone(&self.inner);
@@ -103,9 +104,10 @@ impl Scenario {
         Ok(Scenario { inner: Arc::new(inner), warnings: self.warnings.clone_ref(py) })
     }
 
-    /// Writes the compiled scenario to a file (`.pitchc`): self-contained, parameters can still be bound.
+    /// Writes the compiled scenario to a file (`.pitchc`): self-contained, parameters can still be
+    /// bound.
     ///
-    /// Raises `FileError` where it can't be written, `ParameterError` where `path` is no path.
+    /// Raises `FileError` if it can't be written, `ParameterError` if `path` isn't a path.
     fn save(&self, path: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = path.py();
         let path = given::path("path", path)?;
@@ -135,8 +137,8 @@ impl Scenario {
 
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
 ///
-/// With `allow_outside` imports and scripts may lie outside of the file's folder. Raises `UnknownScenarioError`,
-/// `FileError`, `CompileError` or `FormatError`.
+/// With `allow_outside` imports and scripts may lie outside the file's folder. Raises
+/// `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
 #[pyfunction]
 #[pyo3(signature = (name_or_path, *, allow_outside = false))]
 pub(crate) fn load(py: Python<'_>, name_or_path: &Bound<'_, PyAny>, allow_outside: bool) -> PyResult<Scenario> {
@@ -146,11 +148,11 @@ pub(crate) fn load(py: Python<'_>, name_or_path: &Bound<'_, PyAny>, allow_outsid
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
-/// Compiles a text in the language; `name` is how reports call it.
+/// Compiles a text in the language; `name` is its name in reports.
 ///
-/// With `allow_outside` imports and scripts may lie outside of the folder of `name`, which is the working directory for a
-/// name without one. Raises `CompileError`, whose `diagnostics` lists every problem, `FileError` above 1 MiB, or
-/// `ParameterError` for what is no text.
+/// With `allow_outside` imports and scripts may lie outside the folder of `name`, which is the
+/// working directory for a name without one. Raises `CompileError`, whose `diagnostics` lists every
+/// problem, `FileError` above 1 MiB, or `ParameterError` for anything but a text.
 #[pyfunction]
 #[pyo3(
     signature = (text, name = None, *, allow_outside = false),
@@ -168,19 +170,19 @@ pub(crate) fn compile(
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
-/// What reports call a text.
+/// The name of a text in reports.
 fn text_name(name: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
     name.map_or_else(|| Ok("<text>".to_owned()), |name| given::text("name", name))
 }
 
-/// Who plays players, as the package hands it over: its `Casting`.
+/// What plays some players, as the package passes it: its `Casting`.
 #[derive(FromPyObject)]
 pub(crate) struct Casting<'py> {
     /// 0 left, 1 right.
     team: usize,
-    /// The place of one player; none for the whole team.
+    /// The index of one player; none for the whole team.
     place: Option<usize>,
-    /// What stands behind `ai:`.
+    /// The text after `ai:`.
     ai: Bound<'py, PyAny>,
 }
 
@@ -193,7 +195,7 @@ fn cast_of(casting: Vec<Casting<'_>>) -> PyResult<Vec<Cast>> {
     casting.into_iter().map(cast).collect()
 }
 
-/// Loads a scenario as `load` does, its players played by a cast.
+/// Loads a scenario like `load`, with a cast that plays players.
 #[pyfunction]
 #[pyo3(signature = (name_or_path, casting, *, allow_outside = false))]
 pub(crate) fn load_cast(
@@ -207,7 +209,7 @@ pub(crate) fn load_cast(
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
-/// Compiles a text as `compile` does, its players played by a cast.
+/// Compiles a text like `compile`, with a cast that plays players.
 #[pyfunction]
 #[pyo3(signature = (text, name, casting, *, allow_outside = false))]
 pub(crate) fn compile_cast(
@@ -244,7 +246,7 @@ pub(crate) fn library(py: Python<'_>) -> Vec<LibraryEntry> {
     py.detach(setpiece::list).into_iter().map(entry).collect()
 }
 
-/// The scenario of a compiled file's text: how a pickled one comes back.
+/// The scenario of a compiled file's text, for unpickling.
 #[pyfunction]
 pub(crate) fn restore(py: Python<'_>, text: &str) -> PyResult<Scenario> {
     let inner =

@@ -1,21 +1,21 @@
-//! Who plays: agents asked for instead of the scenario's.
+//! Agents requested instead of the scenario's.
 
 use crate::errors;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyString};
 use setpiece::engine::environment::{AgentsChoice, SideChoice};
 
-/// What `make` was given for them.
+/// The arguments of `make` about agents.
 pub(crate) struct Seats<'a, 'py> {
     /// None, a number, `"all"` or players' names.
     pub(crate) left: Option<&'a Bound<'py, PyAny>>,
-    /// The same of the right side.
+    /// The same for the right side.
     pub(crate) right: Option<&'a Bound<'py, PyAny>>,
     /// None, `"auto"` or `"fixed"`.
     pub(crate) switching: Option<&'a Bound<'py, PyAny>>,
 }
 
-/// Reads them; none where the scenario says all of it.
+/// Reads them; none if the scenario decides all of it.
 pub(crate) fn read(py: Python<'_>, seats: &Seats<'_, '_>) -> PyResult<Option<AgentsChoice>> {
     if seats.left.is_none() && seats.right.is_none() && seats.switching.is_none() {
         return Ok(None);
@@ -33,7 +33,7 @@ pub(crate) fn read(py: Python<'_>, seats: &Seats<'_, '_>) -> PyResult<Option<Age
     Ok(Some(AgentsChoice { sides, fixed }))
 }
 
-/// A value in a message: a string as it is.
+/// A value in a message; a string unchanged.
 fn shown(given: &Bound<'_, PyAny>) -> String {
     given.cast::<PyString>().map_or_else(|_| given.to_string(), |text| text.to_string_lossy().into_owned())
 }

@@ -1,17 +1,17 @@
-//! Writing files: whole or not at all.
+//! Writing files, completely or not at all.
 
 use crate::errors;
 use pyo3::prelude::*;
 use setpiece::files;
 use std::path::PathBuf;
 
-/// Writes a file whole or not at all, over one that is there.
+/// Writes a file completely or not at all, replacing an existing one.
 #[pyfunction]
 pub(crate) fn write(py: Python<'_>, path: PathBuf, content: &[u8]) -> PyResult<()> {
     py.detach(|| files::write(&path, content)).map_err(|error| errors::from_facade(py, &error))
 }
 
-/// Writes a file whole or not at all, if nothing has its name; returns whether it did.
+/// Writes a file completely or not at all, if its name is free. Returns whether it did.
 #[pyfunction]
 pub(crate) fn write_new(py: Python<'_>, path: PathBuf, content: &[u8]) -> PyResult<bool> {
     py.detach(|| files::write_new(&path, content)).map_err(|error| errors::from_facade(py, &error))

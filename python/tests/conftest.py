@@ -28,7 +28,7 @@ def pitch_file(tmp_path: Path) -> Callable[[str], Path]:
 
 @pytest.fixture
 def nothing_installed() -> Iterator[None]:
-    """Takes away what `gfootball.install()` puts into `sys.modules`, before and after."""
+    """Removes what `gfootball.install()` puts into `sys.modules`, before and after."""
 
     def take_away() -> None:
         for name in [name for name in sys.modules if name.split(".")[0] == "gfootball"]:
@@ -46,7 +46,10 @@ def play(
     steps: int = 10_000,
     options: dict[str, Any] | None = None,
 ) -> Trajectory:
-    """Plays an episode, at random where no action is given, and returns what `reset` and each `step` gave."""
+    """Plays an episode, at random unless actions are given.
+
+    Returns the results of `reset` and of each `step`.
+    """
     generator = random.Random(0)
     act = action or (lambda: generator.randrange(19))
     observation, info = env.reset(seed=seed, options=options)
@@ -59,7 +62,7 @@ def play(
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two things from an environment are bit for bit the same."""
+    """Whether two values from an environment are the same, bit for bit."""
     if isinstance(a, dict):
         return isinstance(b, dict) and a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
     if isinstance(a, (list, tuple)):
@@ -70,7 +73,7 @@ def same(a: Any, b: Any) -> bool:
 
 
 class Counter:
-    """A reward that remembers: the number of the step in its episode."""
+    """A reward with memory: the number of the step in its episode."""
 
     def __init__(self) -> None:
         self.steps = 0
@@ -84,7 +87,7 @@ class Counter:
 
 
 class Tracker:
-    """A reward and an ending that remember the same: the episode ends when three steps have been paid for."""
+    """A reward and an ending with a shared memory: the episode ends after three paid steps."""
 
     def __init__(self) -> None:
         self.steps = 0
@@ -98,7 +101,7 @@ class Tracker:
 
 
 class Locked:
-    """A reward that holds what can't be copied."""
+    """A reward that holds something that can't be copied."""
 
     def __init__(self) -> None:
         self.lock = Lock()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 DOCS = Path(__file__).parents[2] / "docs"
 HEAVY = re.compile(r"\b(stable_baselines3|sb3_contrib|ray)\b")
-"""What examples import that only the tests in `full` have."""
+"""Imports of examples that only the tests in `full` have."""
 
 
 def examples(page: str, *, heavy: bool = False) -> list[str]:
@@ -24,7 +24,10 @@ def table(head: Iterable[str], rows: Iterable[Iterable[object]]) -> str:
 
 
 def hold_tables(page: str, tables: Mapping[str, str]) -> None:
-    """Compares the tables behind `<!-- table NAME -->` with what they should be; SETPIECE_BLESS=1 writes them anew."""
+    """Compares the tables after `<!-- table NAME -->` with the wanted ones.
+
+    SETPIECE_BLESS=1 rewrites them.
+    """
     path = DOCS / page
     text = path.read_text(encoding="utf-8")
     pattern = re.compile(r"(<!-- table (\w+) -->\n)((?:\|.*\n)*)")
@@ -32,4 +35,4 @@ def hold_tables(page: str, tables: Mapping[str, str]) -> None:
     wanted = pattern.sub(lambda found: found[1] + tables[found[2]], text)
     if os.environ.get("SETPIECE_BLESS"):
         path.write_text(wanted, encoding="utf-8")
-    assert path.read_text(encoding="utf-8") == wanted, f"{page} shows other tables: SETPIECE_BLESS=1 writes them anew"
+    assert path.read_text(encoding="utf-8") == wanted, f"{page} shows other tables: SETPIECE_BLESS=1 rewrites them"

@@ -77,7 +77,7 @@ def test_numbers_that_are_none_are_refused() -> None:
     with pytest.raises(setpiece.ActionError, match=r"\(2, 4\)"):
         two.step(np.zeros(4))
     two.step(np.zeros((2, 4)))
-    with pytest.raises(setpiece.ParameterError, match="beside opponents"):
+    with pytest.raises(setpiece.ParameterError, match="with opponents"):
         setpiece.make(THREE, action_set="continuous", right=1, opponents={"right": "bot"})
 
 

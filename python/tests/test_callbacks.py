@@ -164,16 +164,16 @@ def test_an_ending_terminates_the_episode_with_its_label(verdict: Any, outcome: 
     assert play(env, None, right)[-1][4]["setpiece"]["index"] == 1
 
 
-def test_an_episode_that_python_ended_is_told_of_and_replayed_as_any_other(tmp_path: Path) -> None:
+def test_an_episode_that_python_ended_is_reported_and_replayed_like_any_other(tmp_path: Path) -> None:
     text = TEN.replace("reward time", "record way = ball.x\n    reward time")
     env = setpiece.make(text, ends=lambda step: "far" if step.now["steps_left"] == 4 else None, record=tmp_path)
     info = play(env, 2, right)[-1][4]
-    told = info["setpiece"]
+    summary = info["setpiece"]
     assert info["records"].keys() == {"way"}
-    assert told["digest"] == env.unwrapped._native.digest
-    replay = setpiece.Replay(told["replay"])
-    assert (replay.outcome, replay.digest, replay.length) == ("far", told["digest"], 6)
-    assert [*replay][-1].info["setpiece"]["return"] == told["return"]
+    assert summary["digest"] == env.unwrapped._native.digest
+    replay = setpiece.Replay(summary["replay"])
+    assert (replay.outcome, replay.digest, replay.length) == ("far", summary["digest"], 6)
+    assert [*replay][-1].info["setpiece"]["return"] == summary["return"]
     restored = setpiece.make(text)
     last = restored.restore(env.snapshot())[1]
     assert last["outcome"] == "far"
@@ -199,7 +199,7 @@ def test_the_files_endings_come_first_and_its_limit_last() -> None:
     assert last[4]["setpiece"]["length"] == 10
 
 
-def test_an_object_is_told_when_an_episode_begins() -> None:
+def test_an_object_is_called_when_an_episode_begins() -> None:
     env = setpiece.make(TEN, rewards=["none", Counter()])
     for _ in range(2):
         assert [step[1] for step in play(env, None, right)][1:] == [float(n) for n in range(1, 11)]
@@ -253,7 +253,7 @@ def test_options_that_are_no_functions_are_named() -> None:
     for ends in ("goal", [deep, "goal"], 3):
         with pytest.raises(setpiece.ParameterError, match="`ends` as functions"):
             setpiece.make(TEN, ends=ends)  # type: ignore[arg-type]
-    with pytest.raises(setpiece.ParameterError, match="two rewards are called `<lambda>`"):
+    with pytest.raises(setpiece.ParameterError, match="two rewards are named `<lambda>`"):
         setpiece.make(TEN, rewards=[lambda _: 1.0, lambda _: 2.0])
     taken = Counter()
     taken.__name__ = "time/step"  # type: ignore[attr-defined]

@@ -1,4 +1,4 @@
-"""The tables of docs/observations.md are the layouts themselves, and its examples run."""
+"""The tables of docs/observations.md match the layouts, and its examples run."""
 
 from itertools import groupby
 from typing import Any
@@ -25,7 +25,7 @@ def played_examples() -> dict[str, Any]:
 
 
 def ranges(low: Any, high: Any, digits: int = 10) -> str:
-    """Returns the ranges of numbers, one round of them where they repeat."""
+    """Returns the ranges of numbers, one round of them if they repeat."""
     each = [f"{least:.{digits}g}..{most:.{digits}g}" for least, most in zip(np.ravel(low), np.ravel(high), strict=True)]
     round_ = next(n for n in range(1, len(each) + 1) if each == each[:n] * (len(each) // n))
     runs = [(len(list(run)), one) for one, run in groupby(each[:round_])]
@@ -45,7 +45,7 @@ def blocks(env: setpiece.FootballEnv) -> str:
 
 
 def changed(kind: str) -> str:
-    """Returns the blocks that `scale` changes; those of mates and opponents once."""
+    """Returns the blocks that `scale` changes; those of teammates and opponents once."""
     plain, scaled = setpiece.make(NAME, observation=kind), setpiece.make(NAME, observation=kind, scale=True)
     rows, seen = [], set()
     for before, after in zip(plain.observation_layout, scaled.observation_layout, strict=True):
@@ -119,13 +119,13 @@ def test_the_tables_are_the_layouts() -> None:
 
 
 @pytest.mark.parametrize("name", ["academy_empty_goal", NAME, "5_vs_5", "11_vs_11_stochastic"])
-def test_the_length_of_egocentric_is_as_told(name: str) -> None:
+def test_the_length_of_egocentric_is_as_documented(name: str) -> None:
     env = setpiece.make(name, observation="egocentric")
     assert env.observation_space.shape == (46 + 7 * (2 * max(env._native.players) - 1),)
 
 
 @pytest.mark.parametrize("kind", ["simple115v2", "raw"])
-def test_lengths_are_in_the_units_told(kind: str) -> None:
+def test_lengths_are_in_the_documented_units(kind: str) -> None:
     text = "scenario unit extends academy { ball at (54.4m, 0m) team left { GK at (-27.2m, 20.9m) } team right { } }"
     observation, _ = setpiece.make(setpiece.compile(text), observation=kind).reset(seed=0)
     own = observation["left_team"][0] if kind == "raw" else observation[:2]

@@ -1,4 +1,4 @@
-"""Every example of docs/python.md runs, one after the other, and its tables are what is there."""
+"""Every example of docs/python.md runs, in order, and its tables are complete."""
 
 import re
 from pathlib import Path
@@ -21,7 +21,7 @@ def test_every_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert len(list((tmp_path / "replays").iterdir())) == 2
 
 
-def test_every_error_is_told() -> None:
+def test_every_error_is_documented() -> None:
     errors = [getattr(setpiece, name) for name in setpiece.__all__]
     errors = [error for error in errors if isinstance(error, type) and issubclass(error, setpiece.SetpieceError)]
     rows = []
@@ -32,7 +32,7 @@ def test_every_error_is_told() -> None:
     hold_tables(PAGE, {"errors": table(("error", "is also a", "says that"), rows)})
 
 
-def test_all_infos_are_told() -> None:
+def test_all_infos_are_documented() -> None:
     env = setpiece.make("academy_empty_goal_close", seed=1)
     _, info = env.reset()
     while "outcome" not in info:
@@ -42,7 +42,7 @@ def test_all_infos_are_told() -> None:
     assert set(re.findall(r"`(\w+)`", section)) == {"info", *info, *info["setpiece"]}
 
 
-def test_every_action_set_and_mode_is_told() -> None:
+def test_every_action_set_and_mode_is_documented() -> None:
     text = (DOCS / PAGE).read_text(encoding="utf-8")
     sets = re.findall(r'^\| `"(\w+)"` \|.* \| `\((\d+),\)`', text, re.MULTILINE)
     assert {name: int(length) for name, length in sets} == setpiece._native.ACTION_SETS

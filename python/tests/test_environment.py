@@ -25,7 +25,7 @@ IDS = [f"setpiece/{name}-v0" for name in setpiece.list()]
 
 @pytest.mark.parametrize("env_id", IDS)
 def test_every_id_passes_the_checker(env_id: str) -> None:
-    # The checker knows one agent's rewards.
+    # The checker only supports one agent's rewards.
     check_env(gymnasium.make(env_id, left=1, right=0).unwrapped)
 
 
@@ -154,7 +154,7 @@ def test_goal_ends_the_episode_and_pays() -> None:
     assert summary["length"] == len(trajectory) - 1
     goal = next(event for event in info["events"] if event["kind"] == "goal")
     assert goal["team"] == "left"
-    # Where it was struck.
+    # The place of the strike.
     assert 0.5 < goal["x"] < 1.0
     for step in trajectory[:-1]:
         assert step[4].keys() == {"score", "reward_terms", "action_mask", "events"}
@@ -263,7 +263,7 @@ def test_unknown_options_are_named() -> None:
         setpiece.make(CLOSE, render_mode="human")
 
 
-def test_observations_are_copies_unless_told() -> None:
+def test_observations_are_copies_unless_disabled() -> None:
     env = setpiece.make(THREE)
     first = env.reset(seed=1)[0]
     kept = first.copy()
@@ -351,7 +351,10 @@ def test_drawing() -> None:
 
 
 def test_step_releases_the_interpreter() -> None:
-    """A thread that only counts goes on while another steps; with the lock held it would get single bytecodes in."""
+    """A counting thread continues while another steps.
+
+    With the lock held, it would only get single bytecodes in.
+    """
     env = setpiece.make("11_vs_11_stochastic")
     env.reset(seed=1)
     counted, stop = 0, threading.Event()
@@ -506,27 +509,27 @@ def test_a_scenario_declares_its_own_observation() -> None:
         setpiece.make(CLOSE, observation="vector")
 
 
-def test_two_threads_on_one_environment_are_told() -> None:
+def test_two_threads_on_one_environment_are_reported() -> None:
     env = setpiece.make("11_vs_11_stochastic")
     env.reset(seed=1)
-    told: list[Exception] = []
+    raised: list[Exception] = []
 
     def play() -> None:
         for _ in range(2000):
             try:
                 env.step(19 - 1)
             except Exception as error:
-                told.append(error)
+                raised.append(error)
 
     threads = [threading.Thread(target=play) for _ in range(2)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert told
-    assert {type(error) for error in told} == {setpiece.InUseError}
-    assert "one for each thread" in str(told[0])
-    # It has come to no harm.
+    assert raised
+    assert {type(error) for error in raised} == {setpiece.InUseError}
+    assert "one for each thread" in str(raised[0])
+    # It still works.
     env.step(0)
 
 

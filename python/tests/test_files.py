@@ -1,4 +1,4 @@
-"""Files of every kind: what can't be read is refused at once, what is written is whole, and names are only names."""
+"""Files of every kind: unreadable ones are rejected at once, written ones are complete."""
 
 import os
 import resource
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes, limits a
 
 @contextmanager
 def small_disk(most: int) -> Iterator[None]:
-    """Writing fails beyond so many bytes of a file, as on a full disk."""
+    """Writing fails beyond this many bytes of a file, as on a full disk."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, before[1]))
     try:
@@ -201,23 +201,23 @@ def test_what_is_no_text_or_path_is_a_parameter_error(wrong: Callable[[], Any]) 
 
 
 def test_the_command_of_the_package_says_that_it_draws_no_pictures(tmp_path: Path) -> None:
-    told = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-m", "setpiece", "render", "academy_corner", "-o", "x.png"],
         capture_output=True,
         text=True,
         check=False,
         cwd=tmp_path,
     )
-    assert told.returncode == 1
-    assert "SP0011" in told.stderr
-    assert "draws no pictures" in told.stderr
+    assert done.returncode == 1
+    assert "SP0011" in done.stderr
+    assert "draws no pictures" in done.stderr
 
 
 def test_the_command_takes_paths_that_are_not_unicode(tmp_path: Path) -> None:
     file = tmp_path / os.fsdecode(b"caf\xe9.pitch")
     file.write_text(PITCH.format(name="mine"))
-    told = subprocess.run([sys.executable, "-m", "setpiece", "check", str(file)], capture_output=True, check=False)
-    assert told.returncode == 0, told.stderr
+    done = subprocess.run([sys.executable, "-m", "setpiece", "check", str(file)], capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_replay_or_snapshot_is_no_scenario(tmp_path: Path) -> None:

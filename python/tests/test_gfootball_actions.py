@@ -1,4 +1,4 @@
-"""The actions as objects, their sets, and their turning."""
+"""Actions as objects, their sets, and turning them."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Players by their definitions, dumps, and matches played again from them."""
+"""Players by their definitions, dumps, and matches replayed from them."""
 
 import sys
 from pathlib import Path
@@ -69,8 +69,9 @@ def test_extra_players_take_slots_of_their_own(name: str) -> None:
     for _ in range(12):
         observation, reward, _, _ = env.step(0)
     assert np.shape(reward) == ()
-    # `academy_empty_goal_close` has its right keeper far from their goal: the bot runs home, and a lazy one stays, but
-    # for what the other keeper, who starts in the same place, pushes them away.
+    # In `academy_empty_goal_close` the right keeper is far from their goal. The bot runs home, and
+    # a lazy one stays, apart from being pushed away by the other keeper, who starts in the same
+    # place.
     moved = abs(float(observation[0]["right_team"][0][0]) + 1.011) > 0.03
     assert moved == (name == "builtin_ai")
 
@@ -135,7 +136,7 @@ def test_what_the_bot_does(changes: dict[str, Any], expected: list[str]) -> None
 
 
 def play(env: Any, episodes: int = 1) -> list[dict[str, str]]:
-    """Runs and shoots; returns the dumps that were told of."""
+    """Runs and shoots; returns the dumps listed in infos."""
     dumps = []
     for _ in range(episodes):
         env.reset()

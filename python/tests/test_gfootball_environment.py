@@ -176,7 +176,7 @@ def test_the_sides_take_turns_to_kick_off_the_left_one_first() -> None:
 
 
 def scored(env: Any) -> tuple[float, dict[str, Any]]:
-    """Runs and shoots through an episode; returns what was paid and the last step's info."""
+    """Runs and shoots through an episode; returns the rewards and the last step's info."""
     env.reset()
     total = 0.0
     for step in range(401):
@@ -617,7 +617,7 @@ def test_what_is_not_here_says_so_later() -> None:
         ({"extra_players": ["bott:right_players=1"]}, "did you mean `bot`"),
         ({"extra_players": ["agent:right_players=1"]}, "at most one `agent`"),
         ({"extra_players": ["lazy:right_players=many"]}, "no count"),
-        ({"extra_players": ["lazy:right_players"]}, "no setting"),
+        ({"extra_players": ["lazy:right_players"]}, "not a setting"),
         ({"extra_players": ["replay:right_players=1"]}, "needs a dump"),
         ({"other_config_options": {"action_sett": "v2"}}, "did you mean `action_set`"),
         ({"other_config_options": {"game_engine_random_seed": "x"}}, "game_engine_random_seed"),

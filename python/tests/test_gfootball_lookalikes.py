@@ -120,7 +120,7 @@ def test_a_step_before_the_first_reset_plays(level: str, kwargs: dict[str, Any])
     observation, reward, done, info = env.step(5)
     assert not done
     assert info["score_reward"] == 0
-    # Who starts with the ball beyond checkpoints is paid for them at once.
+    # A player who starts with the ball beyond checkpoints is paid for them at once.
     assert reward == 0 or "rewards" in kwargs
     if isinstance(observation, np.ndarray):
         assert observation in env.observation_space
@@ -229,7 +229,7 @@ def test_a_script_may_set_the_order_of_teams(tmp_path: Path) -> None:
 
 
 def test_flipping_twice_changes_no_value_and_no_type() -> None:
-    """Also of observations that nobody has played: flat teams, a ball of whole numbers, lists for what is held."""
+    """Also for observations that nobody has played: flat teams, a ball of integers, lists."""
     draw = np.random.default_rng(5)
     made: dict[str, Any] = {
         "ball": np.array([1, -1, 0]),
@@ -331,7 +331,7 @@ class e_BackendAction(int):  # noqa: N801  # GRF's name
 
 
 def written_by_grf(records: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch) -> bytes:
-    """Returns records as the pickles of GRF have them: with its classes, which aren't there when they are read."""
+    """Returns records as in GRF's pickles: with its classes, which don't exist when read."""
 
     class CoreAction:
         def __init__(self, action: actions.CoreAction) -> None:
@@ -359,7 +359,7 @@ def written_by_grf(records: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatc
 @pytest.mark.usefixtures("nothing_installed")
 def test_a_dump_of_grf_loads_and_plays_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ours = read_dump(str(dumped(tmp_path)))
-    # What GRF has in its settings, and this package doesn't write.
+    # Settings of GRF that this package doesn't write.
     config = {**ours[0]["debug"]["config"], "reverse_team_processing": True, "write_video": True}
     del config["grf_bugs"]
     records = [{**ours[0], "debug": {**ours[0]["debug"], "config": config}}, *ours[1:]]
@@ -385,7 +385,7 @@ def test_an_order_of_teams_needs_no_words_in_a_text() -> None:
 
 
 def test_the_second_half_begins_after_five_steps() -> None:
-    """The left player begins at the ball, and in the second half in the place that the right one had."""
+    """The left player begins at the ball, and in the second half in the right one's place."""
     env = FootballEnv(Config({"level": "tests.second_half"}))
     env.reset()
     done, across = False, []
@@ -423,7 +423,7 @@ def test_the_library_knows_when_a_second_half_begins() -> None:
 
 
 def ended(level: str, episode: int, pressed: list[Any], *, reverse: bool = False) -> dict[str, Any]:
-    """Returns what the first slot sees at the end of an episode in which every slot presses one action."""
+    """Returns the first slot's last observation if every slot always presses one action."""
     sides = ("left", "right")[: len(pressed)]
     settings = {
         "level": f"tests.{level}",
@@ -448,7 +448,7 @@ def near(place: Any, expected: tuple[float, float], within: float) -> bool:
 @ORDERS
 @pytest.mark.parametrize(("episode", "side"), [(0, 1.0), (1, -1.0)])
 def test_the_places_at_a_corner(episode: int, side: float, reverse: bool) -> None:
-    """Who leads the ball over their own line gives a corner away, and the lazy don't take it."""
+    """Leading the ball over the own line gives a corner away, and lazy players don't take it."""
     seen = ended("corner_test", episode, [actions.action_left] * 2, reverse=reverse)
     assert seen["game_mode"] == 4
     assert near(seen["ball"], (-1.011 * side, 0.431 * side), 0.01)
@@ -498,7 +498,7 @@ def test_a_goal_in_either_net(episode: int, side: str, reverse: bool) -> None:
 @ORDERS
 @pytest.mark.parametrize(("episode", "side"), [(1, "left"), (0, "right")])
 def test_a_keepers_pass_to_an_offside_mate(episode: int, side: str, reverse: bool) -> None:
-    """The agent begins with the keeper, who is nearest to the ball, and passes to the only mate, who is offside."""
+    """The agent begins with the keeper, nearest to the ball, and passes to an offside teammate."""
     settings = {
         "level": "tests.offside_test",
         "players": [f"agent:{side}_players=1"],
@@ -524,7 +524,7 @@ def test_a_keepers_pass_to_an_offside_mate(episode: int, side: str, reverse: boo
 
 @pytest.mark.parametrize("sides", ["left_players=1,right_players=1", "left_players=1", "right_players=2"])
 def test_a_symmetric_match_in_the_other_order_is_the_turned_match(sides: str) -> None:
-    """Each agent sees what the other one saw: both press the same, in the frames of their teams."""
+    """Each agent sees what the other one saw: both press the same, in their own frames."""
 
     def played(reverse: bool, sides: str) -> list[list[dict[str, Any]]]:
         settings = {

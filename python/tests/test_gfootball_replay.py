@@ -1,4 +1,4 @@
-"""A replay is converted to a dump of Google Research Football, which the drop-in's scripts read."""
+"""A replay is converted to a GRF dump that the drop-in's scripts read."""
 
 import subprocess
 import sys
@@ -31,7 +31,7 @@ def recorded(path: Path, scenario: Any, steps: int = 60, index: int = 0, **kwarg
 
 
 def ended(path: Path, scenario: str, index: int = 0, **kwargs: Any) -> int:
-    """Plays at random until an episode ends before its limit; writes that one and returns its seed."""
+    """Plays at random until an episode ends before its limit; saves it and returns its seed."""
     env = setpiece.make(scenario, **kwargs)
     for seed in range(50):
         env.action_space.seed(seed)
@@ -42,7 +42,7 @@ def ended(path: Path, scenario: str, index: int = 0, **kwargs: Any) -> int:
 
 
 def dumped(replay: Path) -> tuple[Path, list[dict[str, Any]]]:
-    """Converts a replay by the command; returns the dump and its records."""
+    """Converts a replay with the command; returns the dump and its records."""
     dump = replay.with_suffix(".dump")
     assert main([str(replay), "--format", "grf", "-o", str(dump)]) == 0
     return dump, HELPERS.load_dump(str(dump))
@@ -94,7 +94,7 @@ def test_it_is_the_dump_that_the_drop_in_writes(tmp_path: Path) -> None:
         assert mine["debug"].keys() == its["debug"].keys()
         assert mine["debug"]["action"] == its["debug"]["action"]
         assert (mine["reward"], mine["cumulative_reward"]) == (its["reward"], its["cumulative_reward"])
-        # The drop-in plays one step more than a scenario says, as GRF does.
+        # The drop-in plays one step more than a scenario says, like GRF.
         its["observation"]["steps_left"] -= 1
         assert same(mine["observation"], its["observation"])
     assert records[0]["debug"]["config"].keys() == own[0]["debug"]["config"].keys()
@@ -163,7 +163,7 @@ def test_a_set_piece_that_waits_too_long_for_the_drop_in(tmp_path: Path) -> None
     seen, _ = env.reset(seed=0)
     modes: list[int] = []
     for _ in range(2900):
-        # Whoever has a set piece to take doesn't.
+        # The taker of a set piece doesn't take it.
         press = setpiece.Action.IDLE if seen[0]["game_mode"] else setpiece.Action.RIGHT
         seen = env.step([press] * 11)[0]
         modes.append(int(seen[0]["game_mode"]))
@@ -173,7 +173,7 @@ def test_a_set_piece_that_waits_too_long_for_the_drop_in(tmp_path: Path) -> None
         pytest.fail("no set piece waited")
     env.save_replay(tmp_path / "x.pitchr")
     _, records = dumped(tmp_path / "x.pitchr")
-    # As in GRF a kick-off that waits has no mode of its own.
+    # As in GRF, a pending kick-off has no mode of its own.
     assert [int(record["observation"]["game_mode"]) for record in records] == [
         mode if mode != 1 else 0 for mode in modes
     ]
@@ -188,18 +188,18 @@ def test_the_command_of_the_package_converts(tmp_path: Path) -> None:
     assert len(HELPERS.load_dump(str(dump))) == 3
 
 
-def test_other_formats_are_told_as_ever(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_other_formats_are_reported_as_before(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path = str(recorded(tmp_path / "x.pitchr", CLOSE, steps=3))
     assert main([path]) == main(["--color", "never", path, "--format", "text"]) == 0
-    told = capfd.readouterr().out
-    assert told[: len(told) // 2] == told[len(told) // 2 :] != ""
+    printed = capfd.readouterr().out
+    assert printed[: len(printed) // 2] == printed[len(printed) // 2 :] != ""
     assert main([path, "--format=jsonl"]) == 0
     assert len(capfd.readouterr().out.splitlines()) == 4
     assert main(["--help"]) == 0
     assert "grf: a dump" in capfd.readouterr().out
 
 
-def test_what_can_not_be_converted_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_what_can_not_be_converted_is_reported(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path, dump = str(recorded(tmp_path / "x.pitchr", CLOSE, steps=3)), str(tmp_path / "x.dump")
     for wrong in ([path, "--format", "grf"], [path, "--format", "grff"], [path, "-o", dump], ["--format", "grf"]):
         assert main(wrong) == 2, wrong
@@ -209,16 +209,16 @@ def test_what_can_not_be_converted_is_told(tmp_path: Path, capfd: pytest.Capture
     cut.write_bytes(Path(path).read_bytes()[:-1])
     capfd.readouterr()
     for source, out, why in [
-        (cut, dump, "cut.pitchr`: the replay is cut off"),
+        (cut, dump, "cut.pitchr`: the replay is truncated"),
         (tmp_path / "none.pitchr", dump, "none.pitchr`"),
         (nobody, dump, "nobody was an agent"),
         (numbers, dump, "actions were continuous"),
         (path, f"{path}/x.dump", "can't be written"),
     ]:
         assert main([str(source), "--format", "grf", "-o", out]) == 1
-        told = capfd.readouterr()
-        assert told.out == ""
-        assert why in told.err
+        printed = capfd.readouterr()
+        assert printed.out == ""
+        assert why in printed.err
         assert not Path(dump).exists()
 
 

@@ -140,12 +140,12 @@ def recorded(path: str, episode: int) -> ScenarioConfig:
 
 
 def places(entries: list[FormationEntry], sign: float) -> list[tuple[float, float]]:
-    # Scripts place players on a wider scale than observations show them on.
+    # Scripts place players on a wider scale than that of observations.
     return [(sign * entry.position[0] * 55 / 54.4, sign * entry.position[1] * 84.96 / 83.6) for entry in entries]
 
 
 def starts_as(seen: dict[str, Any], said: ScenarioConfig) -> None:
-    """Whether an observation of the whole match shows what a script has said."""
+    """Whether an observation of the whole match matches the script's settings."""
     assert np.allclose(seen["left_team"], places(said.left_team, 1.0), atol=1e-4)
     assert np.allclose(seen["right_team"], places(said.right_team, -1.0), atol=1e-4)
     assert np.allclose(seen["ball"][:2], said.ball_position[:2], atol=1e-6)
@@ -302,7 +302,7 @@ def test_what_a_text_cannot_say(case: str, tmp_path: Path, capsys: pytest.Captur
     assert caught.value.help
     assert main(["grf", path]) == 1
     assert words in capsys.readouterr().err
-    # The drop-in asks the script anew for every episode, so that it can play all of these.
+    # The drop-in runs the script again for every episode, so it can play all of these.
     env = create_environment(path)
     for _ in range(3):
         env.reset()
@@ -623,9 +623,9 @@ def test_a_list_filled_with_something_else_is_named(
 ) -> None:
     path = script_file(tmp_path, f"    config.{statement}\n")
     assert main(["grf", path]) == 1
-    told = capsys.readouterr().err
-    assert told.startswith(f"`{path}`: `{statement[:8]}")
-    assert why in told
+    printed = capsys.readouterr().err
+    assert printed.startswith(f"`{path}`: `{statement[:8]}")
+    assert why in printed
 
 
 @pytest.mark.parametrize("name", ["position", "role"])

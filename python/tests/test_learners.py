@@ -1,4 +1,4 @@
-"""What suits learners: the held keys behind `simple115v2`, and scaled numbers."""
+"""Options for learners: held keys after `simple115v2`, and scaled numbers."""
 
 import pickle
 from typing import Any
@@ -60,7 +60,10 @@ def test_the_layout_names_the_held_keys() -> None:
 
 
 def test_masks_tell_which_keys_are_held_and_simple115v2_does_not() -> None:
-    """Two states that `simple115v2` shows alike have other masks; `simple115v2+sticky` tells them apart."""
+    """Two states with the same `simple115v2` have different masks.
+
+    `simple115v2+sticky` distinguishes them.
+    """
     env = setpiece.make(THREE, observation=STICKY)
     free, info = env.reset(seed=1)
     assert info["action_mask"][Action.RIGHT] == 1
@@ -210,7 +213,7 @@ def test_an_opponent_sees_its_observation_scaled(kind: str) -> None:
 
 def test_a_policy_that_is_scaled_names_its_observation() -> None:
     for policy, match in (
-        (Policy(lambda _: 0, scale=True), "scales no observation of its own"),
+        (Policy(lambda _: 0, scale=True), "scales nothing without an observation of its own"),
         (Policy(lambda _: 0, "smm", scale=True), "`smm` can't be scaled: its pixels are bytes"),
         (Policy(lambda _: 0, "egocentric", scale="yes"), "expected True or False as `scale`"),  # type: ignore[arg-type]
     ):

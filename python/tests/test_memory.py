@@ -1,4 +1,4 @@
-"""Long use takes no more memory."""
+"""Long use doesn't need more memory."""
 
 import sys
 from pathlib import Path

@@ -39,7 +39,7 @@ def forward(_observation: Any) -> int:
 
 
 class Recorder:
-    """An opponent that remembers what it has seen."""
+    """An opponent that remembers what it sees."""
 
     def __init__(self, action: int = Action.IDLE) -> None:
         self.seen: list[Any] = []
@@ -99,7 +99,7 @@ def test_nobody_left_plays_by_itself() -> None:
 
 
 def test_a_match_is_that_of_a_caller_who_presses_the_same() -> None:
-    """Who presses makes no difference to the match."""
+    """Who presses doesn't matter for the match."""
     alone = setpiece.make(DUEL, right=1)
     opposed = setpiece.make(DUEL, right=1, opponents={"right": forward})
     assert (
@@ -147,7 +147,7 @@ def test_a_function_sees_one_agent_and_a_policy_a_batch() -> None:
     assert [seen.shape for seen in policy.seen] == [(4, 115)]
 
 
-def test_one_named_himself_wins_over_his_side() -> None:
+def test_a_named_agent_wins_over_its_side() -> None:
     side, keeper = Recorder(), Recorder()
     env = setpiece.make(THREE, right="all", opponents={"right": side, "right_GK_1": keeper})
     env.reset(seed=1)
@@ -203,7 +203,7 @@ def test_a_text_with_errors_of_its_own_tells_of_these() -> None:
 
 
 def moved(env: Any, side: str = "right_team", steps: int = 20) -> list[bool]:
-    """Who of a side runs while the caller idles."""
+    """The players of a side that run while the caller idles."""
     first, _ = env.reset(seed=1)
     for _ in range(steps):
         after, *_ = env.step([Action.IDLE] * len(env.agents) if len(env.agents) != 1 else Action.IDLE)
@@ -212,7 +212,7 @@ def moved(env: Any, side: str = "right_team", steps: int = 20) -> list[bool]:
 
 
 def test_a_behaviour_plays_one_agent(pitch_file: PitchFile) -> None:
-    """An agent's behaviour plays its player alone, and wins over an `ai` of his own."""
+    """An agent's behaviour plays only its player, and takes precedence over the player's own `ai`."""
     path = pitch_file(MARKED)
     for opponents, expected in [
         ({"carla": "chaser", "dora": "lazy"}, [True, False]),
@@ -253,7 +253,7 @@ def test_a_behaviour_follows_its_agent_to_another_scenario(pitch_file: PitchFile
 
 
 def test_a_behaviour_needs_an_agent_that_keeps_its_player() -> None:
-    with pytest.raises(setpiece.ParameterError, match="`lazy` can't play `right_0`, who changes players") as caught:
+    with pytest.raises(setpiece.ParameterError, match="`lazy` can't play `right_0`, which changes players") as caught:
         setpiece.make("5_vs_5", right=1, opponents={"right_0": "lazy"})
     assert "switching='fixed'" in str(caught.value.help)
     env = setpiece.make("5_vs_5", right=1, switching="fixed", opponents={"right_RM_1": "lazy"})
@@ -325,7 +325,7 @@ def test_an_opponent_must_give_an_action(given: Any) -> None:
         env.step(0)
 
 
-def test_a_function_that_fails_for_one_agent_of_several_says_for_whom() -> None:
+def test_a_function_that_fails_for_one_agent_of_several_names_the_agent() -> None:
     calls = 0
 
     def third_time(_observation: Any) -> Any:
@@ -434,7 +434,7 @@ def test_a_clone_has_the_same_opponents() -> None:
 
 
 def test_the_same_opponents_of_many_agents() -> None:
-    """`parallel_env` and `make` seat the same opponents alike."""
+    """`parallel_env` and `make` seat the same opponents in the same way."""
     recorder = Recorder()
     env = parallel_env(THREE, left=3, right="all", opponents={"right": recorder, "left_CM_2": "bot"})
     assert env.possible_agents == ["left_CM_1", "left_CM_3"]

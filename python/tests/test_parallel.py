@@ -36,7 +36,7 @@ scenario duel extends academy {
 }
 """
 
-# A foul is soon a red card here: the man is booked already and slides without end.
+# A foul soon means a red card here: the player is already booked and slides repeatedly.
 RECKLESS = """
 scenario reckless extends academy {
     agents { left: [hothead, mate] right: [victim] }
@@ -125,7 +125,7 @@ def test_passes_the_render_test_of_pettingzoo() -> None:
     modes = FootballEnv.metadata["render_modes"]
 
     def make(render_mode: str) -> Any:
-        # The test asks for "human" first, of every environment.
+        # The test first requests "human" from every environment.
         return parallel_to_aec(parallel_env(THREE, left=2, render_mode=render_mode if render_mode in modes else "ansi"))
 
     render_test(make)
@@ -163,7 +163,7 @@ def test_both_sides_attack_to_the_right() -> None:
 
 
 def test_agents_are_given_their_part() -> None:
-    """What an agent gets is its row of the same match with all agents in one array."""
+    """An agent gets its row of the same match with all agents in one array."""
     env = parallel_env(THREE, left="all", right=1, events=True, bot_action=True, rewards="scoring,checkpoints")
     other = env.env.clone()
     observations, infos = env.reset(seed=4)
@@ -206,10 +206,10 @@ def test_an_ending_terminates_and_the_limit_truncates_everyone() -> None:
         assert set(truncations.values()) == {cycle == 5}
         assert set(terminations.values()) == {False}
     assert env.agents == []
-    told = infos["left_RM_1"]
-    assert told["outcome"] == "max_cycles"
-    assert (told["setpiece"]["length"], told["setpiece"]["success"]) == (5, False)
-    assert told["setpiece"]["digest"] == env.env._native.digest
+    info = infos["left_RM_1"]
+    assert info["outcome"] == "max_cycles"
+    assert (info["setpiece"]["length"], info["setpiece"]["success"]) == (5, False)
+    assert info["setpiece"]["digest"] == env.env._native.digest
     with pytest.raises(gymnasium.error.ResetNeeded):
         env.step({})
     env.reset()
@@ -251,18 +251,18 @@ def test_an_agent_whose_player_is_sent_off_is_terminated(pitch_file: PitchFile) 
     assert terminations == {"hothead": True, "mate": False, "victim": False}
     assert truncations == dict.fromkeys(agents, False)
     assert set(observations) == set(rewards) == set(infos) == set(agents), "the last step is everyone's"
-    with pytest.raises(setpiece.ActionError, match="`hothead`, who plays no more"):
+    with pytest.raises(setpiece.ActionError, match="`hothead`, which no longer plays"):
         env.step({"hothead": 0, "mate": 0, "victim": 0})
     snapshot = env.snapshot()
     observations, *_ = act(env)
     assert list(observations) == ["mate", "victim"]
     while env.agents:
-        assert env.agents == ["mate", "victim"], "he never comes back"
+        assert env.agents == ["mate", "victim"], "a player sent off never comes back"
         act(env)
     env.reset(seed=1)
     assert env.agents == ["hothead", "mate", "victim"]
     env.reset(options={"snapshot": snapshot})
-    assert env.agents == ["mate", "victim"], "an episode may begin without him"
+    assert env.agents == ["mate", "victim"], "an episode may begin without the player"
 
 
 def test_state_is_the_same_for_whoever_plays() -> None:
@@ -277,7 +277,7 @@ def test_state_is_the_same_for_whoever_plays() -> None:
     assert same(states[0], states[2])
 
 
-def test_state_has_the_layout_that_is_told() -> None:
+def test_state_has_the_documented_layout() -> None:
     env = parallel_env(THREE, left=1, right=1, observation="raw")
     observations, _ = env.reset(seed=5)
     for _ in range(30):
@@ -331,7 +331,7 @@ def test_actions_that_are_none_leave_the_episode_untouched() -> None:
     good: dict[str, Any] = {"left_CM_1": 0, "left_CM_2": 5}
     for actions, message in [
         ({"left_CM_1": 0}, "no action for `left_CM_2`"),
-        ({**good, "left_CM_3": 0}, "`left_CM_3`, who is no agent"),
+        ({**good, "left_CM_3": 0}, "`left_CM_3`, which is not an agent"),
         ({**good, "left_CM_2": 19}, r"0\.\.18 for `left_CM_2`, found `19`"),
         ({**good, "left_CM_2": -1}, "found `-1`"),
         ({**good, "left_CM_2": 1.0}, "found `1.0`"),
@@ -366,7 +366,7 @@ def test_seats_that_are_not_there() -> None:
         ({"left": -1}, "`left` is `-1`"),
         ({"left": True}, "`left` is `True`"),
         ({"left": ["nobody"]}, "no agent can play `nobody` of the left side"),
-        ({"left": ["left_CM_1", "left_CM_1"]}, "`left_CM_1` is asked for twice"),
+        ({"left": ["left_CM_1", "left_CM_1"]}, "`left_CM_1` is requested twice"),
         ({"left": 0, "right": 0}, "leaves the caller no agent"),
         ({"max_cycles": 0}, "`max_cycles` is 0"),
         ({"observation": "simple15v2"}, "did you mean `simple115v2`"),

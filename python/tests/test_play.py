@@ -14,7 +14,7 @@ def runner(observation: Any) -> list[int]:
 
 
 def striker(observation: Any) -> list[int]:
-    """Runs at goal and shoots from near."""
+    """Runs at goal and shoots when near."""
     raw = observation["players_raw"][0]
     x = raw["left_team"][raw["active"]][0]
     if raw["ball_owned_team"] == 0 and x > 0.6:
@@ -23,7 +23,7 @@ def striker(observation: Any) -> list[int]:
 
 
 def loser(_observation: Any) -> int:
-    """Takes the ball to his own goal."""
+    """Takes the ball to their own goal."""
     return Action.LEFT
 
 

@@ -1,4 +1,4 @@
-"""Threads and processes that share an environment: told in the package's own words, and never a hang."""
+"""Threads and processes that share an environment get clear errors, and never hang."""
 
 import os
 import sys
@@ -13,12 +13,12 @@ import setpiece
 
 
 def in_a_fork(work: Callable[[], object], seconds: int = 60) -> int:
-    """Does something in a fork of this process; returns its exit code, or fails where it hangs."""
+    """Runs a function in a fork of this process; returns its exit code, or fails if it hangs."""
     import time
     import warnings
 
     with warnings.catch_warnings():
-        # Python warns of forks with threads; they are what is tested.
+        # Python warns about forks with threads, which are tested here.
         warnings.simplefilter("ignore", DeprecationWarning)
         child = os.fork()
     if child == 0:
@@ -73,7 +73,7 @@ def test_a_vector_inherited_by_a_fork_plays_on() -> None:
         lambda env: env.reset(seed=1),
     ],
 )
-def test_a_second_thread_is_told_in_the_packages_words(asked: Callable[[Any], Any]) -> None:
+def test_a_second_thread_is_reported_in_the_packages_words(asked: Callable[[Any], Any]) -> None:
     env = setpiece.make("11_vs_11_stochastic", render_mode="ansi")
     env.reset(seed=1)
     wrong: list[BaseException] = []

@@ -1,4 +1,4 @@
-"""The examples of docs/python-rewards.md run as they stand, one after the other, and its lists are complete."""
+"""The examples of docs/python-rewards.md run unchanged, in order; its lists are complete."""
 
 import re
 from dataclasses import fields
@@ -24,6 +24,6 @@ def test_every_example_runs() -> None:
         exec(compile(example, "python-rewards.md", "exec"), names)
 
 
-def test_every_field_and_key_is_told() -> None:
+def test_every_field_and_key_is_documented() -> None:
     assert words("of a `Step`") == [field.name for field in fields(setpiece.Step)]
     assert sorted(words("key")) == sorted(setpiece.ScenarioDict.__annotations__)

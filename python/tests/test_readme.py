@@ -1,4 +1,4 @@
-"""The Python examples of the READMEs run as they stand, one after the other."""
+"""The Python examples of the READMEs run unchanged, in order."""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""A `reset` that is refused for what it was given leaves the running episode; one that fails later ends it."""
+"""A `reset` with bad arguments keeps the running episode; one that fails later ends it."""
 
 import time
 from collections.abc import Callable
@@ -56,7 +56,7 @@ REFUSED: dict[str, dict[str, Any]] = {
 
 
 KINDS = [setpiece.make, partial(setpiece.parallel_env, left="all")]
-# PettingZoo's environments warn of options that they don't know, and go on.
+# PettingZoo's environments warn about unknown options, and continue.
 CASES = [(kind, what) for what in REFUSED for kind in (KINDS if what != "option" else KINDS[:1])]
 
 

@@ -17,7 +17,7 @@ SHOT = """scenario shot extends academy {
 
 
 def save(path: Path, text: str) -> None:
-    """Saves as editors do: a new file takes the old one's place."""
+    """Saves like editors do: a new file replaces the old one."""
     fresh = path.with_suffix(".tmp")
     fresh.write_text(text, encoding="utf-8")
     fresh.replace(path)
@@ -46,8 +46,8 @@ def length(env: setpiece.FootballEnv) -> int:
 
 def test_a_watched_file_takes_effect_at_the_next_reset(pitch_file: Callable[[str], Path]) -> None:
     path = pitch_file(SHOT.replace("LIMIT", "5"))
-    told: list[setpiece.Reload] = []
-    env = setpiece.make(path, watch=True, on_reload=told.append)
+    reloads: list[setpiece.Reload] = []
+    env = setpiece.make(path, watch=True, on_reload=reloads.append)
     _, info = env.reset(seed=1)
     first = info["scenario"]
     assert first == env.scenario.digest
@@ -62,7 +62,7 @@ def test_a_watched_file_takes_effect_at_the_next_reset(pitch_file: Callable[[str
     assert broken.state == "broken"
     assert isinstance(broken.error, setpiece.CompileError)
     assert length(env) == 7
-    # What would change the agents is held back.
+    # A change of the agents is held back.
     save(path, SHOT.replace("LIMIT", "7").replace("CM at (0.5, 0)", "CM at (0.5, 0)  CFF at (0.4, 0)"))
     assert wait_for_reload(env, broken).state == "broken"
     two = SHOT.replace("LIMIT", "9").replace(
@@ -76,7 +76,7 @@ def test_a_watched_file_takes_effect_at_the_next_reset(pitch_file: Callable[[str
     save(path, SHOT.replace("LIMIT", "11"))
     wait_for_reload(env, held)
     assert length(env) == 11
-    assert [reload.state for reload in told] == ["applied", "broken", "broken", "held back", "applied"]
+    assert [reload.state for reload in reloads] == ["applied", "broken", "broken", "held back", "applied"]
 
 
 def test_a_file_that_is_deleted_and_comes_back_is_taken(pitch_file: Callable[[str], Path]) -> None:
@@ -125,7 +125,7 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
     env = setpiece.make(path, watch="now")
     first = env.reset(seed=1)[1]["scenario"]
     assert env.step(0)[1] == 1.0
-    # Only the script is another: it goes on with its memory, in this episode.
+    # Only the script has changed: it keeps its memory, in this episode.
     path.write_text(scripted("100.0 + this.n"))
     assert step_until(env, lambda: env.last_reload is not None) > 101.0
     assert env.last_reload is not None
@@ -133,10 +133,10 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
     assert env.scenario.digest != first
     with pytest.raises(setpiece.ReplayError, match="changed scripts"):
         env.save_replay(path.with_suffix(".pitchr"))
-    # A broken script is told at once, and the last good one goes on.
+    # A broken script is reported at once, and the last good one stays in use.
     path.write_text(scripted("100.0 +"))
     assert step_until(env, lambda: env.last_reload is not None and env.last_reload.state == "broken") > 101.0
-    # Anything else waits for the next episode.
+    # Any other change waits for the next episode.
     path.write_text(scripted("5.0", limit=7))
     for _ in range(30):
         assert env.step(0)[1] > 101.0
@@ -148,12 +148,12 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
         setpiece.make(path, watch="soon")  # type: ignore[arg-type]
 
 
-def test_an_on_reload_that_fails_is_told_and_loses_nothing(pitch_file: Callable[[str], Path]) -> None:
+def test_an_on_reload_that_fails_is_reported_and_loses_nothing(pitch_file: Callable[[str], Path]) -> None:
     path = pitch_file(SHOT.replace("LIMIT", "5"))
-    told: list[setpiece.Reload] = []
+    reloads: list[setpiece.Reload] = []
 
     def fails(reload: setpiece.Reload) -> None:
-        told.append(reload)
+        reloads.append(reload)
         raise ValueError("a full disk")
 
     env = setpiece.make(path, watch=True, on_reload=fails)
@@ -161,7 +161,7 @@ def test_an_on_reload_that_fails_is_told_and_loses_nothing(pitch_file: Callable[
     save(path, SHOT.replace("LIMIT", "7"))
     with pytest.raises(setpiece.CallbackError, match="`fails` failed: ValueError: a full disk"):
         wait_for_reload(env, None)
-    assert [reload.state for reload in told] == ["applied"]
+    assert [reload.state for reload in reloads] == ["applied"]
     assert length(env) == 7
 
 

@@ -1,4 +1,4 @@
-"""Episodes are recorded, and played again by the command."""
+"""Episodes are recorded, and replayed with the command."""
 
 import json
 from concurrent.futures import ThreadPoolExecutor
@@ -28,9 +28,9 @@ def test_a_recorded_episode_is_played_again(tmp_path: Path, capfd: pytest.Captur
     for name in (f"{THREE}_7_0.pitchr", f"{THREE}_7_0_2.pitchr", f"{THREE}_7_0_3.pitchr"):
         end = play(env, 7)[-1][4]["setpiece"]
         assert end["replay"] == str(tmp_path / "runs" / name), "nothing that was recorded is lost"
-        told = replayed(end["replay"], capfd)
-        assert f"digest {end['digest']}, as it was" in told
-        assert f"after {end['length']} steps" in told
+        printed = replayed(end["replay"], capfd)
+        assert f"digest {end['digest']}, as it was" in printed
+        assert f"after {end['length']} steps" in printed
 
 
 def test_each_step_is_a_line_of_json(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -95,7 +95,7 @@ def test_an_episode_under_way_is_saved(tmp_path: Path, capfd: pytest.CaptureFixt
     env.save_replay(tmp_path / "five.pitchr")
     assert "not ended after 5 steps" in replayed(tmp_path / "five.pitchr", capfd)
     env.restore(env.snapshot())
-    with pytest.raises(setpiece.ReplayError, match="goes on from a restored snapshot"):
+    with pytest.raises(setpiece.ReplayError, match="continues from a restored snapshot"):
         env.save_replay(tmp_path / "none.pitchr")
 
 
@@ -168,12 +168,12 @@ def test_an_environment_that_records_does_so_where_max_cycles_end_it(tmp_path: P
 
 
 def test_a_vector_says_that_it_records_nothing(tmp_path: Path) -> None:
-    with pytest.raises(setpiece.UnavailableError, match="a vector records no replays") as caught:
+    with pytest.raises(setpiece.UnavailableError, match="a vector can't record replays") as caught:
         setpiece.make_vec(CLOSE, 2, record=tmp_path)
     assert caught.value.name == "record"
 
 
-def test_a_folder_that_can_not_be_made_is_told_at_once(tmp_path: Path) -> None:
+def test_a_folder_that_can_not_be_made_is_reported_at_once(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(setpiece.FileError, match="can't be written"):
         setpiece.make(CLOSE, record=tmp_path / "file")

@@ -17,7 +17,7 @@ FULL = "11_vs_11_stochastic"
 
 
 def recorded(path: Path, scenario: Any, steps: int = 60, seed: int = 4, **kwargs: Any) -> Trajectory:
-    """Plays at random, writes the replay, and returns what `reset` and each `step` gave."""
+    """Plays at random and saves the replay; returns the results of `reset` and each `step`."""
     env = setpiece.make(scenario, events=True, **kwargs)
     env.action_space.seed(seed)
     trajectory = play(env, seed, env.action_space.sample, steps)
@@ -26,7 +26,7 @@ def recorded(path: Path, scenario: Any, steps: int = 60, seed: int = 4, **kwargs
 
 
 def sealed(body: bytes) -> bytes:
-    """A replay with a head that fits: its mark, version, checksum and length."""
+    """A replay with a valid header: magic number, version, checksum and length."""
     deflater = zlib.compressobj(wbits=-zlib.MAX_WBITS)
     deflated = deflater.compress(body) + deflater.flush()
     checksum = 0xCBF29CE484222325
@@ -88,7 +88,7 @@ def test_it_tells_what_was_played(tmp_path: Path) -> None:
 
 
 def test_continuous_actions_come_back_as_they_were_played(tmp_path: Path) -> None:
-    # Far more than is likely to be cut twice, which rounding lets happen to one way in three hundred.
+    # Many steps: rounding lets about one direction in three hundred be cut twice.
     recorded(tmp_path / "x.pitchr", FULL, steps=3000, action_set="continuous")
     replay = setpiece.Replay(tmp_path / "x.pitchr")
     assert replay.action_set == "continuous"
@@ -147,8 +147,8 @@ def test_files_that_are_no_replays_are_named(tmp_path: Path) -> None:
     for bad, why in [
         (b"", "not a replay"),
         (b"scenario x {}", "not a replay"),
-        (good[:20], "cut off"),
-        (good[:-1], "cut off"),
+        (good[:20], "truncated"),
+        (good[:-1], "truncated"),
         (version, "version 99"),
         (flipped, "checksum"),
         (good + b"x", "checksum"),
@@ -173,16 +173,16 @@ def test_files_that_are_no_replays_are_named(tmp_path: Path) -> None:
         assert unread.value.path == str(missing)
 
 
-def test_an_episode_that_goes_otherwise_is_told(tmp_path: Path) -> None:
+def test_an_episode_that_diverges_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "x.pitchr"
     recorded(path, CLOSE, steps=5)
     body = zlib.decompress(path.read_bytes()[28:], -zlib.MAX_WBITS)
     head, acts = body.split(b"dacts\x85")
     path.write_bytes(sealed(head + b"dacts\x85" + bytes(5 if act != 5 else 1 for act in acts[:5]) + acts[5:]))
     replay = setpiece.Replay(path)
-    with pytest.raises(setpiece.ReplayError, match="step 5: this build plays the episode otherwise"):
+    with pytest.raises(setpiece.ReplayError, match="step 5: this build diverges from the recording"):
         list(replay)
     assert head.count(b"flength\x05") == 1
     path.write_bytes(sealed(head.replace(b"flength\x05", b"flength\x00") + b"dacts\x80" + acts[5:]))
-    with pytest.raises(setpiece.ReplayError, match="step 0: this build plays the episode otherwise"):
+    with pytest.raises(setpiece.ReplayError, match="step 0: this build diverges from the recording"):
         list(setpiece.Replay(path))

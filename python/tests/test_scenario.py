@@ -106,7 +106,7 @@ def raise_version(text: str) -> str:
 @pytest.mark.parametrize(
     ("damage", "words"),
     [
-        (cut_in_half, "cut off"),
+        (cut_in_half, "truncated"),
         (change_a_value, "checksum"),
         (raise_version, "version 99"),
         (str.upper, "not a compiled"),

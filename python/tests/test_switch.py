@@ -1,4 +1,4 @@
-"""Another scenario at `reset`, in an environment that goes on."""
+"""Switching to another scenario at `reset`, in a running environment."""
 
 import pickle
 from collections.abc import Callable
@@ -44,7 +44,7 @@ NEVER = "scenario never { ball at centre team left { CF at (0, 0) } require 1 > 
 
 
 def agree(env: Any, other: Any, seed: int, options: dict[str, Any], steps: int = 60) -> None:
-    """Both play the same episode, the first after it has gone over to another scenario, and the one after it."""
+    """Both play the same episode, the first after switching to another scenario, and the next one."""
     assert same(play(env, seed, options=options, steps=steps), play(other, seed, steps=steps))
     assert same(play(env, None, steps=steps), play(other, None, steps=steps))
 
@@ -52,7 +52,7 @@ def agree(env: Any, other: Any, seed: int, options: dict[str, Any], steps: int =
 @pytest.mark.parametrize("form", ["name", "path", "text", "compiled", "dict"])
 @pytest.mark.parametrize("observation", ["simple115v2", "smm", "egocentric"])
 def test_the_episode_is_that_of_a_new_environment(form: str, observation: str, pitch_file: PitchFile) -> None:
-    # What one sees of his own sees as many players.
+    # The number of visible teammates stays the same.
     start = {"name": THREE, "dict": PAIR}.get(form, DRILL) if observation == "egocentric" else THREE
     source: Any = {
         "name": CORNER if observation != "egocentric" else THREE,
@@ -166,7 +166,7 @@ def test_an_episode_goes_on_where_a_scenario_does_not_fit() -> None:
 
 def test_a_watched_environment_plays_its_file(pitch_file: PitchFile) -> None:
     env = setpiece.make(pitch_file(DRILL), watch=True)
-    with pytest.raises(setpiece.ParameterError, match="plays no other"):
+    with pytest.raises(setpiece.ParameterError, match="switch to another"):
         env.reset(options={"scenario": THREE})
     assert len(play(env, 1)) == 26
 

@@ -1,4 +1,4 @@
-"""The cells of examples/tour.ipynb run in order, and the notebook is one."""
+"""The cells of examples/tour.ipynb run in order, and it is a valid notebook."""
 
 import json
 import re

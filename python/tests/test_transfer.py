@@ -1,4 +1,4 @@
-"""What `lab/transfer` reads from super mini maps, and the policies that it trains on them."""
+"""What `lab/transfer` reads from super mini maps, and policies trained on them."""
 
 import importlib
 import sys
@@ -22,7 +22,10 @@ CELL_M = 2 * places.EDGES_M / (places.WIDTH, places.HEIGHT)
 
 
 def real_maps() -> np.ndarray:
-    """31 maps of the real game, academy_run_to_score_with_keeper, right and sprint: `(31, 72, 96, 4)` uint8."""
+    """31 maps of the real game, academy_run_to_score_with_keeper, right and sprint.
+
+    uint8 `(31, 72, 96, 4)`.
+    """
     with np.load(LAB / "recorded" / "real_maps.npz") as file:
         shape = tuple(file["shape"])
         return (np.unpackbits(file["bits"], count=int(np.prod(shape))).reshape(shape) * 255).astype(np.uint8)
@@ -55,7 +58,7 @@ def test_a_roster_of_ours_reads_the_real_maps() -> None:
     game.close()
     theirs = places.Roster.of(maps)
     assert ours.players == theirs.players == 8
-    # Every slot is the same player in both games: they start at most a cell apart.
+    # Every slot is the same player in both games; they start at most a cell apart.
     read = features(maps, ours)[:1, 4 : 4 + 16].reshape(8, 2)
     start = places.metres(np.concatenate([ours.own, ours.opponents]))
     assert (np.abs(read - start) <= CELL_M * 1.01).all()

@@ -1,4 +1,4 @@
-"""Many matches at once: a vector plays what as many single environments would."""
+"""Many matches at once: a vector plays the same as many single environments."""
 
 from collections.abc import Callable
 from typing import Any
@@ -22,7 +22,7 @@ def actions(rng: np.random.Generator, envs: setpiece.FootballVectorEnv) -> Any:
 
 
 def hashed(observations: Any) -> Any:
-    """A policy of every action, which depends on the whole of what it sees."""
+    """A policy with every action, which depends on everything that it sees."""
     return (np.abs(observations).reshape(len(observations), -1).sum(axis=1) * 31).astype(int) % 20
 
 
@@ -105,7 +105,7 @@ def test_an_opponents_own_words_are_not_taken_for_a_second_thread() -> None:
         envs.step([0, 0])
 
 
-def test_records_are_told_by_environment() -> None:
+def test_records_are_reported_by_environment() -> None:
     text = """
         scenario measured {
             ball at (0.1, 0)

@@ -1,12 +1,13 @@
-//! Behaviours: what a scripted player does, as a small state machine over one register program.
+//! Behaviours: what a scripted player does, as a small state machine with one register program.
 //!
-//! The program is run once at every step before the player acts; its registers give every condition and argument of
-//! the behaviour. The nodes are gone through in order: some end a step with an action ([`Node::Do`]), the others take
-//! no time. Calls of other behaviours are written out where they are called. Jumps lead forward only, but for
-//! [`Node::Loop`], which costs a step if its pass has cost none: so every step ends.
+//! The program runs once in every step, before the player acts. Its registers give every condition
+//! and argument of the behaviour. The nodes run in order: some end a step with an action
+//! ([`Node::Do`]), the others take no time. Calls of other behaviours are inlined. Jumps lead only
+//! forward, except [`Node::Loop`], which takes a step if its iteration has taken none. So every
+//! step ends.
 //!
-//! A node that writes a cell is seen by what follows in the same step: the program's values are computed anew, but for
-//! those of temporal instructions, which happen once a step.
+//! A node that writes a cell affects what follows in the same step: the program's values are
+//! computed again, except those of temporal instructions, which run once per step.
 
 use crate::program::{Distribution, Program, Reg};
 use crate::vocabulary::Type;
@@ -18,62 +19,63 @@ use serde::{Deserialize, Serialize};
 pub struct Behavior {
     /// Its name, for messages.
     pub name: String,
-    /// Run at every step, on the state before it; `me` is the player, `us` his team.
+    /// Runs in every step, on the state before it. `me` is the player, `us` their team.
     pub program: Program,
-    /// What is done, in order; behind the last one the bot plays him.
+    /// What the player does, in order. After the last node the bot plays them.
     pub nodes: Vec<Node>,
-    /// What may turn him away, the first wins: outer blocks before inner ones, each in the order written.
+    /// What may redirect the player. The first that holds wins: outer blocks before inner ones,
+    /// each in source order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub watches: Vec<Watch>,
 }
 
-/// One thing of a behaviour; targets are places in its list of nodes.
+/// One instruction of a behaviour. Targets are indices in its list of nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Node {
-    /// Acts, a step at a time, until it ends.
+    /// Acts, one step at a time, until it ends.
     Do(Do),
-    /// Writes cells with the registers' present values, all at once.
+    /// Writes the registers' current values into cells, all at once.
     Let(Vec<(u32, Reg)>),
-    /// The same for a `state`: an impossible value (NaN) is stopped and counted.
+    /// The same for a `state`. An impossible value (NaN) is dropped and counted.
     Assign(Vec<(u32, Reg)>),
     /// Draws a value into a cell.
     Draw {
         /// The cell.
         cell: u32,
-        /// A cell that counts the draws, so that each is another.
+        /// A cell that counts the draws, so that each differs.
         count: u32,
-        /// Names the draw's own stream, keyed by (seed, index, count, key and player).
+        /// Key of the draw's own stream, together with (seed, index, count and player).
         key: u64,
-        /// From what.
+        /// The distribution.
         from: Distribution,
     },
-    /// Goes on if the condition holds, else jumps.
+    /// Continues if the condition holds, else jumps.
     Branch {
         /// The condition.
         when: Reg,
-        /// Where to else, forward.
+        /// The target otherwise, forward.
         otherwise: u32,
     },
     /// Jumps forward.
     Jump(u32),
-    /// Writes the present step's number into a cell: a pass of a loop begins.
+    /// Writes the current step's number into a cell at the start of a loop's iteration.
     Mark(u32),
-    /// Jumps back to the `Mark` of a loop; waits a step if the pass has cost none.
+    /// Jumps back to the `Mark` of a loop; waits a step if the iteration has taken none.
     Loop {
-        /// Where the pass began.
+        /// The start of the iteration.
         to: u32,
         /// The cell of its `Mark`.
         mark: u32,
     },
-    /// An interrupt ends: what it interrupted resumes.
+    /// Ends an interrupt; what it interrupted resumes.
     Return,
-    /// Leaves the behaviour that lies in `from..to`, whatever it had interrupted.
+    /// Leaves the behaviour in `from..to`, with everything that it had interrupted.
     Finish {
         /// Its first node.
         from: u32,
-        /// Behind its last one.
+        /// The node after its last one.
         to: u32,
     },
 }
@@ -82,55 +84,56 @@ pub enum Node {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Do {
-    /// What he does.
+    /// The primitive.
     pub act: Act,
-    /// Whether he sprints.
+    /// Whether the player sprints.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub sprint: bool,
     /// Ends as soon as this holds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub until: Option<Reg>,
-    /// Ends after so many seconds.
+    /// Ends after this many seconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seconds: Option<Reg>,
 }
 
-/// What a player does; places are world metres, angles world radians, players ids.
+/// What a player does. Places are world metres, angles world radians, players ids.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Act {
     /// Runs to a place; ends within a metre of it.
     MoveTo(Reg, Reg),
-    /// Runs that way.
+    /// Runs in a direction.
     Run(Reg),
-    /// Takes the ball to a place; ends there, and without the ball.
+    /// Takes the ball to a place; ends there, or when the ball is lost.
     DribbleTo(Reg, Reg),
-    /// A short pass to a mate.
+    /// A short pass to a teammate.
     PassTo(Reg),
-    /// A lofted pass to a mate.
+    /// A lofted pass to a teammate.
     HighPassTo(Reg),
-    /// A pass ahead of a mate.
+    /// A pass ahead of a teammate.
     LongPassTo(Reg),
-    /// A shot, at a point of the goal if one is meant.
+    /// A shot, at a point of the goal if one is given.
     Shoot(Option<(Reg, Reg)>),
-    /// Challenges for the ball on his feet, for at most a second.
+    /// Challenges for the ball on their feet, for at most a second.
     Tackle,
     /// One slide tackle.
     Slide,
     /// Stays between an opponent and the own goal.
     Mark(Reg),
-    /// Goes for the ball while the others have it or nobody has.
+    /// Goes for the ball while the team doesn't have it.
     Press,
     /// Stands; `wait` is the same.
     Hold,
-    /// The bot plays him.
+    /// Lets the bot play the player.
     Bot,
-    /// A script's `act` hook says.
+    /// Does what a script's `act` hook returns.
     Script {
-        /// Which script.
+        /// The script's index.
         script: u32,
-        /// The behaviour's arguments: `ctx.params` bears them beside the scenario's parameters.
+        /// The behaviour's arguments; `ctx.params` has them in addition to the scenario's
+        /// parameters.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         args: Vec<ScriptArg>,
     },
@@ -144,21 +147,21 @@ pub struct ScriptArg {
     pub name: String,
     /// Its type.
     pub ty: Type,
-    /// Its registers: two for a point.
+    /// Its registers; two for a point.
     pub regs: Vec<Reg>,
 }
 
-/// What may turn a player away from what he does, while he is at a node of `from..to`.
+/// What may redirect a player who is at a node of `from..to`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Watch {
     /// First node.
     pub from: u32,
-    /// Behind the last one.
+    /// The node after the last one.
     pub to: u32,
-    /// As soon as this holds before a step.
+    /// Applies as soon as this holds before a step.
     pub when: Reg,
-    /// What happens.
+    /// What it does.
     pub then: Then,
 }
 
@@ -167,9 +170,9 @@ pub struct Watch {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Then {
-    /// Does what stands at this node up to its `Return`, and resumes.
+    /// Runs this node and the following ones up to `Return`, then resumes.
     Interrupt(u32),
-    /// Goes on behind `to`.
+    /// Continues after `to`.
     Leave,
 }
 

@@ -1,9 +1,9 @@
-//! What a scenario may cost at most: the memory it takes and the work of a step and of a reset.
+//! The largest cost of a scenario: its memory, and the work of a step and of a reset.
 //!
-//! A text of a megabyte or a compiled file can ask for more than any machine has: loops multiply instructions, and
-//! every agent has a memory of its own. The totals are reckoned before anything is made of the scenario, as if every
-//! loop went through everybody and every player had an agent. The compiler reports what is beyond them where it
-//! stands in the text; a file is refused.
+//! A text of a megabyte or a compiled file can ask for more than any machine has: loops multiply
+//! instructions, and every agent has its own memory. The totals are computed before anything is
+//! built from the scenario. They assume that every loop visits everybody and that every player has
+//! an agent. The compiler reports an excess at its place in the text; a file is rejected.
 
 use crate::behavior::Node;
 use crate::pitch::PLAYERS_MAX;
@@ -11,40 +11,40 @@ use crate::program::{Distribution, Instr, Over, Program};
 use crate::scenario::{Ai, Reward, Scenario};
 use crate::vocabulary::Team;
 
-/// Most events of one step.
+/// The most events of one step.
 pub const EVENTS_MAX: usize = 128;
-/// Most instructions that a step runs, everyone's rewards, records, observations and behaviours together: about a
+/// The most instructions of a step, for all rewards, records, observations and behaviours: about a
 /// quarter of a second. Four nested loops over all players run a million.
 pub const STEP_WORK_MAX: u64 = 1 << 25;
-/// Most instructions that one attempt at a start runs.
+/// The most instructions of one attempt at a start.
 pub const START_WORK_MAX: u64 = 1 << 22;
-/// Most instructions of all programs together: a register for each agent and instruction makes some 50 MB.
+/// The most instructions of all programs: with one register per agent and instruction, about 50 MB.
 pub const CODE_MAX: u64 = 200_000;
-/// Most memory cells of all programs together, each of which an agent has for itself.
+/// The most memory cells of all programs; each agent has its own copy.
 pub const CELLS_MAX: u64 = 100_000;
-/// Most terms of all rewards together: each has a name and sums for every agent.
+/// The most terms of all rewards; each has a name and sums for every agent.
 pub const TERMS_MAX: u64 = 10_000;
-/// Most parameters, requirements, rewards, endings, records and behaviours, each counted by itself.
+/// The most parameters, requirements, rewards, endings, records and behaviours, counted separately.
 pub const PARTS_MAX: u64 = 2_000;
-/// Most `let`s, and most numbers of an observation.
+/// The most `let`s, and the most numbers of an observation.
 pub const NUMBERS_MAX: u64 = 10_000;
-/// Most nodes of all behaviours together.
+/// The most nodes of all behaviours.
 pub const NODES_MAX: u64 = 250_000;
-/// Most numbers that series keep of one step, everyone's together: 8 kB, as long as the episode lasts.
+/// The most numbers that all series keep per step: 8 kB, for as long as the episode lasts.
 pub const SERIES_MAX: u64 = 1_000;
-/// Most bytes of all scripts together.
+/// The most bytes of all scripts.
 pub const SCRIPTS_MAX_BYTES: u64 = 1 << 20;
-/// Longest name of a scenario, bytes: files are named by it.
+/// Longest name of a scenario, bytes, because files are named after it.
 pub const NAME_MAX_BYTES: usize = 128;
 
-/// What the worst draw from a truncated normal distribution costs, in instructions: it is drawn again until it lies
-/// within its ends.
+/// Cost of the worst draw from a truncated normal distribution, in instructions: it is repeated
+/// until the value is within its ends.
 const TRUNCATED_WORK: u64 = 1_000;
 
-/// A part of a scenario, by its place in its list.
+/// A part of a scenario, by its index in its list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// All of it.
+    /// The whole scenario.
     Scenario,
     /// Its start.
     Start,
@@ -65,17 +65,15 @@ pub enum Part {
 /// A total that is too large.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excess {
-    /// What adds most to it.
+    /// The part that adds most to it.
     pub part: Part,
     /// One clause.
     pub message: String,
-    /// What to do about it.
+    /// What to change.
     pub help: &'static str,
 }
 
-/// Says which total of a scenario is too large, if any is.
-///
-/// Programs need not have been verified.
+/// Checks the totals of a scenario. Its programs need not be verified.
 ///
 /// # Errors
 /// The first total beyond its bound.
@@ -123,16 +121,16 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
     step_work(scenario).within(STEP_WORK_MAX, "nest fewer sums, and compute once with a `let` what is used often")
 }
 
-/// What an attempt at a start may cost, in instructions; at least one.
+/// The cost of an attempt at a start, in instructions; at least one.
 pub fn start_work(scenario: &Scenario) -> u64 {
     work(&scenario.start.program, &Counts::of(scenario)).max(1)
 }
 
-/// What a step may cost, in instructions.
+/// The cost of a step, in instructions.
 fn step_work(scenario: &Scenario) -> Total {
     let counts = Counts::of(scenario);
     let mut total = Total::new("instructions in a step");
-    // What knows nothing of an agent's player is computed once for a team.
+    // A program that doesn't depend on the agent's player runs once per team.
     let times = |program: &Program, else_: u64| if program.uses_me() { counts.all } else { else_ };
     for (part, reward) in rewards(scenario) {
         let step = &reward.body.step;
@@ -147,7 +145,8 @@ fn step_work(scenario: &Scenario) -> Total {
     }
     for (at, behavior) in scenario.behaviors.iter().enumerate() {
         let played = scenario.players.iter().filter(|slot| slot.ai == Ai::Behavior(at as u32)).count() as u64;
-        // Whoever writes a cell has everything computed again, and an interrupt may lead through it twice.
+        // Each write to a cell computes everything again, and an interrupt may lead through it
+        // twice.
         let writes = behavior.nodes.iter().filter(|node| writes(node)).count() as u64;
         let computed = work(&behavior.program, &counts).saturating_mul(1 + 2 * writes);
         total.add(Part::Behavior(at), played.saturating_mul(computed.saturating_add(2 * behavior.nodes.len() as u64)));
@@ -173,13 +172,13 @@ fn programs(scenario: &Scenario) -> impl Iterator<Item = (Part, &Program)> {
         .chain(behaviors)
 }
 
-/// The rewards that are paid, and those that may be asked for.
+/// The rewards that are paid, and those that can be requested.
 fn rewards(scenario: &Scenario) -> impl Iterator<Item = (Part, &Reward)> {
     let paid = scenario.rewards.iter().enumerate().map(|(at, reward)| (Part::Reward(at), reward));
     paid.chain(scenario.library.iter().enumerate().map(|(at, reward)| (Part::Library(at), reward)))
 }
 
-/// How many players there are.
+/// The numbers of players.
 struct Counts {
     teams: [u64; 2],
     all: u64,
@@ -191,7 +190,7 @@ impl Counts {
         Counts { teams, all: teams.iter().sum() }
     }
 
-    /// How many elements a loop may have.
+    /// The most elements of a loop.
     fn of_loop(&self, over: &Over, code: &[Instr]) -> u64 {
         match over {
             Over::Events(_) => EVENTS_MAX as u64,
@@ -205,10 +204,11 @@ impl Counts {
     }
 }
 
-/// How many instructions a run of a program may take.
+/// The most instructions in one run of a program.
 fn work(program: &Program, counts: &Counts) -> u64 {
     let mut total = 0_u64;
-    // Ends of the loops around the present instruction, innermost last, and how often their bodies run.
+    // Ends of the loops around the current instruction, innermost last, and how often their bodies
+    // run.
     let mut open: Vec<(usize, u64)> = Vec::new();
     for (at, instr) in program.code.iter().enumerate() {
         while open.last().is_some_and(|(end, _)| *end <= at) {
@@ -219,7 +219,7 @@ fn work(program: &Program, counts: &Counts) -> u64 {
         match instr {
             Instr::Each(each) => {
                 let elements = counts.of_loop(&each.over, &program.code);
-                // A loop looks at everybody whom it might go through.
+                // A loop checks everybody that it might visit.
                 once = elements.saturating_add(1);
                 open.push((at + 1 + each.body as usize, times.saturating_mul(elements)));
             }
@@ -235,7 +235,7 @@ fn work(program: &Program, counts: &Counts) -> u64 {
     total
 }
 
-/// A sum over parts that remembers the greatest.
+/// A sum over parts that remembers the largest one.
 struct Total {
     what: &'static str,
     sum: u64,
@@ -294,7 +294,7 @@ mod tests {
     fn loops_multiply_what_stands_in_them() {
         let counts = Counts { teams: [11, 11], all: 22 };
         let mut program = Program { code: vec![Instr::Const(-1.0), each(2), each(1), Instr::Us, Instr::Us], cells: 0 };
-        // The constant, the outer loop, 22 inner loops, 22 · 22 bodies, and what stands behind.
+        // The constant, the outer loop, 22 inner loops, 22 · 22 bodies, and what follows.
         assert_eq!(work(&program, &counts), 1 + 23 + 22 * 23 + 22 * 22 + 1);
         program.code[0] = Instr::Const(1.0);
         assert_eq!(work(&program, &counts), 1 + 12 + 11 * 12 + 11 * 11 + 1);

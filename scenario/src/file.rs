@@ -1,4 +1,5 @@
-//! The compiled scenario's file format, `.pitchc`: JSON with a version and a checksum, or the [`binary`] form of it.
+//! The compiled scenario's file format, `.pitchc`: JSON with a version and a checksum, or the
+//! [`binary`] form of it.
 
 pub mod binary;
 
@@ -7,25 +8,25 @@ use crate::verify::verify;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
-/// The version this build reads and writes.
+/// The version that this build reads and writes.
 pub const FORMAT_VERSION: u32 = 1;
-/// Largest file, bytes: more than the largest scenario needs, and little enough to be read whole.
+/// Largest file, bytes: more than the largest scenario needs, and small enough to read at once.
 pub const FILE_MAX_BYTES: u64 = 16 << 20;
-/// What the field `format` says.
+/// The value of the field `format`.
 pub(crate) const FORMAT_NAME: &str = "setpiece scenario";
 
 /// Why a compiled scenario can't be read or written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FormatError {
-    /// It is not a compiled scenario at all.
+    /// It isn't a compiled scenario.
     NotAScenario(String),
-    /// It ends before it should.
+    /// It is truncated.
     Truncated,
     /// It was written by another version.
     Version(u32),
-    /// Its content is not what was written.
+    /// Its content isn't what was written.
     Checksum,
-    /// It is well-formed but says something impossible.
+    /// It is well-formed but holds an impossible value.
     Corrupt(String),
     /// It can't be written.
     Write(String),
@@ -35,7 +36,7 @@ impl std::fmt::Display for FormatError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             FormatError::NotAScenario(why) => write!(f, "not a compiled scenario: {why}"),
-            FormatError::Truncated => f.write_str("the compiled scenario is cut off: its end is missing"),
+            FormatError::Truncated => f.write_str("the compiled scenario is truncated: its end is missing"),
             FormatError::Version(found) => write!(
                 f,
                 "the compiled scenario has format version {found}; this build reads version {FORMAT_VERSION}: build it again from its source"
@@ -73,7 +74,7 @@ struct In<'a> {
 /// Writes a scenario as text.
 ///
 /// # Errors
-/// [`FormatError::Write`] where a constant is not finite.
+/// [`FormatError::Write`] if a constant isn't finite.
 pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     let write = |error: serde_json::Error| FormatError::Write(error.to_string());
     let body = serde_json::to_string(scenario).map_err(write)?;
@@ -85,7 +86,7 @@ pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     Ok(file)
 }
 
-/// Refuses what is larger than any file is read.
+/// Rejects content larger than a file may be.
 fn check_size(bytes: usize, fault: impl Fn(String) -> FormatError) -> Result<(), FormatError> {
     if bytes as u64 <= FILE_MAX_BYTES {
         return Ok(());
@@ -93,16 +94,16 @@ fn check_size(bytes: usize, fault: impl Fn(String) -> FormatError) -> Result<(),
     Err(fault(format!("it is larger than {} MiB", FILE_MAX_BYTES >> 20)))
 }
 
-/// A number that changes with anything in the scenario: the checksum of its file.
+/// A number that changes with any part of the scenario: the checksum of its file.
 ///
 /// # Errors
-/// [`FormatError::Write`] where a constant is not finite.
+/// [`FormatError::Write`] if a constant isn't finite.
 pub fn digest(scenario: &Scenario) -> Result<u64, FormatError> {
     let body = serde_json::to_string(scenario).map_err(|error| FormatError::Write(error.to_string()))?;
     Ok(fnv1a(body.as_bytes()))
 }
 
-/// Reads a scenario from text; what it returns is safe to run.
+/// Reads a scenario from text. The result is safe to run.
 ///
 /// # Errors
 /// [`FormatError`] for anything but an unchanged file of this version.

@@ -1,7 +1,7 @@
-//! What the operators of programs compute: the one meaning that folding constants and running a program share.
+//! The operators of programs, shared by constant folding and the machine.
 //!
-//! Transcendental functions are libm's, so results are the same bits on every machine. A truth value is 1 or 0, an
-//! impossible value is NaN: it flows, and compares false.
+//! Transcendental functions are libm's, so results have the same bits on every machine. A truth
+//! value is 1 or 0. An impossible value is NaN, which propagates, and compares false.
 
 use crate::pitch::{PLAYERS_MAX, TEAM_MAX};
 use crate::program::{BinaryOp, UnaryOp};
@@ -9,7 +9,7 @@ use crate::vocabulary::Team;
 use std::f64::consts::{PI, TAU};
 
 impl UnaryOp {
-    /// Every operator of one operand.
+    /// Every unary operator.
     pub const ALL: &'static [UnaryOp] = &[
         UnaryOp::Neg,
         UnaryOp::Not,
@@ -29,7 +29,7 @@ impl UnaryOp {
         UnaryOp::Wrap,
     ];
 
-    /// The result for an operand; `exists` tells whether a player of a number is on the pitch.
+    /// The result for an operand. `exists` tells whether a player with this number is on the pitch.
     #[inline]
     pub fn apply(self, a: f64, exists: impl Fn(f64) -> bool) -> f64 {
         match self {
@@ -54,14 +54,14 @@ impl UnaryOp {
         }
     }
 
-    /// The result for a constant; `None` where only the match knows it.
+    /// The result for a constant; `None` if it depends on the match.
     pub fn fold(self, a: f64) -> Option<f64> {
         (self != UnaryOp::Exists).then(|| self.apply(a, |_| false))
     }
 }
 
 impl BinaryOp {
-    /// Every operator of two operands.
+    /// Every binary operator.
     pub const ALL: &'static [BinaryOp] = &[
         BinaryOp::Add,
         BinaryOp::Sub,
@@ -94,7 +94,7 @@ impl BinaryOp {
             BinaryOp::Div => a / b,
             BinaryOp::Mod => modulo(a, b),
             BinaryOp::Pow => libm::pow(a, b),
-            // The standard library's drop a NaN; here it must flow.
+            // The standard library's functions drop a NaN; here it must propagate.
             BinaryOp::Min | BinaryOp::Max if a.is_nan() || b.is_nan() => f64::NAN,
             BinaryOp::Min => {
                 if b < a {
@@ -110,7 +110,8 @@ impl BinaryOp {
                     a
                 }
             }
-            // Lengths on a pitch neither overflow nor vanish: the square root alone is exact enough, and quick.
+            // Lengths on a pitch neither overflow nor vanish, so a plain square root is exact
+            // enough, and fast.
             BinaryOp::Hypot => (a * a + b * b).sqrt(),
             BinaryOp::Atan2 => libm::atan2(a, b),
             BinaryOp::Lt => (a < b).into(),
@@ -131,7 +132,7 @@ pub fn truth(value: f64) -> bool {
     value != 0.0 && !value.is_nan()
 }
 
-/// A player id as an index; `None` for -1 and for what is no id.
+/// A player id as an index; `None` for -1 and other values that aren't ids.
 #[inline]
 pub fn player_index(id: f64) -> Option<usize> {
     let index = id as i64;
@@ -150,8 +151,8 @@ pub fn team_of_number(number: f64) -> Option<Team> {
     }
 }
 
-/// The remainder with the divisor's sign; NaN for a zero divisor. It is exact: `mod(1m, 0.1m)` is 0.0999…, as the
-/// nearest number to 0.1 goes 9 times into 1.
+/// The remainder with the divisor's sign; NaN for a zero divisor. It is exact: `mod(1m, 0.1m)` is
+/// 0.0999…, because the number nearest to 0.1 goes 9 times into 1.
 fn modulo(a: f64, b: f64) -> f64 {
     if b == 0.0 {
         return f64::NAN;
@@ -163,6 +164,6 @@ fn modulo(a: f64, b: f64) -> f64 {
 /// An angle wrapped to -π..π.
 fn wrap(angle_rad: f64) -> f64 {
     let turned = modulo(angle_rad + PI, TAU) - PI;
-    // The end belongs to both sides; the positive one is the natural answer for half a turn.
+    // Both ends are the same angle; the positive one is the natural answer for half a turn.
     if turned == -PI { PI } else { turned }
 }

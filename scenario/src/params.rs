@@ -4,7 +4,8 @@ use crate::pitch::STEPS_PER_S;
 use crate::vocabulary::Type;
 use serde::{Deserialize, Serialize};
 
-/// A parameter: a typed number with a default and a range. Strings and teams are numbered by `choices`.
+/// A parameter: a typed number with a default and a range. Strings and teams are numbered by
+/// `choices`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Param {
@@ -20,10 +21,10 @@ pub struct Param {
     /// Least and greatest value, both included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<(f64, f64)>,
-    /// The words it may be, for strings; the value is the place in this list.
+    /// The allowed words, for strings; the value is the index in this list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<String>,
-    /// The numbers it may be, if it is a list.
+    /// The allowed numbers, if it is a list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<f64>,
 }
@@ -39,25 +40,25 @@ pub struct Bindings(pub Vec<f64>);
 pub enum ParamError {
     /// The scenario has no such parameter.
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What there is.
+        /// The names that exist.
         known: Vec<String>,
     },
-    /// The text or value is not of the parameter's type.
+    /// The text or value doesn't have the parameter's type.
     Type {
-        /// Which parameter.
+        /// The parameter.
         name: String,
         /// Its type.
         ty: Type,
-        /// What was given.
+        /// The given value.
         found: String,
     },
-    /// The value lies outside the range or the choices.
+    /// The value is outside the range or the choices.
     Range {
-        /// Which parameter.
+        /// The parameter.
         name: String,
-        /// What was given.
+        /// The given value.
         found: String,
         /// What is allowed, in words.
         allowed: String,
@@ -94,7 +95,8 @@ impl Bindings {
     /// Binds a parameter to a value in SI units.
     ///
     /// # Errors
-    /// [`ParamError`] where there is no such parameter or the value is not allowed; nothing is changed then.
+    /// [`ParamError`] if there is no such parameter or the value isn't allowed; nothing is changed
+    /// then.
     pub fn set(&mut self, params: &[Param], name: &str, value: f64) -> Result<(), ParamError> {
         let (index, param) = find(params, name)?;
         let value = param.admit(value)?;
@@ -104,10 +106,11 @@ impl Bindings {
         Ok(())
     }
 
-    /// Binds a parameter to a value written as in the language: `0.9`, `60%`, `12m`, `on`, `left`, a word.
+    /// Binds a parameter to a value written as in the language: `0.9`, `60%`, `12m`, `on`, `left`,
+    /// a word.
     ///
     /// # Errors
-    /// As [`Bindings::set`], and where the text is not of the parameter's type.
+    /// Like [`Bindings::set`], and if the text doesn't have the parameter's type.
     pub fn set_text(&mut self, params: &[Param], name: &str, text: &str) -> Result<(), ParamError> {
         let (_, param) = find(params, name)?;
         self.set(params, name, param.parse(text)?)
@@ -122,10 +125,10 @@ fn find<'a>(params: &'a [Param], name: &str) -> Result<(usize, &'a Param), Param
 }
 
 impl Param {
-    /// Reads a value as the language writes it; a bare number is taken in the type's SI unit.
+    /// Reads a value as the language writes it. A bare number is in the type's SI unit.
     ///
     /// # Errors
-    /// [`ParamError::Type`] where the text is something else.
+    /// [`ParamError::Type`] if the text is anything else.
     pub fn parse(&self, text: &str) -> Result<f64, ParamError> {
         use crate::vocabulary::Unit;
         let text = text.trim();
@@ -178,7 +181,7 @@ impl Param {
     /// Checks a value against type, range and choices.
     ///
     /// # Errors
-    /// [`ParamError`] where it is not allowed.
+    /// [`ParamError`] if it isn't allowed.
     pub fn admit(&self, value: f64) -> Result<f64, ParamError> {
         let whole = matches!(self.ty, Type::Int | Type::Bool | Type::Team | Type::String);
         if !value.is_finite() || (whole && value.fract() != 0.0) {
@@ -200,7 +203,7 @@ impl Param {
 
     /// A value as the language writes it: `0.9`, `60%`, `12m`, `400 steps`, `on`, `left`, a word.
     pub fn show(&self, value: f64) -> String {
-        // Twelve digits behind the point hide what binary fractions add.
+        // Twelve decimals hide the error of binary fractions.
         let number = |value: f64| {
             let rounded = (value * 1e12).round() / 1e12;
             if rounded.is_finite() { rounded } else { value }

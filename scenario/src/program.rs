@@ -1,19 +1,22 @@
-//! The register program: how everything computed in a scenario is written down.
+//! The register program: the compiled form of everything computed in a scenario.
 //!
-//! A program is straight-line code over `f64` registers. **Instruction `i` writes register `i`** and reads only earlier
-//! ones, so a program needs no register allocation, shares equal subexpressions by construction, and can be checked by
-//! one pass ([`crate::verify`]). The only control flow is [`Instr::Each`], which runs the instructions behind it once
-//! per player or event; it is bounded by the number of players and events, so every program ends.
+//! A program is straight-line code over `f64` registers. **Instruction `i` writes register `i`**
+//! and reads only earlier ones. So a program needs no register allocation, shares equal
+//! subexpressions, and can be checked in one pass ([`crate::verify`]). The only control flow is
+//! [`Instr::Each`], which runs the instructions after it once per player or event. Their number is
+//! bounded, so every program ends.
 //!
-//! - Booleans are 0 and 1, teams 0 (left), 1 (right) and -1 (none), players are ids `team * 11 + index` or -1 (nobody).
+//! - Booleans are 0 and 1, teams 0 (left), 1 (right) and -1 (none), players are ids `team * 11 +
+//!   index` or -1 (nobody).
 //! - Values are SI in the world frame; a point takes two registers.
-//! - An impossible result (a division by zero, the root of a negative number, a property of nobody, the least of an
-//!   empty set) is NaN. NaN flows through arithmetic, compares false, and is stopped at the effects: a `Give` or
-//!   `Assign` of NaN does nothing and is counted as a fault. Selecting the other branch drops it.
-//! - Temporal instructions and effects own memory *cells*, which live as long as the episode. Every temporal
-//!   instruction runs exactly once per step, whatever guards the effects that use it.
-//! - On the start state of an episode a step program runs once *silently*: temporal instructions see it, effects don't
-//!   happen.
+//! - An impossible result (a division by zero, the root of a negative number, a property of nobody,
+//!   the least of an empty set) is NaN. NaN propagates through arithmetic, compares false, and
+//!   stops at effects: a `Give` or `Assign` of NaN has no effect and counts as a fault. Selecting
+//!   the other branch drops it.
+//! - Temporal instructions and effects own memory *cells*, which live as long as the episode. Every
+//!   temporal instruction runs exactly once per step, whatever guards the effects that use it.
+//! - On the start state of an episode a step program runs once *silently*: temporal instructions
+//!   see it, but effects don't happen.
 
 use crate::vocabulary::{EventField, EventKind, Field, Qualifier};
 use serde::{Deserialize, Serialize};
@@ -42,17 +45,19 @@ pub struct Program {
     pub cells: u32,
 }
 
-/// Most that a `give` pays at once: a step's reward is a float32 and holds hundreds of millions of them.
+/// The most that one `give` pays. A step's reward is a float32, which can hold hundreds of millions
+/// of these.
 pub const PAY_MAX: f64 = 1.0e30;
 
 impl Program {
-    /// Whether a value of the program depends on the agent's player (`me`), so that it must run once per agent.
+    /// Whether a value of the program depends on the agent's player (`me`), so that it must run
+    /// once per agent.
     pub fn uses_me(&self) -> bool {
         self.code.iter().any(|instr| matches!(instr, Instr::Me))
     }
 }
 
-/// Whether a load reads the present state or the one a step ago.
+/// Whether a load reads the current state or that of the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -71,15 +76,17 @@ pub enum When {
 pub enum Instr {
     /// A finite constant.
     Const(f64),
-    /// A bound parameter of the scenario, by its place in [`Scenario::params`](crate::Scenario::params).
+    /// A bound parameter of the scenario, by its index in
+    /// [`Scenario::params`](crate::Scenario::params).
     Param(u32),
-    /// A scenario `let`, by its place in [`Start::lets`](crate::Start::lets); not in the start program itself.
+    /// A scenario `let`, by its index in [`Start::lets`](crate::Start::lets); not in the start
+    /// program itself.
     Let(u32),
     /// The episode's index, counted since the last seeded reset.
     EpisodeIndex,
-    /// One operand.
+    /// A unary operator.
     Unary(UnaryOp, Reg),
-    /// Two operands.
+    /// A binary operator.
     Binary(BinaryOp, Reg, Reg),
     /// `if 0 then 1 else 2`.
     Select(Reg, Reg, Reg),
@@ -87,14 +94,14 @@ pub enum Instr {
     Us,
     /// The player that the agent controls now, or -1.
     Me,
-    /// A number of the match; `of` is a player or team, and absent for the ball and the match.
+    /// A number of the match. `of` is a player or team; absent for the ball and the match.
     Load {
-        /// What is read.
+        /// The field.
         field: Field,
-        /// Of which player or team.
+        /// The player or team.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         of: Option<Reg>,
-        /// Now or a step ago.
+        /// The current or the last state.
         #[serde(default, skip_serializing_if = "is_now")]
         when: When,
     },
@@ -104,71 +111,72 @@ pub enum Instr {
     Each(Box<Each>),
     /// The value of a memory cell.
     Cell(u32),
-    /// Whether `0` held at every step of the last `seconds`; the cell counts the steps in a row.
+    /// Whether `0` held in every step of the last `seconds`; the cell counts the consecutive steps.
     Held {
         /// The condition.
         of: Reg,
         /// The duration, seconds.
         seconds: Reg,
-        /// Steps in a row.
+        /// Consecutive steps.
         cell: u32,
     },
-    /// Whether the condition held at some step so far.
+    /// Whether the condition has held in any step so far.
     Ever {
         /// The condition.
         of: Reg,
-        /// 1 once it held.
+        /// 1 once it has held.
         cell: u32,
     },
     /// Seconds since the condition last held, infinite before.
     Since {
         /// The condition.
         of: Reg,
-        /// 0 before it ever held, else 1 + the steps since.
+        /// 0 before it has held, else 1 + the steps since.
         cell: u32,
     },
-    /// Whether `of` held at every step until `release` first held (1 while both are undecided).
+    /// Whether `of` held in every step until `release` first held (1 while undecided).
     Until {
         /// What must hold.
         of: Reg,
-        /// What ends the duty.
+        /// What ends the obligation.
         release: Reg,
         /// 0 undecided, 1 released, 2 broken.
         cell: u32,
     },
-    /// 1 at the first step at which the condition holds, else 0; never on the silent run.
+    /// 1 in the first step in which the condition holds, else 0; never in the silent run.
     Once {
         /// The condition.
         of: Reg,
-        /// 1 once it paid.
+        /// 1 once it has held.
         cell: u32,
     },
     /// Effect: pays `value` into a term of the reward.
     Give {
-        /// The term's place in the reward's list.
+        /// The term's index in the reward's list.
         term: u32,
-        /// How much.
+        /// The amount.
         value: Reg,
-        /// Only where this holds.
+        /// Only if this holds.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         guard: Option<Reg>,
     },
     /// Effect: writes a memory cell; later instructions of this step see it.
     Assign {
-        /// Which cell.
+        /// The cell.
         cell: u32,
         /// Its new value.
         value: Reg,
-        /// Only where this holds.
+        /// Only if this holds.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         guard: Option<Reg>,
     },
-    /// A random draw; in the start program only.
+    /// A random draw; only in the start program.
     Random {
-        /// Names the draw's own stream, keyed by (seed, index, attempt, key), so that a new draw shifts no other: a hash
-        /// of what is drawn (the `let`'s name, the player's label or index) and of the draw's ordinal in it.
+        /// Key of the draw's own stream, together with (seed, index, attempt), so that a new draw
+        /// doesn't change the others. It is a hash of what is drawn (the `let`'s name, the player's
+        /// label or index) and of the draw's ordinal in it.
         key: u64,
-        /// From what.
+        /// The distribution.
         from: Box<Distribution>,
     },
 }
@@ -180,50 +188,52 @@ fn is_now(when: &When) -> bool {
 
 /// A loop over players or events: runs the next `body` instructions once per element.
 ///
-/// While the body runs, the register of the `Each` itself holds the element (a player id, or the event's number);
-/// afterwards it holds the result of the fold. Registers written in the body may be read in the body only.
+/// While the body runs, the register of the `Each` itself holds the element (a player id, or the
+/// event's number). Afterwards it holds the result of the fold. Registers written in the body may
+/// only be read in the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Each {
-    /// What is gone through, in order: left before right, by index; events as they happened.
+    /// The elements, in order: left before right, by index; events as they happened.
     pub over: Over,
     /// Number of instructions in the body.
     pub body: u32,
-    /// What becomes of the elements.
+    /// The fold over the elements.
     pub fold: Fold,
 }
 
-/// What an [`Each`] goes through.
+/// The elements of an [`Each`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Over {
-    /// The players on the pitch of a team (-1: of both), without one of them.
+    /// The players on the pitch of a team (-1: of both), optionally without one of them.
     Players {
         /// The team; -1 for both.
         team: Reg,
-        /// A player that is left out.
+        /// A player to leave out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         except: Option<Reg>,
     },
-    /// The events of this step that pass a filter.
+    /// The events of this step that match a filter.
     Events(EventFilter),
 }
 
-/// Which events count.
+/// A filter for events.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EventFilter {
     /// The kind.
     pub kind: EventKind,
-    /// Only with this qualifier. A bare `pass` is written with `attempted` by the compiler; for a bare set piece the
-    /// award counts, for a bare `shot` the moment it is struck: the events without a qualifier.
+    /// The required qualifier. The compiler writes a bare `pass` with `attempted`. For a bare set
+    /// piece the award counts, for a bare `shot` the moment it is struck: the events without a
+    /// qualifier.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub qualifier: Option<Qualifier>,
-    /// Only by this team or player.
+    /// The required team or player.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by: Option<Who>,
-    /// Only to this team or player.
+    /// The required receiving team or player.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<Who>,
 }
@@ -239,11 +249,11 @@ pub enum Who {
     Player(Reg),
 }
 
-/// What becomes of the elements of an [`Each`].
+/// The fold over the elements of an [`Each`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Fold {
-    /// How values become one.
+    /// How values are combined.
     pub kind: FoldKind,
     /// The value per element; absent for `Count` and `Nothing`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -253,26 +263,26 @@ pub struct Fold {
     pub guard: Option<Reg>,
 }
 
-/// How the values of the elements become one.
+/// How the values of the elements are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FoldKind {
-    /// The loop is run for its effects; the result is 0.
+    /// Runs the loop only for its effects; the result is 0.
     Nothing,
-    /// How many.
+    /// The number of elements.
     Count,
-    /// The total; 0 for none.
+    /// The total; 0 without elements.
     Sum,
-    /// The average; NaN for none.
+    /// The average; NaN without elements.
     Mean,
-    /// The least; NaN for none.
+    /// The least; NaN without elements.
     Min,
-    /// The greatest; NaN for none.
+    /// The greatest; NaN without elements.
     Max,
-    /// Whether a value is true; false for none.
+    /// Whether any value is true; false without elements.
     Any,
-    /// Whether every value is true; true for none.
+    /// Whether every value is true; true without elements.
     All,
     /// The element with the least value, the first of equals; -1 for none.
     ArgMin,
@@ -280,12 +290,12 @@ pub enum FoldKind {
     ArgMax,
 }
 
-/// An operator of one operand.
+/// A unary operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum UnaryOp {
-    /// Minus.
+    /// Negation.
     Neg,
     /// Logical not.
     Not,
@@ -301,25 +311,26 @@ pub enum UnaryOp {
     Floor,
     /// Rounded up.
     Ceil,
-    /// To the nearest whole number, halves away from 0.
+    /// Rounded to the nearest whole number, halves away from 0.
     Round,
     /// Sine of radians.
     Sin,
     /// Cosine of radians.
     Cos,
-    /// +1 for team 0, -1 for team 1, NaN for none: turns own-frame lengths into world ones and back.
+    /// +1 for team 0, -1 for team 1, NaN for none: converts own-frame lengths to world lengths and
+    /// back.
     Side,
-    /// The other team; -1 of none.
+    /// The other team; -1 for none.
     OtherTeam,
-    /// The team of a player; -1 of nobody.
+    /// The team of a player; -1 for nobody.
     TeamOf,
-    /// Whether a player is somebody on the pitch (not -1 and active).
+    /// Whether a player is on the pitch (not -1 and active).
     Exists,
     /// An angle wrapped to -π..π.
     Wrap,
 }
 
-/// An operator of two operands.
+/// A binary operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -352,9 +363,9 @@ pub enum BinaryOp {
     Gt,
     /// At least.
     Ge,
-    /// Equal; two NaN are not.
+    /// Equal; two NaN aren't.
     Eq,
-    /// Not equal; false where one is NaN.
+    /// Not equal; false if one is NaN.
     Ne,
     /// Logical and.
     And,
@@ -380,7 +391,8 @@ pub enum Distribution {
 }
 
 impl Program {
-    /// Which registers are the same in every step of an episode: what depends on parameters and `let`s alone.
+    /// Which registers are the same in every step of an episode, because they depend only on
+    /// parameters and `let`s.
     pub fn fixed(&self) -> Vec<bool> {
         let mut fixed = vec![false; self.code.len()];
         let mut at = 0;
@@ -397,7 +409,7 @@ impl Program {
             };
             instr.operands(&mut |reg| all &= fixed.get(reg.index()).copied().unwrap_or_default());
             fixed[at] = all;
-            // What stands in a loop belongs to its elements.
+            // Registers in a loop depend on its elements.
             at += match instr {
                 Instr::Each(each) => 1 + each.body as usize,
                 _ => 1,
@@ -408,7 +420,8 @@ impl Program {
 }
 
 impl Instr {
-    /// Calls `f` with every register the instruction reads, but for those of an `Each`'s fold, which lie in its body.
+    /// Calls `f` with every register that the instruction reads, except those of an `Each`'s fold,
+    /// which are in its body.
     pub fn operands(&self, f: &mut dyn FnMut(Reg)) {
         match self {
             Instr::Const(_)
@@ -471,7 +484,7 @@ impl Instr {
         }
     }
 
-    /// The memory cell the instruction uses.
+    /// The memory cell that the instruction uses.
     pub fn cell(&self) -> Option<u32> {
         match self {
             Instr::Cell(cell)

@@ -21,21 +21,23 @@ pub struct Scenario {
     /// Rhai scripts, by the ids that rewards, endings and players use.
     #[serde(default)]
     pub scripts: Vec<Script>,
-    /// The roster: the left team's players before the right's, each in source order, at most 11 a team.
+    /// The roster: the left team's players before the right's, each in source order, at most 11 a
+    /// team.
     pub players: Vec<PlayerSlot>,
-    /// Who is played by agents.
+    /// Who is controlled by agents.
     pub agents: Agents,
     /// How an episode starts.
     pub start: Start,
-    /// The rewards that are paid unless the user asks for others.
+    /// The rewards that are paid unless the user requests others.
     #[serde(default)]
     pub rewards: Vec<Reward>,
-    /// Further named rewards in scope whose parameters all have defaults: what `--reward NAME` can ask for.
+    /// Other named rewards in scope whose parameters all have defaults; `--reward NAME` can request
+    /// them.
     #[serde(default)]
     pub library: Vec<Reward>,
     /// When an episode ends.
     pub endings: Endings,
-    /// What is measured of an episode.
+    /// The metrics of an episode.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub records: Vec<Record>,
     /// The scenario's own observation, if it declares one.
@@ -89,25 +91,25 @@ pub struct PlayerSlot {
     pub team: Team,
     /// The role.
     pub role: Role,
-    /// The name before the role, if any: also the id of his agent.
+    /// The name before the role, if any. It is also the id of their agent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Who plays him when no agent does.
+    /// Who plays them if no agent does.
     #[serde(default)]
     pub ai: Ai,
-    /// Whether an agent may be given him.
+    /// Whether an agent may control them.
     pub controllable: bool,
-    /// Whether a draw may put him on another's spot.
+    /// Whether a draw may put them on another player's spot.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub overlap: bool,
     /// Statistics that replace the table's, each a register of the start program, 0..1.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stats: Vec<(Stat, Reg)>,
-    /// Where and how he starts.
+    /// Where and how they start.
     pub start: PlayerStart,
 }
 
-/// Who plays a player when no agent does.
+/// Who plays a player if no agent does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -115,11 +117,11 @@ pub enum Ai {
     /// The built-in bot.
     #[default]
     Bot,
-    /// Stands still and holds his place, but plays a ball that comes to him.
+    /// Stands still and holds their place, but plays a ball that comes to them.
     Hold,
-    /// Brakes to a stand and looks at the ball (GRF's `lazy`).
+    /// Brakes to a stop and faces the ball (GRF's `lazy`).
     Lazy,
-    /// A behaviour or script of the scenario, by its place in [`Scenario::behaviors`].
+    /// A behaviour or script of the scenario, by its index in [`Scenario::behaviors`].
     Behavior(u32),
 }
 
@@ -140,24 +142,24 @@ pub struct PlayerStart {
     /// 0 fresh to 1 exhausted; fresh if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fatigue: Option<Reg>,
-    /// Cards he starts with; none if absent.
+    /// Cards at the start; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yellow_cards: Option<Reg>,
-    /// His own difficulty; the team's if absent.
+    /// Their own difficulty; the team's if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub difficulty: Option<Reg>,
-    /// Whether he plays at all: depends on parameters only; always if absent.
+    /// Whether they take part; depends only on parameters. Always if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub present: Option<Reg>,
 }
 
-/// Who is played by agents, and what the others do.
+/// Who is controlled by agents, and what the others do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Agents {
     /// Left and right.
     pub sides: [SideAgents; 2],
-    /// What team mates without an agent do.
+    /// What teammates without an agent do.
     #[serde(default)]
     pub others: Others,
     /// Whether the controlled player changes.
@@ -170,7 +172,7 @@ pub struct Agents {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SideAgents {
-    /// So many: a register of the start program that depends on parameters only.
+    /// This many: a register of the start program that depends only on parameters.
     Count(Reg),
     /// One per controllable player.
     All,
@@ -178,7 +180,7 @@ pub enum SideAgents {
     Players(Vec<u8>),
 }
 
-/// What team mates without an agent do.
+/// What teammates without an agent do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -195,14 +197,14 @@ pub enum Others {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Switching {
-    /// By GRF's rules where a count below all is asked for, else fixed.
+    /// By GRF's rules if fewer agents than players are requested, else fixed.
     #[default]
     Auto,
     /// Never.
     Fixed,
 }
 
-/// How an episode starts: a program run at reset, and what its registers mean.
+/// How an episode starts: a program that runs at reset, and the meaning of its registers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Start {
@@ -215,7 +217,7 @@ pub struct Start {
     pub ball: BallStart,
     /// The kind of start.
     pub kind: StartKind,
-    /// The team that takes it (a team register); the nearest to the ball if absent.
+    /// The team that takes it (a team register); the one nearest to the ball if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub taker: Option<Reg>,
     /// Goals at the start, left and right; 0 if absent.
@@ -232,10 +234,10 @@ pub struct Start {
     /// The rules that differ from their defaults, or may.
     #[serde(default)]
     pub rules: Vec<RuleSetting>,
-    /// Truncation after so many seconds; never if absent.
+    /// The episode is truncated after this many seconds; never if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<Reg>,
-    /// What a drawn start must meet.
+    /// The requirements on a drawn start.
     #[serde(default)]
     pub requires: Vec<Require>,
 }
@@ -257,7 +259,7 @@ pub struct BallStart {
     /// World spin, rad/s; 0 if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spin: Option<(Reg, Reg, Reg)>,
-    /// A player register: who has it at the start.
+    /// A player register: the owner at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub owner: Option<Reg>,
 }
@@ -268,7 +270,7 @@ pub struct BallStart {
 pub struct Kickoff {
     /// The team that kicks off first: a team register. The start places already follow it.
     pub first: Reg,
-    /// Per player of the roster, in its order.
+    /// One entry per player of the roster, in its order.
     pub places: Vec<KickoffPlaces>,
 }
 
@@ -276,13 +278,13 @@ pub struct Kickoff {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct KickoffPlaces {
-    /// When his team kicks off.
+    /// When their team kicks off.
     pub kicking: (Reg, Reg),
-    /// When the others do.
+    /// When the other team does.
     pub receiving: (Reg, Reg),
 }
 
-/// A rule and its value, a register of the start program that depends on parameters only.
+/// A rule and its value, a register of the start program that depends only on parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RuleSetting {
@@ -298,33 +300,33 @@ pub struct RuleSetting {
 pub struct Require {
     /// What must hold.
     pub condition: Reg,
-    /// With which probability it is asked for; always if absent.
+    /// The probability that it is required; always if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub probability: Option<Reg>,
     /// The author's words: the label, else the text of the condition.
     pub label: String,
 }
 
-/// A reward, evaluated at each step for each agent.
+/// A reward, evaluated in every step for each agent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reward {
-    /// The name its terms are reported under: the `as` name, else the reward's own.
+    /// The name in reports of its terms: the `as` name, else the reward's own.
     pub name: String,
     /// The first lines of its documentation.
     #[serde(default)]
     pub doc: String,
-    /// What it does.
+    /// The programs.
     pub body: RewardBody,
 }
 
-/// What a reward does. The weight is already multiplied in.
+/// The programs of a reward. The weight is already multiplied in.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RewardBody {
-    /// Run once at reset: assigns the `state` cells.
+    /// Runs once at reset: assigns the `state` cells.
     pub init: Program,
-    /// Run at every step; shares its cells with `init`.
+    /// Runs in every step; shares its cells with `init`.
     pub step: Program,
     /// The labels of the terms, in source order.
     pub terms: Vec<String>,
@@ -333,15 +335,16 @@ pub struct RewardBody {
     pub hooks: Vec<RewardHook>,
 }
 
-/// A script's `reward` hook: called before the reward's step, which finds its value in a cell.
+/// A script's `reward` hook: called before the reward's step, which finds its result in a cell.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RewardHook {
-    /// Which script.
+    /// The script.
     pub script: u32,
-    /// The cell its value is written to.
+    /// The cell for its result.
     pub cell: u32,
-    /// The reward's arguments, which are fixed for an episode: `ctx.params` bears them beside the scenario's parameters.
+    /// The reward's arguments, which are fixed for an episode; `ctx.params` has them in addition to
+    /// the scenario's parameters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub args: Vec<ScriptArg>,
 }
@@ -350,9 +353,9 @@ pub struct RewardHook {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Endings {
-    /// Run at every step, from the side that has agents (`us`), or the left one.
+    /// Runs in every step, from the side that has agents (`us`), or the left one.
     pub program: Program,
-    /// In source order, the parents' first; the first that holds ends the episode.
+    /// In source order, the parents' first. The first that holds ends the episode.
     pub list: Vec<Ending>,
 }
 
@@ -360,10 +363,10 @@ pub struct Endings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ending {
-    /// What it says of the episode.
+    /// Success or failure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
-    /// Its name: what `info["outcome"]` shows.
+    /// Its name, as in `info["outcome"]`.
     pub label: String,
     /// The condition, a register of the endings' program.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -373,17 +376,18 @@ pub struct Ending {
     pub script: Option<u32>,
 }
 
-/// A metric of an episode: a program run at every step after the rewards, and the registers that hold the metric so far.
+/// A metric of an episode: a program that runs in every step after the rewards, and the registers
+/// of the metric so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Record {
-    /// The name `info["records"]` shows.
+    /// Its name, as in `info["records"]`.
     pub name: String,
-    /// Run at every step; once per agent where it reads `me`.
+    /// Runs in every step; once per agent if it reads `me`.
     pub program: Program,
-    /// One register, or two of a place.
+    /// One register, or two for a place.
     pub values: Vec<Reg>,
-    /// Whether every step's value is kept rather than the last one's.
+    /// Whether every step's value is kept instead of the last one's.
     #[serde(default)]
     pub series: bool,
 }
@@ -392,7 +396,7 @@ pub struct Record {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Observation {
-    /// Run after every step and reset, in the agent's own frame; it remembers nothing.
+    /// Runs after every step and reset, in the agent's own frame; it has no memory.
     pub program: Program,
     /// The numbers, in order.
     pub values: Vec<ObservedValue>,
@@ -404,6 +408,6 @@ pub struct Observation {
 pub struct ObservedValue {
     /// The label, else the author's text.
     pub name: String,
-    /// Where it is.
+    /// Its register.
     pub value: Reg,
 }

@@ -7,13 +7,13 @@ use serde_json::{Value, json};
 
 /// A compiled scenario (`.pitchc`), as `setpiece build` writes it.
 ///
-/// The schema says what a reader may expect. A file that fits it may still be refused: what the programs say must hold
-/// together too, and the checksum is that of the text of `scenario`.
+/// The schema describes what a reader may expect. A file that matches it may still be rejected: the
+/// programs must also be consistent, and the checksum must be that of the text of `scenario`.
 #[derive(JsonSchema)]
 #[schemars(title = "Setpiece compiled scenario")]
 #[allow(dead_code, reason = "only its schema is wanted")]
 struct CompiledScenario {
-    /// What the file is.
+    /// The format's name.
     format: String,
     /// The version of the format.
     version: u32,
@@ -41,7 +41,7 @@ pub fn schema() -> Value {
     schema
 }
 
-/// The schema as the published file has it.
+/// The schema as published.
 pub fn text() -> String {
     format!("{:#}\n", schema())
 }

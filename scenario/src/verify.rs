@@ -1,6 +1,6 @@
-//! Checks a scenario that came from a file: after this, no index in it can miss.
+//! Checks a scenario that was read from a file: afterwards every index in it is valid.
 //!
-//! The compiler writes only scenarios that pass. A file may say anything.
+//! The compiler writes only scenarios that pass. A file may contain anything.
 
 mod behavior;
 
@@ -10,15 +10,15 @@ use crate::program::{Fold, Instr, Program, Reg};
 use crate::scenario::{Ai, RewardBody, Scenario, SideAgents};
 use crate::vocabulary::{Owner, Team};
 
-/// Most instructions of one program.
+/// The most instructions of one program.
 const CODE_MAX: usize = 100_000;
 /// Deepest nesting of loops: each multiplies the work by the number of players.
 const LOOPS_MAX: usize = 4;
 
-/// Says what is wrong with a scenario, if anything.
+/// Checks a scenario.
 ///
 /// # Errors
-/// One sentence about the first fault found.
+/// One sentence about the first problem found.
 pub fn verify(scenario: &Scenario) -> Result<(), String> {
     bounds::check(scenario).map_err(|excess| excess.message)?;
     verify_names(scenario)?;
@@ -85,7 +85,7 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
     verify_start(scenario)
 }
 
-/// Names that others are made of (files, keys, ids) are words of the language.
+/// Names that other names are derived from (files, keys, ids) must be words of the language.
 fn verify_names(scenario: &Scenario) -> Result<(), String> {
     let params = scenario.params.iter().map(|param| &param.name);
     let players = scenario.players.iter().filter_map(|slot| slot.name.as_ref());
@@ -148,7 +148,7 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
     regs.into_iter().try_for_each(|reg| visible(&start.program, reg))
 }
 
-/// Where a program stands, which decides what it may contain.
+/// The role of a program, which decides what it may contain.
 #[derive(Clone, Copy)]
 enum Place {
     Start,
@@ -160,7 +160,7 @@ fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usiz
     if program.code.len() > CODE_MAX || program.cells as usize > CODE_MAX {
         return Err("too large".to_owned());
     }
-    // Ends of the bodies around the present instruction, innermost last.
+    // Ends of the bodies around the current instruction, innermost last.
     let mut open: Vec<(usize, usize, Fold, bool)> = Vec::new();
     for (at, instr) in program.code.iter().enumerate() {
         while open.last().is_some_and(|body| body.1 == at) {

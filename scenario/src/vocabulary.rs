@@ -1,7 +1,7 @@
-//! Every word that is listed in more than one place, each list once.
+//! Every list of words that is needed in more than one place, once.
 //!
-//! The compiler checks against these tables, the engine matches their enums exhaustively, and Rhai, the docs and Python
-//! read them. A row carries its name in the language and one line of documentation.
+//! The compiler checks against these tables, the engine matches their enums exhaustively, and Rhai,
+//! the docs and Python read them. A row has a name in the language and one line of documentation.
 
 mod action;
 mod event;
@@ -53,13 +53,13 @@ macro_rules! words {
                 Self::ALL.iter().copied().find(|word| word.name() == name)
             }
 
-            /// The variant's place in [`Self::ALL`].
+            /// The variant's index in [`Self::ALL`].
             #[inline]
             pub const fn index(self) -> usize {
                 self as usize
             }
 
-            /// The variant at a place in [`Self::ALL`].
+            /// The variant at an index in [`Self::ALL`].
             pub fn from_index(index: usize) -> Option<$name> {
                 Self::ALL.get(index).copied()
             }

@@ -1,8 +1,9 @@
-//! How long each file of the library and each example takes from its text to what would be run: `cargo bench --bench
+//! How long each file of the library and each example takes to compile: `cargo bench --bench
 //! compile`.
 //!
-//! With everything a file imports, from disk, but the prelude, which is read once. Times are the thread's CPU time: the
-//! median of many compilations of a file, then the median and the worst of the files.
+//! A compilation reads everything that a file imports from disk, except the prelude, which is read
+//! once. Times are the thread's CPU time: the median of many compilations of a file, then the
+//! median and the worst of the files.
 #![allow(clippy::panic, clippy::print_stdout, reason = "a benchmark talks to its user, and fails by panicking")]
 
 use cpu_time::ThreadTime;
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 const COMPILATIONS: usize = 101;
-/// What no file may exceed, and what half of them may not.
+/// The limit for every file, and the limit for the median.
 const BARS: [Duration; 2] = [Duration::from_millis(5), Duration::from_millis(1)];
 
 /// The `.pitch` files below a folder.

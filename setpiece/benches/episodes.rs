@@ -1,7 +1,8 @@
 //! Steps per CPU-second, and resets.
 //!
-//! Times are the thread's CPU time, so that a busy machine changes little. Steps are played by the bot on one core, with
-//! the simple115v2 observation of every step written, as an agent would have it. Throughput is steps per CPU-second.
+//! Times are the thread's CPU time, so that other load on the machine matters little. The bot plays
+//! the steps on one core, and the simple115v2 observation of every step is written, as for an
+//! agent. Throughput is steps per CPU-second.
 #![allow(
     missing_docs,
     clippy::panic,

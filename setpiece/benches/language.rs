@@ -1,8 +1,8 @@
-//! What the language costs when it runs: draws of a start, and judging a step.
+//! The run-time cost of the language: drawing a start, and judging a step.
 //!
-//! Times are the thread's CPU time. A draw is of 22 players and a ball, each somewhere in a region, under two
-//! requirements. Judging is of one step and one agent unless the name says otherwise, in the state of a match of eleven
-//! a side, with three events in the step.
+//! Times are the thread's CPU time. A draw places 22 players and a ball, each somewhere in a
+//! region, under two requirements. Judging covers one step and one agent unless the name says
+//! otherwise, in the state of a match of eleven a side, with three events in the step.
 #![allow(
     missing_docs,
     clippy::panic,
@@ -88,7 +88,7 @@ const SCRIPT_WITH_GETTERS: &str = "reward script rhai \"\"\"
         }
     \"\"\"";
 
-/// A judge in the middle of a match, ready to judge one step again and again.
+/// A judge in the middle of a match, ready to judge one step repeatedly.
 fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) {
     let text =
         format!("scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ {agents} }}  {rewards} }}");

@@ -1,8 +1,9 @@
-//! How soon a saved file is played, and whether any save is lost: `cargo bench --bench reload`.
+//! How soon a saved file is played, and whether any save is missed: `cargo bench --bench reload`.
 //!
-//! 100 saves of a scenario of 400 steps: the time from the write to the compiled scenario, and to the end of the first
-//! episode under it. Then 1,000 saves, a good and a broken text in turn, each by renaming or in place: every one must be
-//! noticed as what it is, and neither memory nor open files may grow.
+//! First, 100 saves of a scenario of 400 steps: the time from the write to the compiled scenario,
+//! and to the end of the first episode with it. Then 1,000 saves of a good and a broken text in
+//! turn, each by renaming or in place. Every save must be noticed correctly, and neither memory nor
+//! open files may grow.
 #![allow(clippy::panic, clippy::print_stdout, reason = "a benchmark talks to its user, and fails by panicking")]
 
 use setpiece::Live;
@@ -17,7 +18,7 @@ const ALTERNATING: usize = 1000;
 /// Longest wait for a change to be noticed.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// A scenario of 400 steps; its title says which.
+/// A scenario of 400 steps; its title has the index.
 fn text(index: usize, role: &str) -> String {
     format!(
         "/// {index}\nscenario saved extends academy {{\n    ball at (0, 0)\n    team left {{\n        {role} at \
@@ -25,7 +26,7 @@ fn text(index: usize, role: &str) -> String {
     )
 }
 
-/// Saves in place, or as editors do: a new file takes the old one's place.
+/// Saves in place, or like editors do: a new file replaces the old one.
 fn save(path: &Path, text: &str, rename: bool) {
     let target = if rename { path.with_extension("swp") } else { path.to_owned() };
     std::fs::write(&target, text).unwrap_or_else(|error| panic!("{error}"));
@@ -34,7 +35,7 @@ fn save(path: &Path, text: &str, rename: bool) {
     }
 }
 
-/// Waits for the next reload; whether it compiled.
+/// Waits for the next reload. Returns whether it compiled.
 fn wait(live: &mut Live) -> bool {
     let begin = Instant::now();
     while begin.elapsed() < PATIENCE {

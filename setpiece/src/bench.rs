@@ -1,4 +1,5 @@
-//! How fast a scenario is played here: many matches at once, step after step, episodes following each other.
+//! Measures how fast a scenario is played on this machine: many matches in parallel, one episode
+//! after another.
 
 mod once;
 mod scaling;
@@ -19,18 +20,18 @@ use std::hint::black_box;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-/// What is measured.
+/// What to measure.
 #[derive(Clone, Debug)]
 pub struct BenchOptions {
     /// How many matches are stepped together.
     pub matches: usize,
-    /// On how many threads.
+    /// The number of threads.
     pub threads: usize,
-    /// How long.
+    /// How long to measure.
     pub duration: Duration,
-    /// Who plays for every agent.
+    /// The agent that plays every slot.
     pub agent: Agent,
-    /// What every agent is shown after every step.
+    /// The observation that every agent gets after every step.
     pub observation: Observation,
     /// Match k plays the episodes of the seed `seed + k`.
     pub seed: u64,
@@ -38,7 +39,7 @@ pub struct BenchOptions {
     pub environment: EnvironmentOptions,
 }
 
-/// What an agent is shown.
+/// The observation of an agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Observation {
     /// Nothing.
@@ -49,12 +50,12 @@ pub enum Observation {
     Smm,
 }
 
-/// What came out.
+/// The result of a measurement.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// Steps that were played, of all matches; resets are in the time.
+    /// Steps played by all matches; the time includes resets.
     pub steps: u64,
-    /// Episodes that began meanwhile.
+    /// Episodes started during that time.
     pub resets: u64,
     /// Wall time.
     pub wall: Duration,
@@ -77,7 +78,7 @@ impl Measured {
 /// Plays many matches on threads for a while.
 ///
 /// # Errors
-/// [`Error`] where the environment or the threads can't be had, and where an episode breaks off.
+/// [`Error`] if the environment or the threads can't be created, or if an episode fails.
 pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measured, Error> {
     let threads = |why: setpiece_engine::batch::BatchError| Error::Threads(why.to_string());
     let mut batch = Batch::new(lanes(scenario, options)?, options.threads).map_err(threads)?;
@@ -105,16 +106,17 @@ pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measu
             None => Ok(Measured { steps: after.0 - before.0, resets: after.1 - before.1, wall, cpu }),
         }
     };
-    // Everything begun, every buffer at its size, every page touched; and the later a match's number the further it has
-    // come, so that what is measured is not the same minute of all.
+    // Warm-up: everything has begun, every buffer has its size, every page is touched. Matches with
+    // higher numbers are further along, so that the measurement doesn't cover the same minute of
+    // all matches.
     play(options.duration, true)?;
     play(options.duration, false)
 }
 
-/// The microseconds that a step takes, phase by phase, on one thread.
+/// The microseconds of a step, by phase, on one thread.
 ///
 /// # Errors
-/// As [`measure`].
+/// Like [`measure`].
 pub fn phases(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<(Phase, f64)>, Error> {
     let mut lanes = lanes(scenario, options)?;
     let mut scratch = Scratch::default();
@@ -127,7 +129,7 @@ pub fn phases(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<(P
         }
         let (begun, mut round) = (Instant::now(), 0);
         while begun.elapsed() < until {
-            // Staggered as in [`measure`] before the clock starts.
+            // Staggers the matches as in [`measure`], before the clock starts.
             let least = if measured { 0 } else { round % options.matches };
             for lane in lanes.iter_mut().skip(least) {
                 lane.advance(&mut scratch);
@@ -152,7 +154,7 @@ fn now_ns() -> u64 {
     BEGUN.get_or_init(Instant::now).elapsed().as_nanos() as u64
 }
 
-/// What a reading of the clock takes, nanoseconds.
+/// The cost of reading the clock, nanoseconds.
 fn reading_ns() -> f64 {
     const READINGS: u32 = 10_000;
     let begun = now_ns();
@@ -162,7 +164,7 @@ fn reading_ns() -> f64 {
     (now_ns() - begun) as f64 / f64::from(READINGS)
 }
 
-/// A match, who plays it and what he is shown.
+/// A match, its player and its observation buffers.
 struct Lane {
     environment: Environment,
     agent: ReadyMade,
@@ -199,7 +201,8 @@ fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<Lane>, 
 }
 
 impl Lane {
-    /// A step of the match, or the beginning of the next episode where it has ended; does nothing once it has failed.
+    /// Plays a step of the match, or starts the next episode if it has ended; no-op after a
+    /// failure.
     fn advance(&mut self, scratch: &mut Scratch) {
         if self.failed.is_none()
             && let Err(error) = self.try_advance(scratch)
@@ -223,7 +226,7 @@ impl Lane {
         self.environment.step(&self.actions, scratch)?;
         self.steps += 1;
         for agent in 0..self.actions.len() {
-            // Buffers have the sizes that their observations ask for.
+            // Buffers have the sizes of their observations.
             let _ = match self.observation {
                 Observation::None => Ok(()),
                 Observation::Simple115v2 => self.environment.observe(Floats::Simple115v2, agent, &mut self.floats),

@@ -23,9 +23,9 @@ use out::Out;
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
-/// Exit code where all is well.
+/// Exit code for success.
 const FINE: u8 = 0;
-/// Exit code where the input has errors.
+/// Exit code if the input has errors.
 const FAULT: u8 = 1;
 
 /// Football scenarios from text files, and the engine that runs them.
@@ -80,32 +80,33 @@ enum Command {
         /// Where to write it
         #[arg(short, long, value_name = "OUT")]
         output: PathBuf,
-        /// How it is written; either is read alike
+        /// The format; both are read in the same way
         #[arg(long, value_enum, default_value_t = BuildFormat::Json)]
         format: BuildFormat,
     },
-    /// Lay files out in the one way: comments stay, meaning stays, broken files are left alone
+    /// Format files: comments and meaning are kept, broken files are left alone
     #[command(after_help = "Examples:
   setpiece fmt                      every .pitch file here and below
   setpiece fmt corner.pitch drills/
   setpiece fmt --check              exit code 1 and the names where something would change
   setpiece fmt - < corner.pitch     to standard output")]
     Fmt(fmt::FmtArgs),
-    /// Say what an error code means, with a text that earns it and the text mended
+    /// Explain an error code, with an example and its correction
     #[command(after_help = "Examples:
   setpiece explain SP0203
   setpiece explain          every code")]
     Explain {
-        /// A code: SP0203, sp0203 or 203; without one the codes are listed
+        /// A code: SP0203, sp0203 or 203; lists the codes if omitted
         #[arg(value_name = "CODE")]
         code: Option<String>,
     },
-    /// Describe a scenario in Markdown: parameters, players, rewards, endings, rules, and a picture of a start
+    /// Describe a scenario in Markdown: parameters, players, rewards, endings, rules, and a picture
+    /// of a start
     #[command(after_help = "Examples:
   setpiece doc academy_corner
   setpiece doc corner.pitch -o corner.md --picture corner.svg")]
     Doc(doc::DocArgs),
-    /// Play episodes of a scenario and show what came of them
+    /// Play episodes of a scenario and show the results
     #[command(after_help = "Examples:
   setpiece run academy_3_vs_1_with_keeper
   setpiece run corner.pitch --agent run_and_shoot --episodes 100 --seed 1
@@ -127,16 +128,16 @@ A recorded episode (.pitchr) is drawn as it was played: who played, seed and par
     #[cfg(not(feature = "render"))]
     #[command(disable_help_flag = true)]
     Render {
-        /// What the whole command would draw
+        /// The arguments of the full command
         #[arg(value_name = "…", trailing_var_arg = true, allow_hyphen_values = true)]
         _arguments: Vec<OsString>,
     },
-    /// Play into an episode and write the state it is in: what `run --from` begins from
+    /// Play into an episode and save its state, for `run --from`
     #[command(after_help = "Examples:
   setpiece snapshot 11_vs_11_stochastic --step 1500 -o half_time.pitchs
   setpiece snapshot corner.pitch --agent run_and_shoot --seed 3 --step 12 -o shot.pitchs")]
     Snapshot(snapshot::SnapshotArgs),
-    /// Play a recorded episode again, bit for bit, and tell what it was
+    /// Play a recorded episode again, bit for bit, and describe it
     #[command(after_help = "Examples:
   setpiece replay runs/academy_corner_7_0.pitchr
   setpiece replay goal.pitchr --format jsonl | head -1
@@ -144,7 +145,8 @@ A recorded episode (.pitchr) is drawn as it was played: who played, seed and par
 The Python package's command also writes Google Research Football's dumps: `--format grf -o goal.dump`;
 `setpiece.Replay` reads the file in Python.")]
     Replay(replay::ReplayArgs),
-    /// Measure how fast scenarios are played here: steps per second and CPU-second, and where the time goes
+    /// Measure how fast scenarios run here: steps per second and CPU-second, and the time of each
+    /// phase
     #[command(after_help = "Examples:
   setpiece bench
   setpiece bench 5_vs_5 corner.pitch --threads 1,2,4 --observation smm
@@ -153,7 +155,7 @@ The Python package's command also writes Google Research Football's dumps: `--fo
     Bench(bench::BenchArgs),
 }
 
-/// How a compiled scenario is written.
+/// The format of a compiled scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BuildFormat {
     /// As text
@@ -176,7 +178,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match Args::try_parse_from(arguments) {
         Ok(args) => run(args),
         Err(error) => {
-            // Help and version come this way too; where they can't be printed nothing can.
+            // Help and version also come this way; if they can't be printed, nothing can.
             let _ = error.print();
             error.exit_code() as u8
         }

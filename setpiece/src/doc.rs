@@ -7,8 +7,8 @@ use setpiece_scenario::vocabulary::Rule;
 use setpiece_scenario::{Ai, Others, Param, Reward, Scenario, Team};
 use std::fmt::Write as _;
 
-/// Describes a scenario: title, description, parameters, players of one start, rewards, endings, records, rules. `picture`
-/// is the path of a picture of that start, as the page names it.
+/// Describes a scenario: title, description, parameters, players of one start, rewards, endings,
+/// records, rules. `picture` is the path of a picture of that start, relative to the page.
 pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String {
     let scenario = &*loaded.scenario;
     let mut page = format!("# {}\n\n", scenario.name);
@@ -64,7 +64,7 @@ fn players(page: &mut String, scenario: &Scenario, start: &Drawn) {
     page.push_str("## Players\n\n");
     let place = |x: f32, y: f32| {
         let (x, y) = to_normalised(f64::from(x), f64::from(y));
-        // Three digits, and no -0.
+        // Three decimals, and no -0.
         let [x, y] = [x, y].map(|value| (value * 1000.0).round() / 1000.0 + 0.0);
         format!("({x}, {y})")
     };
@@ -75,7 +75,7 @@ fn players(page: &mut String, scenario: &Scenario, start: &Drawn) {
             let at = drawn.map_or("absent".to_owned(), |player| place(player.pos.x, player.pos.y));
             let ai = match (&slot.ai, start.others) {
                 (Ai::Bot, Others::Bot) => "bot",
-                (Ai::Bot, Others::Hold) | (Ai::Hold, _) => "holds his place",
+                (Ai::Bot, Others::Hold) | (Ai::Hold, _) => "holds their place",
                 (Ai::Lazy, _) => "lazy",
                 _ => "scripted",
             };
@@ -124,7 +124,7 @@ fn endings(page: &mut String, loaded: &Loaded, start: &Drawn) {
     page.push_str("## Endings\n\n");
     for (index, ending) in loaded.scenario.endings.list.iter().enumerate() {
         let verdict = ending.verdict.map_or(String::new(), |verdict| format!(" ({verdict})"));
-        // A compiled scenario has lost the author's words.
+        // A compiled scenario doesn't contain the author's text.
         let words = loaded.origins.endings.get(index).map_or("", |span| loaded.sources.text(*span));
         let words = if words.is_empty() { String::new() } else { format!(": `{}`", one_line(words)) };
         let _ = writeln!(page, "- **{}**{verdict}{words}", ending.label);

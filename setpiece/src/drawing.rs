@@ -1,10 +1,10 @@
-//! A drawing in text of where everybody stands.
+//! Draws in text where everybody stands.
 
 use setpiece_engine::state::Match;
 use setpiece_scenario::Team;
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 
-/// What a colour stands for.
+/// The meaning of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paint {
     /// The left team.
@@ -25,13 +25,13 @@ pub enum Paint {
 const COLUMNS: usize = 65;
 const ROWS: usize = 19;
 
-/// Draws a match from above, without colours: players of the left team as digits in source order, of the right as
-/// letters, the ball as `o`.
+/// Draws a match from above, without colours. Players of the left team are digits in source order,
+/// those of the right team are letters, and the ball is `o`.
 pub fn draw(game: &Match) -> String {
     draw_painted(game, |sign, _| sign.to_string())
 }
 
-/// The same, each sign painted for what it stands for.
+/// The same, with each sign painted by its meaning.
 pub fn draw_painted(game: &Match, paint_sign: impl Fn(char, Paint) -> String) -> String {
     let mut cells = [[(' ', Paint::Plain); COLUMNS]; ROWS];
     markings(&mut cells);
@@ -48,7 +48,7 @@ pub fn draw_painted(game: &Match, paint_sign: impl Fn(char, Paint) -> String) ->
     cells[row][column] = ('o', Paint::Ball);
     let mut text = format!("  ┌{}┐\n", "─".repeat(COLUMNS));
     for (row, line) in cells.iter().enumerate() {
-        // The goal mouths stand open.
+        // The goal mouths are open.
         let mouth = row == ROWS / 2;
         let (left, right) = if mouth { ('▐', '▌') } else { ('│', '│') };
         text.extend([' ', ' ', left]);
@@ -74,7 +74,7 @@ fn markings(cells: &mut [[(char, Paint); COLUMNS]; ROWS]) {
     }
 }
 
-/// The cell of a place in metres; what lies outside the pitch is drawn at its edge.
+/// The cell of a place in metres; anything outside the pitch is drawn at its edge.
 fn cell(x_m: f32, y_m: f32) -> (usize, usize) {
     let column = f32::midpoint(x_m / HALF_LENGTH_M as f32, 1.0) * (COLUMNS - 1) as f32;
     let row = f32::midpoint(y_m / HALF_WIDTH_M as f32, 1.0) * (ROWS - 1) as f32;

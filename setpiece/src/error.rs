@@ -1,4 +1,4 @@
-//! What can go wrong before an episode runs: each with a stable code and a help line.
+//! Errors before an episode runs, each with a stable code and a help line.
 
 use crate::replay::ReplayError;
 use setpiece_dsl::problem::{Code, Problem, nearest};
@@ -9,59 +9,59 @@ use setpiece_engine::snapshot::SnapshotError;
 use setpiece_scenario::{FormatError, ParamError};
 use std::path::PathBuf;
 
-/// Why a scenario can't be had.
+/// Why a scenario can't be loaded or played.
 #[derive(Clone, Debug)]
 pub enum Error {
     /// Neither a scenario of the library nor a file.
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What may have been meant.
+        /// A similar name, if any.
         similar: Option<String>,
     },
     /// A file can't be used.
     File {
-        /// Which.
+        /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         why: FileFault,
     },
     /// The text has errors.
     Compile(Box<Failure>),
     /// A compiled scenario can't be read.
     Format {
-        /// Where it was.
+        /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         why: FormatError,
     },
-    /// A compiled scenario keeps who plays its players.
+    /// The players of a compiled scenario can't be cast.
     Cast {
-        /// Who was to play some of them.
+        /// The requested behaviour.
         ai: String,
     },
     /// A snapshot can't be taken, restored or begun from.
     Snapshot(SnapshotError),
     /// A replay can't be read or played.
     Replay(ReplayError),
-    /// An environment can't be made of the scenario.
+    /// An environment can't be created from the scenario.
     Environment(EnvironmentError),
-    /// An episode broke off: no start was found, a script's hook failed, or nothing ended it.
+    /// An episode failed: no start was found, a script's hook failed, or nothing ended it.
     Episode(Box<EpisodeError>),
-    /// An episode ended before the step that was asked for.
+    /// An episode ended before the requested step.
     NoStep {
         /// The step.
         step: u32,
         /// How many steps the episode has.
         length: u32,
     },
-    /// Threads can't be had.
+    /// Threads can't be started.
     Threads(String),
     /// A parameter can't be bound.
     Param {
-        /// Why.
+        /// The reason.
         why: ParamError,
-        /// What may have been meant.
+        /// A similar name, if any.
         similar: Option<String>,
     },
 }
@@ -69,7 +69,7 @@ pub enum Error {
 /// What is wrong with a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileFault {
-    /// It is not there.
+    /// It doesn't exist.
     Missing {
         /// A neighbour with a similar name.
         similar: Option<String>,
@@ -78,25 +78,25 @@ pub enum FileFault {
     Directory,
     /// It is a pipe, a socket or a device.
     NotRegular,
-    /// It is not UTF-8.
+    /// It isn't UTF-8.
     NotUtf8 {
-        /// The first line with a wrong byte.
+        /// The first line with an invalid byte.
         line: usize,
     },
-    /// It is a replay or snapshot, where a scenario was wanted.
+    /// It is a replay or snapshot, but a scenario was expected.
     Packed(Packed),
     /// It is larger than allowed.
     TooLarge {
-        /// The most bytes.
+        /// The limit in bytes.
         max: u64,
     },
-    /// The system's own words.
+    /// The system's message.
     Io(String),
-    /// It can't be written: the system's own words.
+    /// It can't be written; the system's message.
     Write(String),
 }
 
-/// What is no scenario, and yet one of Setpiece's files.
+/// A file of Setpiece that isn't a scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packed {
     /// A recorded episode.
@@ -106,7 +106,7 @@ pub enum Packed {
 }
 
 impl Packed {
-    /// What a file is, by its beginning.
+    /// Recognises a file by its first bytes.
     pub fn of(bytes: &[u8]) -> Option<Packed> {
         let marks = [(crate::replay::MAGIC, Packed::Replay), (setpiece_engine::snapshot::MAGIC, Packed::Snapshot)];
         marks.into_iter().find(|(mark, _)| bytes.starts_with(*mark)).map(|(_, kind)| kind)
@@ -120,12 +120,12 @@ pub struct Failure {
     pub problems: Vec<Problem>,
     /// The files they point into.
     pub sources: Sources,
-    /// The files on disk that were read, or looked for: what a watcher watches until they are mended.
+    /// The files on disk that were read or looked for. A watcher watches them until they are fixed.
     pub inputs: Vec<PathBuf>,
 }
 
 impl Error {
-    /// The stable code; of several reports the first one's.
+    /// The stable code; the first one of several reports.
     pub fn code(&self) -> Code {
         match self {
             Error::Unknown { .. } => Code::UnknownScenario,

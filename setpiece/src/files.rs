@@ -1,4 +1,4 @@
-//! Files: reading them with located, helpful errors, and finding what a `.pitch` file imports.
+//! Files: reads them with located, helpful errors, and finds what a `.pitch` file imports.
 
 use crate::error::{Error, FileFault};
 use crate::stdlib;
@@ -9,19 +9,19 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Largest source file, bytes; a scenario is a few kilobytes.
+/// Largest source file, bytes; a typical scenario has a few kilobytes.
 pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
 /// Largest compiled scenario, bytes.
 pub use setpiece_scenario::file::FILE_MAX_BYTES as COMPILED_MAX_BYTES;
-/// Largest snapshot, bytes; most take some kilobytes, records of long episodes more.
+/// Largest snapshot, bytes. Most have some kilobytes; records of long episodes need more.
 pub const SNAPSHOT_MAX_BYTES: u64 = 64 << 20;
 
-/// The most bytes that a scenario's file may have, by its name.
+/// The size limit of a scenario's file, by its name.
 pub fn most_bytes(path: &Path) -> u64 {
     if is_compiled(path) { COMPILED_MAX_BYTES } else { SOURCE_MAX_BYTES }
 }
 
-/// Whether a file is called as compiled scenarios are.
+/// Whether a file has the name of a compiled scenario.
 pub fn is_compiled(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "pitchc")
 }
@@ -29,12 +29,12 @@ pub fn is_compiled(path: &Path) -> bool {
 /// Reads a text file of at most `max` bytes.
 ///
 /// # Errors
-/// [`Error::File`] where it is missing, a directory, too large, not UTF-8, or can't be read.
+/// [`Error::File`] if it is missing, a directory, too large, not UTF-8, or can't be read.
 pub fn read_text(path: &Path, max: u64) -> Result<String, Error> {
     into_text(read_file(path, max)?, path)
 }
 
-/// Reads a regular file of at most `max` bytes: the one way in which files of users are read.
+/// Reads a regular file of at most `max` bytes. All files of users are read through this function.
 ///
 /// # Errors
 /// [`Error::File`] if it is missing, not a regular file, too large, or can't be read.
@@ -42,7 +42,7 @@ pub fn read_file(path: &Path, max: u64) -> Result<Vec<u8>, Error> {
     read_bytes(open_regular(path)?, path, max)
 }
 
-/// Opens a file that ends and makes nobody wait: pipes, sockets and devices are refused.
+/// Opens a file that can't block: pipes, sockets and devices are rejected.
 fn open_regular(path: &Path) -> Result<File, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     let io = |error: std::io::Error| match error.kind() {
@@ -55,11 +55,11 @@ fn open_regular(path: &Path) -> Result<File, Error> {
         (_, false) => Err(fault(FileFault::NotRegular)),
         _ => Ok(()),
     };
-    // Before it is opened: to open a device may already do something.
+    // Checked before opening, because opening a device may already have an effect.
     regular(&std::fs::metadata(path).map_err(io)?)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // A pipe that takes its place in between would wait for a writer.
+    // A pipe that replaces the file in between would wait for a writer.
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK);
     let file = options.open(path).map_err(io)?;
@@ -67,10 +67,10 @@ fn open_regular(path: &Path) -> Result<File, Error> {
     Ok(file)
 }
 
-/// Reads a text of at most `max` bytes; `path` is how reports call it.
+/// Reads a text of at most `max` bytes; `path` is its name in reports.
 ///
 /// # Errors
-/// [`Error::File`] where it is too large, not UTF-8, or can't be read.
+/// [`Error::File`] if it is too large, not UTF-8, or can't be read.
 pub fn read(from: impl Read, path: &Path, max: u64) -> Result<String, Error> {
     into_text(read_bytes(from, path, max)?, path)
 }
@@ -78,7 +78,7 @@ pub fn read(from: impl Read, path: &Path, max: u64) -> Result<String, Error> {
 fn read_bytes(from: impl Read, path: &Path, max: u64) -> Result<Vec<u8>, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     let mut bytes = Vec::new();
-    // One byte more than allowed: a pipe has no length to look at.
+    // One byte more than allowed, because a pipe has no length.
     from.take(max + 1).read_to_end(&mut bytes).map_err(|why| fault(FileFault::Io(why.to_string())))?;
     if bytes.len() as u64 > max {
         return Err(fault(FileFault::TooLarge { max }));
@@ -86,10 +86,10 @@ fn read_bytes(from: impl Read, path: &Path, max: u64) -> Result<Vec<u8>, Error> 
     Ok(bytes)
 }
 
-/// The bytes of a file as text.
+/// Converts the bytes of a file to text.
 ///
 /// # Errors
-/// [`Error::File`] where they are not UTF-8.
+/// [`Error::File`] if they aren't UTF-8.
 pub fn into_text(bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
     let fault = |why| Error::File { path: path.to_owned(), why };
     String::from_utf8(bytes).map_err(|error| {
@@ -99,7 +99,7 @@ pub fn into_text(bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
     })
 }
 
-/// A neighbour whose name is like the one that is missing.
+/// A neighbour with a name similar to the missing one.
 fn similar_file(path: &Path) -> Option<String> {
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut names: Vec<String> = std::fs::read_dir(folder)
@@ -109,16 +109,16 @@ fn similar_file(path: &Path) -> Option<String> {
         .collect();
     names.sort();
     let wanted = path.file_name()?.to_string_lossy().into_owned();
-    // A link that leads nowhere is its own neighbour.
+    // A dangling link is its own neighbour.
     names.retain(|name| *name != wanted);
     setpiece_dsl::problem::nearest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
-/// Bytes of a path that are no UTF-8, in a name: private characters, one a byte.
+/// Encodes bytes of a path that aren't UTF-8 as private characters, one per byte.
 #[cfg(unix)]
 const FOREIGN: u32 = 0xF_8000;
 
-/// How a source on disk is called: by its path, whose bytes that are no UTF-8 stand as private characters.
+/// The name of a source on disk: its path, with bytes that aren't UTF-8 as private characters.
 pub fn name_of(path: &Path) -> String {
     #[cfg(unix)]
     {
@@ -128,7 +128,7 @@ pub fn name_of(path: &Path) -> String {
         for chunk in path.as_os_str().as_bytes().utf8_chunks() {
             for letter in chunk.valid().chars() {
                 match u32::from(letter).checked_sub(FOREIGN) {
-                    // It would be taken for a byte.
+                    // Otherwise it would be decoded as a byte.
                     Some(0x80..=0xFF) => name.extend(letter.to_string().as_bytes().iter().filter_map(foreign)),
                     _ => name.push(letter),
                 }
@@ -141,14 +141,14 @@ pub fn name_of(path: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// The path that [`name_of`] calls so.
+/// The path of a name from [`name_of`].
 pub fn path_of(name: &str) -> PathBuf {
     #[cfg(unix)]
     {
         use std::os::unix::ffi::OsStringExt;
         let mut bytes = Vec::with_capacity(name.len());
         for letter in name.chars() {
-            // Those above 0x7F alone are ever written.
+            // Only bytes above 0x7F are ever encoded.
             match u32::from(letter).checked_sub(FOREIGN) {
                 Some(byte @ 0x80..=0xFF) => bytes.push(byte as u8),
                 _ => bytes.extend_from_slice(letter.encode_utf8(&mut [0; 4]).as_bytes()),
@@ -160,10 +160,11 @@ pub fn path_of(name: &str) -> PathBuf {
     name.into()
 }
 
-/// Loads imports and scripts: `std/…` from the library, everything else beside the file that names it.
+/// Loads imports and scripts: `std/…` from the library, everything else relative to the importing
+/// file.
 #[derive(Clone, Debug, Default)]
 pub struct FileLoader {
-    /// The folder that nothing but the library may lie outside of; none where anything may be read.
+    /// The folder that files must be in, except the library's; none if any file may be read.
     within: Option<PathBuf>,
 }
 
@@ -173,14 +174,15 @@ impl FileLoader {
         FileLoader { within: None }
     }
 
-    /// Reads files in the folder of a root file and below; a text from memory has the working directory.
+    /// Reads only files in a root file's folder and below. A text from memory uses the working
+    /// directory.
     pub fn beside(root: &str) -> FileLoader {
         let root_path = path_of(root);
         let folder = root_path.parent().filter(|_| !root.starts_with('<')).unwrap_or(Path::new(""));
         FileLoader { within: Some(folder.to_owned()) }
     }
 
-    /// Whether a file may be read, as it is written and where its links lead.
+    /// Whether a file may be read, by its written path and by the target of its links.
     fn may_read(&self, full: &Path) -> bool {
         let Some(within) = &self.within else { return true };
         let written = match (plain(full), plain(within)) {
@@ -188,7 +190,7 @@ impl FileLoader {
             _ => false,
         };
         let folder = if within.as_os_str().is_empty() { Path::new(".") } else { within };
-        // What is not there has no links to follow.
+        // A missing file has no links to follow.
         let linked = |full: PathBuf| folder.canonicalize().is_ok_and(|within| full.starts_with(within));
         written && full.canonicalize().map_or(true, linked)
     }
@@ -203,7 +205,7 @@ fn plain(path: &Path) -> Option<PathBuf> {
 
 impl SourceLoader for FileLoader {
     fn load(&self, path: &str, from: &str) -> Result<Source, LoadError> {
-        // A file of the library names its neighbours by `std/…` too.
+        // A file of the library also names its neighbours by `std/…`.
         if let Some(inner) = path.strip_prefix("std/") {
             return stdlib::file(inner).ok_or_else(|| {
                 let known: Vec<String> = stdlib::paths().map(|name| format!("std/{name}")).collect();
@@ -213,7 +215,7 @@ impl SourceLoader for FileLoader {
             });
         }
         let full = beside(&path_of(from), &path_of(path));
-        // Who plays from outside names their own files.
+        // A cast's own files may be anywhere.
         if from != CAST_NAME && !self.may_read(&full) {
             let message = format!("`{path}` lies outside of the scenario's folder, and `--allow-outside` isn't given");
             return Err(LoadError { message, similar: Vec::new(), awaited: None });
@@ -221,7 +223,7 @@ impl SourceLoader for FileLoader {
         match read_text(&full, SOURCE_MAX_BYTES) {
             Ok(text) => Ok(Source { name: name_of(&full), text: text.into() }),
             Err(error) => {
-                // Of a file that is there, no other was meant.
+                // For an existing file there is no better suggestion.
                 let similar = match &error {
                     Error::File { why: FileFault::Missing { similar }, .. } => similar.iter().cloned().collect(),
                     _ => Vec::new(),
@@ -237,7 +239,7 @@ impl SourceLoader for FileLoader {
     }
 }
 
-/// The path of `path` as seen from the file `from`.
+/// Resolves `path` relative to the file `from`.
 fn beside(from: &Path, path: &Path) -> PathBuf {
     let folder = from.parent().unwrap_or(Path::new(""));
     let mut full = PathBuf::new();
@@ -253,10 +255,10 @@ fn beside(from: &Path, path: &Path) -> PathBuf {
     full
 }
 
-/// Refuses an output that is one of its inputs, or would pass for a source.
+/// Rejects an output that is one of its inputs, or has the name of a source.
 ///
 /// # Errors
-/// [`Error::File`] where it is.
+/// [`Error::File`] if it is.
 pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
     if output.extension().is_some_and(|ending| ending == "pitch" || ending == "rhai") {
         let why = FileFault::Write(
@@ -272,7 +274,8 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
     Ok(())
 }
 
-/// Writes a file whole or not at all: a temporary neighbour is renamed over it. The one way in which files are written.
+/// Writes a file completely or not at all: a temporary neighbour is renamed over it. All files are
+/// written through this function.
 ///
 /// # Errors
 /// [`Error::File`] if it can't be written.
@@ -280,21 +283,21 @@ pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
     let content = content.as_ref();
     check_target(path)?;
     let fault = |error| write_fault(path, &error);
-    // A device or pipe can't be renamed over.
+    // A device or pipe can't be replaced by renaming.
     if path.exists() && !path.is_file() {
         return std::fs::write(path, content).map_err(fault);
     }
     let temporary = Temporary::write(path, content).map_err(fault)?;
-    // Who may read and write it stays as it was.
+    // Keeps the file's permissions.
     if let Ok(meta) = std::fs::metadata(path) {
         std::fs::set_permissions(&temporary.path, meta.permissions()).map_err(fault)?;
     }
     std::fs::rename(&temporary.path, path).map_err(fault)
 }
 
-/// Writes a file whole or not at all, if nothing has its name; returns whether it did.
+/// Writes a file completely or not at all, if its name is free. Returns whether it did.
 ///
-/// Of several threads and processes that ask for one name, one gets it.
+/// Of several threads and processes that request one name, only one gets it.
 ///
 /// # Errors
 /// [`Error::File`] if it can't be written.
@@ -308,7 +311,7 @@ pub fn write_new(path: &Path, content: impl AsRef<[u8]>) -> Result<bool, Error> 
     match std::fs::hard_link(&temporary.path, path) {
         Ok(()) => return Ok(true),
         Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => return Ok(false),
-        // The file system has no links: the name is taken first.
+        // The file system has no links, so the name is reserved first.
         Err(_) => {}
     }
     match OpenOptions::new().write(true).create_new(true).open(path) {
@@ -336,18 +339,18 @@ fn check_target(path: &Path) -> Result<(), Error> {
     Err(Error::File { path: path.to_owned(), why: FileFault::Write(why.to_owned()) })
 }
 
-/// A complete file beside the one that is to be written; removed unless it was renamed.
+/// A complete file next to the one to be written; removed unless it was renamed.
 struct Temporary {
     path: PathBuf,
 }
 
 impl Temporary {
     fn write(beside: &Path, content: &[u8]) -> std::io::Result<Temporary> {
-        /// Makes the names of one process differ.
+        /// Makes the names within one process differ.
         static COUNT: AtomicU32 = AtomicU32::new(0);
         loop {
             let count = COUNT.fetch_add(1, Ordering::Relaxed);
-            // A short name of its own: together with the other's it could be too long.
+            // A short name, because a name derived from the target could be too long.
             let path = beside.with_file_name(format!(".setpiece.{}.{count}.tmp", std::process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(mut file) => {
@@ -355,7 +358,7 @@ impl Temporary {
                     file.write_all(content)?;
                     return Ok(temporary);
                 }
-                // What a killed process of this number has left.
+                // Left over by a killed process with the same id.
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
             }

@@ -1,8 +1,9 @@
 //! Setpiece: football scenarios from text files, and the engine that runs them.
 //!
-//! The facade: what needs both the compiler and the engine. [`load`](mod@load) turns a name, path or text into a
-//! scenario, [`run`] plays episodes of it, [`mod@render`] draws them, [`watch`] recompiles it when its files change, [`probe`] looks
-//! for what only a dry run can find.
+//! This is the facade, for whatever needs both the compiler and the engine. [`load`](mod@load)
+//! turns a name, path or text into a scenario, [`run`] plays episodes of it, and [`mod@render`]
+//! draws them. [`watch`] recompiles a scenario when its files change, and [`probe`] finds problems
+//! that only a dry run shows.
 
 pub mod bench;
 #[cfg(feature = "cli")]

@@ -1,4 +1,4 @@
-//! A scenario that follows its files: compiled anew when one of them changes.
+//! A scenario that follows its files: recompiled when one of them changes.
 
 use crate::error::Error;
 use crate::load::{LoadOptions, Loaded, load_with};
@@ -7,7 +7,7 @@ use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// A scenario and the watch on everything it is made of: its file, imports and scripts.
+/// A scenario and a watcher on all its files: its own, imports and scripts.
 pub struct Live {
     source: OsString,
     allow_outside: bool,
@@ -18,10 +18,10 @@ pub struct Live {
 impl Live {
     /// Loads a scenario and watches its files.
     ///
-    /// - `allow_outside`: as in [`LoadOptions`].
+    /// - `allow_outside`: see [`LoadOptions`].
     ///
     /// # Errors
-    /// As [`load_with`].
+    /// Like [`load_with`].
     pub fn open(source: impl AsRef<OsStr>, allow_outside: bool) -> Result<Live, Error> {
         let source = source.as_ref().to_owned();
         let loaded = load_with(&source, &LoadOptions { allow_outside, ..LoadOptions::default() })?;
@@ -34,17 +34,18 @@ impl Live {
         &self.loaded
     }
 
-    /// Whether there is anything to watch: a scenario of the library has no files.
+    /// Whether there are files to watch; a scenario of the library has none.
     pub fn is_watching(&self) -> bool {
         !self.loaded.inputs.is_empty()
     }
 
-    /// Compiles anew where a file has changed since the last call; waits for at most `timeout`.
+    /// Recompiles if a file has changed since the last call; waits for at most `timeout`.
     ///
-    /// A broken file leaves the last good scenario in place; what it asks for in vain is watched too.
+    /// A broken file leaves the last good scenario in place. Files that it fails to import are
+    /// watched too.
     ///
     /// # Errors
-    /// As [`load_with`], of the changed files.
+    /// Like [`load_with`], for the changed files.
     pub fn poll(&mut self, timeout: Duration) -> Option<Result<&Loaded, Error>> {
         if !self.watcher.changed(timeout) {
             return None;

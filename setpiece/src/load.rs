@@ -1,4 +1,4 @@
-//! Loading: a name, a path, a text or a compiled file becomes a scenario.
+//! Loads a scenario from a name, a path, a text or a compiled file.
 
 use crate::error::{Error, Failure, FileFault, Packed};
 use crate::files::{FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, name_of, path_of, read_file};
@@ -23,11 +23,11 @@ pub struct Loaded {
     pub warnings: Vec<Problem>,
     /// The files they point into.
     pub sources: Sources,
-    /// Where the scenario's name stands; none for a compiled file.
+    /// The place of the scenario's name; none for a compiled file.
     pub origin: Option<Span>,
-    /// Where its parts stand; empty for a compiled file.
+    /// The places of its parts; empty for a compiled file.
     pub origins: Origins,
-    /// The files on disk it was made of: what a watcher watches.
+    /// The files on disk that it was loaded from, for a watcher.
     pub inputs: Vec<PathBuf>,
 }
 
@@ -58,42 +58,43 @@ pub fn list() -> Vec<Entry> {
     entries
 }
 
-/// What a caller may choose when a scenario is loaded.
+/// Options for loading a scenario.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadOptions<'a> {
-    /// Who plays players, whatever the text says.
+    /// Replaces who plays some players, whatever the text says.
     pub cast: &'a [Cast],
-    /// Whether imports and scripts may lie outside of the root file's folder, or outside of the working directory where
-    /// the root is a text from memory. The library may always be imported.
+    /// Whether imports and scripts may be outside the root file's folder (for a text from memory:
+    /// outside the working directory). The library may always be imported.
     pub allow_outside: bool,
 }
 
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
 ///
 /// # Errors
-/// [`Error`], for everything that can be wrong with a name, a file or its content.
+/// [`Error`], for every problem with a name, a file or its content.
 pub fn load(name_or_path: impl AsRef<OsStr>) -> Result<Loaded, Error> {
     load_with(name_or_path, &LoadOptions::default())
 }
 
-/// Bytes of a scenario's name from which on its beginning alone tells what is meant.
+/// From this length on, the beginning of a scenario's name is enough for a suggestion, bytes.
 const BEGUN_LEAST: usize = 4;
 
-/// Loads a scenario as [`load`] does, its players played by a cast.
+/// Like [`load`], with a cast that plays players.
 ///
 /// # Errors
-/// As [`load_with`].
+/// Like [`load_with`].
 pub fn load_cast(name_or_path: impl AsRef<OsStr>, cast: &[Cast]) -> Result<Loaded, Error> {
     load_with(name_or_path, &LoadOptions { cast, ..LoadOptions::default() })
 }
 
-/// Loads a scenario as [`load`] does, with options.
+/// Like [`load`], with options.
 ///
 /// # Errors
-/// As [`load`], and [`Error::Cast`] for a compiled file with a cast, as such a file stays as it is.
+/// Like [`load`], and [`Error::Cast`] for a compiled file with a cast, because such a file can't be
+/// changed.
 pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     let path = Path::new(name_or_path.as_ref());
-    // What isn't Unicode is the path of a file: every name is.
+    // A path that isn't Unicode must be a file: all names are Unicode.
     let Some(name_or_path) = path.to_str() else { return load_file_with(path, options) };
     if let Some(source) = stdlib::scenario(name_or_path) {
         return compile_source(source, options);
@@ -103,10 +104,11 @@ pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> 
     if looks_like_path || path.exists() {
         return load_file_with(path, options);
     }
-    // What can be played: bases that others extend are no answer.
+    // Only runnable scenarios; bases that others extend aren't useful suggestions.
     let known = list();
     let names = || known.iter().map(|entry| entry.name.as_str());
-    // A name cut short is similar to nothing, and yet says enough, with or without its underscores.
+    // A truncated name has a low similarity, but its beginning is enough, with or without
+    // underscores.
     let joined = |name: &str| name.replace('_', "");
     let begun = || {
         let beginning = joined(name_or_path);
@@ -116,10 +118,10 @@ pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> 
     Err(Error::Unknown { name: name_or_path.to_owned(), similar })
 }
 
-/// Loads a `.pitch` or a compiled file in either form; which it is, its beginning tells.
+/// Loads a `.pitch` or a compiled file; its first bytes show which it is.
 ///
 /// # Errors
-/// As [`load`].
+/// Like [`load`].
 pub fn load_file(path: &Path) -> Result<Loaded, Error> {
     load_file_with(path, &LoadOptions::default())
 }
@@ -141,7 +143,7 @@ fn load_file_with(path: &Path, options: &LoadOptions<'_>) -> Result<Loaded, Erro
     compile_source(Source { name: name_of(path), text: text.into() }, options)
 }
 
-/// A scenario that a file holds compiled.
+/// A scenario from a compiled file.
 fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Error> {
     if let Some(cast) = cast.first() {
         return Err(Error::Cast { ai: cast.ai.clone() });
@@ -156,26 +158,26 @@ fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Err
     })
 }
 
-/// Compiles a text; `name` is how reports call it.
+/// Compiles a text; `name` is its name in reports.
 ///
 /// # Errors
-/// [`Error::Compile`] with every report; [`Error::File`] where it is larger than a file may be.
+/// [`Error::Compile`] with every report; [`Error::File`] if it is larger than a file may be.
 pub fn compile_text(text: &str, name: &str) -> Result<Loaded, Error> {
     compile_text_with(text, name, &LoadOptions::default())
 }
 
-/// Compiles a text as [`compile_text`] does, its players played by a cast.
+/// Like [`compile_text`], with a cast that plays players.
 ///
 /// # Errors
-/// As [`compile_text`].
+/// Like [`compile_text`].
 pub fn compile_text_cast(text: &str, name: &str, cast: &[Cast]) -> Result<Loaded, Error> {
     compile_text_with(text, name, &LoadOptions { cast, ..LoadOptions::default() })
 }
 
-/// Compiles a text as [`compile_text`] does, with options.
+/// Like [`compile_text`], with options.
 ///
 /// # Errors
-/// As [`compile_text`].
+/// Like [`compile_text`].
 pub fn compile_text_with(text: &str, name: &str, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     if text.len() as u64 > SOURCE_MAX_BYTES {
         return Err(Error::File { path: name.into(), why: FileFault::TooLarge { max: SOURCE_MAX_BYTES } });
@@ -183,30 +185,30 @@ pub fn compile_text_with(text: &str, name: &str, options: &LoadOptions<'_>) -> R
     compile_source(Source { name: name.to_owned(), text: text.into() }, options)
 }
 
-/// What a check found.
+/// The result of a check.
 #[derive(Clone, Debug)]
 pub struct Checked {
     /// Errors and warnings, in order.
     pub problems: Vec<Problem>,
     /// The files they point into.
     pub sources: Sources,
-    /// The files on disk that were read, or looked for.
+    /// The files on disk that were read or looked for.
     pub inputs: Vec<PathBuf>,
 }
 
-/// Compiles a name, a path or a text's file for its problems alone: a file of rewards or formations, which has nothing
-/// to run, is checked as a scenario would use it.
+/// Compiles a name, a path or a file only for its problems. A file of rewards or formations, which
+/// has nothing to run, is checked as if a scenario used it.
 ///
 /// # Errors
-/// As [`load`], but for problems of the text, which come back in order.
+/// Like [`load`], except that problems of the text are returned, in order.
 pub fn check(name_or_path: impl AsRef<OsStr>) -> Result<Checked, Error> {
     check_with(name_or_path, &LoadOptions::default())
 }
 
-/// Checks as [`check`] does, with options.
+/// Like [`check`], with options.
 ///
 /// # Errors
-/// As [`check`].
+/// Like [`check`].
 pub fn check_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Checked, Error> {
     let failure = match load_with(name_or_path, options) {
         Ok(loaded) => {
@@ -235,7 +237,7 @@ pub fn check_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) ->
     Ok(Checked { problems: outcome.problems, sources: outcome.sources, inputs: failure.inputs })
 }
 
-/// What reads the files that a root names.
+/// The loader of the files that a root imports.
 fn loader(root: &str, options: &LoadOptions<'_>) -> FileLoader {
     if options.allow_outside { FileLoader::anywhere() } else { FileLoader::beside(root) }
 }
@@ -258,19 +260,19 @@ fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, E
     }
 }
 
-/// What a compilation is told: the library's prelude is read once per process.
+/// The options of a compilation. The library's prelude is read once per process.
 fn compile_options() -> CompileOptions<'static> {
     static PRELUDE: OnceLock<Prelude> = OnceLock::new();
     let prelude = PRELUDE.get_or_init(|| Prelude::load(&FileLoader::anywhere()));
     CompileOptions { scenario: None, prelude: Some(prelude), scripts: Some(&EngineScripts), cast: &[] }
 }
 
-/// Whether a source's name is a path: not the library's and not a text from memory.
+/// Whether a source's name is a path, not in the library and not a text from memory.
 fn is_on_disk(name: &str) -> bool {
     !name.starts_with("std/") && !name.starts_with('<')
 }
 
-/// Binds `name=value` pairs to a scenario's parameters; values as the language writes them.
+/// Binds `name=value` pairs to a scenario's parameters. Values are written as in the language.
 ///
 /// # Errors
 /// [`Error::Param`] for the first pair that can't be bound.

@@ -12,13 +12,14 @@ use std::fmt::Write as _;
 const MARGIN_M: f64 = 4.5;
 /// Stripes of the lawn.
 const STRIPES: u32 = 10;
-/// Radius of a player's disc, metres; larger than life, so that his role can be read.
+/// Radius of a player's disc, metres; larger than life, so that the role can be read.
 const PLAYER_M: f64 = 1.5;
-/// Fill, ring and text of the left and the right team: told apart with every kind of colour vision.
+/// Fill, ring and text of the left and the right team: distinguishable with every kind of colour
+/// vision.
 const COLOURS: [[&str; 3]; 2] = [["#ffb000", "#7a4f00", "#2b1b00"], ["#2f6df6", "#0b2a77", "#ffffff"]];
 
-/// Draws a start from above in metres, the left team attacking to the right: players as discs of their team's colour
-/// with role, heading and name, and the ball.
+/// Draws a start from above in metres, with the left team attacking to the right. Players are discs
+/// in their team's colour with role, heading and name.
 pub fn svg(scenario: &Scenario, start: &Drawn) -> String {
     let (x, y) = (HALF_LENGTH_M + MARGIN_M, HALF_WIDTH_M + MARGIN_M);
     let (width, height) = (2.0 * x, 2.0 * y);
@@ -120,7 +121,7 @@ fn player(text: &mut String, start: &Drawn, id: usize, role: &str, name: &str) {
     text.push_str("</g>\n");
 }
 
-/// A text that holds none of XML's signs.
+/// Escapes XML's special characters.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

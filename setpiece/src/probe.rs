@@ -1,4 +1,4 @@
-//! The dry run: what can be found only by drawing starts and looking at them.
+//! The dry run: finds problems that only show when starts are drawn.
 
 use crate::load::Loaded;
 use setpiece_dsl::RequireOrigin;
@@ -9,22 +9,22 @@ use setpiece_engine::environment::{Environment, EnvironmentOptions};
 use setpiece_scenario::{Bindings, Instr};
 use std::time::{Duration, Instant};
 
-/// How many starts are looked at.
+/// How many starts are checked.
 const DRAWS: u64 = 200;
-/// How many attempts at a start are made to learn how often one succeeds.
+/// The most attempts at a start for estimating how often one succeeds.
 const ATTEMPTS: u32 = 10_000;
-/// Below this share of attempts that succeed, the author is warned.
+/// Below this share of successful attempts, the author gets a warning.
 const SELDOM: f64 = 0.01;
-/// So many successes say that it is no less.
+/// This many successes prove that the share isn't lower.
 const ENOUGH: u32 = (ATTEMPTS as f64 * SELDOM) as u32;
 
-/// What the engine requires of every value of a start.
+/// The engine's requirement on every value of a start.
 const NUMBERS: &str = "every place, velocity and heading is a number";
 
-/// The warnings of a scenario and what a dry run adds to them: requirements that (almost) no start meets, an episode
-/// that is over before its first step.
+/// A scenario's warnings, plus those of a dry run: requirements that (almost) no start meets, an
+/// episode that ends before its first step.
 ///
-/// - `budget`: how long it may take; what it has not found by then it leaves out.
+/// - `budget`: how long it may take. What it hasn't found by then is left out.
 pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
     let mut problems = loaded.warnings.clone();
     let end = budget.map(|budget| Instant::now() + budget);
@@ -67,20 +67,20 @@ fn place(declared: Span, at: Option<Span>) -> (Span, Option<Span>) {
     }
 }
 
-/// Whether one start differs from another.
+/// Whether starts differ.
 fn varies(loaded: &Loaded) -> bool {
     let draws = |instr: &Instr| matches!(instr, Instr::Random { .. } | Instr::EpisodeIndex);
     loaded.scenario.start.program.code.iter().any(draws)
 }
 
-/// What is to be said of how often an attempt at a start succeeds.
+/// The report about how often an attempt at a start succeeds.
 fn requirements(loaded: &Loaded, in_time: &dyn Fn() -> bool) -> Option<Problem> {
     let scenario = &loaded.scenario;
     let bindings = Bindings::defaults(&scenario.params);
     let roster = Roster::new(scenario, &bindings, None).ok()?;
     let mut drawer = Drawer::new(scenario);
     let (all, enough) = if varies(loaded) { (ATTEMPTS, ENOUGH) } else { (1, 1) };
-    // A tenth first: most scenarios are known to be easy by then.
+    // A tenth first: for most scenarios that already shows that starts are easy to find.
     let mut found = drawer.acceptance(scenario, &bindings, &roster, all.div_ceil(10), enough);
     if found.met < enough && all > 1 {
         if !in_time() {

@@ -1,9 +1,9 @@
 //! Pictures of a match, seen from above: one moment large, or an episode as a sheet of frames.
 //!
-//! [`mod@film`] plays an episode and keeps a [`Scene`] of every step; [`moments`] chooses those worth a frame; [`stage`]
-//! draws a scene into a buffer of pixels, [`pitch`], [`people`] and [`ball`] each their part of it; [`caption`] says what
-//! happened; [`mod@sheet`] puts frames and captions together. Nothing here knows a clock or chance: the same film gives
-//! the same pixels.
+//! [`mod@film`] plays an episode and keeps a [`Scene`] of every step. [`moments`] chooses those
+//! worth a frame. [`stage`] draws a scene into a buffer of pixels; [`pitch`], [`people`] and
+//! [`ball`] draw their part of it. [`caption`] writes what happened, and [`mod@sheet`] arranges
+//! frames and captions. No clock or chance is involved: the same film gives the same pixels.
 
 pub mod ball;
 pub mod canvas;

@@ -1,8 +1,8 @@
-//! Replays: an episode as a file, which plays it again bit for bit.
+//! Replays: an episode as a file that can be played again, bit for bit.
 //!
-//! A replay holds the scenario, who played, the key of the draw and what every agent did; everything else follows. It
-//! begins with a head (mark, version, checksum, length), as a compiled scenario's compact form does; what follows is
-//! CBOR, deflated.
+//! A replay holds the scenario, who played, the key of the draw and every agent's actions;
+//! everything else follows from these. It begins with a header (magic number, version, checksum,
+//! length), like a compiled scenario's compact form. Then comes deflated CBOR.
 
 use crate::error::Error;
 use flate2::Compression;
@@ -25,54 +25,54 @@ use std::sync::Arc;
 pub const REPLAY_VERSION: u32 = 1;
 /// Largest replay, bytes.
 pub const REPLAY_MAX_BYTES: u64 = 64 << 20;
-/// Most bytes behind the head, inflated.
+/// The most bytes after the header, inflated.
 const BODY_MAX_BYTES: u64 = 64 << 20;
-/// Most actions, everyone's of every step: three whole matches of 22 agents.
+/// The most actions, over all agents and steps: three whole matches of 22 agents.
 const ACTS_MAX: usize = 4_000_000;
-/// What a replay begins with: no text does.
+/// The first bytes of a replay; no text starts with them.
 pub(crate) const MAGIC: &[u8; 8] = b"\x8bpitchr\n";
-/// Mark, version, checksum, length.
+/// Length of the header: magic number, version, checksum, length.
 const HEAD: usize = 8 + 4 + 8 + 8;
 
 /// Why a replay can't be read or played.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReplayError {
-    /// It is something else.
-    #[error("not a replay: it doesn't begin as one")]
+    /// It has another format.
+    #[error("not a replay: its header isn't recognised")]
     NotAReplay,
     /// It was written by another version.
     #[error("the replay has version {0}; this build plays version {REPLAY_VERSION}")]
     Version(u32),
-    /// It ends before it should.
-    #[error("the replay is cut off: its end is missing")]
+    /// It is truncated.
+    #[error("the replay is truncated: its end is missing")]
     Truncated,
     /// It has been changed.
     #[error("the replay was changed after it was written: its checksum differs")]
     Checksum,
-    /// It says what can't be.
+    /// It holds impossible values.
     #[error("the replay is damaged: {0}")]
     Corrupt(String),
     /// It has no episode.
     #[error("no episode has begun: there is nothing to replay")]
     NotBegun,
-    /// Its episode is longer than one can be.
+    /// Its episode is longer than a replay may be.
     #[error("the episode is too long: a replay has {STEPS_MAX} steps and {ACTS_MAX} actions at most")]
     TooLong,
-    /// It is larger than one can be.
+    /// It is larger than a replay may be.
     #[error("the replay is larger than {} MiB", BODY_MAX_BYTES >> 20)]
     TooLarge,
-    /// How its episode began is not known.
-    #[error("the episode goes on from a restored snapshot or with changed scripts: a replay can't tell how it began")]
+    /// How its episode began is unknown.
+    #[error("the episode continues from a restored snapshot or with changed scripts: its beginning is unknown")]
     Beginning,
-    /// This build plays it otherwise.
-    #[error("step {step}: this build plays the episode otherwise than the one that wrote it")]
+    /// This build plays it differently.
+    #[error("step {step}: this build diverges from the recording")]
     Differs {
-        /// The step after which it was compared.
+        /// The step after which the states differed.
         step: u32,
     },
 }
 
-/// What is written down while an episode is played.
+/// The recording of an episode in progress.
 #[derive(Clone, Debug, Default)]
 pub struct Recorder {
     from: Option<Vec<u8>>,
@@ -83,7 +83,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Begins an episode; in the state of a snapshot, where it begins in one.
+    /// Begins an episode, optionally in the state of a snapshot.
     pub fn begin(&mut self, from: Option<&[u8]>) {
         self.from = from.map(<[u8]>::to_vec);
         self.acts.clear();
@@ -91,14 +91,15 @@ impl Recorder {
         (self.whole, self.too_long) = (true, false);
     }
 
-    /// The episode goes on from elsewhere: what it was before is not known.
-    pub fn lose(&mut self) {
+    /// Invalidates the recording: the episode continues from elsewhere, so its beginning is
+    /// unknown.
+    pub fn invalidate(&mut self) {
         *self = Recorder::default();
     }
 
-    /// Writes down what an agent does in the step to come; agent by agent, step by step.
+    /// Records an agent's action of the next step; agent by agent, step by step.
     ///
-    /// An episode that is longer than a replay can be isn't kept.
+    /// An episode that is longer than a replay may be isn't kept.
     pub fn note(&mut self, action: Action, steer: Option<Steer>) {
         if self.acts.len() >= ACTS_MAX || !self.whole {
             *self = Recorder { too_long: self.too_long || self.whole, ..Recorder::default() };
@@ -108,7 +109,7 @@ impl Recorder {
         self.steers.push(steer);
     }
 
-    /// Takes back what was noted for steps beyond `steps` of `n_agents`: one that was refused.
+    /// Drops the actions beyond `steps` steps of `n_agents`: those of a rejected step.
     pub fn keep(&mut self, steps: u32, n_agents: usize) {
         self.acts.truncate(steps as usize * n_agents);
         self.steers.truncate(steps as usize * n_agents);
@@ -134,19 +135,20 @@ pub struct Replay {
     pub digest: u64,
     #[serde(deserialize_with = "acts")]
     acts: Vec<u8>,
-    /// Way and power, where agents steered.
+    /// Direction and power, if agents steered.
     #[serde(deserialize_with = "acts")]
     steers: Vec<Option<[f32; 3]>>,
-    /// How it ended: label, verdict, whether by the limit. A caller may have [ended](Environment::end) it.
+    /// How it ended: label, verdict, whether the limit ended it. A caller may have
+    /// [ended](Environment::end) it.
     #[serde(default)]
     outcome: Option<(String, Option<Verdict>, bool)>,
 }
 
 impl Replay {
-    /// The episode of an environment as far as it has been played.
+    /// The episode of an environment, as far as it has been played.
     ///
     /// # Errors
-    /// [`Error::Replay`] where no episode has begun, or how it began is not known.
+    /// [`Error::Replay`] if no episode has begun, or if its beginning is unknown.
     pub fn of(environment: &Environment, recorder: &Recorder) -> Result<Replay, Error> {
         if !environment.has_begun() {
             return Err(Error::Replay(ReplayError::NotBegun));
@@ -180,10 +182,10 @@ impl Replay {
         })
     }
 
-    /// Writes it.
+    /// Encodes the replay.
     ///
     /// # Errors
-    /// [`Error::Replay`] where it can't be written.
+    /// [`Error::Replay`] if it can't be encoded.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         let corrupt = |why: String| Error::Replay(ReplayError::Corrupt(why));
         let mut body = Vec::new();
@@ -203,7 +205,7 @@ impl Replay {
         Ok(file)
     }
 
-    /// Reads one.
+    /// Decodes a replay.
     ///
     /// # Errors
     /// [`Error::Replay`] for anything but an unchanged replay of this version.
@@ -214,7 +216,7 @@ impl Replay {
     /// The scenario, bound to the parameters that it was played with.
     ///
     /// # Errors
-    /// [`Error::Replay`] where this build can't read it.
+    /// [`Error::Replay`] if this build can't read it.
     pub fn scenario(&self) -> Result<Scenario, Error> {
         let mut scenario = binary::from_bytes(&self.scenario).map_err(|why| corrupt(&why))?;
         if self.params.0.len() != scenario.params.len() {
@@ -226,10 +228,11 @@ impl Replay {
         Ok(scenario)
     }
 
-    /// An environment that it can be played in, before its start.
+    /// Creates an environment that can play it, before its start.
     ///
     /// # Errors
-    /// [`Error::Environment`] where this build doesn't play the scenario so, [`Error::Replay`] where it is damaged.
+    /// [`Error::Environment`] if this build can't play the scenario like that, [`Error::Replay`] if
+    /// the replay is damaged.
     pub fn environment(&self) -> Result<Environment, Error> {
         let options = EnvironmentOptions {
             bindings: None,
@@ -249,12 +252,12 @@ impl Replay {
         Ok(environment)
     }
 
-    /// The snapshot that it began in, where it did.
+    /// The snapshot that it began in, if any.
     pub fn from(&self) -> Option<&[u8]> {
         self.from.as_deref()
     }
 
-    /// What agents did, agent by agent, step by step: keys, and how they steered.
+    /// The agents' actions, agent by agent, step by step: keys, and how they steered.
     pub fn acts(&self) -> impl ExactSizeIterator<Item = (Action, Option<Steer>)> + '_ {
         self.acts.iter().enumerate().map(|(at, &number)| {
             let steer = self.steers.get(at).copied().flatten();
@@ -263,7 +266,8 @@ impl Replay {
         })
     }
 
-    /// Ends an environment that has played it as the episode was ended, where nothing of the scenario ended it.
+    /// Ends an environment that has played it as the caller had ended the episode, if the scenario
+    /// didn't end it.
     pub fn end(&self, environment: &mut Environment) {
         if let Some((label, verdict, truncated)) = &self.outcome
             && environment.steps() == self.length
@@ -272,10 +276,10 @@ impl Replay {
         }
     }
 
-    /// Plays it: `each` is shown the start, and the environment after every step.
+    /// Plays it. `each` gets the start, and the environment after every step.
     ///
     /// # Errors
-    /// [`Error::Replay`] where it can't be played here, or comes to another end than it did.
+    /// [`Error::Replay`] if it can't be played here, or diverges from the recording.
     pub fn play(&self, mut each: impl FnMut(&Environment, &[Action])) -> Result<Environment, Error> {
         let mut environment = self.environment()?;
         let broken = |why: EpisodeError| Error::Episode(Box::new(why));
@@ -315,7 +319,8 @@ fn corrupt(why: &dyn std::fmt::Display) -> Error {
     Error::Replay(ReplayError::Corrupt(why.to_string()))
 }
 
-/// Reads a list of as many actions as a replay may have: a byte of a file may stand for sixteen in memory.
+/// Reads a list with as many actions as a replay may have, because a byte of a file may become
+/// sixteen in memory.
 fn acts<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
     struct Acts<T>(PhantomData<T>);
     impl<'de, T: Deserialize<'de>> Visitor<'de> for Acts<T> {

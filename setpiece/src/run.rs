@@ -1,4 +1,4 @@
-//! Running: episodes of a scenario, played by a ready-made agent, and what came of them.
+//! Runs episodes of a scenario with a ready-made agent, and summarises the results.
 
 use crate::error::Error;
 use setpiece_engine::batch::{EpisodeError, EpisodeSummary, ReadyMade, run_episodes};
@@ -12,17 +12,17 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What an episode that broke off is counted as.
+/// The outcome of an episode that failed.
 const BROKEN: &str = "error";
 
 /// What to run.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
-    /// Which episodes of the seed; each is the same whatever came before it.
+    /// The episodes' indices under the seed; each is the same whatever came before it.
     pub episodes: Range<u64>,
     /// The seed.
     pub seed: u64,
-    /// Who plays for every agent.
+    /// The agent that plays every slot.
     pub agent: Agent,
     /// Threads; the results don't depend on them.
     pub threads: usize,
@@ -30,12 +30,12 @@ pub struct RunOptions {
     pub environment: EnvironmentOptions,
 }
 
-/// What came of some episodes.
+/// The results of some episodes.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// The episodes, in order; what breaks one off (a script, a draw) stands in its place.
+    /// The episodes, in order. The error of a failed one (a script, a draw) takes its place.
     pub episodes: Vec<Result<EpisodeSummary, EpisodeError>>,
-    /// Outcomes with their verdicts and counts, the most frequent first.
+    /// Outcomes with their verdicts and counts, most frequent first.
     pub outcomes: Vec<(String, Option<Verdict>, u32)>,
     /// Mean goals, left and right.
     pub score: [f64; 2],
@@ -49,20 +49,23 @@ pub struct Summary {
     pub terms: Vec<(String, f64)>,
     /// Steps per second of wall time.
     pub steps_per_second: f64,
-    /// Mean of each record that is a number, over the episodes that have one; of one per agent their mean.
+    /// Mean of each numeric record over the episodes that have it; for one value per agent, their
+    /// mean.
     pub records: Vec<(String, f64)>,
-    /// Values paid by rewards that were no finite numbers and were left out, over all episodes.
+    /// Values paid by rewards that weren't finite and were dropped, over all episodes.
     pub faults: u64,
-    /// Of all episodes' final states, in order.
+    /// Digest of all episodes' final states, in order.
     pub digest: u64,
-    /// What the matches were like, on average.
+    /// The average figures of the matches.
     pub match_stats: MatchMeans,
 }
 
-/// Plays the episodes. `progress` is called with the length of each that is done, from any thread.
+/// Plays the episodes. `progress` is called with the length of each finished episode, from any
+/// thread.
 ///
 /// # Errors
-/// [`Error::Environment`] where the options don't fit the scenario, [`Error::Threads`] where threads can't be had.
+/// [`Error::Environment`] if the options don't fit the scenario, [`Error::Threads`] if threads
+/// can't be started.
 pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32) + Sync) -> Result<Summary, Error> {
     if scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
         return Err(Error::Episode(Box::new(EpisodeError::Endless(0))));
@@ -133,7 +136,7 @@ fn record_means(played: &[&EpisodeSummary]) -> Vec<(String, f64)> {
     means
 }
 
-/// What broke the first of the episodes off that did not end, if any.
+/// The error of the first failed episode, if any.
 pub fn first_error(summary: &Summary) -> Option<Error> {
     summary.episodes.iter().find_map(|episode| episode.as_ref().err()).map(|why| Error::Episode(Box::new(why.clone())))
 }

@@ -1,10 +1,11 @@
-//! Script checks against the engine's hook API: the one thing the compiler asks of the engine.
+//! Checks scripts against the engine's hook API, the only thing that the compiler needs from the
+//! engine.
 
 use setpiece_dsl::problem::{Code, ScriptApi, ScriptProblem};
 use setpiece_dsl::source::Source;
 use setpiece_engine::judge::{ScriptFaultKind, check_script};
 
-/// The engine's answer to [`ScriptApi`].
+/// The engine's implementation of [`ScriptApi`].
 #[derive(Clone, Copy, Debug)]
 pub struct EngineScripts;
 

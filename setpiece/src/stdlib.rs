@@ -1,4 +1,4 @@
-//! The standard library: `.pitch` files of this repository, embedded.
+//! The standard library: the `.pitch` files of this repository, embedded.
 
 use setpiece_dsl::source::Source;
 
@@ -15,12 +15,12 @@ pub(crate) fn paths() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, _)| *name)
 }
 
-/// The file that a scenario's name stands for: the one with that stem, in one of the folders.
+/// The file of a scenario's name: the one with that stem, in one of the folders.
 pub(crate) fn scenario(name: &str) -> Option<Source> {
     scenarios().find(|(stem, _)| *stem == name).map(|(_, source)| source)
 }
 
-/// Stem and file of everything in the library's folders: what may be run, and the abstract parents.
+/// Stem and file of everything in the library's folders: runnable scenarios and abstract parents.
 pub(crate) fn scenarios() -> impl Iterator<Item = (&'static str, Source)> {
     FILES.iter().filter_map(|&(path, text)| {
         let (_, file) = path.rsplit_once('/')?;

@@ -1,12 +1,13 @@
-//! Watching: says when a scenario's files have changed.
+//! Detects changes of a scenario's files.
 //!
-//! Every look asks the system for each file's stamp (size, times, identity) through all links, so
-//! that it doesn't matter how a file came to change: saved in place or by renaming, behind a link,
-//! in a folder that was made again. A look costs about a microsecond per file. Where a stamp differs
-//! the content is compared: a save without a change is no change.
+//! Every check asks the system for each file's stamp (size, times, identity) through all links. So
+//! it doesn't matter how a file was changed: saved in place or by renaming, behind a link, or in a
+//! folder that was created again. A check costs about a microsecond per file. If a stamp differs,
+//! the content is compared, so that a save without a change doesn't count.
 //!
-//! The system's events (`events.rs`) only end a wait early. They cost a thread and a few descriptors,
-//! from the first wait until the watcher is dropped: a watcher that is never waited for has neither.
+//! The system's events (`events.rs`) only end a wait early. They cost a thread and a few
+//! descriptors, from the first wait until the watcher is dropped. A watcher that is never waited
+//! for has neither.
 
 mod events;
 
@@ -17,14 +18,15 @@ use setpiece_scenario::file::fnv1a;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-/// How long a file has been left alone before it is read: a save may take several writes.
+/// How long a file must be left alone before it is read, because a save may take several writes.
 const DEBOUNCE: Duration = Duration::from_millis(50);
-/// How often the files are looked at where events don't cover them all.
+/// How often the files are checked if events don't cover them all.
 const LOOK_EVERY: Duration = Duration::from_millis(10);
-/// How often the files are looked at where events cover them: the system may drop an event, and a
-/// folder on the way may have been replaced.
+/// How often the files are checked if events cover them. The system may drop an event, and a parent
+/// folder may have been replaced.
 const LOOK_ANYWAY: Duration = Duration::from_millis(100);
-/// How long a second save may leave the stamp as it was: the coarsest clock of a file system in use (FAT's).
+/// How long a second save may leave the stamp unchanged: the coarsest clock of a file system in use
+/// (FAT's).
 const COARSE: Duration = Duration::from_secs(2);
 
 /// Watches some files.
@@ -32,70 +34,71 @@ const COARSE: Duration = Duration::from_secs(2);
 pub struct Watcher {
     files: Vec<Watched>,
     looked: Option<Instant>,
-    /// What ends a wait early; none before the first wait.
+    /// Ends a wait early; none before the first wait.
     events: Option<Events>,
 }
 
-/// A file and what is known of it.
+/// A file and its known state.
 #[derive(Debug)]
 struct Watched {
     path: PathBuf,
     stamp: Option<Stamp>,
     /// When the stamp was first seen.
     since: Instant,
-    /// Whether the content may be another one under the same stamp.
+    /// Whether the content may have changed under the same stamp.
     young: bool,
     content: Content,
 }
 
-/// What tells one state of a file from another without reading it.
+/// Distinguishes states of a file without reading it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Stamp {
     length: u64,
     modified: Option<SystemTime>,
-    /// Device, file, and when anything of it last changed: seconds, nanoseconds.
+    /// Device, file, and time of its last change: seconds, nanoseconds.
     identity: (u64, u64, i64, i64),
 }
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Content {
-    /// Nothing: it is not there.
+    /// The file doesn't exist.
     Gone,
-    /// What has this fingerprint.
+    /// Content with this fingerprint.
     Bytes(u64),
-    /// What can't be read.
+    /// Content that can't be read.
     Fault(FileFault),
 }
 
 impl Watcher {
-    /// Begins to watch `files`; those that aren't there are waited for.
+    /// Starts watching `files`. Missing files are waited for.
     pub fn new(files: &[PathBuf]) -> Watcher {
         let mut watcher = Watcher::default();
         watcher.watch(files);
         watcher
     }
 
-    /// Watches other files from now on: what a recompilation read.
+    /// Watches other files from now on, those that a recompilation read.
     pub fn watch(&mut self, files: &[PathBuf]) {
         self.files = files.iter().map(|file| Watched::new(file)).collect();
     }
 
-    /// Whether a watched file's content has changed since the last call; waits for at most `timeout`.
+    /// Whether a watched file's content has changed since the last call; waits for at most
+    /// `timeout`.
     ///
-    /// A file that is gone for a moment (a save by renaming) is no change until it is back. A change that is younger
-    /// than 50 ms may wait for the next call.
+    /// A file that is missing for a moment (a save by renaming) counts as unchanged until it is
+    /// back. A change younger than 50 ms may be left to the next call.
     pub fn changed(&mut self, timeout: Duration) -> bool {
         let begun = Instant::now();
         // Environments ask in every step, without waiting.
         let mut due = !timeout.is_zero() || self.looked.is_none_or(|looked| looked.elapsed() >= LOOK_EVERY);
         loop {
             let left = timeout.saturating_sub(begun.elapsed());
-            // Before the look: what changes in between is then heard.
+            // Before the check, so that changes in between cause an event.
             let every = if left.is_zero() { Duration::ZERO } else { self.listen() };
             if due {
                 self.looked = Some(Instant::now());
-                // Every file is looked at, whichever has changed.
+                // Every file is checked, whichever has changed.
                 if self.files.iter_mut().fold(false, |changed, file| file.look() | changed) {
                     return true;
                 }
@@ -111,7 +114,8 @@ impl Watcher {
         }
     }
 
-    /// Listens to the events of the files' folders. Returns how long a wait without an event may be.
+    /// Listens to the events of the files' folders. Returns how long a wait without an event may
+    /// be.
     fn listen(&mut self) -> Duration {
         let events = self.events.get_or_insert_with(Events::new);
         let is_complete = events.follow(self.files.iter().map(|file| file.path.as_path()));
@@ -126,7 +130,7 @@ impl Watched {
         Watched { path: path.to_owned(), stamp, since, young, content: Content::of(path) }
     }
 
-    /// Whether the content is another one than at the last look.
+    /// Whether the content differs from the last check.
     fn look(&mut self) -> bool {
         let stamp = Stamp::of(&self.path);
         if stamp != self.stamp {
@@ -146,13 +150,13 @@ impl Watched {
         changed
     }
 
-    /// How long a changed file has still to be left alone before it is read; none where there is no change.
+    /// How long a changed file must still be left alone before it is read; none without a change.
     fn ready_in(&self) -> Option<Duration> {
         let stamp = self.stamp.filter(|_| self.young)?;
         DEBOUNCE.checked_sub(self.left_alone(stamp)).filter(|left| !left.is_zero())
     }
 
-    /// How long nobody has written to the file.
+    /// How long the file hasn't been written to.
     fn left_alone(&self, stamp: Stamp) -> Duration {
         self.since.elapsed().max(stamp.age())
     }
@@ -171,7 +175,7 @@ impl Stamp {
         Some(Stamp { length: meta.len(), modified: meta.modified().ok(), identity })
     }
 
-    /// How long ago the file was last written, by the system's clock; zero where that is unknown.
+    /// Time since the file was last written, by the system's clock; zero if unknown.
     fn age(self) -> Duration {
         self.modified.and_then(|modified| modified.elapsed().ok()).unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! The real binary, end to end: what it prints, its exit codes, and that no input makes it panic.
+//! The real binary, end to end: its output, its exit codes, and that no input makes it panic.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::{Path, PathBuf};
@@ -161,7 +161,7 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
 
     let whole = std::fs::read_to_string(&compiled).unwrap();
     let cut = write(folder.path(), "cut.pitchc", &whole[..whole.len() / 2]);
-    fails(&["run", &cut], 1, &["SP0007", "cut off"]);
+    fails(&["run", &cut], 1, &["SP0007", "truncated"]);
     let other = write(folder.path(), "other.pitchc", whole.replacen("\"version\":1", "\"version\":99", 1));
     fails(&["run", &other], 1, &["SP0007", "version 99"]);
     let changed = write(folder.path(), "changed.pitchc", whole.replacen("close", "klose", 1));
@@ -169,7 +169,7 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
 }
 
 #[test]
-fn the_compact_form_is_the_same_scenario_and_its_faults_are_told() {
+fn the_compact_form_is_the_same_scenario_and_its_problems_are_reported() {
     type Change<'a> = &'a dyn Fn(&mut Vec<u8>);
     let folder = folder();
     let source = write(folder.path(), "close.pitch", CLOSE);
@@ -189,15 +189,15 @@ fn the_compact_form_is_the_same_scenario_and_its_faults_are_told() {
         at(name)
     };
     let cases: [(&str, Change<'_>, &str); 6] = [
-        ("head", &|bytes| bytes.truncate(17), "cut off"),
-        ("half", &|bytes| bytes.truncate(bytes.len() / 2), "cut off"),
+        ("head", &|bytes| bytes.truncate(17), "truncated"),
+        ("half", &|bytes| bytes.truncate(bytes.len() / 2), "truncated"),
         ("version", &|bytes| bytes[8] = 99, "version 99"),
         ("changed", &|bytes| *bytes.last_mut().unwrap() ^= 1, "checksum"),
         ("longer", &|bytes| bytes.push(0), "checksum"),
         ("other.pitchc", &|bytes| bytes[0] = b'x', "SP000"),
     ];
-    for (name, change, told) in cases {
-        fails(&["run", &broken(name, change)], 1, &[told]);
+    for (name, change, report) in cases {
+        fails(&["run", &broken(name, change)], 1, &[report]);
     }
 }
 
@@ -263,11 +263,11 @@ fn a_parameter_that_makes_no_start_is_one_clear_error() {
     fails(&["run", &path, "--set", "n=0"], 1, &["SP0701", "the limit is 1 step"]);
     fails(&["run", &path, "--set", "n=2.5"], 1, &["SP0008", "expected a whole number, found `2.5`"]);
     fails(&["run", "academy_corner", "--set", "difficulty=2"], 1, &["SP0008", "is 2, outside 0..1"]);
-    fails(&["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"], 1, &["SP0009", "asked for twice"]);
+    fails(&["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"], 1, &["SP0009", "requested twice"]);
 }
 
 #[test]
-fn values_that_are_not_finite_are_told() {
+fn values_that_are_not_finite_are_reported() {
     let folder = folder();
     let source = CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
     let path = write(folder.path(), "faulty.pitch", source);
@@ -333,9 +333,9 @@ fn reports_of_very_long_lines_are_short() {
     let folder = folder();
     let deep = format!("scenario s {{ ball at {}0{} }}", "(".repeat(10_000), ")".repeat(10_000));
     let path = write(folder.path(), "deep.pitch", deep);
-    let told = fails(&["check", &path], 1, &["SP0102"]);
-    assert_eq!(told.matches("SP0").count(), 1, "one report: {told}");
-    assert!(told.len() < 2000, "{} bytes", told.len());
+    let reports = fails(&["check", &path], 1, &["SP0102"]);
+    assert_eq!(reports.matches("SP0").count(), 1, "one report: {reports}");
+    assert!(reports.len() < 2000, "{} bytes", reports.len());
 }
 
 #[test]
@@ -482,7 +482,7 @@ fn a_script_finds_the_parameters_by_their_names() {
     assert!(!text(&output.stderr).contains("SP0213"), "{}", text(&output.stderr));
     let wrong = write(folder.path(), "wrong.pitch", scenario("paze"));
     fails(&["check", &wrong], 1, &["SP0503", "no parameter is called `paze`", "did you mean `pace`?"]);
-    // A behavior's parameters are read beside the scenario's.
+    // A behaviour's parameters are available together with the scenario's.
     let script = "fn act(ctx, me, now) { if ctx.params.quick { \"sprint\" } else { \"idle\" } }";
     let behavior = format!("behavior runs(quick: bool = on) script rhai \"\"\"{script}\"\"\"\n{CLOSE}");
     let own = behavior.replace("CB at (-0.9, 0.3)", "CB at (-0.9, 0.3) { ai: runs }");
@@ -504,7 +504,7 @@ fn a_snapshot_is_taken_and_begun_from() {
     assert_eq!(one["digest"], two["digest"]);
     assert_ne!(one["digest"], start["digest"]);
     let broken = write(folder.path(), "broken.pitchs", &std::fs::read(&path).unwrap()[..200]);
-    fails(&["run", "5_vs_5", "--from", &broken], 1, &["SP0013", "cut off"]);
+    fails(&["run", "5_vs_5", "--from", &broken], 1, &["SP0013", "truncated"]);
     fails(&["run", "academy_corner", "--from", &path], 1, &["SP0013", "left players differ"]);
     fails(&["run", "5_vs_5", "--from", "nowhere.pitchs"], 1, &["SP0001", "nowhere.pitchs"]);
     fails(
@@ -519,10 +519,10 @@ fn a_snapshot_is_taken_and_begun_from() {
 fn a_bench_tells_its_figures_and_compares_them() {
     let folder = folder();
     let quick = ["academy_empty_goal_close", "--seconds", "0.05", "--matches", "4"];
-    let told = setpiece(&[&["bench"][..], &quick, &["--threads", "1,2", "--format", "jsonl"]].concat());
-    assert!(told.status.success(), "{}", text(&told.stderr));
+    let output = setpiece(&[&["bench"][..], &quick, &["--threads", "1,2", "--format", "jsonl"]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
     let lines: Vec<serde_json::Value> =
-        text(&told.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        text(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let threads: Vec<u64> = lines.iter().map(|line| line["threads"].as_u64().unwrap()).collect();
     assert_eq!(threads, [1, 2]);
     for line in &lines {
@@ -534,7 +534,7 @@ fn a_bench_tells_its_figures_and_compares_them() {
     let once = lines[0]["once_microseconds"].as_object().unwrap();
     assert!(once.len() == 7 && once.values().all(|took| took.as_f64().unwrap() > 0.0), "{once:?}");
     assert!(lines[1]["scaling"].as_f64().unwrap() > 0.0, "{}", lines[1]);
-    let before = write(folder.path(), "before.jsonl", told.stdout.as_slice());
+    let before = write(folder.path(), "before.jsonl", output.stdout.as_slice());
     let table = setpiece(&[&["bench"][..], &quick, &["--threads", "1", "--against", &before]].concat());
     let table = text(&table.stdout);
     assert!(table.contains("ratio") && table.contains("µs a step"), "{table}");
@@ -575,7 +575,7 @@ fn imports_and_scripts_stay_below_the_root() {
             assert!(!said.contains("root:x"), "{path}: {said}");
         }
     }
-    // A file that is named by another one is as far from the root.
+    // A file imported by another one is still relative to the root's folder.
     write(&inner, "parts/outward.pitch", "import \"../../secret.pitch\"\n");
     let root = write(&inner, "root.pitch", scenario("import \"parts/outward.pitch\"", ""));
     fails(&["check", &root], 1, &["lies outside of the scenario's folder"]);

@@ -1,5 +1,5 @@
-//! Files that a user may point at: what is no regular file is refused at once, what is watched is never lost sight of,
-//! and what is written is written whole.
+//! Files that users may pass: irregular files are rejected at once, watched files are never lost,
+//! and files are written completely.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Longest time that a refusal may take.
+/// The longest time that a rejection may take.
 const AT_ONCE: Duration = Duration::from_secs(20);
 /// Longest wait for a change to be noticed.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -29,7 +29,7 @@ fn pipe(path: &Path) -> PathBuf {
     path.to_owned()
 }
 
-/// Runs the command in a folder and returns its exit code and what it printed; a hang fails.
+/// Runs the command in a folder and returns its exit code and output. A hang fails.
 fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
     let mut child = Command::new(env!("CARGO_BIN_EXE_setpiece"))
         .args(args)

@@ -1,10 +1,10 @@
-//! README shows what the command prints. With `SETPIECE_BLESS=1` its consoles are made anew.
+//! README shows the command's output. `SETPIECE_BLESS=1` updates its consoles.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The file whose slips README shows.
+/// The file whose mistakes README shows.
 const SLIPS: &str = "scenario corner_routine extends academy {
     ball at (0.6, 0)
     team left { GK at (-1, 0) CBB at (0.5, 0) }
@@ -17,27 +17,27 @@ fn readme() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md")
 }
 
-/// What a command prints in a folder: its results and its reports.
+/// A command's output in a folder: its results and its reports.
 fn printed(args: &[&str], folder: &Path) -> [String; 2] {
     let output = Command::new(env!("CARGO_BIN_EXE_setpiece")).args(args).current_dir(folder).output().unwrap();
     [output.stdout, output.stderr]
         .map(|text| String::from_utf8(text).unwrap().lines().map(|line| format!("{}\n", line.trim_end())).collect())
 }
 
-/// The first console behind some words of README, as the range of its text.
+/// The range of the first console after some words of README.
 fn console(text: &str, words: &str) -> std::ops::Range<usize> {
     let behind = text.find(words).unwrap_or_else(|| panic!("README doesn't say `{words}`")) + words.len();
     let begin = behind + text[behind..].find("\n```\n").unwrap() + "\n```\n".len();
     begin..begin + text[begin..].find("```\n").unwrap()
 }
 
-/// Without what no two runs have alike.
+/// The output without what differs between runs.
 fn lasting(text: &str) -> String {
     let speed = |line: &&str| line.trim_start().starts_with("speed ");
     text.lines().filter(|line| !speed(line)).map(|line| format!("{line}\n")).collect()
 }
 
-/// Holds the console behind some words to what is printed, or makes it anew.
+/// Compares the console after some words with the output, or updates it.
 fn hold(words: &str, printed: &str) {
     let text = std::fs::read_to_string(readme()).unwrap();
     let place = console(&text, words);
@@ -48,11 +48,11 @@ fn hold(words: &str, printed: &str) {
     if std::env::var_os("SETPIECE_BLESS").is_some() {
         std::fs::write(readme(), format!("{}{printed}{}", &text[..place.start], &text[place.end..])).unwrap();
     } else {
-        panic!("README shows something else than is printed (SETPIECE_BLESS=1 makes it anew):\n{printed}");
+        panic!("README differs from the output (SETPIECE_BLESS=1 updates it):\n{printed}");
     }
 }
 
-/// One test, for both may write the file.
+/// One test, because both parts may write the file.
 #[test]
 fn its_consoles_are_what_is_printed() {
     let folder = tempfile::tempdir().unwrap();

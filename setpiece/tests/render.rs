@@ -1,4 +1,4 @@
-//! `setpiece render`, by the real binary and by the library: what the pictures show.
+//! `setpiece render`, through the real binary and the library: what the pictures show.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::agents::Agent;
@@ -21,7 +21,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// Runs it and reads the picture back.
+/// Runs it and reads the picture.
 fn rendered(args: &[&str]) -> Pixmap {
     let folder = tempfile::tempdir().unwrap();
     let output = setpiece(folder.path(), &[&["render", "-o", "picture.png"], args].concat());
@@ -34,12 +34,12 @@ fn rendered(args: &[&str]) -> Pixmap {
 fn fails(args: &[&str], code: i32, words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let output = setpiece(folder.path(), &[&["render"], args].concat());
-    let told = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {told}");
+    let stderr = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {stderr}");
     for word in words {
-        assert!(told.contains(word), "{args:?}: no `{word}` in {told}");
+        assert!(stderr.contains(word), "{args:?}: no `{word}` in {stderr}");
     }
-    assert!(!told.contains("panicked"), "{told}");
+    assert!(!stderr.contains("panicked"), "{stderr}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{args:?}");
 }
 
@@ -49,7 +49,7 @@ fn played(name: &str, agent: Agent) -> Film {
     film(&setpiece::load(name).unwrap().scenario, &options).unwrap()
 }
 
-/// A scene on the whole pitch, 10 pixels a metre.
+/// A scene on the whole pitch, 10 pixels per metre.
 fn drawn(moments: &[Scene]) -> Pixmap {
     let mut pixels = vec![0; 1200 * 800 * 4];
     draw(PixmapMut::from_bytes(&mut pixels, 1200, 800).unwrap(), moments, Region::WHOLE);
@@ -58,7 +58,7 @@ fn drawn(moments: &[Scene]) -> Pixmap {
     picture
 }
 
-/// How many pixels of a colour lie within so many of a point.
+/// How many pixels of a colour are within this distance of a point.
 fn count(picture: &Pixmap, middle: Point, within: f32, [red, green, blue, _]: Colour) -> usize {
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     let near = |index: usize| {
@@ -138,7 +138,7 @@ fn the_same_command_draws_the_same_bytes() {
 }
 
 #[test]
-fn everybody_stands_in_his_colours_where_he_is() {
+fn players_are_drawn_in_their_colours_at_their_places() {
     let film = played("academy_3_vs_1_with_keeper", Agent::Idle);
     let start = &film.scenes[0];
     let picture = drawn(&film.scenes[..1]);

@@ -1,4 +1,5 @@
-//! The tools of the language, by the real binary: `explain`, `fmt`, and the consoles of the error pages.
+//! The tools of the language, by the real binary: `explain`, `fmt`, and the consoles of the error
+//! pages.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::io::Write;
@@ -14,7 +15,7 @@ fn run(folder: &Path, args: &[&str], input: &str) -> (Option<i32>, String, Strin
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // A command that reads nothing may be gone already.
+    // A command that reads nothing may already have ended.
     let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
     let Output { status, stdout, stderr } = child.wait_with_output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
@@ -183,7 +184,7 @@ fn doc_tells_what_the_author_wrote() {
     let dir = folder();
     let text = "/// Two | of ours.\n/// Another line.
 scenario duel extends academy {
-    /// How far | he stands.
+    /// How far | they stand.
     param gap: length = 8m in 3m..15m
     ball at (0.6, 0)
     team left { anna: CM behind ball by gap }
@@ -201,7 +202,7 @@ scenario duel extends academy {
     assert_eq!(code, Some(0), "{err}");
     for part in [
         "# duel\n\nTwo | of ours.\nAnother line.\n",
-        "| `gap` | `length` | `8m` | 3m..15m | How far \\| he stands. |",
+        "| `gap` | `length` | `8m` | 3m..15m | How far \\| they stand. |",
         "| left | anna | CM | (0.453, 0) | bot |",
         "| right |  | CB | (0.7, 0) | lazy |",
         "Agents play 1 of the left team and 0 of the right.",

@@ -1,5 +1,5 @@
-//! What a watcher holds of the system while it is waited for, and afterwards. A process of its own:
-//! it counts the threads and descriptors of the whole one.
+//! The resources that a watcher holds while it is waited for, and afterwards. This is a separate
+//! process, because it counts all threads and descriptors of the process.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -7,7 +7,7 @@ use setpiece::watch::Watcher;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Longest wait for the system to take an ended thread off its list.
+/// The longest wait for the system to remove an ended thread from its list.
 const GRACE: Duration = Duration::from_millis(500);
 
 /// Threads and open descriptors of this process.

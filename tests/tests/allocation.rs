@@ -1,7 +1,8 @@
-//! After warm-up a step allocates nothing: neither the game, nor the bots, nor judging, nor observing.
+//! After warm-up a step allocates nothing: neither the game, nor the bots, nor judging, nor
+//! observing.
 //!
-//! The exception is rapier itself, which allocates where it is asked: a free ball that meets something hard, or comes
-//! within a hand of it. In a match of eleven a side that is less than one step in fifty.
+//! The exception is rapier itself, which allocates when it runs: if a free ball meets something
+//! hard, or comes close to it. In a match of eleven a side that is less than one step in fifty.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -16,9 +17,9 @@ const SCALED: observe::Floats = observe::Floats::Scaled(observe::Scaled::Simple1
 #[derive(Debug, Default)]
 struct Steps {
     played: u32,
-    /// Steps in which rapier was asked.
+    /// Steps in which rapier ran.
     rigid: u32,
-    /// Steps that allocated though it was not.
+    /// Steps that allocated although it didn't.
     allocated: u32,
 }
 
@@ -43,7 +44,7 @@ fn steps_of(scenario: Arc<Scenario>, episodes: u64) -> Steps {
                 environment.observe(SCALED, 0, &mut scaled).unwrap();
                 observe::smm(environment.state(), 0, observe::SMM_WIDTH, observe::SMM_HEIGHT, &mut map).unwrap();
             });
-            // The first episode warms up; an outcome's label may be made when one ends.
+            // The first episode warms up. An ending may create the label of its outcome.
             if index > 0 && environment.is_running() {
                 let rigid = scratch.rigid() > asked;
                 steps.played += 1;
@@ -66,7 +67,7 @@ fn a_step_allocates_nothing_but_what_rapier_does() {
     }
 }
 
-/// A copy into an environment that is there already, which tree search makes at every node.
+/// A copy into an existing environment, which tree search makes at every node.
 #[test]
 fn a_copy_in_memory_allocates_nothing() {
     let scenario = setpiece::load("11_vs_11_stochastic").unwrap().scenario;
@@ -114,7 +115,8 @@ fn behaviors_allocate_nothing() {
     assert!(steps.played > 500 && steps.allocated == 0, "{steps:?}");
 }
 
-/// What a batch needs for each further match of eleven a side: the environment itself and all that it owns alone.
+/// The memory of a batch for each further match of eleven a side: the environment itself and
+/// everything that only it owns.
 #[test]
 fn a_further_match_takes_at_most_32_kib() {
     let scenario = setpiece::load("11_vs_11_stochastic").unwrap().scenario;

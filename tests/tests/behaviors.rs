@@ -1,4 +1,4 @@
-//! Behaviours end to end: from `.pitch` to what scripted players do on the pitch.
+//! Behaviours end to end: from `.pitch` to the actions of scripted players.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::batch::{ReadyMade, run_episodes};
@@ -32,7 +32,7 @@ fn scenario(text: &str) -> Arc<Scenario> {
     Arc::new(outcome.scenario.unwrap_or_else(|| panic!("{:#?}", outcome.problems)))
 }
 
-/// An environment whose scripted players play alone.
+/// An environment in which only scripted players play.
 fn environment(text: &str) -> Environment {
     Environment::new(scenario(text), EnvironmentOptions::default()).unwrap()
 }
@@ -55,7 +55,7 @@ fn alone(behavior: &str) -> Environment {
 const FIRST: PlayerId = PlayerId(0);
 const RIGHT_FIRST: PlayerId = PlayerId(11);
 
-/// Plays so many steps of an episode, or to its end, looking at each.
+/// Plays this many steps of an episode, or to its end, and calls `look` after each.
 fn play(environment: &mut Environment, seed: u64, steps: u32, mut look: impl FnMut(u32, &Environment)) {
     let mut scratch = Scratch::default();
     environment.reset(Some(seed), None).unwrap();
@@ -68,7 +68,7 @@ fn play(environment: &mut Environment, seed: u64, steps: u32, mut look: impl FnM
     }
 }
 
-/// What the first left player presses in so many steps.
+/// The presses of the first left player in this many steps.
 fn presses(environment: &mut Environment, steps: u32) -> Vec<Action> {
     let mut pressed = Vec::new();
     play(environment, 1, steps, |_, environment| pressed.push(environment.action_of(FIRST).unwrap()));
@@ -80,7 +80,7 @@ fn first(pressed: &[Action], action: Action) -> Option<usize> {
 }
 
 #[test]
-fn a_marker_stays_goal_side_of_his_man() {
+fn a_marker_stays_goal_side_of_the_opponent() {
     let mut environment = environment(
         "behavior roam() {
             repeat {
@@ -103,15 +103,15 @@ fn a_marker_stays_goal_side_of_his_man() {
     let (mut seen, mut goal_side, mut total) = (0, 0, 0.0);
     play(&mut environment, 3, 200, |step, environment| {
         let game = environment.state();
-        let (man, marker) = (game.player(FIRST), game.player(RIGHT_FIRST));
+        let (opponent, marker) = (game.player(FIRST), game.player(RIGHT_FIRST));
         if step > 20 {
             let goal = apart_m(marker.pos.x, marker.pos.y, 55.0, 0.0);
-            let his = apart_m(man.pos.x, man.pos.y, 55.0, 0.0);
-            let gap = apart_m(man.pos.x, man.pos.y, marker.pos.x, marker.pos.y);
+            let rival = apart_m(opponent.pos.x, opponent.pos.y, 55.0, 0.0);
+            let gap = apart_m(opponent.pos.x, opponent.pos.y, marker.pos.x, marker.pos.y);
             assert!(gap < 6.0, "step {step}: {gap} m away");
             total += gap;
             seen += 1;
-            goal_side += u32::from(goal < his + 0.5);
+            goal_side += u32::from(goal < rival + 0.5);
         }
     });
     let mean = total / 180.0;
@@ -124,7 +124,7 @@ fn apart_m(ax: f32, ay: f32, bx: f32, by: f32) -> f32 {
 }
 
 #[test]
-fn a_dribbler_zigzags_through_his_way_points() {
+fn a_dribbler_zigzags_through_the_way_points() {
     let mut environment = environment(
         "behavior zigzag(width: length) {
             do hold until me has ball
@@ -152,7 +152,7 @@ fn a_dribbler_zigzags_through_his_way_points() {
         {
             reached += 1;
             let ball = game.ball.pos;
-            assert!(apart_m(ball.x, ball.y, pos.x, pos.y) < 3.0, "the ball goes with him to {x}");
+            assert!(apart_m(ball.x, ball.y, pos.x, pos.y) < 3.0, "the ball stays with the dribbler to {x}");
         }
     });
     assert_eq!(reached, points.len());
@@ -190,7 +190,7 @@ fn arrive_and_shoot_scores_into_an_empty_goal() {
 
 #[test]
 fn an_interrupt_pauses_what_it_interrupts() {
-    // The hold lasts 3 s of its own, whatever the interrupt took.
+    // The hold lasts 3 s, not counting the interrupt.
     let mut environment = alone(
         "behavior b() {
             state done = 0
@@ -203,7 +203,7 @@ fn an_interrupt_pauses_what_it_interrupts() {
         }",
     );
     let pressed = presses(&mut environment, 60);
-    // A behaviour looks at the state before the step: 1 s is over before step 11.
+    // A behaviour sees the state before the step: 1 s is over before step 11.
     assert_eq!(first(&pressed, Action::Right), Some(11), "{pressed:?}");
     assert_eq!(first(&pressed, Action::ReleaseDirection), Some(16), "{pressed:?}");
     assert_eq!(first(&pressed, Action::Bottom), Some(36), "{pressed:?}");
@@ -219,8 +219,8 @@ fn the_first_written_interrupt_wins_and_only_it_interrupts_the_others() {
         }",
     );
     let pressed = presses(&mut environment, 60);
-    // At 1 s the second begins; at 2 s the first interrupts it for 1 s, the second can't interrupt back, and goes on
-    // for the second that it still has.
+    // At 1 s the second begins. At 2 s the first interrupts it for 1 s, without being interrupted
+    // in turn. Then the second continues for its remaining second.
     assert_eq!(first(&pressed, Action::Right), Some(11), "{pressed:?}");
     assert_eq!(first(&pressed, Action::Bottom), Some(21), "{pressed:?}");
     assert_eq!(first(&pressed[21..], Action::Right), Some(10), "{pressed:?}");
@@ -271,7 +271,7 @@ fn loops_count_wait_and_finish() {
         }",
     );
     let pressed = presses(&mut environment, 30);
-    // Passes that use no step wait one each: `inner` looks ten times, the last loop adds twice.
+    // Iterations without a step wait one each: `inner` checks ten times, the last loop adds twice.
     let mut expected = vec![Idle; 10];
     expected.extend([Right, Idle, Bottom, Right, Idle, Bottom, Right, Idle, Bottom, Idle, Idle, Left]);
     expected.resize(30, BuiltinAi);
@@ -298,7 +298,8 @@ fn a_let_is_frozen_and_a_state_remembered() {
 
 #[test]
 fn what_over_time_was_counts_once_a_step() {
-    // `held` sees every step from the start state on, whether or not a statement asks, and however often cells change.
+    // `held` sees every step from the start state on, whether or not a statement reads it, and
+    // however often cells change.
     let mut environment = alone(
         "behavior b() {
             state n = 0
@@ -376,7 +377,7 @@ fn literals_are_read_in_the_own_frame_and_arguments_where_they_stand() {
     );
     let mut pressed = Vec::new();
     play(&mut environment, 1, 4, |_, environment| pressed.push(environment.action_of(RIGHT_FIRST).unwrap()));
-    // Presses are in the own frame, too: world +x is back for the right team.
+    // Presses are in the own frame too: world +x is back for the right team.
     assert_eq!(pressed, [Action::Left, Action::Right, Action::Left, Action::Right]);
 }
 
@@ -446,7 +447,7 @@ fn an_agent_wins_over_a_behavior() {
         environment.step(&[action], &mut scratch).unwrap();
         pressed.push(environment.action_of(FIRST));
     }
-    // The behaviour waits while the agent plays, and plays where the agent hands over.
+    // The behaviour pauses while the agent plays, and plays when the agent hands over.
     let expected = [Action::Right, Action::Idle, Action::Bottom, Action::Idle, Action::Left];
     assert_eq!(pressed, expected.map(Some));
 }
@@ -600,9 +601,10 @@ fn a_script_that_names_no_action_ends_the_episode() {
     assert!(failing("throw \"lost\"").contains("lost"));
 }
 
-/// Whoever is scripted does what is written, whatever ball lies near him; whom an agent controls is drawn to it.
+/// A scripted player follows the script, whatever ball is nearby. A player controlled by an agent
+/// is drawn to the ball.
 #[test]
-fn a_scripted_player_is_not_drawn_to_the_ball_unless_an_agent_has_him() {
+fn a_scripted_player_is_not_drawn_to_the_ball_unless_an_agent_drives_them() {
     let walked = |agents: &str| {
         let text = format!(
             "behavior waits {{ do hold }}

@@ -1,5 +1,5 @@
-//! Files that are called safe to load: what would take all memory, or minutes a step, is refused before anything is
-//! made of it.
+//! Files that are safe to load: anything that would take all memory, or minutes per step, is
+//! rejected before anything is built from it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions};
@@ -14,20 +14,20 @@ fn corner() -> Scenario {
     setpiece::load("academy_corner").unwrap().scenario.as_ref().clone()
 }
 
-/// What both forms of a file say of a scenario.
+/// The error that both forms of a file give for a scenario.
 fn refused(change: impl Fn(&mut Scenario)) -> String {
     let mut scenario = corner();
     change(&mut scenario);
-    let told = from_json(&to_json(&scenario).unwrap()).unwrap_err().to_string();
-    assert_eq!(binary::from_bytes(&binary::to_bytes(&scenario).unwrap()).unwrap_err().to_string(), told);
-    told
+    let report = from_json(&to_json(&scenario).unwrap()).unwrap_err().to_string();
+    assert_eq!(binary::from_bytes(&binary::to_bytes(&scenario).unwrap()).unwrap_err().to_string(), report);
+    report
 }
 
 fn record(program: Program) -> Record {
     Record { name: "r".to_owned(), program, values: vec![Reg(0)], series: false }
 }
 
-/// Four loops over all players around so many instructions.
+/// Four nested loops over all players around this many instructions.
 fn nested(instructions: usize) -> Program {
     let mut code = vec![Instr::Const(-1.0)];
     for depth in (0..4).rev() {
@@ -42,40 +42,40 @@ fn nested(instructions: usize) -> Program {
 #[test]
 fn memory_is_bounded_over_all_parts() {
     let cells = |n: u32| Program { code: vec![Instr::Us], cells: n };
-    let told = refused(|scenario| scenario.records = vec![record(cells(100_000)); 500]);
-    assert!(told.contains(" memory cells, where a scenario may have 100,000"), "{told}");
-    let told = refused(|scenario| {
+    let report = refused(|scenario| scenario.records = vec![record(cells(100_000)); 500]);
+    assert!(report.contains(" memory cells, where a scenario may have 100,000"), "{report}");
+    let report = refused(|scenario| {
         let body = RewardBody { init: cells(60_000), step: cells(60_000), ..RewardBody::default() };
         scenario.rewards = vec![Reward { name: "r".to_owned(), doc: String::new(), body }];
     });
-    assert!(told.contains("memory cells"), "{told}");
+    assert!(report.contains("memory cells"), "{report}");
     let long = Program { code: vec![Instr::Us; 90_000], cells: 0 };
-    let told = refused(|scenario| scenario.records = vec![record(long.clone()); 3]);
-    assert!(told.contains(&format!("instructions, where a scenario may have {}", "200,000")), "{told}");
-    let told = refused(|scenario| scenario.records = vec![record(cells(0)); PARTS_MAX as usize + 1]);
-    assert!(told.contains("2,001 records"), "{told}");
-    let told = refused(|scenario| {
+    let report = refused(|scenario| scenario.records = vec![record(long.clone()); 3]);
+    assert!(report.contains(&format!("instructions, where a scenario may have {}", "200,000")), "{report}");
+    let report = refused(|scenario| scenario.records = vec![record(cells(0)); PARTS_MAX as usize + 1]);
+    assert!(report.contains("2,001 records"), "{report}");
+    let report = refused(|scenario| {
         scenario.rewards[0].body.terms = vec!["t".to_owned(); TERMS_MAX as usize + 1];
     });
-    assert!(told.contains("terms of rewards"), "{told}");
-    let told = refused(|scenario| {
+    assert!(report.contains("terms of rewards"), "{report}");
+    let report = refused(|scenario| {
         let source = " ".repeat(SCRIPTS_MAX_BYTES as usize + 1);
         scenario.scripts = vec![Script { name: "s".to_owned(), at: (1, 1), source }];
     });
-    assert!(told.contains("bytes of scripts"), "{told}");
-    let told = refused(|scenario| {
+    assert!(report.contains("bytes of scripts"), "{report}");
+    let report = refused(|scenario| {
         scenario.records = vec![Record { series: true, ..record(cells(0)) }; 1_001];
     });
-    assert!(told.contains("numbers of series"), "{told}");
+    assert!(report.contains("numbers of series"), "{report}");
     const { assert!(CODE_MAX >= 100_000 && CELLS_MAX >= 10_000) };
 }
 
 #[test]
 fn the_work_of_a_step_is_bounded() {
-    let told = refused(|scenario| scenario.records = vec![record(nested(90_000))]);
-    assert!(told.contains("instructions in a step, where a scenario may have 33,554,432"), "{told}");
-    let told = refused(|scenario| scenario.records = vec![record(nested(5)); 1_000]);
-    assert!(told.contains("instructions in a step"), "{told}");
+    let report = refused(|scenario| scenario.records = vec![record(nested(90_000))]);
+    assert!(report.contains("instructions in a step, where a scenario may have 33,554,432"), "{report}");
+    let report = refused(|scenario| scenario.records = vec![record(nested(5)); 1_000]);
+    assert!(report.contains("instructions in a step"), "{report}");
     let mut scenario = corner();
     scenario.records = vec![record(nested(5))];
     from_json(&to_json(&scenario).unwrap()).expect("one is no more than a step may cost");
@@ -102,14 +102,14 @@ fn a_text_is_held_to_the_same_bounds_where_it_stands() {
 #[test]
 fn names_that_files_are_called_by_are_words() {
     for name in ["../../x/evil", "", "a b", "a\u{1b}[31m", "a/b", &"a".repeat(129)] {
-        let told = refused(|scenario| name.clone_into(&mut scenario.name));
-        assert!(told.contains("name"), "{told}");
+        let report = refused(|scenario| name.clone_into(&mut scenario.name));
+        assert!(report.contains("name"), "{report}");
     }
-    let told = refused(|scenario| scenario.players[0].name = Some("x\ny".to_owned()));
-    assert!(told.contains("is not a name"), "{told}");
+    let report = refused(|scenario| scenario.players[0].name = Some("x\ny".to_owned()));
+    assert!(report.contains("is not a name"), "{report}");
 }
 
-/// A replay whose body is so many steps of nothing.
+/// A replay with this many idle steps.
 fn replay_of(steps: u32) -> Vec<u8> {
     let mut environment = Environment::new(corner().into(), EnvironmentOptions::default()).unwrap();
     environment.reset(Some(1), Some(0)).unwrap();
@@ -122,8 +122,8 @@ fn replay_of(steps: u32) -> Vec<u8> {
 
 #[test]
 fn a_replay_has_no_more_steps_than_can_be_played() {
-    let told = Replay::from_bytes(&replay_of(4_000_000_000)).unwrap_err().to_string();
-    assert!(told.contains("too long"), "{told}");
+    let report = Replay::from_bytes(&replay_of(4_000_000_000)).unwrap_err().to_string();
+    assert!(report.contains("too long"), "{report}");
     Replay::from_bytes(&replay_of(864_000)).unwrap();
 }
 
@@ -136,8 +136,8 @@ fn an_episode_longer_than_a_replay_is_not_kept() {
     for _ in 0..4_000_002 {
         recorder.note(Action::Idle, None);
     }
-    let told = Replay::of(&environment, &recorder).unwrap_err().to_string();
-    assert!(told.contains("too long"), "{told}");
+    let report = Replay::of(&environment, &recorder).unwrap_err().to_string();
+    assert!(report.contains("too long"), "{report}");
     recorder.begin(None);
     Replay::of(&environment, &recorder).unwrap();
 }

@@ -1,4 +1,4 @@
-//! Who plays players, whatever the text says: an `ai` from outside.
+//! Casts: an `ai` from outside replaces the text's.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::scenario::{Ai, Scenario, Team};
@@ -27,7 +27,7 @@ fn ais(scenario: &Scenario) -> Vec<(Team, Ai)> {
     scenario.players.iter().map(|player| (player.team, player.ai)).collect()
 }
 
-/// Of the last scenario, which is mirrored: its left team is the one that the text calls right.
+/// A cast for the last scenario, which is mirrored: its left team is the right team of the text.
 #[test]
 fn a_cast_gives_a_team_and_single_players_their_ai() {
     use Ai::{Behavior, Bot, Hold, Lazy};
@@ -36,7 +36,7 @@ fn a_cast_gives_a_team_and_single_players_their_ai() {
     let teams = |found: &Scenario| ais(found).into_iter().map(|(_, ai)| ai).collect::<Vec<_>>();
     assert_eq!(ais(&plain), [(Left, Bot), (Left, Hold), (Left, Bot), (Right, Bot), (Right, Bot)]);
     let side = cast(&[(CastTarget::Team(Left), "lazy")]).unwrap();
-    assert_eq!(teams(&side), [Lazy, Hold, Lazy, Bot, Bot], "a player keeps an `ai` of his own");
+    assert_eq!(teams(&side), [Lazy, Hold, Lazy, Bot, Bot], "a player keeps their own `ai`");
     let single = cast(&[(CastTarget::Player(Left, 1), "chaser(2m)"), (CastTarget::Player(Right, 0), "lazy")]).unwrap();
     assert_eq!(teams(&single), [Bot, Behavior(0), Bot, Lazy, Bot]);
     assert_eq!(single.behaviors.len(), 1);
@@ -53,7 +53,7 @@ fn a_cast_changes_nothing_else() {
 }
 
 #[test]
-fn a_cast_that_is_none_is_told() {
+fn an_unknown_cast_is_reported() {
     for (ai, message) in [
         ("chase", "no player's `ai` is called `chase`"),
         ("lazy } } } scenario x { ball at centre team left { each all { ai: lazy", "is not who plays a player"),
@@ -67,15 +67,15 @@ fn a_cast_that_is_none_is_told() {
         let Err(Error::Compile(failure)) = cast(&[(CastTarget::Team(Team::Left), ai)]) else {
             panic!("{ai} was taken")
         };
-        let told = failure.problems.iter().any(|problem| problem.words().message.contains(message));
-        assert!(told, "{ai}: {:?}", failure.problems);
+        let expected = failure.problems.iter().any(|problem| problem.words().message.contains(message));
+        assert!(expected, "{ai}: {:?}", failure.problems);
     }
     let Err(Error::Compile(_)) = cast(&[(CastTarget::Player(Team::Left, 7), "lazy")]) else {
         panic!("nobody was cast")
     };
 }
 
-/// What a cast is read in has names of its own, which hide none of the text's.
+/// The text of a cast has separate names, which hide none of the scenario's.
 #[test]
 fn a_behavior_may_have_any_name() {
     let text = TEXT.replace("chaser", "cast");

@@ -1,4 +1,4 @@
-//! Draws in regions are uniform by area, whatever shape the region has.
+//! Draws in regions are uniform by area, for every shape.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions};
@@ -18,7 +18,7 @@ fn balls(region: &str) -> Vec<(f64, f64)> {
     (0..DRAWS).map(place).collect()
 }
 
-/// Share of the draws that meet a condition, against the share of the area that does.
+/// Compares the share of draws that meet a condition with the share of the area that does.
 fn share(region: &str, expected: f64, meets: impl Fn(f64, f64) -> bool) {
     let places = balls(region);
     let found = places.iter().filter(|(x, y)| meets(*x, *y)).count() as f64 / DRAWS as f64;
@@ -47,7 +47,7 @@ fn a_sector_is_filled_evenly() {
 
 #[test]
 fn what_two_parts_of_a_union_share_is_not_drawn_more_often() {
-    // 10 m by 10 m twice, overlapping by 5 m by 10 m: 150 m² in all.
+    // Two rectangles of 10 m by 10 m that overlap by 5 m by 10 m: 150 m² in total.
     let union = "rect((0m, 0m), (10m, 10m)) | rect((5m, 0m), (15m, 10m))";
     share(union, 1.0, |x, y| (0.0..=15.0).contains(&x) && (0.0..=10.0).contains(&y));
     share(union, 1.0 / 3.0, |x, _| (5.0..10.0).contains(&x));
@@ -62,7 +62,7 @@ fn differences_and_intersections_are_filled_evenly() {
     let corner = "right.half & flank.bottom";
     share(corner, 1.0, |x, y| x >= 0.0 && y >= 20.14);
     share(corner, 0.5, |x, _| x > 27.5);
-    // The D: the part of the disc about the penalty spot that lies outside the box.
+    // The D: the part of the disc around the penalty spot outside the box.
     share("right.d", 1.0, |x, y| x <= 38.51 && (x - 44.0).hypot(y) <= 9.16);
 }
 
@@ -83,7 +83,7 @@ fn a_polygon_whose_corners_are_drawn_is_filled_all_the_same() {
         assert!((0.0..=20.0).contains(&at.x) && at.y.abs() <= 15.0 * (1.0 - at.x / 20.0) + 1e-3, "{at}");
         near += u32::from(at.x < 10.0);
     }
-    // Three quarters of a triangle's area lie in the half next to its base, however wide it is.
+    // Three quarters of a triangle's area are in the half next to its base, however wide it is.
     let share = f64::from(near) / DRAWS as f64;
     assert!((share - 0.75).abs() < 0.023, "{share}");
 }

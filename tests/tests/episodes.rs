@@ -1,4 +1,4 @@
-//! What the library's scenarios must show when they are played.
+//! What the library's scenarios must show when played.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::agents::Agent;
@@ -53,7 +53,7 @@ fn who_stands_on_the_ball_is_left_alone() {
         };
         let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
         let still = summary.episodes.iter().flatten().filter(|episode| episode.outcome == "still").count();
-        // As in GRF, where an idle player on the ball is not attacked at all.
+        // As in GRF, where nobody attacks an idle player on the ball.
         assert!(still >= 20, "{base}: {still} of 40 stood still for 30 s");
     }
 }
@@ -114,7 +114,7 @@ fn who_lost_the_ball_is_known() {
         let total = |name: &str| episode.terms.iter().map(|terms| terms[term(name)]).sum::<f64>();
         let (by_me, by_us) = (total("lost/me"), total("lost/us") / episode.terms.len() as f64);
         assert!(by_us >= 2.0, "{by_us}");
-        // A player who was sent off, or a ball that was given to nobody, is nobody's loss.
+        // A player sent off and a ball given to nobody aren't any agent's loss.
         assert!(by_me >= by_us - 2.0 && by_me <= by_us, "{by_me} of {by_us}");
     }
 }
@@ -130,7 +130,7 @@ fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
         let term =
             |name: &str| summary.terms.iter().position(|(term, _)| term == name).map(|i| episode.terms[0][i]).unwrap();
         let checkpoints = term("checkpoints/carried") + term("checkpoints/goal");
-        // Tenths, up to the rounding of sums.
+        // Tenths, except for the rounding of sums.
         assert!((checkpoints * 10.0 - (checkpoints * 10.0).round()).abs() < 1e-9, "{checkpoints}");
         assert!(checkpoints <= 1.0 + 1e-9);
         if episode.score[0] > 0 {
@@ -163,8 +163,8 @@ fn full_physics_plays_the_same_kind_of_match() {
     assert!(summary.success_rate >= 0.95, "{:?}", summary.outcomes);
 }
 
-/// The digest of a fixed run: the same in debug and release, on any number of threads, on any machine. It changes only
-/// with the physics, the game, or the library's scenarios.
+/// The digest of a fixed run is the same in debug and release, on any number of threads, on any
+/// machine. It changes only with the physics, the game, or the library's scenarios.
 #[test]
 fn the_golden_digest_holds() {
     let mut text = String::new();

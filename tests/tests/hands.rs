@@ -1,4 +1,5 @@
-//! The game under an agent's keys: what decides how a kick, a touch or a duel comes out when a key is pressed every step.
+//! The game under an agent's control: how kicks, touches and duels come out if a key is pressed in
+//! every step.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::Vec2;
@@ -6,7 +7,7 @@ use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::vocabulary::Action;
 
-/// A ball that is faster has been kicked, m/s.
+/// A faster ball has been kicked, m/s.
 const KICKED_MPS: f32 = 11.0;
 
 fn library(name: &str) -> Environment {
@@ -20,12 +21,12 @@ fn written(body: &str) -> Environment {
     Environment::new(scenario, EnvironmentOptions::default()).unwrap()
 }
 
-/// The matches at the ends of an episode's first 40 steps; `key` names the action of a step.
+/// The matches after each of an episode's first 40 steps; `key` is the action of a step.
 fn played(environment: &mut Environment, episode: u64, key: impl Fn(usize) -> Action) -> Vec<Match> {
     played_for(40, environment, episode, key)
 }
 
-/// The same for so many steps.
+/// The same for this many steps.
 fn played_for(steps: usize, environment: &mut Environment, episode: u64, key: impl Fn(usize) -> Action) -> Vec<Match> {
     let mut scratch = Scratch::default();
     environment.reset(Some(1), Some(episode)).unwrap();
@@ -67,7 +68,8 @@ fn a_kick_waits_until_the_turn_with_the_ball_is_played_out() {
         let key = |step| if step == press { Action::HighPass } else { Action::Right };
         (0..12).filter_map(|episode| kicked_at(&played(&mut environment, episode, key), press)).collect()
     };
-    // Before the player is at the ball the kick is their first touch; after a touch that turns their run it comes later.
+    // Before the player reaches the ball, the kick is their first touch. After a touch that turns
+    // their run it comes later.
     let (before, after) = (leaves(3), leaves(7));
     assert!(before.iter().all(|step| (5..=7).contains(step)) && before.len() == 12, "{before:?}");
     assert!(after.iter().all(|step| *step >= 10) && after.len() >= 5, "{after:?}");
@@ -116,7 +118,7 @@ fn met(difficulty: f32) -> Environment {
     ))
 }
 
-/// In how many of so many episodes a runner loses the ball to the defender within 20 steps.
+/// In how many of these episodes a runner loses the ball to the defender within 20 steps.
 fn lost(environment: &mut Environment, episodes: u64) -> usize {
     let loses = |episode: &u64| {
         let matches = played(environment, *episode, |_| Action::Right);
@@ -229,7 +231,8 @@ fn a_ball_struck_at_a_body_springs_off_it() {
     assert!(sprung > 12, "{sprung} of 20");
 }
 
-/// How far ahead of its runner the ball gets in a straight run that an opponents at `beside` line, metres.
+/// How far ahead of its runner the ball gets in a straight run with opponents in lines at `beside`,
+/// metres.
 fn runs_ahead(beside: &str) -> f32 {
     let line: String = (0..8).map(|i| format!("CB at ({}, {beside}) {{ ai: lazy }} ", 0.03 * f64::from(i))).collect();
     let mut environment = written(&format!(

@@ -1,5 +1,6 @@
-//! The grammars for editors agree with the pest grammar: `grammar/setpiece.tmLanguage.json`, run as an editor runs it,
-//! over every text of the repository, and the word lists of `grammar/tree-sitter/grammar.js`.
+//! The editors' grammars agree with the pest grammar. `grammar/setpiece.tmLanguage.json` is run as
+//! in an editor over every text of the repository, and the word lists of
+//! `grammar/tree-sitter/grammar.js` are compared.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use pest::Parser;
@@ -25,14 +26,14 @@ struct Pattern {
     /// Scopes of the whole, and of its groups.
     scope: String,
     groups: Vec<(usize, String)>,
-    /// Where it goes on to; a `match` has none.
+    /// Its end; a `match` has none.
     end: Option<Regex>,
-    /// What is passed over on the way there: an escaped quote ends no string.
+    /// What is skipped inside it: an escaped quote doesn't end a string.
     inner: Vec<Regex>,
 }
 
 impl Pattern {
-    /// Where it ends in a line, from a place inside it.
+    /// Its end in a line, from a place inside it.
     fn end_in(&self, line: &[u8], from: usize) -> Option<usize> {
         let mut at = from;
         loop {
@@ -51,7 +52,7 @@ fn regex(text: &str) -> Regex {
     RegexBuilder::new(text).unicode(false).build().unwrap_or_else(|why| panic!("{text}: {why}"))
 }
 
-/// The patterns in order, includes followed.
+/// The patterns in order, with includes resolved.
 fn patterns(grammar: &Value, list: &Value, into: &mut Vec<Pattern>) {
     for entry in list.as_array().unwrap() {
         if let Some(name) = entry["include"].as_str() {
@@ -87,7 +88,8 @@ impl Highlighter {
         Highlighter(all)
     }
 
-    /// The scope of every byte, line by line: the earliest match wins, of several the first pattern's.
+    /// The scope of every byte, line by line: the earliest match wins, and among equals the first
+    /// pattern's.
     fn scopes(&self, text: &str) -> Vec<&str> {
         let mut scopes = vec![""; text.len()];
         let (mut start, mut open): (usize, Option<&Pattern>) = (0, None);
@@ -138,7 +140,7 @@ fn files(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// Every text of the language in the repository that pest reads, the specification's files case by case.
+/// Every text of the repository that pest parses, and the specification's files case by case.
 fn texts() -> Vec<String> {
     let mut paths = Vec::new();
     for folder in ["stdlib-scenarios", "examples", "dsl/tests", "tests/spec"] {
@@ -161,7 +163,7 @@ fn texts() -> Vec<String> {
     texts
 }
 
-/// What scope a token of pest has to have; `None` where names may have any.
+/// The required scope of a pest token; `None` for names, which may have any.
 fn wanted(rule: Rule, text: &str) -> Option<&'static [&'static str]> {
     Some(match rule {
         Rule::doc => &["comment.block.documentation"],
@@ -172,7 +174,7 @@ fn wanted(rule: Rule, text: &str) -> Option<&'static [&'static str]> {
         Rule::unit | Rule::long_unit => &["keyword.other.unit"],
         Rule::over_kind => &["support.function"],
         Rule::callee if Function::from_name(text).is_some() => &["support.function"],
-        // Some events are the words of statements too.
+        // Some events are also keywords of statements.
         Rule::event_name => &["support.constant.event", "keyword."],
         Rule::qualifier => &["support.constant.qualifier", "keyword."],
         _ if format!("{rule:?}").starts_with("kw_") => &["keyword."],
@@ -191,7 +193,7 @@ fn every_token_that_pest_sees_is_highlighted_as_what_it_is() {
         for token in tokens.flatten() {
             let (rule, range) = (token.as_rule(), token.as_span().start()..token.as_span().end());
             if matches!(rule, Rule::junk | Rule::balanced) {
-                // What pest doesn't take apart has no tokens; neither has what could not be read.
+                // What pest doesn't split has no tokens; neither has what could not be parsed.
                 last = last.max(range.end);
                 continue;
             }
@@ -212,7 +214,7 @@ fn every_token_that_pest_sees_is_highlighted_as_what_it_is() {
     assert!(seen > 4000 && rules.len() > 60, "{seen} tokens of {} rules", rules.len());
 }
 
-/// The comments of a text that has no `//` in a string.
+/// The comments of a text without `//` in strings.
 fn comments(text: &str) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut at = 0;
@@ -325,7 +327,7 @@ fn the_words_of_the_tree_sitter_grammar_are_those_of_pest() {
     }
     let rules = &grammar[grammar.find("rules: {").unwrap()..];
     let known: BTreeSet<String> = keywords().into_iter().chain(["true".into(), "false".into()]).collect();
-    // The names of fields are no words of the language.
+    // The names of fields aren't words of the language.
     let mut used = quoted(&rules.replace("field(\"", "field("));
     used.retain(|word| word.bytes().any(|byte| byte.is_ascii_alphabetic()));
     let missing: Vec<_> = known.difference(&used).collect();

@@ -1,5 +1,5 @@
-//! From `.pitch` to payments: the standard library's rewards against Google Research Football's own rules, and episodes
-//! that are the same however many threads play them.
+//! From `.pitch` to payments: the standard library's rewards compared with Google Research
+//! Football's own rules, and episodes that are the same on any number of threads.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
@@ -46,7 +46,8 @@ fn environment(scenario: Arc<Scenario>, rewards: &[&str]) -> Environment {
     Environment::new(scenario, EnvironmentOptions { rewards, ..EnvironmentOptions::default() }).unwrap()
 }
 
-/// GRF's checkpoint reward by its own rules: `collected` regions, thresholds 0.99 down to 0.19 from (1, 0).
+/// GRF's checkpoint reward by its own rules: `collected` regions, thresholds 0.99 down to 0.19 from
+/// (1, 0).
 fn grf_checkpoints(collected: &mut u32, goal: bool, carried_to: Option<f64>) -> f64 {
     if goal {
         let rest = 0.1 * f64::from(10 - *collected);
@@ -67,7 +68,7 @@ fn grf_checkpoints(collected: &mut u32, goal: bool, carried_to: Option<f64>) -> 
 fn checkpoints_pay_what_grf_pays() {
     let mut scratch = Scratch::default();
     let (mut carried, mut goals) = (0, 0);
-    // A crowded box for the regions, an empty goal for the rest that the first goal pays.
+    // A crowded box for the regions, and an empty goal for the remaining payment of the first goal.
     let scenarios = ["academy/academy_3_vs_1_with_keeper", "academy/academy_empty_goal"];
     let environments = scenarios.map(|name| environment(stdlib(name), &["scoring", "checkpoints"]));
     for (seed, mut environment) in (0..15).flat_map(|seed| environments.clone().map(|environment| (seed, environment)))
@@ -82,7 +83,8 @@ fn checkpoints_pay_what_grf_pays() {
                 environment.events().iter().any(|event| event.kind == EventKind::Goal && event.team == Some(team))
             };
             let (scored, conceded) = (goal(Team::Left), goal(Team::Right));
-            // The state shows the restart; where play was stopped without a goal the judge saw another.
+            // The state shows the restart; if play stopped without a goal, the judge saw another
+            // state.
             if result.terminated && !scored {
                 break;
             }
@@ -151,7 +153,7 @@ fn a_potential_pays_its_difference_over_an_episode() {
         };
         let (begin, over, all) = (record("begin"), record("over"), record("all"));
         assert!((summary.terms[0][0] - (over - begin)).abs() < 1e-6, "{} of {begin}..{over}", summary.terms[0][0]);
-        // 0.9 of every state less every state before.
+        // 0.9 of every state minus every previous state.
         let discounted = 0.9 * all - (all - over + begin);
         assert!((summary.terms[0][1] - discounted).abs() < 1e-6, "{} of {discounted}", summary.terms[0][1]);
     }
@@ -159,7 +161,7 @@ fn a_potential_pays_its_difference_over_an_episode() {
 
 #[test]
 fn agents_judged_together_are_paid_as_if_judged_alone() {
-    // Rewards run for a team at once, records agent by agent.
+    // Rewards run for a whole team, records agent by agent.
     let paid = [
         "abs(me.x) * me.fatigue",
         "distance(me, ball) / 1m",

@@ -1,4 +1,4 @@
-//! A masked action changes nothing, and an unmasked one can.
+//! A masked action has no effect, and an unmasked one can have one.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -10,7 +10,7 @@ use setpiece::engine::state::play::Acting;
 use setpiece::engine::step;
 use setpiece::scenario::vocabulary::{Action, GameMode};
 
-/// A scenario that starts with a set piece, with an agent on either side.
+/// A scenario that starts with a set piece, with an agent on each side.
 fn starting(set_piece: &str) -> String {
     format!(
         "scenario set_pieces extends academy {{
@@ -25,8 +25,8 @@ fn starting(set_piece: &str) -> String {
     )
 }
 
-/// The match after a step in which one agent plays an action and the others idle, without the record of who pressed
-/// what.
+/// The match after a step in which one agent acts and the others idle, without the record of
+/// presses.
 fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> Match {
     let mut copy = game.clone();
     let actions: Vec<Action> = (0..game.agents.len()).map(|i| if i == agent { action } else { Action::Idle }).collect();
@@ -93,7 +93,7 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
     }
     assert!(masked > 10_000);
     assert!(modes[GameMode::ThrowIn.index()] > 0 && modes[GameMode::GoalKick.index()] > 0, "{modes:?}");
-    // Keys that are let go by themselves have nothing to release.
+    // Keys that release themselves have nothing to release.
     let nothing = Action::ALL.iter().filter(|action| action.doc().starts_with("nothing"));
     assert!(nothing.clone().count() == 6 && nothing.clone().all(|action| open[action.index()] == 0));
     assert!(open[Action::Switch.index()] > 0);

@@ -1,4 +1,5 @@
-//! What names mean while a match runs: regions in the reader's frame, and a reward's states in records.
+//! The meaning of names while a match runs: regions in the reader's frame, and a reward's states in
+//! records.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
@@ -26,7 +27,7 @@ fn environment(text: &str) -> Environment {
     Environment::new(Arc::new(scenario), EnvironmentOptions::default()).unwrap()
 }
 
-/// Plays some steps; gives what the first agent was paid in each.
+/// Plays some steps; returns the first agent's reward in each.
 fn paid(environment: &mut Environment, steps: usize) -> Vec<f32> {
     let (mut scratch, mut stream) = (Scratch::default(), Stream::new(1, 0, Purpose::Agent));
     environment.reset(Some(1), None).unwrap();
@@ -116,7 +117,8 @@ fn a_record_reads_what_a_reward_remembers() {
     assert!((last - (n + of_first("mine") + of_first("x"))).abs() < 1e-4, "{last}");
 }
 
-/// A script's value is paid like any other: weighed by a parameter, guarded, labelled, with the reward's arguments.
+/// A script's value is paid like any other: weighed by a parameter, guarded, labelled, with the
+/// reward's arguments.
 #[test]
 fn a_script_pays_within_a_reward() {
     let text = |rewards: &str| {
@@ -156,7 +158,7 @@ fn a_script_pays_within_a_reward() {
         assert_eq!(names, ["speed/far", "speed/same"]);
         for agent in 0..2 {
             let [far, same] = environment.term_sums(agent) else { panic!("two terms") };
-            // What `ctx.random()` adds is below 1 a step.
+            // `ctx.random()` adds less than 1 per step.
             let scale = if used.ends_with("heavy") { 3.0 } else { 1.0 };
             assert!(*same > 10.0 * weight, "{used}: agent {agent} never ran: {same}");
             assert!(*far > *same && *far < *same + 37.0 * scale, "{used}: {far} beside {same}");

@@ -1,4 +1,4 @@
-//! Records, declared observations, mirrors and shuffles, end to end: what they say is what happened.
+//! Records, declared observations, mirrors and shuffles, end to end: they show what happened.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::agents::Agent;
@@ -196,7 +196,7 @@ fn a_mirror_shows_the_same_start_the_other_way_round() {
     assert!(near(flanks.state().ball.vel.truncate(), 3.0, -4.0) && near(ends.state().ball.vel.truncate(), -3.0, -4.0));
     let heading = |environment: &Environment, id: usize| environment.state().players[id].heading_rad;
     assert!((heading(&flanks, 0) + heading(&plain, 0)).abs() < 1e-4);
-    // Whoever stood on the left flank's top stands at its bottom: a drawn place follows its region.
+    // A player at the left flank's top is at its bottom: a drawn place follows its region.
     assert!(plain.state().players[2].pos.y < -9.1 && flanks.state().players[2].pos.y > 9.1);
     assert_eq!(ends.agents()[0].team, Team::Right);
     let role = |environment: &Environment, id: usize| environment.state().players[id].role.name();

@@ -1,4 +1,5 @@
-//! One meaning per operator: what the compiler computes from constants is what a match computes from parameters.
+//! Every operator has one meaning: constants folded by the compiler and parameters computed in a
+//! match give the same.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use proptest::prelude::*;
@@ -73,7 +74,7 @@ fn records(body: &str) -> BTreeMap<String, Option<f64>> {
     environment.records().map(|(name, recorded)| (name.to_owned(), number(&recorded))).collect()
 }
 
-/// A form with its two operands; whole words only.
+/// A form with its two operands; only whole words are replaced.
 fn with(form: &str, a: &str, b: &str) -> String {
     let operand = |word: &str| match word {
         "a" => a.to_owned(),

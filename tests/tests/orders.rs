@@ -1,4 +1,4 @@
-//! The orders of the `full` set of actions, and actions of numbers: each does what it says.
+//! Team orders of the `full` action set, and continuous actions: each has its effect.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::Vec2;
@@ -43,7 +43,7 @@ const DEFENDING: &str = "ball at (-0.2, 0.2) { owner: runner }
     team right { difficulty: 1  runner: CF at own (0.2, -0.2) { ai: hold } }";
 
 #[test]
-fn a_called_keeper_comes_out_until_he_is_called_back() {
+fn a_called_keeper_comes_out_until_called_back() {
     let (called, not) = (after(DEFENDING, Action::KeeperRush, 30), after(DEFENDING, Action::Idle, 30));
     assert!(gap(&called, 0) < gap(&not, 0) - 10.0, "{} {}", gap(&called, 0), gap(&not, 0));
     let mut environment = environment(DEFENDING);
@@ -62,7 +62,7 @@ fn pressure_chases_the_ball() {
 
 #[test]
 fn team_pressure_sends_a_second_man() {
-    // The mates are too far to hunt without being called.
+    // The teammates are too far away to hunt without an order.
     let near = [("anna: CB at (-0.3, -0.3)", "anna: CB at (-0.22, 0.17)"), ("(-0.4, 0.35)", "(-0.8, 0.35)")];
     let body =
         near.into_iter().fold(DEFENDING.replace("(-0.5, 0)", "(-0.8, 0)"), |body, (is, so)| body.replace(is, so));
@@ -76,7 +76,7 @@ fn switch_takes_the_mate_who_is_sooner_there() {
     let body = DEFENDING.replace("[anna]", "1");
     let mut environment = environment(&body);
     let mut scratch = Scratch::default();
-    // The agent runs away with its player until another is sooner at the ball.
+    // The agent's player runs away, until another one reaches the ball sooner.
     let first = environment.agents()[0].player.unwrap();
     let sooner = |environment: &Environment| switching::sooner(environment.state(), 0);
     for action in [Action::Bottom, Action::Sprint].into_iter().chain([Action::Idle; 40]) {
@@ -84,7 +84,7 @@ fn switch_takes_the_mate_who_is_sooner_there() {
             environment.step(&[action], &mut scratch).unwrap();
         }
     }
-    assert_eq!(environment.agents()[0].player, Some(first), "of itself it keeps him");
+    assert_eq!(environment.agents()[0].player, Some(first), "by itself it keeps the player");
     let mate = sooner(&environment);
     environment.step(&[Action::Switch], &mut scratch).unwrap();
     assert!(mate.is_some() && environment.agents()[0].player == mate, "{mate:?}");
@@ -92,7 +92,7 @@ fn switch_takes_the_mate_who_is_sooner_there() {
 
 #[test]
 fn switch_with_the_ball_sends_a_mate_on_a_run() {
-    // With two agents nobody runs of themselves.
+    // With two agents nobody runs without an order.
     let body = "ball at (0, 0) { owner: anna }
         agents { left: [anna, back] }
         team left { GK at (-1, 0)  anna: CM at (-0.01, 0)  mate: CF at (0.3, 0.2)  back: CB at (-0.5, 0) }
@@ -125,7 +125,7 @@ fn a_steered_player_runs_at_any_angle_and_pace() {
             environment.step(&[Action::Idle], &mut scratch).unwrap();
         }
         let player = environment.state().player(PlayerId(1));
-        // +y of a way is down the picture, as of the world's y here.
+        // +y of a direction is down the picture, like the world's y here.
         assert!(player.vel.normalize().dot(way) > 0.99, "{way} at {pace}: {}", player.vel);
         assert!((player.vel.length() - 8.0 * pace).abs() < 0.9, "{way} at {pace}: {}", player.vel.length());
     }
@@ -170,7 +170,7 @@ fn the_power_of_a_steered_pass_is_how_far_it_goes() {
     assert!(far.length() > near.length() + 3.0, "{near} {far}");
 }
 
-/// As GRF's: a held direction leads the ball over the line.
+/// As in GRF, a held direction leads the ball over the line.
 #[test]
 fn an_agent_runs_the_ball_off_the_pitch() {
     for (at, action) in [("(0.9, 0.3)", Action::Right), ("(0.3, 0.38)", Action::Bottom)] {
@@ -190,7 +190,7 @@ fn an_agent_runs_the_ball_off_the_pitch() {
     }
 }
 
-/// Who is lazy takes no set piece unless all are, and then only when it has waited as long as it may.
+/// A lazy player takes a set piece only if all are lazy, and only after the longest allowed wait.
 #[test]
 fn the_lazy_take_no_set_piece_unless_all_are() {
     let kick = |team: &str, steps: u32| {

@@ -1,4 +1,4 @@
-//! The pages of the error codes: every code has one, and what they show is true.
+//! The pages of the error codes: every code has one, and its examples are correct.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::Error;
@@ -13,7 +13,7 @@ fn folder() -> PathBuf {
 
 /// A fenced block of a page.
 struct Block {
-    /// What stands behind the fence: `pitch error=SP0203`.
+    /// The text after the fence: `pitch error=SP0203`.
     info: String,
     text: String,
 }
@@ -52,8 +52,8 @@ fn texts(folder: &Path) -> String {
     paths.iter().map(text).collect()
 }
 
-/// What the compiler and the dry run say has a case of the specification; what only the command says, a console of its
-/// page or a test of the command.
+/// Every report of the compiler and the dry run has a case of the specification. A report of only
+/// the command has a console on its page or a test.
 #[test]
 fn every_code_is_earned_somewhere() {
     let root = folder().join("../..");
@@ -62,13 +62,13 @@ fn every_code_is_earned_somewhere() {
         let name = code.to_string();
         let of_the_command = name.starts_with("SP00") || name.starts_with("SP07");
         let console = || setpiece::explain::page(*code).unwrap().contains("```console");
-        // A system that refuses threads can't be had for a test.
-        let told = *code == Code::NoThreads || commands.contains(&name) || console();
-        assert!(cases.contains(&name) || (of_the_command && told), "{code} is earned nowhere");
+        // A test can't make a system refuse threads.
+        let shown = *code == Code::NoThreads || commands.contains(&name) || console();
+        assert!(cases.contains(&name) || (of_the_command && shown), "{code} is earned nowhere");
     }
 }
 
-/// The look of each code's report; what only the command says stands in the pages' consoles.
+/// The rendering of each code's report; the pages' consoles show those of only the command.
 #[test]
 fn every_report_looks_as_it_should() {
     for code in Code::ALL {
@@ -81,7 +81,7 @@ fn every_report_looks_as_it_should() {
     }
 }
 
-/// The codes that a text earns when it is run or checked, and whether one of them is an error.
+/// The codes of a text when it is run or checked, and whether one of them is an error.
 fn codes(text: &str) -> (BTreeSet<String>, bool) {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("scenario.pitch");
@@ -125,7 +125,7 @@ fn every_broken_text_earns_its_code_and_every_other_one_is_sound() {
                     assert_eq!(failed, code.severity() == Severity::Error, "{code}: {found:?}");
                     earned += 1;
                 }
-                // What fails only when it is played.
+                // A text that fails only when played.
                 Some(("file", _)) => assert!(found.iter().all(|code| code.starts_with("SP06")), "{code}: {found:?}"),
                 _ => assert!(found.is_empty(), "{code} mends into {found:?}:\n{}", block.text),
             }

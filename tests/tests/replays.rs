@@ -1,4 +1,4 @@
-//! A replay plays the episode again, bit for bit, and says so where it can't.
+//! A replay plays the episode again, bit for bit, and reports if it can't.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::continuous;
@@ -72,12 +72,12 @@ fn one_that_begins_in_a_snapshot_begins_there_again() {
 }
 
 #[test]
-fn what_is_no_replay_is_told() {
+fn what_is_no_replay_is_reported() {
     let (environment, recorder, _) = played("academy_3_vs_1_with_keeper", 1, 20);
     let replay = Replay::of(&environment, &recorder).unwrap();
     let bytes = replay.to_bytes().unwrap();
     let refused = |bytes: &[u8]| Replay::from_bytes(bytes).unwrap_err().to_string();
-    assert_eq!(refused(b"{}"), "not a replay: it doesn't begin as one");
+    assert_eq!(refused(b"{}"), "not a replay: its header isn't recognised");
     for cut in 0..bytes.len() {
         assert!(Replay::from_bytes(&bytes[..cut]).is_err(), "cut at {cut}");
     }
@@ -89,9 +89,6 @@ fn what_is_no_replay_is_told() {
     let mut other = replay.clone();
     other.digest ^= 1;
     let why = other.play(|_, _| ()).unwrap_err().to_string();
-    assert_eq!(
-        why,
-        format!("step {}: this build plays the episode otherwise than the one that wrote it", replay.length)
-    );
+    assert_eq!(why, format!("step {}: this build diverges from the recording", replay.length));
     assert!(Replay::of(&environment, &Recorder::default()).is_err(), "what was not recorded");
 }

@@ -1,4 +1,5 @@
-//! Snapshots: a restored match goes on as the straight run does, from any step of any match; and no bytes do harm.
+//! Snapshots: a restored match continues like the original run, from any step of any match; and no
+//! bytes do harm.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use proptest::prelude::*;
@@ -15,8 +16,9 @@ use std::sync::Arc;
 /// How many step boundaries are tried.
 const BOUNDARIES: u32 = 10_000;
 
-/// Whatever an episode can remember: rewards that look back, series, a declared observation, a scripted player with a
-/// drawn behaviour, scripts that keep maps, lists, words and what they were shown.
+/// Everything that an episode can remember: temporal functions, series, a declared observation, a
+/// scripted player with a drawn behaviour, scripts that keep maps, lists, words and what they were
+/// shown.
 const MEMORY: &str = r#"
 reward chain {
     state n = 0
@@ -112,7 +114,7 @@ scenario memory {
 }
 "#;
 
-/// A match that never ends early, with half-time soon and cards, fouls and set pieces by the dozen.
+/// A match that never ends early, with an early half-time and many cards, fouls and set pieces.
 const HALVES: &str = "scenario halves extends 11_vs_11_stochastic {
     rules { half_time: 20s }
     end limit 500 steps
@@ -130,8 +132,8 @@ fn environment(scenario: &Arc<Scenario>) -> Environment {
     Environment::new(scenario.clone(), EnvironmentOptions::default()).unwrap()
 }
 
-/// The scenarios of the walk.
-/// Without scripts: what looks back at the ball, and at players too.
+/// The scenarios of the walk. They have no scripts: one looks back at the ball only, one at players
+/// too.
 fn looking_back() -> [Arc<Scenario>; 2] {
     ["delta(ball.x)", "delta(me.x)"].map(|seen| {
         compiled(&format!(
@@ -152,7 +154,8 @@ fn scenarios() -> Vec<Arc<Scenario>> {
     scenarios
 }
 
-/// An agent that plays mostly as the bot, else at random; every choice is the walk's own.
+/// An agent that mostly plays as the bot, otherwise at random. Every choice comes from the walk's
+/// stream.
 fn choose(walk: &mut Stream, actions: &mut [Action]) {
     for action in actions {
         *action = match walk.below(4) {
@@ -163,7 +166,7 @@ fn choose(walk: &mut Stream, actions: &mut [Action]) {
     }
 }
 
-/// Everything that can be seen of an environment after a step, but floats by their bits.
+/// Everything visible of an environment after a step, floats by their bits.
 fn seen(environment: &mut Environment) -> String {
     let n_agents = environment.n_agents();
     let n_observed = environment.observed_names().len();
@@ -192,7 +195,7 @@ fn seen(environment: &mut Environment) -> String {
     text
 }
 
-/// What goes on at a boundary.
+/// What is under way at a boundary.
 fn moments(environment: &Environment) -> Vec<&'static str> {
     let game = environment.state();
     let happened = |kind: EventKind| environment.events().iter().any(|event| event.kind == kind);
@@ -238,7 +241,7 @@ fn a_restored_match_is_the_straight_run() {
         let (straight, other) = &mut worlds[episode % n_worlds];
         straight.reset(Some(9), Some(episode as u64)).unwrap();
         let mut actions = vec![Action::Idle; straight.n_agents()];
-        // How many steps the restored one still goes along.
+        // How many more steps the restored one is compared.
         let mut tail = 0;
         for _ in 0..300 {
             if tail == 0 && walk.below(3) > 0 {
@@ -296,13 +299,15 @@ fn a_restored_match_is_the_straight_run() {
 fn a_copy_in_memory_is_the_straight_run() {
     let mut walk = Stream::new(5, 0, Purpose::Agent);
     let mut scratch = Scratch::default();
-    // A script that draws through a `ctx` of an older step shares that step's numbers with copies.
+    // A script that draws through a `ctx` of an earlier step shares that step's numbers with
+    // copies.
     let fresh = compiled(&MEMORY.replace("this.ctx = ctx; ", "").replace(" + this.ctx.random()", ""));
     let mut scenarios = vec![fresh];
     scenarios.extend(["11_vs_11_stochastic", "academy_corner", "academy_run_to_score_with_keeper"].map(library));
     let mut stopped = 0;
     for (k, scenario) in scenarios.iter().enumerate() {
-        // The copy stands wherever it was left, at first in another episode, or of another scenario altogether.
+        // The copy is wherever it was left: at first in another episode, or in a different
+        // scenario.
         let (mut straight, mut copy) = (environment(scenario), environment(&scenarios[(k + 1) % scenarios.len()]));
         for episode in 0..4 {
             straight.reset(Some(9), Some(episode)).unwrap();
@@ -324,7 +329,7 @@ fn a_copy_in_memory_is_the_straight_run() {
     assert!(stopped > 5, "{stopped} stops of play");
 }
 
-/// Gives a snapshot's content the head that fits it.
+/// Gives a snapshot's content a valid header.
 fn sealed(mut file: Vec<u8>) -> Vec<u8> {
     let body = file.split_off(HEAD);
     file[12..20].copy_from_slice(&checksum(&body).to_le_bytes());
@@ -333,7 +338,7 @@ fn sealed(mut file: Vec<u8>) -> Vec<u8> {
     file
 }
 
-/// Mark, version, checksum, length.
+/// Length of the header: magic number, version, checksum, length.
 const HEAD: usize = 28;
 
 /// An environment some steps into an episode, with its snapshot.
@@ -352,7 +357,7 @@ fn underway(scenario: &Arc<Scenario>, seed: u64, steps: u32) -> (Environment, Ve
     (environment, snapshot)
 }
 
-/// Restores bytes that may be anything: an error changes nothing, and what is taken can be played on.
+/// Restores arbitrary bytes: an error changes nothing, and accepted bytes can be played on.
 fn harmless(environment: &mut Environment, before: &[u8], bytes: &[u8]) {
     if environment.restore(bytes).is_err() {
         assert_eq!(environment.snapshot().unwrap(), before, "an error changes nothing");
@@ -371,7 +376,7 @@ fn play_on(environment: &mut Environment) {
     let mut actions = vec![Action::Idle; environment.n_agents()];
     for _ in 0..5 {
         choose(&mut walk, &mut actions);
-        // A script may not like what it remembers.
+        // A script may fail because of its memory.
         if environment.step(&actions, &mut scratch).is_err() {
             return;
         }
@@ -398,7 +403,7 @@ fn no_cut_and_no_flipped_bit_goes_unseen() {
     assert_eq!(seen(&mut other), seen(&mut environment));
 }
 
-/// A change of a snapshot's content, each place by its share of the length.
+/// A change of a snapshot's content, each place as a share of the length.
 #[derive(Clone, Debug)]
 enum Change {
     Byte(f64, u8),
@@ -458,7 +463,7 @@ fn whatever_a_sealed_snapshot_says_does_no_harm() {
     });
 }
 
-/// A reset that finds no start leaves the last episode to be looked at, under its own key.
+/// A reset that finds no start leaves the last episode visible, under its own key.
 #[test]
 fn what_is_left_by_a_reset_without_a_start_is_restored() {
     let scenario = compiled(

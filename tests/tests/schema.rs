@@ -1,4 +1,5 @@
-//! The published JSON schema of a compiled scenario: up to date, met by every scenario, and no empty promise.
+//! The published JSON schema of a compiled scenario: it is current, every scenario matches it, and
+//! it constrains something.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use serde_json::{Value, json};
@@ -10,7 +11,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Words of JSON schema that [`fault`] knows, or that say nothing of what fits.
+/// Keywords of JSON schema that [`fault`] supports, or that don't constrain a value.
 const KNOWN: &[&str] = &[
     "$ref",
     "type",
@@ -36,7 +37,7 @@ const KNOWN: &[&str] = &[
     "$defs",
 ];
 
-/// What of a value does not fit a schema: the path to it.
+/// The path to what doesn't match a schema.
 fn fault(root: &Value, schema: &Value, value: &Value, path: &str) -> Option<String> {
     let Some(rules) = schema.as_object() else {
         return (schema != &json!(true)).then(|| format!("{path}: nothing fits"));

@@ -1,8 +1,8 @@
 //! The language's specification: `tests/spec/<topic>/*.pitch`, annotated sources.
 //!
-//! A file holds cases. `--- NAME check` begins one, `--- NAME probe` one that is also tried in a dry run; `+++ PATH`
-//! begins a further file of it. Every problem must be
-//! annotated below its line, and every annotation met:
+//! A file holds cases. `--- NAME check` begins one, `--- NAME probe` one that is also tried in a
+//! dry run; `+++ PATH` begins another file of it. Every problem must be annotated below its line,
+//! and every annotation must match:
 //!
 //! ```text
 //!     ball in right.bocks
@@ -10,8 +10,8 @@
 //! //                help: did you mean `box`?
 //! ```
 //!
-//! Where the span begins in the first columns, `// @COLUMN+WIDTH SP0204: …` stands for the carets. With
-//! `SETPIECE_BLESS=1` the annotations are rewritten to what the compiler says.
+//! If the span begins in the first columns, `// @COLUMN+WIDTH SP0204: …` replaces the carets.
+//! `SETPIECE_BLESS=1` rewrites the annotations to the compiler's reports.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::Loaded;
@@ -23,7 +23,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Loads further files of the case, and the standard library under `std/`.
+/// Loads other files of the case, and the standard library under `std/`.
 struct CaseLoader {
     files: Vec<(String, String)>,
 }
@@ -80,7 +80,7 @@ fn pitch_files(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// Splits a file of cases; the lines before the first header are a preface.
+/// Splits a file into cases; the lines before the first header are a preface.
 fn split(text: &str) -> (String, Vec<Case>) {
     let (mut preface, mut cases) = (String::new(), Vec::<Case>::new());
     for line in text.lines() {
@@ -171,7 +171,7 @@ fn run(case: &Case, probe: bool) -> Outcome {
     outcome
 }
 
-/// The case as it should be annotated.
+/// The case with the right annotations.
 fn expected(case: &Case, outcome: &Outcome) -> String {
     let mut out = format!("--- {}\n", case.header);
     for (index, (name, text)) in case.files.iter().enumerate() {
@@ -187,7 +187,7 @@ fn expected(case: &Case, outcome: &Outcome) -> String {
                 if file.name == *name {
                     return Some((span.start as usize, span.end as usize, problem));
                 }
-                // What a file of the library is blamed for stands at the top.
+                // Problems in a file of the library are annotated at the top.
                 let foreign = case.files.iter().all(|(other, _)| file.name != *other);
                 (index == 0 && foreign).then_some((0, 0, problem))
             })

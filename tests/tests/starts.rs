@@ -1,4 +1,5 @@
-//! A scenario may start with a set piece: ball, taker and mode are the law's, everybody else stands where he is put.
+//! A scenario may start with a set piece: ball, taker and mode follow the laws, everybody else
+//! stands where the text places them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -94,7 +95,7 @@ fn a_set_piece_of_a_team_without_players_is_taken_by_the_others() {
     assert!(touches > 10, "{touches}");
 }
 
-/// Where everybody stands in an episode, normalised.
+/// Everybody's place in an episode, normalised.
 fn places(text: &str, index: u64) -> Vec<[f32; 2]> {
     let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{text}: {error}"));
     let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
@@ -136,7 +137,7 @@ fn a_formation_may_be_chosen_by_a_draw() {
     assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
 }
 
-/// The compiler refuses such places; a compiled file may hold them all the same.
+/// The compiler rejects such places, but a compiled file may still contain them.
 #[test]
 fn nobody_begins_beyond_the_rim_and_no_ball_below_the_grass() {
     let changed = |text: &str, from: f64, to: f64| {
@@ -151,7 +152,7 @@ fn nobody_begins_beyond_the_rim_and_no_ball_below_the_grass() {
     assert!((changed(high, 7.0, -60.0).unwrap().state().ball.pos.z - 0.11).abs() < 1e-6);
     let far = "scenario s { agents { left: 1 } ball at (0.5, 0) team left { GK CM at (13m, 0m) } end limit 9 steps }";
     assert!(changed(far, 13.0, 130.0).is_err_and(|error| error.requirement.contains("on the pitch")));
-    // Layouts for later kick-offs are no part of the start.
+    // Layouts for later kick-offs don't belong to the start.
     let layouts = "formation a { GK CM at (-13m, 0m) } formation b { GK CM at (-17m, 0m) }
         scenario s { agents { left: 1 } kickoff left { kicking: a, receiving: b } end limit 9 steps }";
     let environment = changed(layouts, -17.0, -170.0).unwrap();

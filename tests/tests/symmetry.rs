@@ -1,4 +1,5 @@
-//! With chance off, a match turned by 180° and played with turned actions is the turned match, bit for bit.
+//! With chance off, a match turned by 180° and played with turned actions is exactly the turned
+//! match.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -14,7 +15,7 @@ fn other(id: PlayerId) -> PlayerId {
     PlayerId::new(id.team().other(), id.in_team())
 }
 
-/// The start turned by 180°: every team in the other's place.
+/// The start turned by 180°: each team in the other's place.
 fn turned(start: &Drawn) -> Drawn {
     let player = |player: &DrawnPlayer| DrawnPlayer {
         pos: -player.pos,
@@ -44,7 +45,7 @@ fn turned(start: &Drawn) -> Drawn {
     }
 }
 
-/// What must be the same: everything of the second match as the first would show it.
+/// Compares everything of the second match as the first would show it.
 fn same(there: &Match, back: &Match) -> Result<(), String> {
     let turn = |v: glam::Vec3| glam::Vec3::new(-v.x, -v.y, v.z);
     let check = |what: &str, same: bool| if same { Ok(()) } else { Err(what.to_owned()) };
@@ -81,7 +82,7 @@ fn same(there: &Match, back: &Match) -> Result<(), String> {
     check("mode", (there.mode, there.dead, there.tick, there.step) == (back.mode, back.dead, back.tick, back.step))
 }
 
-/// Which kinds of things happened, by whom.
+/// The kinds of events with their players.
 fn facts(events: &[Event], turn: bool) -> Vec<(EventKind, Option<PlayerId>, Option<PlayerId>)> {
     let of = |id: PlayerId| if turn { other(id) } else { id };
     events.iter().map(|e| (e.kind, e.by.map(of), e.to.map(of))).collect()
@@ -117,7 +118,7 @@ fn play(start: &Drawn, seed: u64, steps: u32, seen: &mut Vec<EventKind>) {
     }
 }
 
-/// The starts of a scenario's text, chance off.
+/// The starts of a scenario's text, with chance off.
 fn starts(text: &str, count: u64) -> Vec<Drawn> {
     let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
     let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();

@@ -1,4 +1,5 @@
-//! Texts that people read: every `.pitch` example in them compiles without a problem, and the examples play.
+//! Texts for readers: every `.pitch` example in them compiles without a problem, and the examples
+//! can be played.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::{Path, PathBuf};
@@ -49,7 +50,7 @@ fn every_example_of_the_pages_compiles() {
     }
 }
 
-/// A block of the reference may be a file of rewards or regions alone, as `check` takes it.
+/// A block of the reference may be a file with only rewards or regions, as `check` accepts it.
 #[test]
 fn every_example_of_the_reference_is_sound() {
     let folder = root().join("docs/language");

@@ -1,4 +1,4 @@
-//! Everything that must pass, in the order of what fails fastest.
+//! Everything that must pass, fastest failures first.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,7 +13,7 @@ pub(crate) fn ci() -> Result<(), String> {
     python()
 }
 
-/// The Rust tests, by nextest where it is installed.
+/// Runs the Rust tests, with nextest if it is installed.
 pub(crate) fn rust_tests() -> Result<(), String> {
     let nextest =
         Command::new("cargo").args(["nextest", "--version"]).output().is_ok_and(|output| output.status.success());
@@ -25,7 +25,7 @@ pub(crate) fn rust_tests() -> Result<(), String> {
     }
 }
 
-/// Builds the wheel once and tests it in an environment of its own.
+/// Builds the wheel once and tests it in a separate environment.
 pub(crate) fn python() -> Result<(), String> {
     let python = venv("venv", "python/requirements-dev.txt")?;
     install_wheel(&python, &wheel(&python)?)?;
@@ -43,21 +43,23 @@ pub(crate) fn python() -> Result<(), String> {
     pytest(&python)
 }
 
-/// Builds the wheel and runs the Python tests beside the heavy packages, so that none of `tests/full` is left out.
+/// Builds the wheel and runs the Python tests with the heavy packages, so that all of `tests/full`
+/// runs.
 pub(crate) fn python_full() -> Result<(), String> {
-    // The heavy packages want another Gymnasium than what builds the wheel.
+    // The heavy packages need another version of Gymnasium than the environment that builds the
+    // wheel.
     let wheel = wheel(&venv("venv", "python/requirements-dev.txt")?)?;
     let python = venv("venv-full", "python/requirements-full.txt")?;
     install_wheel(&python, &wheel)?;
     pytest(&python)
 }
 
-/// The Python that environments are made with.
+/// The Python that creates environments.
 pub(crate) fn system_python() -> &'static str {
     if cfg!(windows) { "python" } else { "python3" }
 }
 
-/// Makes an environment in `target/` with what a file of requirements names; returns its Python.
+/// Creates an environment in `target/` from a requirements file; returns its Python.
 pub(crate) fn venv(name: &str, requirements: &str) -> Result<PathBuf, String> {
     let venv = root().join("target").join(name);
     let python = venv.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
@@ -93,7 +95,7 @@ pub(crate) fn wheel(python: &Path) -> Result<PathBuf, String> {
         .ok_or_else(|| "maturin left no wheel".to_owned())
 }
 
-/// Installs the wheel in place of any other build of it.
+/// Installs the wheel, replacing any other build of it.
 pub(crate) fn install_wheel(python: &Path, wheel: &Path) -> Result<(), String> {
     pip(python, &["--force-reinstall", "--no-deps", &wheel.to_string_lossy()])
 }
@@ -108,12 +110,12 @@ fn cargo(args: &[&str]) -> Result<(), String> {
     run(Command::new("cargo").args(args))
 }
 
-/// Builds the lab with every optimisation and runs it.
+/// Builds the lab with full optimisation and runs it.
 pub(crate) fn lab(args: &[String]) -> Result<(), String> {
     run(Command::new("cargo").args(["run", "--release", "--package", "setpiece-lab", "--"]).args(args))
 }
 
-/// Says and runs a command, in the repository's root unless it names another folder.
+/// Prints and runs a command, in the repository's root unless it names another folder.
 pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     let words: Vec<String> = std::iter::once(command.get_program())
         .chain(command.get_args())

@@ -1,4 +1,5 @@
-//! Fuzzing: builds the targets of `fuzz/` with nightly's coverage counters, runs them, keeps a log of what was run.
+//! Fuzzing: builds the targets of `fuzz/` with nightly's coverage counters, runs them, and logs the
+//! runs.
 
 use crate::ci::{root, run};
 use std::fs::{self, File};
@@ -8,15 +9,15 @@ use std::process::{Command, Stdio};
 
 /// The targets, and the longest input of each, bytes.
 const TARGETS: &[(&str, usize)] = &[("compile", 4096), ("script", 2048), ("load", 12_288), ("play", 512)];
-/// What the compiler is told: count edges. Comparisons are not traced: the dictionaries know the words, and tracing takes
-/// two thirds of the time.
+/// Compiler flags that count edges. Comparisons aren't traced: the dictionaries contain the words,
+/// and tracing takes two thirds of the time.
 const FLAGS: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
                      -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
                      --cfg fuzzing -Ccodegen-units=1";
-/// What a target's kept inputs may measure together, bytes, and how many they may be.
+/// The total size of a target's kept inputs, bytes, and their number.
 const KEPT_MAX: (u64, usize) = (240_000, 400);
 
-/// What is asked for.
+/// The options of a run.
 struct Options {
     targets: Vec<(&'static str, usize)>,
     seconds: u32,
@@ -55,7 +56,7 @@ fn options(args: &[String]) -> Result<Options, String> {
         };
         match arg.as_str() {
             "--seconds" => options.seconds = number()?.max(1),
-            // 0 would mean another one every time.
+            // 0 would mean a different seed every time.
             "--seed" => options.seed = number()?.max(1),
             "--keep" => options.keep = true,
             name => {
@@ -73,20 +74,20 @@ fn options(args: &[String]) -> Result<Options, String> {
     Ok(options)
 }
 
-/// Builds every target; returns the folder of their programs.
+/// Builds every target; returns the folder of the programs.
 fn build() -> Result<PathBuf, String> {
     let version = first_line_with("host: ", Command::new("rustc").args(["+nightly", "-vV"]));
     let host = version.map_err(|why| format!("no nightly ({why}); `rustup toolchain install nightly` brings it"))?;
     run(Command::new("cargo")
         .args(["+nightly", "build", "--release", "--manifest-path", "fuzz/Cargo.toml", "--target-dir", "fuzz/target"])
-        // Named, so that build scripts and macros are built without the counters.
+        // Named explicitly, so that build scripts and macros are built without the counters.
         .args(["--target", &host])
         .env("RUSTFLAGS", FLAGS)
         .env_remove("CARGO_ENCODED_RUSTFLAGS"))?;
     Ok(root().join("fuzz/target").join(host).join("release"))
 }
 
-/// Runs a target; returns how many inputs it tried and what came of it.
+/// Runs a target; returns the number of inputs and the result.
 fn fuzz_target(bin: &Path, target: &str, max_len: usize, options: &Options) -> Result<(u64, String), String> {
     let (found, seeds) = (folder("target/found", target)?, fresh("target/seeds", target)?);
     let (kept, artifacts) = (folder("corpus", target)?, folder("artifacts", "")?);
@@ -115,7 +116,7 @@ fn fuzz_target(bin: &Path, target: &str, max_len: usize, options: &Options) -> R
     Ok((executions.unwrap_or_default(), result))
 }
 
-/// Keeps the smallest inputs that reach what the seeds don't.
+/// Keeps the smallest inputs that reach code which the seeds don't.
 fn keep(bin: &Path, target: &str, max_len: usize) -> Result<(), String> {
     let (found, seeds) = (folder("target/found", target)?, folder("target/seeds", target)?);
     let (kept, merged) = (folder("corpus", target)?, fresh("target/merged", target)?);
@@ -150,7 +151,7 @@ fn keep(bin: &Path, target: &str, max_len: usize) -> Result<(), String> {
     Ok(())
 }
 
-/// A target's program with what every run of it is told.
+/// A target's program with the arguments of every run.
 fn fuzzer(bin: &Path, target: &str, max_len: usize) -> Result<Command, String> {
     let mut command = Command::new(bin);
     command.arg(format!("-max_len={max_len}")).args(["-timeout=5", "-rss_limit_mb=4096"]);
@@ -158,18 +159,18 @@ fn fuzzer(bin: &Path, target: &str, max_len: usize) -> Result<Command, String> {
     if dictionary.exists() {
         command.arg(format!("-dict={}", dictionary.display()));
     }
-    // An empty folder: what a text imports is not there.
+    // An empty folder, so that imports find nothing.
     command.current_dir(fresh("target/empty", "")?).stdin(Stdio::null());
     Ok(command)
 }
 
-/// A folder of `fuzz/`, made if need be.
+/// A folder of `fuzz/`, created if necessary.
 fn folder(kind: &str, target: &str) -> Result<PathBuf, String> {
     let path = root().join("fuzz").join(kind).join(target);
     fs::create_dir_all(&path).and_then(|()| path.canonicalize()).map_err(|why| format!("{}: {why}", path.display()))
 }
 
-/// The same, and nothing in it.
+/// The same, emptied.
 fn fresh(kind: &str, target: &str) -> Result<PathBuf, String> {
     let path = folder(kind, target)?;
     fs::remove_dir_all(&path).map_err(|why| format!("{}: {why}", path.display()))?;
@@ -180,7 +181,7 @@ fn first_line(command: &mut Command) -> Result<String, String> {
     first_line_with("", command)
 }
 
-/// What follows a sign on the first line that begins with it.
+/// The rest of the first line that begins with a sign.
 fn first_line_with(sign: &str, command: &mut Command) -> Result<String, String> {
     let output = command.output().map_err(|why| why.to_string())?;
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -193,7 +194,7 @@ fn first_line_with(sign: &str, command: &mut Command) -> Result<String, String> 
 /// The date, `2026-01-31`, by the proleptic Gregorian calendar in UTC.
 fn today() -> String {
     let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
-    // Days since the first of March of the year 0, whose leap day is the last of its year.
+    // Days since 1 March of year 0; the leap day is then the last day of a year.
     let days = since.as_secs() / 86_400 + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
     let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;

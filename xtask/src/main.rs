@@ -1,4 +1,5 @@
-//! The chores of this repository: `cargo xtask ci` runs everything that must pass, `cargo xtask help` lists the rest.
+//! Development tasks: `cargo xtask ci` runs everything that must pass, `cargo xtask help` lists the
+//! others.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod ci;
@@ -27,19 +28,15 @@ fn main() -> ExitCode {
             println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
             println!("cargo xtask test    the Rust tests");
             println!(
-                "cargo xtask python  [--full]: build the wheel and run the Python tests, those with heavy packages too"
+                "cargo xtask python  [--full]: build the wheel and run the Python tests; --full adds heavy packages"
             );
-            println!(
-                "cargo xtask calibrate  [--check] [--only SECTION] [--count N]: our figures beside those measured of GRF"
-            );
-            println!(
-                "cargo xtask soak    [--steps N] [--seed S]: long runs of scenarios made up at random; see lab/soak.csv"
-            );
+            println!("cargo xtask calibrate  [--check] [--only SECTION] [--count N]: compare our figures with GRF's");
+            println!("cargo xtask soak    [--steps N] [--seed S]: long runs of random scenarios; see lab/soak.csv");
             println!(
                 "cargo xtask transfer  [--scenario NAME]… [--steps N] [--episodes N] [--recorded] [--seed S]: agents in both games"
             );
             println!("cargo xtask schema  write docs/pitchc.schema.json");
-            println!("cargo xtask tidy    the rules of the house: which room may use which, file lengths, words");
+            println!("cargo xtask tidy    the project's rules: which room may use which, file lengths, words");
             println!(
                 "cargo xtask fuzz    [TARGET…] [--seconds N] [--seed S] [--keep]: random inputs; see fuzz/README.md"
             );

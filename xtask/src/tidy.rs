@@ -1,4 +1,4 @@
-//! The rules of the house that a machine can check: which room may use which, where files and clocks
+//! The project's rules that a machine can check: which room may use which, where files and clocks
 //! are read, file lengths, words.
 
 mod rooms;
@@ -9,10 +9,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Longest source file, lines; tests apart.
+/// Longest source file in lines, without tests.
 const LINES_MAX: usize = 600;
 
-/// The room, and everything it may depend on.
+/// Each room, and everything that it may depend on.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("setpiece-grammar", &["pest", "pest_derive"]),
     ("setpiece-scenario", &["ciborium", "libm", "schemars", "serde", "serde_json"]),
@@ -82,8 +82,8 @@ const MAY_SAY: &[(&str, &str)] = &[
     ("engine/src/judge/script/budget.rs", "thread_local!"),
 ];
 
-/// The rooms of the compiler (a file of `dsl/src` and the folder beside it), from the ground up, and the rooms that each
-/// may use: only such as stand above it in this list.
+/// The rooms of the compiler (a file of `dsl/src` and its folder), from the ground up, and the
+/// rooms that each may use. These must come earlier in the list.
 const DSL_ARROWS: &[(&str, &[&str])] = &[
     ("source", &[]),
     ("habit", &[]),
@@ -100,7 +100,7 @@ const DSL_ARROWS: &[(&str, &[&str])] = &[
     ("compile", &["source", "cast", "origins", "ast", "problem", "parse", "resolve", "lower"]),
 ];
 
-/// Checks every rule and names each breach.
+/// Checks every rule and reports each breach.
 pub(crate) fn tidy() -> Result<(), String> {
     let mut breaches = Vec::new();
     dependencies(&mut breaches)?;
@@ -108,7 +108,7 @@ pub(crate) fn tidy() -> Result<(), String> {
     for (folder, words, why) in MUST_NOT_SAY {
         for file in rust_files(&root().join(folder)) {
             let text = read(&file)?;
-            // Tests at the end of a file may use what they like.
+            // Tests at the end of a file may use anything.
             let code = text.split("#[cfg(test)]").next().unwrap_or_default();
             let allowed = |word: &str| MAY_SAY.iter().any(|(path, said)| *said == word && file.ends_with(path));
             for word in words.iter().filter(|word| !allowed(word)) {
@@ -152,7 +152,7 @@ pub(crate) fn tidy() -> Result<(), String> {
     }
 }
 
-/// Holds the compiler's rooms to [`DSL_ARROWS`].
+/// Checks the compiler's rooms against [`DSL_ARROWS`].
 fn dsl_arrows(breaches: &mut Vec<String>) -> Result<(), String> {
     let folder = root().join("dsl/src");
     for (at, (room, may_use)) in DSL_ARROWS.iter().enumerate() {
@@ -173,7 +173,7 @@ fn dsl_arrows(breaches: &mut Vec<String>) -> Result<(), String> {
         };
         let text = read(&file)?;
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        // From the file of a room up to the crate's root, either way to write it.
+        // From a room's file up to the crate's root, in both notations.
         let to_root = ["crate::".to_owned(), "super::".repeat(rooms.len())];
         for (line, code) in code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//")) {
             for used in to_root.iter().flat_map(|root| code.split(root.as_str()).skip(1)) {

@@ -1,11 +1,11 @@
-//! Agents in both games: makes an environment of its own and runs `lab/transfer/transfer.py` in it.
+//! Agents in both games: creates a separate environment and runs `lab/transfer/transfer.py` in it.
 
 use crate::ci::{install_wheel, pip, root, run, system_python, venv, wheel};
 use std::process::Command;
 
-/// Checks the options, makes the environment and trains, plays and writes `docs/transfer.md`.
+/// Checks the options, creates the environment and trains, plays and writes `docs/transfer.md`.
 ///
-/// The environment stands in `target/venv-transfer`. With `--recorded` the real game is not installed.
+/// The environment is in `target/venv-transfer`. With `--recorded` the real game isn't installed.
 pub(crate) fn transfer(args: &[String]) -> Result<(), String> {
     // A mistyped option is reported before anything is built.
     let options = Command::new(system_python())

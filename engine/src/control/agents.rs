@@ -7,10 +7,10 @@ use setpiece_scenario::vocabulary::{Action, StickyAction};
 
 /// The point (1, 0) of the own frame, which the scripted agent runs to, metres.
 const POINT: Vec2 = Vec2::new(54.4, 0.0);
-/// From how near the scripted agent shoots, metres.
+/// The scripted agent shoots within this distance, metres.
 const SHOOT_M: f32 = 16.0;
 
-/// The eight directions in the order of their actions: unit vectors of the own frame.
+/// The eight directions in the order of their actions, as unit vectors of the own frame.
 pub const WAYS: [(Action, Vec2); 8] = {
     const D: f32 = std::f64::consts::FRAC_1_SQRT_2 as f32;
     [
@@ -32,7 +32,7 @@ pub enum Agent {
     Idle,
     /// Uniform over GRF's 19 actions.
     Random,
-    /// Sprints at goal with the ball, shoots from 16 m, else chases the ball.
+    /// Sprints at goal with the ball, shoots from 16 m, and chases the ball otherwise.
     RunAndShoot,
     /// The built-in bot.
     Bot,
@@ -48,7 +48,7 @@ impl Agent {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, agent)| agent)
     }
 
-    /// The next action for a slot; `stream` is used by [`Agent::Random`] alone.
+    /// The next action for a slot. Only [`Agent::Random`] uses `stream`.
     pub fn act(self, game: &Match, slot: usize, stream: &mut Stream) -> Action {
         match self {
             Agent::Idle => Action::Idle,
@@ -61,7 +61,8 @@ impl Agent {
     }
 }
 
-/// Sprints towards the middle of the goal with the ball, shoots when nearer than 16 m, else chases the ball.
+/// Sprints towards the middle of the goal with the ball, shoots when nearer than 16 m, and chases
+/// the ball otherwise.
 pub fn run_and_shoot(game: &Match, slot: usize) -> Action {
     let Some(agent) = game.agents.get(slot) else { return Action::Idle };
     let Some(id) = agent.player else { return Action::Idle };
@@ -86,7 +87,7 @@ pub fn run_and_shoot(game: &Match, slot: usize) -> Action {
     }
 }
 
-/// The direction action nearest to a way in the own frame.
+/// The direction action nearest to a direction in the own frame.
 pub fn direction_action(way: Vec2) -> Action {
     let mut best = (f32::MIN, Action::Right);
     for (action, direction) in WAYS {

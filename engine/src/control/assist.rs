@@ -1,5 +1,5 @@
-//! GRF's magnet: a controlled player runs to a ball that is his, whatever direction is held. Whoever is scripted and no
-//! agent's does what is written.
+//! GRF's magnet: a controlled player runs to a ball that is theirs, whatever direction is held.
+//! Scripted players without an agent do exactly what their script says.
 
 use crate::football::pace::SPRINT_MPS;
 use crate::math;
@@ -8,28 +8,31 @@ use glam::Vec2;
 use setpiece_scenario::vocabulary::Rule;
 use std::f32::consts::{FRAC_PI_2, PI};
 
-/// Who has less than this share of the rivals' time to the ball to spare takes the soonest meeting with it. (GRF's.)
+/// A player whose lead over the rivals' time to the ball is less than this share takes the soonest
+/// meeting with it. (GRF's.)
 const HASTE: f32 = 1.1;
-/// What is added to both times before they are compared, seconds. (GRF's.)
+/// Added to both times before they are compared, seconds. (GRF's.)
 const ADDED_S: f32 = 0.2;
-/// The lowest share of the time at a meeting that the soonest one may need. (GRF's.)
+/// The soonest meeting must take at least this share of a meeting's time. (GRF's.)
 const SOONEST: f32 = 0.35;
 /// Higher balls are not met, metres. (GRF's.)
 const HIGH_M: f32 = 1.0;
-/// How fast a player goes to a place that is so far away, 1/s. (GRF's.)
+/// Speed (m/s) per metre of distance to a place. (GRF's.)
 const PER_S: f32 = 2.6;
-/// The angles to the ball's way that are told apart, a full turn of them. (GRF's.)
+/// The number of distinct angles to the ball's path in a full turn. (GRF's.)
 const ANGLES: f32 = 16.0;
-/// How near a meeting is the touch itself, seconds; chosen.
+/// A meeting this soon is the touch itself, seconds; chosen.
 const TOUCH_S: f32 = 0.25;
-/// How long a player's own movement goes on, seconds; how near the ball comes to be played, metres; and what of their top
-/// speed they reach on the way. As everywhere a meeting is reckoned.
+/// How long a player's own movement continues, seconds; how near the ball must come to be played,
+/// metres; and the share of their top speed that they reach. The same as wherever a meeting is
+/// computed.
 const CARRIED_S: f32 = 0.12;
 const REACH_M: f32 = 0.45;
 const PACE: f32 = 0.94;
 
-/// Whether the ball is the player's to get: he is his team's nearest, and no rival has it or is much sooner there.
-pub fn ball_is_his(game: &Match, id: PlayerId) -> bool {
+/// Whether the ball is the player's to get: they are their team's nearest, and no rival has it or
+/// reaches it much sooner.
+pub fn ball_is_theirs(game: &Match, id: PlayerId) -> bool {
     let controlled = game.agents.iter().any(|slot| slot.player == Some(id));
     if !controlled || !game.rule(Rule::Assist) || game.play.set_piece.is_some() || game.play.hands.is_some() {
         return false;
@@ -46,9 +49,11 @@ pub fn ball_is_his(game: &Match, id: PlayerId) -> bool {
     receiver || game.player(id).body.meet_s < rival + 0.2
 }
 
-/// Where a player with time to spare meets a ball that comes, and how fast they go there, m/s: of all meetings the one that
-/// is most like the direction held, and a little the one that is nearest to the ball's way. None where there is no time
-/// to spare, or the ball is there. (GRF's.)
+/// Where a player with time to spare meets an approaching ball, and how fast they go there, m/s.
+/// None if there is no time to spare, or if the ball is already there. (GRF's.)
+///
+/// Of all meetings it takes the one most like the held direction, with a slight preference for the
+/// one nearest to the ball's path.
 pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
     let player = game.player(id);
     let rival = game.play.chaser[id.team().other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
@@ -100,7 +105,7 @@ pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
     best.map(|(_, place, pace)| (place, pace))
 }
 
-/// A direction, turned to the nearest of the angles to another that are told apart.
+/// Rounds a direction to the nearest of the distinct angles relative to another.
 fn turned_to(direction: Vec2, other: Vec2) -> Vec2 {
     let angle = math::atan2(other.perp_dot(direction), other.dot(direction));
     math::unit((angle * (ANGLES / (2.0 * PI))).round() * (2.0 * PI / ANGLES)).rotate(other)

@@ -1,9 +1,9 @@
-//! Scripted players: behaviours and scripts choose their actions as agents do.
+//! Scripted players: behaviours and scripts choose their actions, as agents do.
 //!
-//! Decides each scripted player's action on the state before a step, players in roster order; leaves to
-//! [`driver`](super::driver) what an action means. A player whom an agent drives is left to the agent: his behaviour
-//! waits where it is. Inside: [`actor`] goes through a behaviour's nodes, [`perform`] turns a primitive into actions,
-//! [`steer`] chooses among the eight directions.
+//! Decides each scripted player's action from the state before a step, in roster order.
+//! [`driver`](super::driver) decides what an action means. A player driven by an agent is left to
+//! the agent, and their behaviour pauses. Inside: [`actor`] steps through a behaviour's nodes,
+//! [`perform`] turns a primitive into actions, [`steer`] chooses among the eight directions.
 
 pub mod actor;
 pub mod perform;
@@ -30,7 +30,7 @@ pub struct Actors {
     plans: Arc<[Behavior]>,
     list: Vec<Actor>,
     known: Known,
-    /// By plan.
+    /// One per plan.
     regs: Vec<Registers>,
     prev: View,
     faults: u32,
@@ -66,22 +66,22 @@ impl Actors {
         }
     }
 
-    /// Whether nobody is scripted.
+    /// Whether no player is scripted.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// Goes on with other scripts.
+    /// Replaces the scripts.
     pub fn adopt(&mut self, scripts: Scripts) {
         self.known.adopt(scripts);
     }
 
-    /// Values of this episode that were stopped because they were impossible.
+    /// Values of this episode that were dropped because they were impossible.
     pub fn faults(&self) -> u32 {
         self.faults
     }
 
-    /// Begins an episode: the match stands at its start.
+    /// Begins an episode; the match is at its start.
     pub fn reset(&mut self, game: &Match, given: &Given<'_>) {
         if self.list.is_empty() {
             return;
@@ -94,24 +94,25 @@ impl Actors {
         }
     }
 
-    /// Writes or reads what they remember; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads their memory. Before reading, [`Self::reset`] has been called.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         if self.list.is_empty() {
             return Ok(());
         }
-        self.known.pass(archive)?;
+        self.known.archive(archive)?;
         archive.value("prev", &mut self.prev)?;
         archive.value("faults", &mut self.faults)?;
-        self.list.iter_mut().try_for_each(|actor| actor.pass(archive))
+        self.list.iter_mut().try_for_each(|actor| actor.archive(archive))
     }
 
-    /// Chooses every scripted player's action: writes [`Acting::chosen`](crate::state::play::Acting) of the match.
+    /// Chooses every scripted player's action: writes
+    /// [`Acting::chosen`](crate::state::play::Acting) of the match.
     ///
-    /// - `events`: those of the step before.
+    /// - `events`: those of the last step.
     /// - `actions`: the agents' actions of this step, by slot.
     ///
     /// # Errors
-    /// An `act` hook that failed; the episode can't go on.
+    /// An `act` hook that failed; the episode can't continue.
     pub fn choose(&mut self, game: &mut Match, events: &[Event], actions: &[Action]) -> Result<(), ScriptError> {
         if self.list.is_empty() {
             return Ok(());

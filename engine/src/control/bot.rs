@@ -1,10 +1,11 @@
 //! The built-in bot: it plays everyone without an agent.
 //!
-//! Decides in this order: a set piece of their own, the ball in their hands or at their feet ([`on_ball`]), going for the
-//! ball ([`press`]), else [`off_ball`]: a place in the block ([`formation`]), drawn by [`support`] and [`mark`]; keepers by
-//! [`keeper`]. Decisions are staggered: near what happens in every step, elsewhere in every second.
+//! It decides in this order: a set piece to take, the ball in hands or at feet ([`on_ball`]), going
+//! for the ball ([`press`]), else [`off_ball`]: a place in the block ([`formation`]), shifted by
+//! [`support`] and [`mark`]. Keepers are decided by [`keeper`]. Decisions are staggered: near the
+//! action in every step, elsewhere in every second.
 //!
-//! Figures of its files are GRF's, measured, fitted or chosen, as each says.
+//! The figures in these files are GRF's, measured, fitted or chosen, as each says.
 
 mod board;
 pub mod dribbling;
@@ -29,17 +30,18 @@ use setpiece_scenario::pitch::HALF_LENGTH_M;
 use setpiece_scenario::vocabulary::Role;
 use setpiece_scenario::{Ai, Others};
 
-/// The middle of their goal in the own frame, metres; of the own one, its negative.
+/// The middle of the attacked goal in the own frame, metres; the own goal is its negative.
 const GOAL: Vec2 = Vec2::new(HALF_LENGTH_M as f32, 0.0);
-/// How near a ball must come to one who is to hold their place, metres; chosen.
+/// A ball must come this near to a player who is to hold their place, metres; chosen.
 const HOLD_M: f32 = 6.0;
-/// Steps between two decisions of a player who is not near what happens, and of one who is far from it.
+/// Steps between two decisions of a player who isn't near the action, and of one who is far from
+/// it.
 const STAGGER: [u32; 2] = [2, 4];
-/// How near to what happens everyone decides in every step, metres; chosen.
+/// Within this distance of the action everyone decides in every step, metres; chosen.
 const NEAR_M: f32 = 15.0;
-/// From how far off they are far from it, metres; chosen.
+/// From this distance on a player is far from the action, metres; chosen.
 const FAR_M: f32 = 30.0;
-/// Steps between two times that slots and opponents are given out. (GRF's.)
+/// Steps between two assignments of slots and opponents. (GRF's.)
 const ASSIGN_EVERY: u32 = 4;
 
 /// Lets the bot decide for everyone without an agent.
@@ -72,14 +74,14 @@ pub fn think(game: &mut Match) {
     }
 }
 
-/// Who plays somebody now: their own `ai`, or what the scenario says of an agent's mates.
+/// Who plays a player now: their own `ai`, or the scenario's choice for an agent's teammates.
 fn ai_of(game: &Match, id: PlayerId) -> Ai {
     let ai = game.player(id).ai;
     let mates_hold = game.play.others == Others::Hold && game.play.led[id.team().index()];
     if ai == Ai::Bot && mates_hold { Ai::Hold } else { ai }
 }
 
-/// Stands, but plays a ball that comes; with it in their hands they are a keeper like any other.
+/// Stands, but plays a ball that comes. With the ball in hand, the player acts like any keeper.
 fn hold(game: &mut Match, view: &View, id: PlayerId) {
     if game.play.hands.is_some_and(|(keeper, _)| keeper == id) {
         on_ball::decide(game, view, id);
@@ -92,7 +94,7 @@ fn hold(game: &mut Match, view: &View, id: PlayerId) {
     body.intent = if theirs { Intent::Ball(5.0) } else { Intent::Stand };
 }
 
-/// One player's decision.
+/// Decides for one player.
 fn decide(game: &mut Match, view: &View, id: PlayerId) {
     if game.player(id).body.lunge.is_some_and(|lunge| lunge.aim == Aim::Kick) {
         return;
@@ -129,7 +131,8 @@ fn decide(game: &mut Match, view: &View, id: PlayerId) {
     off_ball::place(game, view, id);
 }
 
-/// Whether the bot may pass and shoot for somebody: not for the mates of an agent who can be given to it.
+/// Whether the bot may pass and shoot for a player. It may not for teammates that the agent can
+/// switch to.
 fn may_decide(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     let team = id.team();

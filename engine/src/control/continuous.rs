@@ -1,28 +1,29 @@
-//! Continuous actions: four numbers in the place of a key.
+//! Continuous actions: four numbers instead of a key.
 //!
-//! `[x, y, kind, power]`, own frame: the way to run, whose length is the pace (0 stands, 1 sprints); what to do with the
-//! ball, [`KINDS`] in equal parts of -1..1; and the power of a kick, 0..1: how hard a shot is and how far a pass goes,
-//! 0 leaves both to the kicker as a key does.
+//! `[x, y, kind, power]`, own frame. `x`, `y`: the direction to run, whose length is the pace (0
+//! stands, 1 sprints). `kind`: what to do with the ball, [`KINDS`] in equal parts of -1..1.
+//! `power`: the power of a kick, 0..1, which sets how hard a shot is and how far a pass goes. At 0
+//! the kicker decides, as with a key.
 
 use crate::state::Steer;
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Action;
 
-/// How many numbers an action has.
+/// The number of values in an action.
 pub const WIDTH: usize = 4;
 /// Least values.
 pub const LOW: [f32; WIDTH] = [-1.0, -1.0, -1.0, 0.0];
 /// Greatest values.
 pub const HIGH: [f32; WIDTH] = [1.0; WIDTH];
-/// What `kind` means, in equal parts from -1 to 1.
+/// The meanings of `kind`, in equal parts from -1 to 1.
 pub const KINDS: [Action; 6] =
     [Action::Idle, Action::ShortPass, Action::LongPass, Action::HighPass, Action::Shot, Action::Sliding];
 
-/// What rounding may leave a way longer than 1 that has been cut to it: cut again it would be another one, and a recorded
-/// way must mean itself.
+/// Rounding may leave a direction that was cut to length 1 this much too long. Cutting it again
+/// would change it, but a recorded direction must stay the same.
 const ROUNDING: f32 = 1e-6;
 
-/// What four numbers mean, held within their bounds; none where one is no number.
+/// Decodes four numbers, clamped to their bounds. None if one of them is NaN.
 pub fn decode(values: [f32; WIDTH]) -> Option<(Steer, Action)> {
     if values.iter().any(|value| !value.is_finite()) {
         return None;

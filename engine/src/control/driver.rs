@@ -1,4 +1,4 @@
-//! An agent's actions become what its player wants.
+//! Turns an agent's actions into what its player wants.
 
 use crate::control::{assist, sticky};
 use crate::football::pace::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
@@ -9,14 +9,14 @@ use crate::state::{Match, Player, PlayerId, Steer};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, GameMode, Role};
 
-/// A slower pace than this is standing, share of a sprint; chosen.
+/// A lower pace counts as standing, share of a sprint; chosen.
 const STILL: f32 = 0.1;
 
-/// How much of their pace a player on the ball keeps from stride to stride while a kick is asked for (GRF's), and strides a
-/// step.
+/// The share of their speed that a player on the ball keeps per stride while a kick is requested
+/// (GRF's), and strides per step.
 const BRAKED: f32 = 0.9;
 const STRIDES: f32 = 0.4;
-/// The same from step to step while the leg swings, and as it follows through. Measured.
+/// The same per step while the leg swings, and while it follows through. Measured.
 const SWINGING: f32 = 0.89;
 const FOLLOWING: f32 = 0.93;
 
@@ -25,14 +25,14 @@ const FOLLOWING: f32 = 0.93;
 pub struct Held {
     /// Held keys.
     pub sticky: u16,
-    /// A steered direction in the place of a held one.
+    /// A steered direction instead of a held one.
     pub steer: Option<Steer>,
-    /// The kick whose key has been down since it was asked for.
+    /// The kick whose key is still down since it requested that kick.
     pub key: Option<KickKind>,
 }
 
 impl Held {
-    /// The world direction, if one is held, and how fast it is run in, m/s.
+    /// The held world direction, if any, and its speed, m/s.
     fn run(self, side: f32, has_ball: bool) -> (Option<Vec2>, f32) {
         if let Some(steer) = self.steer {
             let pace = steer.way.length();
@@ -50,12 +50,14 @@ impl Held {
     }
 }
 
-/// Sets the intent and the planned kick of an agent's player; returns the kick whose key is down and has been heard.
+/// Sets the intent and the planned kick of an agent's player. Returns the kick whose key is down
+/// and has been processed.
 pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action) -> Option<KickKind> {
     let has_ball = game.owner == Some(id) || game.controller() == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
     let power = held.steer.map_or(0.0, |steer| steer.power);
-    // In the first step of a start only a keeper hears a kick. (Measured: whoever is played then, it goes to the keeper.)
+    // In the first step of a start only a keeper reacts to a kick. (Measured: it goes to the
+    // keeper, whoever is controlled.)
     let starts = game.step == 0 && game.play.set_piece.is_none() && game.player(id).role != Role::GK;
     let kind = kick_of(action).filter(|_| !starts);
     let key = match kind {
@@ -69,7 +71,7 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     let player = *game.player(id);
     let takes = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
     let chases = sticky::presses(held.sticky) && !may_play(game, id);
-    let fetch = has_ball || player.body.kick.is_some() || assist::ball_is_his(game, id);
+    let fetch = has_ball || player.body.kick.is_some() || assist::ball_is_theirs(game, id);
     let body = &mut game.players[id.index()].body;
     if let Some(plan) = &mut body.kick {
         plan.held = kind == Some(plan.kind);
@@ -88,13 +90,14 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
         direction.unwrap_or(Vec2::ZERO) * gait
     };
     if takes {
-        // Whoever takes a set piece stands until the run-up.
+        // The taker of a set piece stands until the run-up.
         body.dribble = Vec2::ZERO;
         let runs = body.kick.is_some_and(|plan| !plan.held || plan.swing.is_some());
         body.intent = if runs { Intent::Ball(SPRINT_MPS) } else { Intent::Stand };
         return key;
     }
-    // Whoever asks for nothing else lets a pass come; whoever holds its direction goes to meet it.
+    // A player without a held direction lets a pass come; one who holds the pass's direction goes
+    // to meet it.
     let meets = direction.is_some_and(|ahead| ahead.dot(game.ball.pos.truncate() - player.pos) > 0.0);
     let stands = !has_ball && !meets && player.body.kick.is_none() && reach::comes_to(game, &player);
     let spare = fetch && !has_ball && player.body.kick.is_none();
@@ -120,7 +123,7 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     key
 }
 
-/// The kick that an action asks for.
+/// The kick that an action requests.
 fn kick_of(action: Action) -> Option<KickKind> {
     match action {
         Action::ShortPass => Some(KickKind::Short),
@@ -131,8 +134,8 @@ fn kick_of(action: Action) -> Option<KickKind> {
     }
 }
 
-/// What a player on the ball runs while a kick is asked for: they keep their line and brake, most where another direction
-/// is held. (GRF's.)
+/// The velocity of a player on the ball while a kick is requested. They keep their line and brake,
+/// most if another direction is held. (GRF's.)
 fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
     let speed = player.vel.length();
     let ahead = if speed > 1.0 { player.vel / speed } else { player.body.facing };
@@ -140,10 +143,11 @@ fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
     ahead * (speed * libm::powf(BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5)), STRIDES))
 }
 
-/// The key of a kick goes down: whether that asks for the kick, or changes one that is asked for.
+/// Presses the key of a kick. Returns whether that requests the kick, or changes the requested one.
 ///
-/// A short pass ends a shot or lofted pass that is asked for; any other key changes nothing of it. (GRF's.) A steered pass
-/// of some power goes to a point, so far along its direction; any other finds a mate.
+/// A short pass cancels a requested shot or lofted pass; any other key doesn't change it. (GRF's.)
+/// A steered pass with some power goes to a point that far along its direction; any other finds a
+/// teammate.
 fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, power: f32) -> bool {
     if !may_arm(game, id, kind) {
         return false;
@@ -160,7 +164,7 @@ fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, powe
     true
 }
 
-/// How far a steered pass of full power goes, metres; chosen.
+/// The distance of a steered pass at full power, metres; chosen.
 fn reach_m(kind: KickKind) -> f32 {
     match kind {
         KickKind::Short => 30.0,
@@ -169,8 +173,9 @@ fn reach_m(kind: KickKind) -> f32 {
     }
 }
 
-/// Whether the key of a kick does something: the ball is the player's to play, and a throw-in is a pass to a mate; while a
-/// kick is asked for its own key goes on, and a short pass ends a shot or lofted pass whose swing has not begun.
+/// Whether the key of a kick has an effect: the ball must be the player's to play, and a throw-in
+/// must be a pass to a teammate. While a kick is requested, its own key stays effective, and a
+/// short pass cancels a shot or lofted pass whose swing hasn't begun.
 pub fn may_arm(game: &Match, id: PlayerId, kind: KickKind) -> bool {
     if let Some(plan) = game.player(id).body.kick {
         let ends = kind == KickKind::Short && matches!(plan.kind, KickKind::Shot | KickKind::High);
@@ -180,12 +185,12 @@ pub fn may_arm(game: &Match, id: PlayerId, kind: KickKind) -> bool {
     may_play(game, id) && !(thrown && matches!(kind, KickKind::High | KickKind::Shot))
 }
 
-/// Whether a slide can be asked for: it is for a ball that the others have or will have first.
+/// Whether a slide can be requested: opponents must have the ball, or be about to.
 pub fn may_slide(game: &Match, id: PlayerId) -> bool {
     slide::may_begin(game, id) && !may_play(game, id)
 }
 
-/// Whether the ball is a player's to play: they have it, or are nearer to it than every rival.
+/// Whether the ball is a player's to play: they have it, or are nearer to it than every opponent.
 pub fn may_play(game: &Match, id: PlayerId) -> bool {
     if let Some(set_piece) = game.play.set_piece {
         return set_piece.taker == id;

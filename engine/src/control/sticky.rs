@@ -1,4 +1,4 @@
-//! Held actions: directions, gaits and orders to the team last until changed.
+//! Held actions: directions, gaits and team orders last until changed.
 
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
@@ -50,7 +50,7 @@ pub fn next(sticky: u16, action: Action) -> u16 {
     }
 }
 
-/// Whether an action puts one of the eight directions, or none, in the place of a steered one.
+/// Whether an action replaces a steered direction by one of the eight, or by none.
 pub fn unsteers(action: Action) -> bool {
     action.direction().is_some() || matches!(action, Action::ReleaseDirection | Action::BuiltinAi)
 }
@@ -80,12 +80,12 @@ pub fn rushes(sticky: u16) -> bool {
     sticky & KEEPER_RUSH != 0
 }
 
-/// Whether the own player is told to chase.
+/// Whether the controlled player is ordered to chase.
 pub fn presses(sticky: u16) -> bool {
     sticky & PRESSURE != 0
 }
 
-/// Whether a mate is told to press.
+/// Whether a teammate is ordered to press.
 pub fn team_presses(sticky: u16) -> bool {
     sticky & TEAM_PRESSURE != 0
 }

@@ -1,9 +1,10 @@
-//! What the bot does, told as an agent's action: one press a step, relative to what is held.
+//! The bot's play, expressed as an agent's actions: one press per step, relative to what is held.
 //!
-//! Decides how an intent, a planned kick and a slide are said in Google Research Football's actions; changes nothing of
-//! the match but what it keeps of presses. A kick is told once: in the step in which it is planned, or, where the held
-//! direction would send it elsewhere, in the next one, after the direction that it needs. A clearance is told as a
-//! lofted pass, the nearest thing that an agent can do.
+//! Decides how an intent, a planned kick and a slide are expressed in Google Research Football's
+//! actions. It changes nothing of the match but its record of presses. A kick is pressed once, in
+//! the step in which it is planned. If the held direction would send it elsewhere, it is pressed
+//! one step later, after the direction that it needs. A clearance becomes a lofted pass, the
+//! nearest thing that an agent can do.
 
 use crate::control::behavior::steer::{Gait, rest, towards};
 use crate::control::{agents, sticky};
@@ -15,25 +16,25 @@ use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
 use setpiece_scenario::vocabulary::Action;
 
-/// Nearer than this to where the bot sends him he stands, metres.
+/// Nearer than this to their target, players stand, metres.
 const THERE_M: f32 = 1.0;
-/// A ball this near is at his feet: he runs as he wants to dribble, metres.
+/// A ball this near is at the player's feet; they run as they want to dribble, metres.
 const AT_FEET_M: f32 = 1.2;
-/// Who is after a ball at another's feet looks so far ahead, seconds.
+/// A player chasing a ball at another's feet predicts this far ahead, seconds.
 const CHASE_AHEAD_S: f32 = 0.3;
-/// Wishes slower than this are a stand, m/s.
+/// Slower wishes count as standing, m/s.
 const STAND_MPS: f32 = 0.3;
-/// Faster than the first sprint is pressed, slower than the second it is released, m/s.
+/// Sprint is pressed above the first speed and released below the second, m/s.
 const SPRINT_MPS: [f32; 2] = [6.0, 5.5];
-/// With the ball at his feet and slower than this he dribbles closely, m/s.
+/// A player with the ball at their feet dribbles closely below this speed, m/s.
 const CLOSE_MPS: f32 = 4.6;
 
-/// What was under way before the bots decided, by player, a bit each.
+/// What was under way before the bots decided, one bit per player.
 #[derive(Clone, Copy, Debug)]
 pub struct Before {
     /// A kick was planned.
     armed: u32,
-    /// He was sliding.
+    /// The player was sliding.
     sliding: u32,
 }
 
@@ -50,7 +51,8 @@ impl Before {
     }
 }
 
-/// Records what everyone played by the bot has decided as a press, and what he would hold after it.
+/// Records what everyone played by the bot has decided as a press, and what they would hold after
+/// it.
 pub fn record(game: &mut Match, before: &Before) {
     for id in game.squad.ids() {
         let player = game.player(id);
@@ -58,26 +60,26 @@ pub fn record(game: &mut Match, before: &Before) {
         if !player.active || player.ai == Ai::Lazy || acting.played.is_some() {
             continue;
         }
-        let told = tell(game, before, id, acting.sticky);
+        let presses = tell(game, before, id, acting.sticky);
         let acting = &mut game.play.acting[id.index()];
-        acting.played = Some(told.press);
-        acting.chosen = told.owed;
-        acting.sticky = sticky::next(acting.sticky, told.press);
+        acting.played = Some(presses.press);
+        acting.chosen = presses.owed;
+        acting.sticky = sticky::next(acting.sticky, presses.press);
     }
 }
 
-/// What is told of a decision.
+/// A decision expressed as presses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Told {
-    /// What he presses in this step.
+pub struct Presses {
+    /// The press of this step.
     pub press: Action,
-    /// The kick that he presses in the next one, if it is still planned then.
+    /// The kick pressed in the next step, if it is still planned then.
     pub owed: Option<Action>,
 }
 
-/// Tells what the bot has just decided for a player who holds `held`.
-pub fn tell(game: &Match, before: &Before, id: PlayerId, held: u16) -> Told {
-    let press = |press| Told { press, owed: None };
+/// Expresses what the bot has just decided for a player who holds `held`.
+pub fn tell(game: &Match, before: &Before, id: PlayerId, held: u16) -> Presses {
+    let press = |press| Presses { press, owed: None };
     let body = &game.player(id).body;
     let was = |what: u32| what & (1 << id.0) != 0;
     if body.pose == Pose::Sliding && !was(before.sliding) {
@@ -90,7 +92,7 @@ pub fn tell(game: &Match, before: &Before, id: PlayerId, held: u16) -> Told {
         }
         let kick = kick_of(plan.kind);
         return match turn_for(game, id, plan, held) {
-            Some(direction) => Told { press: direction, owed: Some(kick) },
+            Some(direction) => Presses { press: direction, owed: Some(kick) },
             None => press(kick),
         };
     }
@@ -112,7 +114,7 @@ pub fn tell(game: &Match, before: &Before, id: PlayerId, held: u16) -> Told {
     press(towards(held, way * id.team().side() as f32, gait))
 }
 
-/// The way a player wants to go, world metres, and how fast; zero where he wants to stand.
+/// The direction a player wants to go, world metres, and how fast; zero if they want to stand.
 fn wish(game: &Match, id: PlayerId) -> (Vec2, f32) {
     let player = game.player(id);
     match player.body.intent {
@@ -127,7 +129,7 @@ fn wish(game: &Match, id: PlayerId) -> (Vec2, f32) {
     }
 }
 
-/// The way of a player who goes for the ball or has it.
+/// The direction of a player who goes for the ball or has it.
 fn for_ball(game: &Match, id: PlayerId, speed: f32) -> (Vec2, f32) {
     let player = game.player(id);
     let to_ball = game.ball.pos.truncate() - player.pos;
@@ -142,12 +144,12 @@ fn for_ball(game: &Match, id: PlayerId, speed: f32) -> (Vec2, f32) {
     standing(to_meet, (1.25 * needed).min(speed))
 }
 
-/// A way and its speed; zero where it is hardly one.
+/// A direction and its speed; zero if it is too slow.
 fn standing(way: Vec2, speed: f32) -> (Vec2, f32) {
     if way.length() < STAND_MPS { (Vec2::ZERO, 0.0) } else { (way, speed) }
 }
 
-/// The press that calls for a kind of kick.
+/// The press that requests a kind of kick.
 fn kick_of(kind: KickKind) -> Action {
     match kind {
         KickKind::Short => Action::ShortPass,
@@ -157,7 +159,7 @@ fn kick_of(kind: KickKind) -> Action {
     }
 }
 
-/// The direction that must be held first for a kick to go where it is meant to; none where it does so already.
+/// The direction that must be held first for a kick to go where it should. None if it already does.
 fn turn_for(game: &Match, id: PlayerId, plan: &KickPlan, held: u16) -> Option<Action> {
     let side = id.team().side() as f32;
     let from = game.player(id).pos;

@@ -9,32 +9,33 @@ use setpiece_scenario::pitch::{
 };
 use setpiece_scenario::vocabulary::Team;
 
-/// Least distance between two players of whom one was placed at random.
+/// Least distance between two players if one of them was placed at random.
 const MIN_GAP_M: f32 = 0.6;
-/// Greatest size of a heading: a float of 32 bits still tells a hundredth of a degree from the next.
+/// The largest heading. A 32-bit float of this size still resolves a hundredth of a degree.
 const HEADING_MAX_RAD: f64 = 1.0e3;
-/// How far a number may lie beyond its bound: texts are held to it with 64 bits, and the match has 32.
+/// How far a number may exceed its bound. Texts are checked in 64 bits, but the match has 32.
 const SLACK: f64 = 1.0e-3;
 
 /// What can be wrong with a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fault {
-    /// A place, velocity or heading is no number.
+    /// A place, velocity or heading is NaN.
     Number,
-    /// The ball lies off the pitch.
+    /// The ball is off the pitch.
     Ball,
-    /// A player stands off the pitch.
+    /// A player is off the pitch.
     Player,
-    /// Two players stand in each other.
+    /// Two players overlap.
     Gap,
-    /// A number is beyond what play can go on from; texts are held to narrower bounds, files may say anything.
+    /// A number that play can't continue from. Texts have narrower bounds, but files may hold
+    /// anything.
     Bounds,
 }
 
 impl Fault {
     pub(super) const ALL: [Fault; 5] = [Fault::Number, Fault::Ball, Fault::Player, Fault::Gap, Fault::Bounds];
 
-    /// The requirement, in words.
+    /// The requirement in words.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Fault::Number => "every place, velocity and heading is a number",
@@ -49,7 +50,7 @@ impl Fault {
 }
 
 impl Drawer {
-    /// What is wrong with the places of the present attempt, if anything.
+    /// What is wrong with the places of this attempt, if anything.
     pub(super) fn misplaced(&self, scenario: &Scenario, roster: &Roster) -> Option<Fault> {
         let start = &scenario.start;
         let ball = self.point((start.ball.x, start.ball.y));
@@ -68,7 +69,8 @@ impl Drawer {
         if layouts.flat_map(|at| [at.kicking, at.receiving]).any(|at| self.point(at).is_nan()) {
             return Some(Fault::Number);
         }
-        // Where the men before him stand, whether they were drawn there, and whether others may stand there too.
+        // The earlier players: where they stand, whether that was drawn, and whether others may
+        // stand there too.
         let mut placed: ArrayVec<(Vec2, bool, bool), PLAYERS_MAX> = ArrayVec::new();
         for team in Team::ALL {
             for (_, slot) in scenario.team(*team).filter(|&(id, _)| roster.present.get(id) == Some(&true)) {
@@ -86,7 +88,7 @@ impl Drawer {
                     return Some(Fault::Bounds);
                 }
                 let random = self.is_random(own.x) || self.is_random(own.y);
-                // Two fixed places may coincide: the author wrote them so.
+                // Two fixed places may coincide, because the author wrote them.
                 let crowded = placed.iter().any(|&(other, other_random, other_overlap)| {
                     (random || other_random) && !(slot.overlap || other_overlap) && at.distance(other) < MIN_GAP_M
                 });
@@ -99,7 +101,7 @@ impl Drawer {
         None
     }
 
-    /// Whether the ball is as high, fast and spinning as a start may have it.
+    /// Whether the ball's height, speed and spin are allowed in a start.
     fn is_ball_bounded(&self, scenario: &Scenario) -> bool {
         let ball = &scenario.start.ball;
         let [speed, spin] = [self.vector(ball.velocity).length(), self.vector(ball.spin).abs().max_element()];
@@ -109,7 +111,7 @@ impl Drawer {
     }
 }
 
-/// Whether a place lies on the pitch or the rim around it.
+/// Whether a place is on the pitch or the rim around it.
 fn on_pitch(at: Vec2) -> bool {
     at.x.abs() <= RIM_X_M as f32 && at.y.abs() <= RIM_Y_M as f32
 }

@@ -1,4 +1,5 @@
-//! Who takes part: what of a start depends on parameters alone, so that it is known before the first episode.
+//! The players who take part. This depends only on parameters, so it is known before the first
+//! episode.
 
 use super::{DrawKey, Drawer};
 use crate::in_place::clone_in_place;
@@ -13,7 +14,7 @@ use setpiece_scenario::{Bindings, Scenario, SideAgents, Switching};
 pub struct Roster {
     /// Which players take part, by id.
     pub present: [bool; PLAYERS_MAX],
-    /// The agents, left before right: the team, and the player where he is fixed.
+    /// The agents, left before right: the team, and the player if it is fixed.
     pub agents: Vec<(Team, Option<PlayerId>)>,
 }
 
@@ -21,12 +22,12 @@ clone_in_place! {
     Roster { present, agents }
 }
 
-/// Agents asked for instead of the scenario's.
+/// Agents that were requested instead of the scenario's.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct AgentsChoice {
     /// Left and right.
     pub sides: [SideChoice; 2],
-    /// Whether each agent keeps his player for ever; as the scenario says if absent.
+    /// Whether each agent keeps its player; as the scenario says if absent.
     pub fixed: Option<bool>,
 }
 
@@ -35,7 +36,7 @@ pub struct AgentsChoice {
 pub enum SideChoice {
     /// As the scenario says.
     Scenario,
-    /// So many.
+    /// This many.
     Count(u32),
     /// One per controllable player.
     All,
@@ -43,45 +44,46 @@ pub enum SideChoice {
     Players(Vec<String>),
 }
 
-/// Agents were asked for that can't be.
+/// The requested agents are impossible.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RosterError {
-    /// More than there are players for them.
+    /// More agents than controllable players.
     #[error("{asked} agents on the {team} side, which has {controllable} controllable players")]
     TooMany {
         /// The side.
         team: Team,
-        /// How many were asked for.
+        /// The number requested.
         asked: u32,
-        /// How many there may be.
+        /// The number of controllable players.
         controllable: u32,
     },
-    /// Somebody whom no agent can play.
+    /// A player that no agent can control.
     #[error("no agent can play `{name}` of the {team} side: its controllable players are `{}`", .known.join("`, `"))]
     Player {
         /// The side.
         team: Team,
-        /// Who was asked for.
+        /// The player requested.
         name: String,
-        /// Who can be asked for.
+        /// The players that can be requested.
         known: Vec<String>,
     },
-    /// Somebody twice.
-    #[error("`{name}` is asked for twice")]
+    /// A player requested twice.
+    #[error("`{name}` is requested twice")]
     Twice {
-        /// Who.
+        /// The player.
         name: String,
     },
 }
 
 impl Roster {
-    /// The roster of a scenario under its parameters.
+    /// Determines the roster of a scenario under its parameters.
     ///
     /// # Errors
-    /// [`RosterError`] where more agents are asked for than there are controllable players, or others.
+    /// [`RosterError`] if the requested agents are more than the controllable players, or other
+    /// players.
     pub fn new(scenario: &Scenario, bindings: &Bindings, choice: Option<&AgentsChoice>) -> Result<Roster, RosterError> {
         let mut drawer = Drawer::new(scenario);
-        // Presence and counts don't depend on draws: any seed tells them.
+        // Presence and counts don't depend on draws, so any seed gives them.
         let draws = DrawKey { seed: 0, index: 0, attempt: 0 };
         drawer.begin(bindings, draws);
         drawer.run(bindings, draws);
@@ -115,7 +117,7 @@ impl Roster {
         Ok(roster)
     }
 
-    /// The players of a team that an agent may be given, in source order.
+    /// The players of a team that an agent may control, in source order.
     fn controllable<'a>(&'a self, scenario: &'a Scenario, team: Team) -> impl Iterator<Item = PlayerId> + 'a {
         scenario
             .team(team)
@@ -141,7 +143,7 @@ impl Roster {
         Ok(players)
     }
 
-    /// So many agents: every controllable player's, or the first few with the keeper last.
+    /// This many agents: one per controllable player, or the first few with the keeper last.
     fn counted(
         &self,
         scenario: &Scenario,
@@ -166,7 +168,7 @@ impl Roster {
     }
 }
 
-/// A player's name, else his team, role and number among its players of that role.
+/// A player's name, else their team, role and number among the team's players of that role.
 pub(crate) fn player_name(scenario: &Scenario, team: Team, player: PlayerId) -> String {
     let Some((_, slot)) = scenario.team(team).find(|(id, _)| *id == player.index()) else {
         return format!("{team}_{}", player.in_team());

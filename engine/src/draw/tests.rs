@@ -13,7 +13,7 @@ fn uniform(scenario: &mut Scenario, key: u64, low: f64, high: f64) -> Reg {
     push(scenario, Instr::Random { key, from: Box::new(Distribution::Uniform(low, high)) })
 }
 
-/// A striker between two ends along the middle line, and a keeper.
+/// A striker somewhere along the middle line, between two ends, and a keeper.
 fn striker(low: f64, high: f64) -> Scenario {
     let mut scenario = scenario(&[
         (Team::Left, Role::CF, 0.0, 0.0),
@@ -97,7 +97,7 @@ fn the_requirement_that_fails_most_is_named() {
     assert_eq!(error.requirement, "up");
     assert!(error.failures > ATTEMPTS_MAX / 2, "{error}");
 
-    // What no draw can change is tried once.
+    // A requirement that no draw can change is tried once.
     let never = push(&mut scenario, Instr::Const(0.0));
     scenario.start.requires.insert(0, Require { condition: never, probability: None, label: "impossible".to_owned() });
     let error = draw(&scenario, 1, 0).unwrap_err();
@@ -193,7 +193,7 @@ fn agents_are_given_players() {
     let count = |n, fixed| AgentsChoice { sides: [SideChoice::Count(n), SideChoice::Scenario], fixed: Some(fixed) };
     // The keeper comes last.
     assert_eq!(roster(&scenario, Some(&count(2, true))), [left(1), left(2)]);
-    // Everybody: in source order, whatever was asked of switching.
+    // Everybody, in source order, whether or not agents switch.
     assert_eq!(roster(&scenario, Some(&count(3, false))), [left(0), left(1), left(2)]);
     scenario.agents.sides[0] = SideAgents::Players(vec![2, 0]);
     assert_eq!(roster(&scenario, None), [left(2), left(0)]);
@@ -207,5 +207,5 @@ fn agents_are_given_players() {
     let refused = |names: &[&str]| Roster::new(&scenario, &bindings, Some(&named(names))).unwrap_err().to_string();
     let known = "its controllable players are `left_GK_1`, `left_CM_1`, `left_CF_1`";
     assert_eq!(refused(&["left_CB_1"]), format!("no agent can play `left_CB_1` of the left side: {known}"));
-    assert_eq!(refused(&["left_CM_1", "left_CM_1"]), "`left_CM_1` is asked for twice");
+    assert_eq!(refused(&["left_CM_1", "left_CM_1"]), "`left_CM_1` is requested twice");
 }

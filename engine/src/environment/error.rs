@@ -1,4 +1,4 @@
-//! What can go wrong with an environment.
+//! Errors of an environment.
 
 use crate::draw::{DrawError, RosterError};
 use crate::judge::ScriptError;
@@ -9,18 +9,18 @@ use setpiece_scenario::ParamError;
 /// Why an environment can't be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EnvironmentError {
-    /// A reward was asked for by a name that is not in scope.
+    /// A requested reward isn't in scope.
     #[error("no reward `{name}`; there is `{}`", known.join("`, `"))]
     Reward {
         /// The name.
         name: String,
-        /// What there is.
+        /// The rewards in scope.
         known: Vec<String>,
     },
-    /// A reward was asked for twice.
-    #[error("reward `{0}` is asked for twice")]
+    /// A reward was requested twice.
+    #[error("reward `{0}` is requested twice")]
     RewardTwice(String),
-    /// A parameter's value is not allowed.
+    /// A parameter's value isn't allowed.
     #[error(transparent)]
     Param(#[from] ParamError),
     /// The values don't belong to this scenario.
@@ -31,10 +31,10 @@ pub enum EnvironmentError {
         /// How many the scenario has.
         expected: usize,
     },
-    /// The agents asked for are not there.
+    /// The requested agents don't exist.
     #[error(transparent)]
     Agents(#[from] RosterError),
-    /// A script is not Rhai.
+    /// A script isn't valid Rhai.
     #[error(transparent)]
     Script(#[from] ScriptLoadError),
     /// No episode can begin from the snapshot.
@@ -48,18 +48,18 @@ pub enum EnvironmentError {
 /// Why no episode begins in the state of a snapshot.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ResetError {
-    /// The snapshot can't be begun from; nothing has changed.
+    /// No episode can begin from the snapshot; nothing has changed.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
-    /// No start was found for what the scenario itself says.
+    /// The scenario's requirements can't be met.
     #[error(transparent)]
     Draw(#[from] DrawError),
 }
 
-/// Why a step was not played to its end.
+/// Why a step was not completed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StepError {
-    /// There is nothing to step.
+    /// No episode is running.
     #[error("{}: reset the environment first", if *begun { "the episode has ended" } else { "no episode has begun" })]
     NotRunning {
         /// Whether there was an episode at all.

@@ -7,7 +7,7 @@ use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::Team;
 use std::ops::Range;
 
-/// Says who is not there, or has no place here.
+/// Checks that the same players and agents take part.
 ///
 /// # Errors
 /// [`SnapshotError::Roster`].
@@ -17,7 +17,8 @@ pub(super) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
         let (found, expected) = (players(&there, *team), players(&roster.present, *team));
         return Err(SnapshotError::Roster { what: format!("{team} players"), found, expected });
     }
-    // An agent has a player of its own team, and nobody who does not take part has the ball or is on the pitch.
+    // An agent's player must be of its own team. Players who don't take part can't have the ball or
+    // be on the pitch.
     let ghost = |id: PlayerId| !there[id.index()];
     for (at, slot) in game.agents.iter().enumerate() {
         if slot.player.is_some_and(|id| ghost(id) || id.team() != slot.team) {
@@ -38,13 +39,13 @@ pub(super) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// A team's places among all.
+/// A team's index range.
 fn places(team: Team) -> Range<usize> {
     let first = PlayerId::new(team, 0).index();
     first..first + TEAM_MAX
 }
 
-/// The places of a team that are taken: `1, 2, 4`.
+/// The occupied places of a team: `1, 2, 4`.
 fn players(present: &[bool], team: Team) -> String {
     let taken = (1..).zip(&present[places(team)]).filter(|(_, there)| **there).map(|(number, _)| number.to_string());
     let taken: Vec<String> = taken.collect();
@@ -55,7 +56,7 @@ fn players(present: &[bool], team: Team) -> String {
     }
 }
 
-/// Agents in words: `left` for one that changes players, else `left player 3`.
+/// Describes agents: `left` for one that switches players, else `left player 3`.
 fn agents(agents: impl Iterator<Item = (Team, Option<PlayerId>)>) -> String {
     let words = agents.map(|(team, fixed)| match fixed {
         None => team.to_string(),

@@ -1,16 +1,19 @@
-//! A new episode in an old state: what has happened is the snapshot's, what the scenario says is its own.
+//! Starts a new episode in an old state: the history is the snapshot's, the settings are the
+//! scenario's.
 
 use crate::football::foul;
 use crate::state::Match;
 use crate::step;
 use setpiece_scenario::vocabulary::{Rule, Team};
 
-/// The match of a new episode that begins where `past` stands.
+/// Builds the match of a new episode that begins in the state of `past`.
 ///
-/// - Of `past`: places, ball, whatever goes on (kicks, flights, a set piece), score, cards, fatigue, the clock.
-/// - Of `fresh`, the start that the scenario draws: rules, limit, difficulty, roles and statistics, who plays whom, the random streams; nothing is held.
+/// - From `past`: places, ball, everything under way (kicks, flights, a set piece), score, cards,
+///   fatigue, the clock.
+/// - From `fresh`, the start that the scenario draws: rules, limit, difficulty, roles and
+///   statistics, who controls which player, the random streams. Nothing is held.
 ///
-/// Steps are counted anew; ticks go on, as everything under way is timed by them.
+/// Steps start at 0. Ticks continue, because everything under way is timed by them.
 pub(super) fn begin_from(past: &Match, fresh: &Match) -> Match {
     let mut game = past.clone();
     game.elapsed_at_start = past.elapsed_at_start.saturating_add(past.step);
@@ -45,7 +48,7 @@ pub(super) fn begin_from(past: &Match, fresh: &Match) -> Match {
         mind.decide_at_step = mind.decide_at_step.saturating_sub(past.step);
     }
     for team in [Team::Left, Team::Right] {
-        foul::succeed(&mut game, team);
+        foul::replace_keeper(&mut game, team);
     }
     step::go_on(&mut game);
     game

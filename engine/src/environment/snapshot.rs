@@ -11,25 +11,27 @@ use setpiece_scenario::vocabulary::Verdict;
 use std::sync::Arc;
 
 impl Environment {
-    /// The episode as bytes, as it stands between two steps: everything that a later step or its infos depend on, the
-    /// streams of random numbers and the memory of rewards, records and scripts included.
+    /// Encodes the episode between two steps as bytes. They hold everything that a later step or
+    /// its infos depend on, including random streams and the memory of rewards, records and
+    /// scripts.
     ///
     /// # Errors
-    /// [`SnapshotError::Unkept`] where a script's memory holds a function.
+    /// [`SnapshotError::Unkept`] if a script's memory holds a function.
     ///
     /// # Determinism
     /// Equal states give equal bytes.
     pub fn snapshot(&self) -> Result<Vec<u8>, SnapshotError> {
-        // What is written is handed over as what is read would be.
+        // Writing goes through the same mutable calls as reading, hence the copy.
         let mut copy = self.clone();
-        write(&self.about(), &self.game, |archive| copy.pass(archive))
+        write(&self.about(), &self.game, |archive| copy.archive(archive))
     }
 
-    /// Goes on where a snapshot was taken, whoever took it: an environment of the same scenario, rewards and agents.
-    /// The parameters of the next episodes are the snapshot's too.
+    /// Continues from a snapshot of any environment with the same scenario, rewards and agents. The
+    /// parameters of the next episodes are also the snapshot's.
     ///
     /// # Errors
-    /// [`SnapshotError`] for bytes that are no snapshot, or one of something else; nothing has changed then.
+    /// [`SnapshotError`] for bytes that aren't a snapshot, or one that doesn't fit. Nothing has
+    /// changed then.
     pub fn restore(&mut self, snapshot: &[u8]) -> Result<(), SnapshotError> {
         let opened = Opened::of(snapshot)?;
         let its = &opened.about;
@@ -45,18 +47,19 @@ impl Environment {
         self.admit("bindings", &its.bindings)?;
         let mut restored = self.clone();
         restored.idle(&opened);
-        opened.pass(|archive| restored.pass(archive))?;
+        opened.read_episode(|archive| restored.archive(archive))?;
         *self = restored;
         Ok(())
     }
 
-    /// Begins a new episode in the state of a snapshot: places, ball, whatever goes on, score, cards, fatigue and the
-    /// clock are the snapshot's; rules, difficulty, limit and who plays whom are the scenario's, which need not be the
-    /// snapshot's own. Rewards, records, steps and random numbers begin anew, as at a [reset](Self::reset).
+    /// Begins a new episode in the state of a snapshot. Places, ball, everything under way, score,
+    /// cards, fatigue and the clock are the snapshot's. Rules, difficulty, limit and the players'
+    /// control are this scenario's, which may be another than the snapshot's. Rewards, records,
+    /// steps and random numbers start as at a [reset](Self::reset).
     ///
     /// # Errors
-    /// [`ResetError`] for bytes that are no snapshot or one of other players or agents (nothing has changed then), and
-    /// as [`reset`](Self::reset).
+    /// [`ResetError`] for bytes that aren't a snapshot, or one with other players or agents
+    /// (nothing has changed then), and as [`reset`](Self::reset).
     pub fn reset_from(&mut self, snapshot: &[u8], seed: Option<u64>, index: Option<u64>) -> Result<(), ResetError> {
         let past = self.past(snapshot)?;
         Ok(self.begin(seed, index, Some(&past))?)
@@ -69,7 +72,7 @@ impl Environment {
         if about.started { Ok(game) } else { Err(SnapshotError::NotBegun) }
     }
 
-    /// What a snapshot is of.
+    /// What a snapshot of this environment belongs to.
     fn about(&self) -> About {
         About {
             digest: self.scenario_digest,
@@ -88,7 +91,7 @@ impl Environment {
         self.judge.rewards().list().iter().map(|reward| &reward.name)
     }
 
-    /// What a snapshot says without an episode around its match.
+    /// Applies a snapshot without an episode around its match.
     fn idle(&mut self, opened: &Opened<'_>) {
         self.game.clone_from(&opened.game);
         let about = &opened.about;
@@ -104,14 +107,14 @@ impl Environment {
     }
 
     /// Writes or reads the episode around the match.
-    fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        // The key is not the environment's where a later reset found no start.
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        // The key may differ from the environment's if a later reset found no start.
         let Given { mut seed, mut index, params, lets } = self.judge.given();
         let (mut params, mut lets) = (params.to_vec(), lets.to_vec());
         archive.value("seed", &mut seed)?;
         archive.value("index", &mut index)?;
         archive.value("params", &mut params)?;
-        // Where no episode has begun yet there are none: the scenario says how many are read.
+        // Before the first episode there are none; the scenario fixes how many are read.
         lets.resize(self.scenario.start.lets.len(), 0.0);
         archive.slots("lets", &mut lets)?;
         if archive.is_reading() {
@@ -120,15 +123,15 @@ impl Environment {
             self.judge.reset(&self.game, &given);
             self.actors.reset(&self.game, &given);
         }
-        self.judge.pass(archive)?;
-        archive.part("actors", |archive| self.actors.pass(archive))?;
+        self.judge.archive(archive)?;
+        archive.part("actors", |archive| self.actors.archive(archive))?;
         archive.value("events", &mut self.events)?;
         let mut judged = self.judged as u32;
         archive.value("judged", &mut judged)?;
         self.judged = judged as usize;
         archive.value("statistics", &mut self.statistics)?;
         archive.value("running", &mut self.running)?;
-        self.stopped.pass(archive)?;
+        self.stopped.archive(archive)?;
         if let Some(stopped) = self.stopped.get() {
             fits(stopped, &self.roster)?;
         }
@@ -139,7 +142,8 @@ impl Environment {
         Ok(())
     }
 
-    /// Checks parameters that were read: they are allowed, and the same players and agents take part.
+    /// Checks parameters that were read: they must be allowed, and keep the same players and
+    /// agents.
     fn admit(&self, name: &str, values: &[f64]) -> Result<(), SnapshotError> {
         if values == self.bindings.0 {
             return Ok(());

@@ -3,11 +3,11 @@
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 
-/// A match where play was stopped in the last step; its memory is kept for the next stop.
+/// The match in which the last step stopped play. Its memory is reused for the next stop.
 #[derive(Debug)]
 pub(super) struct Stopped {
     game: Box<Match>,
-    /// Play was stopped in the last step; else the match is an old one.
+    /// Whether play was stopped in the last step; otherwise the match is an old one.
     now: bool,
 }
 
@@ -25,12 +25,12 @@ impl Clone for Stopped {
 }
 
 impl Stopped {
-    /// Nothing was stopped yet; `game` is any match.
+    /// Creates it without a stop; `game` may be any match.
     pub(super) fn new(game: &Match) -> Stopped {
         Stopped { game: Box::new(game.clone()), now: false }
     }
 
-    /// Play goes on.
+    /// Records that play continues.
     pub(super) fn forget(&mut self) {
         self.now = false;
     }
@@ -48,8 +48,8 @@ impl Stopped {
         self.now.then_some(&self.game)
     }
 
-    /// Writes or reads it.
-    pub(super) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads the match.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         archive.value("was_stopped", &mut self.now)?;
         if self.now {
             archive.value("stopped", &mut *self.game)?;

@@ -234,5 +234,5 @@ fn scripts_are_swapped_within_an_episode_and_nothing_else_is() {
     assert_eq!(paid(&mut environment), 208.0);
     assert!(environment.adopt_scripts(&Arc::new(counting("(")),).is_err());
     assert_eq!(environment.adopt_scripts(&Arc::new(counting("now.me.speed"))), Ok(true));
-    assert_eq!(paid(&mut environment), 2.0, "for each agent it begins anew");
+    assert_eq!(paid(&mut environment), 2.0, "each agent has its own memory");
 }

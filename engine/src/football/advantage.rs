@@ -1,7 +1,8 @@
-//! Advantage: a foul that the referee lets run while the victim's team may gain more by playing on.
+//! Advantage: after a foul the referee lets play run if the fouled team may gain more by it.
 //!
-//! He waits before he looks; whoever has lost the ball by then gets the free kick after all, also when the ball leaves
-//! the pitch. A team that keeps it long enough, or scores, has had its advantage.
+//! The referee decides nothing at first. If the fouled team then loses the ball, or the ball leaves
+//! the pitch, the free kick is given after all. A team that keeps the ball long enough, or scores,
+//! has had its advantage.
 
 use crate::football::{report, whistle};
 use crate::state::event::Events;
@@ -9,18 +10,18 @@ use crate::state::play::{Advantage, Restart};
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::EventKind;
 
-/// How long nothing is decided, ticks.
+/// Ticks before the first decision.
 const WAIT_TICKS: u32 = 60;
-/// After so many ticks there is no way back.
+/// After this many ticks the foul is no longer called back.
 const OVER_TICKS: u32 = 300;
 
 /// Lets play run after a foul.
 pub fn wait(game: &mut Match, by: PlayerId, victim: PlayerId, restart: Restart) {
-    // The first of two fouls is the one to come back to.
+    // If a second foul follows, play is called back for the first one.
     game.play.advantage.get_or_insert(Advantage { by, victim, restart, tick: game.tick });
 }
 
-/// Looks at a foul that was let run, once a tick.
+/// Checks, once per tick, whether a foul that was let run is called back or settled.
 pub fn watch(game: &mut Match, events: &mut Events) {
     let Some(advantage) = game.play.advantage else { return };
     let since = game.tick.saturating_sub(advantage.tick);
@@ -34,7 +35,8 @@ pub fn watch(game: &mut Match, events: &mut Events) {
     }
 }
 
-/// Gives the free kick after all, in place of what would stop play now; false where no foul was let run.
+/// Gives the free kick after all, in place of what would stop play now. False if no foul was let
+/// run.
 pub fn called_back(game: &mut Match, events: &mut Events) -> bool {
     let Some(Advantage { restart, .. }) = game.play.advantage.take() else { return false };
     game.play.pass = None;
@@ -43,7 +45,7 @@ pub fn called_back(game: &mut Match, events: &mut Events) -> bool {
     true
 }
 
-/// The advantage has been had.
+/// Ends the advantage: the team has had it.
 pub fn played(game: &mut Match, events: &mut Events) {
     if let Some(advantage) = game.play.advantage.take() {
         report::did(game, events, EventKind::Advantage, advantage.by, Some(advantage.victim));

@@ -1,4 +1,4 @@
-//! The first moment of a match.
+//! The first state of a match.
 
 use crate::football::{forecast, lineup, noise, reach, recent, restart, set_piece, stats, switching};
 use crate::physics::Ball;
@@ -12,14 +12,14 @@ use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
 use setpiece_scenario::vocabulary::{GameMode, Role, Rule, StartKind, Stat, Team};
 
-/// Ticks before which nobody touches the ball of a start, as chance will have it. Measured.
+/// Ticks before the ball of a start can be touched; the stream of chance picks one. Measured.
 const FIRST_TICKS: std::ops::Range<f32> = 18.0..42.0;
-/// How many ticks later than they could somebody sets off, at most. Measured.
+/// A player sets off at most this many ticks later than they could. Measured.
 const SET_OFF_TICKS: f32 = 18.0;
-/// Who has the ball of a start so near does so at once, metres; chosen.
+/// A player this near to the ball of a start has it at once, metres; chosen.
 const AT_BALL_M: f32 = 0.75;
 
-/// The match that a drawn start begins with, before its first step is prepared.
+/// Builds the match of a drawn start, before its first step is prepared.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = blank(drawn);
     for i in 0..PLAYERS_MAX {
@@ -61,7 +61,7 @@ pub fn begin(drawn: &Drawn) -> Match {
     game
 }
 
-/// A drawn start as a match, before anybody has thought.
+/// Builds the match of a drawn start before any player has chosen what to do.
 pub(crate) fn blank(drawn: &Drawn) -> Match {
     let player = |slot: &Option<DrawnPlayer>| {
         let drawn_player = slot.as_ref();
@@ -113,8 +113,10 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
     }
 }
 
-/// Lets everybody set off when chance will have it. Who has the ball at their feet does so at once, and so does whoever goes
-/// for it of the team that is later at it. (Measured.)
+/// Delays when each player sets off, by chance.
+///
+/// Two players set off at once: the one who has the ball at their feet, and, of the team that is
+/// later at the ball, the one who goes for it. (Measured.)
 fn set_off(game: &mut Match) {
     let first = reach::first(game);
     for id in game.order() {
@@ -127,9 +129,11 @@ fn set_off(game: &mut Match) {
     }
 }
 
-/// Where everybody stands at later kick-offs: where the scenario says, else at the start's places.
+/// Sets where everybody stands at later kick-offs: where the scenario says, or at the places of the
+/// start.
 ///
-/// If the other team kicks off than at the start, teams of one size swap their places. (GRF's.)
+/// If the team that kicks off isn't the one of the start, teams of equal size swap their places.
+/// (GRF's.)
 fn place_kickoffs(game: &mut Match, drawn: &Drawn) {
     let sizes = [Team::Left, Team::Right].map(|team| game.team(team).count());
     for id in game.order() {
@@ -160,7 +164,7 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
     };
     let placed: [(Vec2, Vec2); PLAYERS_MAX] = std::array::from_fn(|i| (game.players[i].pos, game.players[i].vel));
     restart::place(game, Restart { mode, team, spot });
-    // What the scenario says of its players stands, but for the taker.
+    // The scenario's places and velocities stay in force, except for the taker.
     if mode != GameMode::KickOff {
         for (player, (place, velocity)) in game.players.iter_mut().zip(placed) {
             (player.pos, player.vel) = (place, velocity);
@@ -170,8 +174,8 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
         restart::face_ball(game);
         let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
         for (i, player) in game.players.iter_mut().enumerate() {
-            let told = drawn.players[i].as_ref().and_then(|start| start.heading_rad);
-            if let Some(heading) = told.filter(|_| taker.is_none_or(|id| id.index() != i)) {
+            let given = drawn.players[i].as_ref().and_then(|start| start.heading_rad);
+            if let Some(heading) = given.filter(|_| taker.is_none_or(|id| id.index() != i)) {
                 player.heading_rad = heading;
                 player.body.facing = crate::math::unit(heading);
             }
@@ -182,7 +186,7 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
     }
 }
 
-/// The team whose nearest player is nearer to the ball; where both are as near, chance decides.
+/// The team whose nearest player is nearer to the ball; chance breaks a tie.
 fn nearest_team(game: &mut Match) -> Team {
     let ball = game.ball.pos.truncate();
     let least =

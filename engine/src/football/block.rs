@@ -1,6 +1,7 @@
-//! A team's block: a formation stretched over a part of the pitch, and drawn to where things happen. (GRF's.)
+//! A team's block: a formation stretched over a part of the pitch and drawn towards the action.
+//! (GRF's.)
 //!
-//! Everything is in the own frame of the team, which attacks towards +x.
+//! All coordinates are in the team's own frame; the team attacks towards +x.
 
 use crate::math;
 use glam::Vec2;
@@ -8,33 +9,33 @@ use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 
 /// Half the pitch, metres.
 pub const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
-/// How far from the point that draws them players feel nothing of it, metres.
+/// Beyond this distance from a point of attraction, players don't feel it, metres.
 const DRAW_M: f32 = 50.0;
 
-/// A point that draws players, and how strongly, 0..1.
+/// A point that attracts players, and its strength from 0 to 1.
 pub type Draw = (f32, f32);
 
 /// A team's block.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
-    /// x of the rearmost and of the foremost slot, metres.
+    /// x of the rearmost and the foremost slot, metres.
     pub depth: [f32; 2],
-    /// Half its width, metres.
+    /// Half the block's width, metres.
     pub half_width: f32,
-    /// y of its middle, metres.
+    /// y of the block's middle, metres.
     pub middle_y: f32,
-    /// The x that draws those near it.
+    /// The x that attracts players near it.
     pub towards_x: Draw,
-    /// The y that draws those near it.
+    /// The y that attracts players near it.
     pub towards_y: Draw,
-    /// The point that draws everybody near it.
+    /// The point that attracts everybody near it.
     pub towards: (Vec2, f32),
-    /// Where midfielders go, x of a slot.
+    /// The slot x that attracts midfielders.
     pub midfield: Draw,
 }
 
 impl Block {
-    /// Where a slot of the block lies.
+    /// The place of a slot on the pitch.
     pub fn place(&self, slot: Vec2) -> Vec2 {
         let [back, front] = self.depth;
         let middle = (1.0 - 1.2 * slot.x.abs()).max(0.0);
@@ -53,7 +54,7 @@ impl Block {
         self.drawn(plain, Vec2::new(place_x, place_y))
     }
 
-    /// Draws a place towards the point, by how near to it the slot lies.
+    /// Moves a place towards the point of attraction; nearer slots move more.
     fn drawn(&self, plain: Vec2, place: Vec2) -> Vec2 {
         let (point, keen) = self.towards;
         let far = ((point - plain) * Vec2::new(1.0, 0.8)).length() / DRAW_M;

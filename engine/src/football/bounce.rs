@@ -1,19 +1,21 @@
-//! A ball that springs off somebody who could not have seen it coming.
+//! Bounces of the ball off a player who could not see it coming.
 
 use crate::football::{contact, forecast};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::{Match, Squad};
 
-/// For how long nobody has seen what a rival's touch has made of the ball, ticks; how often at most it springs off a body; how
-/// high legs are, metres. (GRF's.)
+/// For `UNSEEN_TICKS` nobody has seen where a rival's touch sends the ball. Between two bounces off
+/// a body there are at least `BOUNCE_TICKS`. Legs are `LEGS_M` high. (GRF's.)
 const UNSEEN_TICKS: i32 = 20;
 const BOUNCE_TICKS: i32 = 15;
 const LEGS_M: f32 = 1.0;
-/// How near a body's middle the ball meets its legs, metres; fitted to how often the ball changes sides at once.
+/// The ball meets the legs this near to a body's middle, metres. Fitted to how often the ball
+/// changes sides at once.
 const BODY_M: f32 = 0.45;
 
-/// The ball springs off the body of somebody whose rival has just touched it. `near`: whose body it may be. (GRF's.)
+/// Lets the ball bounce off a player whose rival has just touched it. `near`: the players that it
+/// may hit. (GRF's.)
 pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let Some(last) = game.last_touch else { return };
     let since = ticks_since(game.tick, game.player(last).body.touched_at);

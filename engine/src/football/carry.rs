@@ -1,4 +1,5 @@
-//! How hard a dribbler pushes the ball on: by pace and skill, and harder with opponents close by.
+//! How hard a dribbler pushes the ball on: it depends on pace and skill, and is harder with
+//! opponents close by.
 
 use crate::football::dribble;
 use crate::football::pace::{DRIBBLE_MPS, RUN_MPS, SPRINT_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
@@ -7,18 +8,20 @@ use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Stat;
 
-/// With what power of the way to where it is to be met again a touch's pace goes. (GRF's.)
+/// The power that turns the way to the next touch into the speed of this one. (GRF's.)
 const WAY_TO_PACE: f32 = 0.7;
-/// How close the ball is kept: the divisor of a touch's way without any skill, what all of it adds (GRF's), and the divisor
-/// for which the paces here hold.
+/// How close a dribbler keeps the ball. `CLOSEST`: the divisor of a touch's way without any skill,
+/// and what full skill adds (GRF's). `CLOSE`: the divisor for which the speeds here hold.
 const CLOSEST: [f32; 2] = [0.38, 0.02];
 const CLOSE: f32 = 0.394;
-/// From how near opponents annoy a dribbler, and how much further the most annoyed sends the ball, metres. (GRF's.)
+/// Opponents within these distances annoy a dribbler; the most annoyed sends the ball `ANNOYED_M`
+/// further, metres. (GRF's.)
 const ANNOYS_M: std::ops::Range<f32> = 0.5..1.5;
 const ANNOYED_M: f32 = 3.0;
-/// How far ahead of a runner's place the ball is to be met again, metres, and how much further for each m/s; in how many
-/// seconds at no pace, and how many more at a sprint (GRF's); how long the step of a touch lasts, and from it to the next
-/// touch, seconds.
+/// Where and when a runner meets the ball again. `FRONT_M`, `FRONT_S`: how far ahead, in metres and
+/// in seconds of the runner's speed. `AGAIN_S`: after how many seconds at rest, and how many more
+/// at a sprint. (GRF's.) `STEP_S`: how long the step of a touch lasts. `TOUCH_S`: the time from it
+/// to the next touch.
 const FRONT_M: f32 = 0.34;
 const FRONT_S: f32 = 0.08;
 const AGAIN_S: [f32; 2] = [0.25, 0.6];
@@ -31,18 +34,20 @@ const GETS_OFF: f32 = 0.5;
 const SPEEDS_UP_MPS: f32 = 1.0;
 /// How much faster than at the end of that step a walker and a sprinter want to be, m/s. (GRF's.)
 const HASTE_MPS: [f32; 2] = [0.6, 1.2];
-/// How much harder a ball is pushed at a sprint, and from which pace on wholly, m/s. (GRF's.)
+/// A sprinter pushes the ball harder by this share, in full from `FASTEST_MPS` on. (GRF's.)
 const HARDER: f32 = 0.18;
 const FASTEST_MPS: f32 = 7.2;
 
-/// The velocity of a touch by as skilled and as annoyed a dribbler as this one, who runs at `speed`.
+/// Adjusts the velocity of a touch to this dribbler's skill and to annoying opponents, at the run
+/// `speed`.
 pub(super) fn as_skilled(game: &Match, id: PlayerId, velocity: Vec2, speed: f32) -> Vec2 {
     let skill = game.player(id).skill(Stat::Dribble);
     let closer = libm::powf(CLOSE / (CLOSEST[0] + CLOSEST[1] * skill), WAY_TO_PACE);
     longer(velocity, annoyance_m(game, id, speed)) * closer
 }
 
-/// The velocity with which a ball is pushed straight on: it is to be met again where the run leads in a while. (GRF's.)
+/// The velocity of a push straight on, after which the run meets the ball again a while later.
+/// (GRF's.)
 pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     let wanted = speed.min(player.body.speed_top_mps);
@@ -62,8 +67,8 @@ pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f3
     way.normalize_or_zero() * libm::powf(way.length() / ((until_s + TOUCH_S) * CLOSE * 1.1), WAY_TO_PACE) * fast
 }
 
-/// The velocity of a touch that is to send the ball so much further, metres. (GRF's: a touch's pace goes with this power of
-/// the way to where it is to be met again.)
+/// Lengthens a touch so that the ball goes this much further, metres. (GRF's: the speed of a touch
+/// is a power of the way to the next touch.)
 pub(super) fn longer(velocity: Vec2, further_m: f32) -> Vec2 {
     let speed = velocity.length();
     if further_m <= 0.0 || speed < dribble::STOPS_MPS {
@@ -74,8 +79,8 @@ pub(super) fn longer(velocity: Vec2, further_m: f32) -> Vec2 {
     velocity * libm::powf((way_m + further_m) / way_m, WAY_TO_PACE)
 }
 
-/// How much further a player who runs at so many m/s sends the ball with an opponent close by, metres: the less, the calmer
-/// and the better balanced they are. (GRF's.)
+/// How much further a player at this speed sends the ball because an opponent is close, metres.
+/// Calm and balanced players send it less far. (GRF's.)
 fn annoyance_m(game: &Match, id: PlayerId, speed: f32) -> f32 {
     let player = game.player(id);
     let rivals = game.team(id.team().other());

@@ -6,7 +6,7 @@ use crate::state::event::Events;
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule};
 
-/// Ends a step: counts it, blows for half-time or full time.
+/// Ends a step: counts it, and blows for half-time or full time.
 pub fn end_step(game: &mut Match, events: &mut Events) {
     game.step += 1;
     if let Some(set_piece) = &mut game.play.set_piece {

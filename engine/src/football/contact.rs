@@ -1,4 +1,4 @@
-//! What a touch of the ball means: passes completed and cut out, shots blocked, offside.
+//! What a touch of the ball means: passes completed or intercepted, shots blocked, offside.
 
 use crate::football::{forecast, offside, report, whistle};
 use crate::state::event::{Event, Events};
@@ -8,12 +8,12 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
-/// Ticks until a player whom the ball has hit can play it.
+/// Ticks until a player hit by the ball can play it.
 const STUNNED_TICKS: i32 = 30;
-/// A shot slower than this has run dead, m/s; chosen.
+/// A slower shot no longer counts as a shot, m/s; chosen.
 const SPENT_MPS: f32 = 2.0;
 
-/// Records that a player touches the ball; false if that was an offence that stops play.
+/// Records that a player touches the ball. False if the touch was an offence that stops play.
 pub fn touched(game: &mut Match, events: &mut Events, by: PlayerId, kick: bool) -> bool {
     if offside::caught(game, events, by) {
         return false;
@@ -35,7 +35,7 @@ fn kind_of_touch(height_m: f32) -> EventKind {
     if height_m > 1.5 { EventKind::Header } else { EventKind::Touch }
 }
 
-/// Touches the ball so that it leaves with a velocity.
+/// Touches the ball so that it leaves with a given velocity.
 pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2, hop: f32) {
     if !touched(game, events, id, false) {
         return;
@@ -45,19 +45,20 @@ pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2,
     let fall = if game.ball.pos.z > 0.3 { game.ball.vel.z.min(0.0) - 1.0 } else { 0.0 };
     game.ball.vel = velocity.extend(if hop > 0.0 { hop } else { fall });
     game.ball.pos.z = game.ball.pos.z.max(0.11);
-    // Rolling: the spin that belongs to the speed.
+    // The spin of a ball that rolls at this speed.
     game.ball.spin = Vec3::new(-velocity.y, velocity.x, 0.0) / 0.11;
     forecast::renew(game);
 }
 
-/// Records that a ball sprang off a player who did not see it coming: it takes them a while to get at it.
+/// Records that the ball bounced off a player who did not see it coming; that player needs a while
+/// to reach it.
 pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
     sprang(game, events, by);
     let body = &mut game.players[by.index()].body;
     body.ready_at = body.ready_at.max(game.tick as i32 + STUNNED_TICKS);
 }
 
-/// Records that a ball sprang off a player: a shot is saved or blocked, a pass is nobody's any more.
+/// Records that the ball bounced off a player: a shot is saved or blocked, and a pass is over.
 pub fn sprang(game: &mut Match, events: &mut Events, by: PlayerId) {
     if let Some(shot) = game.play.shot.take_if(|shot| shot.by.team() != by.team()) {
         let saved = game.player(by).role == Role::GK;
@@ -97,7 +98,7 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
     }
     if let Some(shot) = game.play.shot {
         if shot.by.team() != by.team() {
-            // One that has run dead was never stopped by anybody.
+            // A shot that was already too slow wasn't blocked.
             let spent = game.ball.vel.length() < SPENT_MPS;
             let verdict = if spent { Qualifier::OffTarget } else { Qualifier::Blocked };
             events.push(of_shot(game, EventKind::Shot, shot).qualified(verdict));
@@ -108,18 +109,18 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
     }
 }
 
-/// What a touch is to the offside rule.
+/// What a touch means for the offside rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touch {
-    /// The ball was played: positions are judged anew.
+    /// The ball was played: offside positions are judged again.
     Played,
-    /// The ball sprang off a player or off a keeper's hands: that plays no opponent onside.
+    /// The ball bounced off a player or a keeper's hands. That doesn't play opponents onside.
     Sprang,
     /// A throw-in, corner or goal kick: nobody is offside.
     Exempt,
 }
 
-/// Notes the last toucher and who is offside from now on.
+/// Records the last toucher, and who is offside from now on.
 pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
     // A kick is noted again once the ball has left.
     if game.last_touch != Some(by) || game.player(by).body.touched_at != game.tick as i32 {
@@ -137,12 +138,12 @@ pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
     game.play.save = [None; 2];
 }
 
-/// A team's players, a bit each.
+/// A team's players, one bit each.
 fn team_bits(team: Team) -> u32 {
     ((1 << TEAM_MAX) - 1) << (team.index() * TEAM_MAX)
 }
 
-/// A pass has been struck.
+/// Reports that a pass was struck.
 pub fn pass_struck(game: &mut Match, events: &mut Events, by: PlayerId, to: Option<PlayerId>, from: Vec2) {
     let length = to.map_or(0.0, |to| game.player(to).pos.distance(from));
     game.play.pass = Some(Flight { by, to, from, tick: game.tick });
@@ -150,7 +151,7 @@ pub fn pass_struck(game: &mut Match, events: &mut Events, by: PlayerId, to: Opti
     events.push(report::event(game, EventKind::Pass).by(by).to(to).qualified(Qualifier::Attempted).length(length));
 }
 
-/// A shot has been struck.
+/// Reports that a shot was struck.
 pub fn shot_struck(game: &mut Match, events: &mut Events, by: PlayerId, from: Vec2) {
     game.play.pass = None;
     let shot = Flight { by, to: None, from, tick: game.tick };
@@ -158,7 +159,8 @@ pub fn shot_struck(game: &mut Match, events: &mut Events, by: PlayerId, from: Ve
     events.push(of_shot(game, EventKind::Shot, shot));
 }
 
-/// An event of a shot: at the place it was struck from, and as long as it is to the goal, whatever became of it.
+/// An event about a shot. Its place and length are those of the strike, whatever happened to the
+/// shot later.
 pub fn of_shot(game: &Match, kind: EventKind, shot: Flight) -> Event {
     let goal = Vec2::new(HALF_LENGTH_M as f32 * shot.by.team().side() as f32, 0.0);
     let at = shot.from.extend(BALL_RADIUS_M as f32);

@@ -1,4 +1,4 @@
-//! The touches of a dribble: where the ball is pushed so that the runner meets it again, turned, or laid to rest.
+//! The touches of a dribble: pushing the ball ahead, turning with it, and stopping it.
 
 use crate::football::pace::{SETS_OFF_MPS, SPRINTS_FROM_MPS};
 use crate::football::{carry, contact};
@@ -8,13 +8,14 @@ use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
 
-/// How near a foot the ball must be for a dribbling touch, metres.
+/// A dribbling touch needs the ball this near to the foot, metres.
 const FOOT_M: f32 = 0.65;
-/// How far the sole reaches that stops it, metres; chosen.
+/// The sole can stop a ball this far away, metres; chosen.
 pub(super) const SOLE_M: f32 = 1.0;
-/// Whoever wants to be slower than this with the ball stops it, m/s.
+/// A player who wants to be slower than this stops the ball, m/s.
 pub(super) const STOPS_MPS: f32 = 0.3;
-/// How far ahead the ball is touched walking and sprinting, so fast, m/s; metres. Measured.
+/// How far ahead the ball is at a touch (`CARRIED_M`), walking at `WALKS_MPS` and sprinting at
+/// `FAST_MPS`. Measured.
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
 const CARRIED_M: [f32; 2] = [0.36, 0.62];
@@ -33,30 +34,34 @@ const OFF_TICKS: i32 = 22;
 const OFF_AGAIN_TICKS: i32 = 31;
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
-/// A player with an agent minds a line until they are as near to it, metres; chosen.
+/// Agent-driven players keep the ball on the pitch until they are this close to a line, metres;
+/// chosen.
 const AT_LINE_M: f32 = 0.65;
 /// How much of what the ball is beside a dribbler's line stays in a touch; chosen.
 const BESIDE: f32 = 0.8;
-/// A slower ball lies still, m/s; chosen.
+/// A slower ball counts as lying still, m/s; chosen.
 pub(super) const LIES_MPS: f32 = 1.0;
-/// How far ahead of a standing player the ball is laid, metres. Measured.
+/// A standing player lays the ball this far ahead, metres. Measured.
 pub(super) const LAID_M: f32 = 0.4;
-/// How whoever turns with the ball brakes, m/s²; chosen.
+/// Braking of a player who turns with the ball, m/s²; chosen.
 const TURN_MPS2: f32 = 14.0;
-/// A turn has a smaller cosine than this; less sharp ones are run through; chosen.
+/// A change of direction with a smaller cosine is a turn; others are run through; chosen.
 const SHARP: f32 = 0.6;
-/// A turn with a smaller cosine than this is about; chosen.
+/// A turn with a smaller cosine is an about-turn; chosen.
 const ABOUT: f32 = -0.5;
-/// Ticks after such a touch before which nobody begins a kick; fitted to how soon kicks leave after it.
+/// Ticks after a turning touch before a kick can begin. Fitted to how soon kicks leave after such a
+/// touch.
 const TURNING_TICKS: i32 = 40;
-/// A ball rolls the way somebody runs from this cosine on.
+/// From this cosine on, the ball already rolls the way the player runs.
 const ALONG: f32 = 0.94;
-/// How a player brakes and a slow ball rolls out, m/s².
+/// Deceleration of a stopping player (`STOP_MPS2`) and of a slow ball (`ROLL_MPS2`), m/s².
 const STOP_MPS2: f32 = 12.0;
 const ROLL_MPS2: f32 = 1.75;
 
-/// How near the ball a dribbler's foot must be for their next touch, metres: one who stops reaches far with the sole, one who
-/// carries it on lets it come, one who turns it does not wait.
+/// How near the ball must be for the dribbler's next touch, metres.
+///
+/// A player who stops reaches far with the sole. One who carries the ball lets it come. One who
+/// turns it doesn't wait.
 pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
     let (ball, own, wish) = (game.ball.vel.truncate(), player.vel, player.body.dribble);
     if wish.length_squared() < STOPS_MPS * STOPS_MPS && own.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS {
@@ -78,20 +83,21 @@ pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
     }
 }
 
-/// How far ahead of a runner at so many m/s the ball is when it is touched, metres. Measured.
+/// How far ahead of a runner at this speed the ball is at a touch, metres. Measured.
 fn carried_m(speed: f32) -> f32 {
     let sprints = ((speed - WALKS_MPS) / (FAST_MPS - WALKS_MPS)).clamp(0.0, 1.0);
     CARRIED_M[0] + (CARRIED_M[1] - CARRIED_M[0]) * sprints
 }
 
-/// Whether a player keeps the ball on the pitch: one with an agent does until they are at the line themselves.
+/// Whether a player keeps the ball on the pitch. Agent-driven players do so until they are at the
+/// line themselves.
 pub(super) fn minds_lines(game: &Match, id: PlayerId) -> bool {
     let pos = game.player(id).pos.abs();
     let (x, y) = (HALF_LENGTH_M as f32 - AT_LINE_M, HALF_WIDTH_M as f32 - AT_LINE_M);
     !game.is_driven(id) || (pos.x < x && pos.y < y)
 }
 
-/// Pushes the ball on in the way its player wants to run, where it isn't rolling that way already; false where it is.
+/// Pushes the ball the way its player wants to run. False if it already rolls that way.
 pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let player = *game.player(id);
     let ball_vel = game.ball.vel.truncate();
@@ -109,7 +115,7 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
             return false;
         }
         if speed > 6.0 && player.vel.length() > 5.5 && cos < 0.9 && cos > -0.6 {
-            // At a sprint the ball is bent round by small angles.
+            // At a sprint the ball is turned in small angles.
             let left = if ball_vel.perp_dot(ahead) < 0.0 { -0.45 } else { 0.45 };
             let on = ball_vel / rolling;
             ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
@@ -158,9 +164,9 @@ fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     true
 }
 
-/// What a dribbler minds.
+/// What a dribbler takes care of.
 pub(super) struct Care {
-    /// The lines: the ball is not pushed over them.
+    /// Whether to keep the ball inside the lines.
     pub(super) lines: bool,
     /// Whether the ball lies still.
     pub(super) lies: bool,
@@ -171,8 +177,10 @@ fn turns(player: &Player, ahead: Vec2) -> bool {
     player.vel.dot(ahead) < SHARP * player.vel.length()
 }
 
-/// Notes that a player has touched the ball along `ahead`: whoever turns with it must play that out before a kick, unless
-/// they turn about, which the kick cuts short.
+/// Records that a player has touched the ball along `ahead`.
+///
+/// A player who turns with the ball finishes the turn before a kick. An about-turn is the
+/// exception: the kick cuts it short.
 pub(super) fn note_turn(game: &mut Match, id: PlayerId, ahead: Vec2) {
     let player = &mut game.players[id.index()];
     if turns(player, ahead) && player.vel.dot(ahead) > ABOUT * player.vel.length() {
@@ -180,14 +188,15 @@ pub(super) fn note_turn(game: &mut Match, id: PlayerId, ahead: Vec2) {
     }
 }
 
-/// The ball's velocity with which they meet it again a moment later, running at `speed` along `ahead`.
+/// The velocity of a touch after which the player, running at `speed` along `ahead`, meets the ball
+/// again.
 pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &Care) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
-    // The stride that the next touch will find, rather than the one that is wanted.
+    // Uses the stride at the next touch, not the wanted one.
     let pace = player.vel.length();
     let under_way = (pace / WALKS_MPS).min(1.0);
     let gait = (speed + 0.3 * (pace - speed) * under_way) / 8.0;
-    // Whoever turns carries the rest of their run on until they have braked it.
+    // A turning player keeps their old run until they have braked it.
     let turns = turns(player, ahead);
     let rest = if turns { player.vel - ahead * own } else { Vec2::ZERO };
     let brakes = rest.length() / TURN_MPS2;
@@ -203,7 +212,7 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let way = cut.unwrap_or(free) - to_ball;
     let distance = way.length();
     let average = distance / time;
-    // By a line it must stop there; else it rolls on until they meet it.
+    // Near a line the ball must stop there. Otherwise it rolls on until the player meets it.
     let start = if cut.is_none() {
         average + 0.5 * (1.7 + 0.06 * average * average) * time
     } else {
@@ -212,7 +221,8 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
 }
 
-/// The way of a touch, cut; none where it doesn't take the ball off the pitch, or only into a goal.
+/// Shortens the way of a touch to stay on the pitch. None if it stays on the pitch, or leaves it
+/// only into a goal.
 fn within_lines(pos: Vec2, way: Vec2) -> Option<Vec2> {
     let (x, y) = (HALF_LENGTH_M as f32 - LINE_CARE_M, HALF_WIDTH_M as f32 - LINE_CARE_M);
     let to = pos + way;

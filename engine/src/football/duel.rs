@@ -1,7 +1,7 @@
-//! Challenging the player on the ball: a leg goes out to where the ball will be, and what it meets there.
+//! Challenges for the ball: a leg goes out to where the ball will be.
 //!
-//! A lunge is settled on some ticks before its foot meets the ball, at the place where the ball will be if nobody touches
-//! it. A touch in between leaves the foot beside the ball, or in the air.
+//! A lunge is decided some ticks before the foot meets the ball. It aims at the place where the
+//! ball will be if nobody touches it. If somebody does, the foot arrives beside the ball.
 
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::football::{bounce, contact, first_touch, forecast, kick, noise, possession, reach, report, slide, touch};
@@ -13,15 +13,17 @@ use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 
-/// A way to reach for the ball. (Measured of GRF's motions: how soon they touch, how long they last, where. How far off the
-/// ball may be is fitted to how often somebody who walks straight at a defender loses it.)
+/// A way to reach for the ball.
+///
+/// Measured of GRF's motions: how soon they touch, how long they last, and where. How far off the
+/// ball may be is fitted to how often a player who walks straight at a defender loses it.
 struct Motion {
-    /// The slowest pace at which it is done, m/s.
+    /// The lowest speed for this motion, m/s.
     from_mps: f32,
-    /// Ticks until the foot is there, and until the player can do something else.
+    /// Ticks until the foot arrives, and until the player is free again.
     ticks: i32,
     lasts: i32,
-    /// Where the foot is then, seen from the player: ahead and aside, metres.
+    /// Where the foot then is, ahead of the player and to the side, metres.
     ahead_m: f32,
     aside_m: f32,
     /// How far off the ball may be, along the run and across it, metres.
@@ -35,7 +37,7 @@ const fn motion(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f3
     Motion { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1], stops: false }
 }
 
-/// Pokes, the fastest first.
+/// Pokes, fastest first.
 const POKES: [Motion; 5] = [
     motion(SPRINTS_FROM_MPS, [12, 39], [0.77, 0.0], [0.47, 0.17]),
     motion(DRIBBLES_FROM_MPS, [9, 26], [0.61, 0.0], [0.56, 0.26]),
@@ -50,7 +52,7 @@ const TAKES: [Motion; 4] = [
     motion(DRIBBLES_FROM_MPS, [10, 29], [0.0, 0.0], [0.35, 0.3]),
     motion(0.0, [13, 55], [0.45, 0.0], [0.45, 0.32]),
 ];
-/// A ball that rolls up is stopped: long before it is there. (GRF's.)
+/// Stops a ball that rolls towards the player, long before it arrives. (GRF's.)
 const TRAP: Motion = Motion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
 /// A carrier's ball that they have again no sooner than this is stopped like one that nobody has, seconds. (GRF's.)
 const LOOSE_S: f32 = 0.4;
@@ -62,39 +64,45 @@ const KICKS: [Motion; 3] = [
 ];
 /// Which share of their pace a player keeps until they have stopped for a ball.
 const STOPPING: f32 = 0.5;
-/// A slower ball is not stopped, m/s. (GRF's.)
+/// A slower ball isn't trapped, m/s. (GRF's.)
 const TRAPPED_MPS: f32 = 2.0;
-/// A ball that meets a player faster than this is not taken along, m/s. (GRF's.)
+/// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
 const TAKES_MPS: f32 = 15.0;
-/// How far ahead, ticks, an unseen touch is judged, and how much it may have changed there, metres. (GRF's.)
+/// An unseen touch is judged `AHEAD_TICKS` ahead. If it moves the ball there by more than
+/// `MISJUDGED_M`, the player doesn't reach for it. (GRF's.)
 const AHEAD_TICKS: u32 = 100;
 const MISJUDGED_M: f32 = 2.0;
-/// How high a ball may be, metres.
+/// The highest ball that a leg reaches, metres.
 const LOW_M: f32 = 0.5;
-/// From how far off the other's cosine tells that they are between a player and the ball: too much so to poke it, and to
-/// take it. (GRF's.)
+/// Limits of the cosine that tells how far an opponent stands between a player and the ball: too
+/// far to poke it, and to take it. (GRF's.)
 const HIDDEN: [f32; 2] = [0.6, 0.5];
-/// How far ahead a slide is thought of, ticks; how far from the tackler the ball must be then, and how high at most, metres;
-/// in how many seconds the carrier has it again at the soonest, and in what share of the tackler's time; up to which cosine
-/// the carrier is not too much between the tackler and the ball. (GRF's.)
+/// Slides of players without agents. (GRF's.)
+///
+/// - `SLIDE_TICKS`: how far ahead the ball is looked at.
+/// - `SLIDE_M`, `SLIDE_HIGH_M`: how far from the tackler and how high the ball must be then.
+/// - `LEFT_S`, `LATER`: the carrier needs at least this long to reach the ball, in seconds and as a
+///   share of the tackler's time.
+/// - `SLIDES_TO`: up to this cosine the carrier doesn't stand between the tackler and the ball.
 const SLIDE_TICKS: u32 = 20;
 const SLIDE_M: std::ops::Range<f32> = 0.7..1.6;
 const SLIDE_HIGH_M: f32 = 0.4;
 const LEFT_S: f32 = 0.26;
 const LATER: f32 = 0.6;
 const SLIDES_TO: f32 = -0.4;
-/// How far off the ball may be when the foot is there, metres. (GRF's.)
+/// How far off the ball may be when the foot arrives, metres. (GRF's.)
 const MISSED_M: f32 = 0.4;
-/// How fast a poke sends the ball away beside half of what taking it would. (GRF's.)
+/// Speed of a poked ball, besides half of what taking it would give, m/s. (GRF's.)
 const POKED_MPS: f32 = 4.0;
-/// The same of a keeper, who wants it gone; fitted to where the ball goes from those who come out.
+/// The same for a keeper, who clears the ball. Fitted to where balls go when a keeper comes out.
 const KEEPER_MPS: f32 = 7.5;
 
-/// Lets legs that are there meet the ball, and those go out that can reach it; `near`: who may.
+/// Lets legs that have arrived meet the ball, and sends out those that can reach it. `near`: the
+/// players that may.
 pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
     let now = game.tick as i32;
     for id in game.order() {
-        // A leg that comes too late, or where the ball no longer is, is drawn back all the same.
+        // A leg that comes too late, or misses the ball, is drawn back too.
         let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) else { continue };
         game.players[id.index()].body.lunge = None;
         if lunge.at == now && near.has(id) {
@@ -122,8 +130,10 @@ fn may(game: &Match, id: PlayerId) -> bool {
         && touch::contests(game, id)
 }
 
-/// How often somebody thinks of reaching for the ball, ticks: whoever is sooner at it than who has it, their team's first,
-/// anybody else. (GRF's.)
+/// Ticks between two attempts of a player to reach for the ball.
+///
+/// It depends on who they are: sooner at the ball than its owner, first of their team, or anybody
+/// else. (GRF's.)
 fn every(game: &Match, id: PlayerId, rival: PlayerId) -> u32 {
     let first = game.play.chaser[id.team().index()] == Some(id);
     if !first {
@@ -135,11 +145,12 @@ fn every(game: &Match, id: PlayerId, rival: PlayerId) -> u32 {
     }
 }
 
-/// Reaches for the ball if one of the ways to do so will meet it.
+/// Reaches for the ball if a motion will meet it.
 fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let (player, other) = (*game.player(id), *game.player(rival));
     let seen = reach::has_seen(game, id);
-    // Whoever has not seen the last touch goes by the ball's way before it, if the touch has not changed much.
+    // A player who hasn't seen the last touch trusts the ball's earlier path, unless the touch
+    // changed it much.
     if ball_in(game, seen, AHEAD_TICKS).distance(game.play.forecast.at(game.tick + AHEAD_TICKS)) > MISJUDGED_M {
         return;
     }
@@ -181,8 +192,8 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     }
 }
 
-/// Whether a ball gets past a player that its carrier will only have later: those whose team has no agents slide at it then.
-/// (GRF's.)
+/// Whether the ball gets past a player before its carrier has it again. A team without agents
+/// slides at such a ball. (GRF's.)
 fn comes_late(game: &Match, id: PlayerId, player: &Player, carrier: &Player) -> bool {
     let ball = game.play.forecast.at(game.tick + SLIDE_TICKS);
     let gap = (player.pos + player.vel * (SLIDE_TICKS as f32 * 0.01)).distance(ball.truncate());
@@ -208,19 +219,20 @@ fn lunges(game: &mut Match, id: PlayerId, way: &Motion, aim: Aim, seen: bool) ->
     true
 }
 
-/// Where the ball will be in so many ticks, for somebody who has seen its last touch or not.
+/// Where the ball will be after this many ticks, for a player who has or hasn't seen its last
+/// touch.
 fn ball_in(game: &Match, seen: bool, ticks: u32) -> Vec3 {
     if seen { game.play.forecast.at(game.tick + ticks) } else { unseen(game, ticks) }
 }
 
-/// Where the ball would be in so many ticks but for its last touch.
+/// Where the ball would be after this many ticks without its last touch.
 fn unseen(game: &Match, ticks: u32) -> Vec3 {
     let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let [place, velocity] = game.play.unseen;
     (place + velocity * ((since as f32 + ticks as f32) * 0.01)).extend(game.ball.pos.z)
 }
 
-/// Whether a ball will be where a foot goes.
+/// Whether the foot's place is near enough to the ball.
 fn reaches(player: &Player, ball: Vec2, way: &Motion) -> bool {
     let run = if way.from_mps > 0.0 { player.vel.normalize_or(player.body.facing) } else { player.body.facing };
     let kept = if way.stops { STOPPING } else { 1.0 };
@@ -230,7 +242,7 @@ fn reaches(player: &Player, ball: Vec2, way: &Motion) -> bool {
     along * along + across * across <= 1.0
 }
 
-/// The foot is where the ball was to be.
+/// Lets a foot arrive where the ball was expected.
 fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
     let ball = game.ball.pos;
     let off = ball.truncate().distance(lunge.place) / MISSED_M;

@@ -1,4 +1,4 @@
-//! The first touch of a free ball: taken down, kept or lost, or headed on.
+//! The first touch of a free ball: a player takes it, loses it, or heads it.
 
 use crate::football::{carry, contact, dribble, forecast, noise};
 use crate::math;
@@ -14,33 +14,37 @@ use setpiece_scenario::vocabulary::Stat;
 pub(super) const CHEST_M: f32 = 1.25;
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
-/// How fast a trapped ball is drawn to the foot of a standing player, 1/s, and at most, m/s; fitted.
+/// How fast a trapped ball is drawn to the foot of a standing player, per second, and its top
+/// speed, m/s; fitted.
 const SETTLES_PER_S: f32 = 4.0;
 const SETTLED_MPS: f32 = 0.8;
-/// How much faster than its player a trapped ball runs ahead at most, m/s. Measured of standing players.
+/// A trapped ball runs ahead at most this much faster than its player, m/s. Measured of standing
+/// players.
 const FOLLOWED_MPS: f32 = 3.6;
 /// A ball met faster than this hops off the body that takes it, m/s; chosen.
 const HOPS_MPS: f32 = 8.0;
-/// What pace a player keeps who takes up a ball that lies before them. Fitted to the starts of the Academy.
+/// The share of speed that a player keeps who takes up a ball lying ahead. Fitted to the starts of
+/// the Academy.
 const TAKEN_UP: f32 = 0.75;
-/// Ticks until whoever has taken such a ball plays it again; fitted.
+/// Ticks until a player who has taken up such a ball plays it again; fitted.
 const TAKING_TICKS: i32 = 33;
 
-/// How near a player must be to take the free ball, metres: where both rest it is theirs from further away.
+/// How near a player must be to take the free ball, metres. If both are at rest, the reach is
+/// longer.
 pub(super) fn reach_m(game: &Match, id: PlayerId) -> f32 {
     let rests =
         game.player(id).vel.length_squared() + game.ball.vel.length_squared() < dribble::STOPS_MPS * dribble::STOPS_MPS;
     if rests { dribble::SOLE_M } else { TRAP_M }
 }
 
-/// Takes a free ball: how much of its speed stays is a matter of ball control.
+/// Takes a free ball; ball control decides how much of its speed stays.
 pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let ball = game.ball;
     let meeting = (ball.vel - player.vel.extend(0.0)).length();
     let taken_from_rival = game.play.pass.is_some_and(|pass| pass.by.team() != id.team());
     if taken_from_rival || game.play.shot.is_some() {
-        // A ball struck by the others: the faster, the harder to read.
+        // A faster ball from an opponent is harder to read.
         let reaction = player.skill(Stat::Reaction);
         let chance = (1.25 - 0.028 * meeting) * (0.5 + 0.5 * reaction) * (1.0 - 0.95 * surprise(game, reaction));
         if !noise::happens(game, chance) {
@@ -76,7 +80,7 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
                 on * if lies { 1.0 } else { 0.85 }
             }
         }
-        // Towards the foot, where it comes to rest.
+        // Towards the foot, to come to rest there.
         (false, true) => {
             ((player.body.facing * dribble::LAID_M - to_ball) * SETTLES_PER_S).clamp_length_max(SETTLED_MPS)
         }
@@ -98,8 +102,8 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
 }
 
-/// The velocity with which a player takes along a ball that a rival has just played: it springs off further, and keeps some
-/// of its own way. (GRF's.)
+/// The velocity with which a player takes along a ball that a rival has just played. It springs off
+/// further and keeps part of its own way. (GRF's.)
 pub(super) fn contested(game: &mut Match, id: PlayerId) -> Vec3 {
     let player = *game.player(id);
     let ball = game.ball;
@@ -120,14 +124,15 @@ pub(super) fn contested(game: &mut Match, id: PlayerId) -> Vec3 {
     on.extend(0.5 + up).lerp(ball.vel, kept)
 }
 
-/// How fast a ball rises from the body that takes it, m/s, by how fast they meet. Measured: taken at hip height it comes
-/// down to the foot some .4 s later, after a head-on run some .9 s.
+/// How fast a ball rises from the body that takes it, m/s, for the speed at which they meet.
+/// Measured: a ball taken at hip height reaches the foot about 0.4 s later, about 0.9 s after a
+/// head-on run.
 fn hop_mps(meeting: f32) -> f32 {
     let hard = ((meeting - 12.0) / 11.0).clamp(0.0, 1.2);
     0.4 + 2.2 * hard * libm::sqrtf(hard)
 }
 
-/// How much a ball just struck takes a player by surprise, 0..1: GRF's recency of the other's touch, over
+/// How much a ball just struck surprises a player, 0 to 1: GRF's recency of the rival's touch, over
 /// 1000 - 500 · reaction ms.
 fn surprise(game: &Match, reaction: f32) -> f32 {
     let since = game.last_touch.map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
@@ -135,7 +140,7 @@ fn surprise(game: &Match, reaction: f32) -> f32 {
     libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6)
 }
 
-/// Heads a high ball: on towards what its player has in mind, else down in front of them.
+/// Heads a high ball: towards what the player intends, or down in front of them.
 fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let side = id.team().side() as f32;
@@ -159,7 +164,7 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     if !contact::touched(game, events, id, true) {
         return;
     }
-    // Whoever jumped with them has lost this ball.
+    // Players who jumped with the winner have lost this ball.
     let landing = game.tick as i32 + 40;
     game.each(game.squad, |other| {
         if other.pos.distance_squared(player.pos) < 1.5 * 1.5 {

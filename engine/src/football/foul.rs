@@ -1,4 +1,4 @@
-//! Fouls and cards: what a trip or a hand costs.
+//! Fouls and cards: the price of a trip or a handball.
 
 use crate::football::{advantage, noise, report, whistle};
 use crate::state::event::Events;
@@ -13,19 +13,20 @@ use std::ops::Range;
 const YELLOW: f32 = 1.5;
 /// Severity above which a foul earns a red card.
 const RED: f32 = 1.87;
-/// At which heights a ball meets a player's arms, metres.
+/// The ball meets a player's arms at these heights, metres.
 const ARMS_M: Range<f32> = 0.6..1.5;
-/// How often it is one of them that the ball springs off there.
+/// The probability that a ball at this height hits an arm.
 const HANDBALL: f32 = 0.04;
 
-/// Calls a foul of a severity: below 1 nothing, then a free kick or penalty, cards by severity.
+/// Calls a foul. Below severity 1 nothing happens; above, a free kick or penalty, and cards by
+/// severity.
 pub fn call(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) {
     if let Some(restart) = note(game, events, by, victim, severity) {
         whistle::stop(game, events, restart.mode, restart.team, restart.spot);
     }
 }
 
-/// The same of a standing foul, which may be let run where it is worth no card and no penalty.
+/// Calls a foul by a standing player, which may be let run if it isn't worth a card or a penalty.
 pub fn call_or_let_run(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) {
     match note(game, events, by, victim, severity) {
         Some(restart) if restart.mode == GameMode::FreeKick && severity <= YELLOW => {
@@ -36,8 +37,8 @@ pub fn call_or_let_run(game: &mut Match, events: &mut Events, by: PlayerId, vict
     }
 }
 
-/// Calls a handball, rarely, where the ball has sprung off a player at the height of his arms; `shot`: off the way of
-/// an opponent's shot, which is worth a yellow card.
+/// Calls a handball, rarely, if the ball has bounced off a player at arm height. `shot`: the ball
+/// was an opponent's shot, which earns a yellow card.
 pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool) {
     let (spot, height) = (game.ball.pos.truncate(), game.ball.pos.z);
     let own_keeper = game.player(by).role == Role::GK && in_box(spot, by.team());
@@ -55,7 +56,7 @@ pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool)
     whistle::stop(game, events, restart.mode, restart.team, restart.spot);
 }
 
-/// A keeper has held the ball for longer than he may: a free kick from the edge of his box.
+/// Calls a keeper who held the ball for too long: a free kick from the edge of the box.
 pub fn held_too_long(game: &mut Match, events: &mut Events, by: PlayerId) {
     let (team, pos) = (by.team().other(), game.player(by).pos);
     let edge = (HALF_LENGTH_M - BOX_DEPTH_M) as f32 * team.side() as f32;
@@ -63,7 +64,7 @@ pub fn held_too_long(game: &mut Match, events: &mut Events, by: PlayerId) {
     whistle::stop(game, events, GameMode::FreeKick, team, Vec2::new(edge, pos.y));
 }
 
-/// Reports a foul and shows its card; what it is worth, if it is one.
+/// Reports a foul, shows its card, and returns the restart if it is one.
 fn note(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) -> Option<Restart> {
     if !game.rule(Rule::Fouls) || severity <= 1.0 || game.dead {
         return None;
@@ -97,7 +98,8 @@ pub fn in_box(point: Vec2, team: Team) -> bool {
     -point.x * team.side() as f32 > depth && point.y.abs() < BOX_HALF_WIDTH_M as f32
 }
 
-/// Shows yellow; the second sends off, and is therefore not shown to the last of a team.
+/// Shows a yellow card. A second one sends the player off, so the last player of a team doesn't get
+/// it.
 fn caution(game: &mut Match, events: &mut Events, by: PlayerId) {
     if game.player(by).yellow_cards > 0 && game.team(by.team()).count() <= 1 {
         return;
@@ -110,7 +112,7 @@ fn caution(game: &mut Match, events: &mut Events, by: PlayerId) {
     }
 }
 
-/// Sends a player off, unless he is the last of his team.
+/// Sends a player off, unless nobody else is left in the team.
 fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
     if game.team(by.team()).count() <= 1 {
         return;
@@ -120,7 +122,7 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
     player.active = false;
     player.vel = Vec2::ZERO;
     player.body.kick = None;
-    succeed(game, by.team());
+    replace_keeper(game, by.team());
     if game.owner == Some(by) {
         game.owner = None;
     }
@@ -131,8 +133,8 @@ fn dismiss(game: &mut Match, events: &mut Events, by: PlayerId) {
     }
 }
 
-/// Where a team's keepers have all been sent off, the first mate left goes in goal.
-pub fn succeed(game: &mut Match, team: Team) {
+/// Puts the first remaining teammate in goal if all keepers of a team have been sent off.
+pub fn replace_keeper(game: &mut Match, team: Team) {
     let mut sent_off = None;
     for id in game.squad.of(team).ids() {
         let player = game.player(id);
@@ -143,9 +145,9 @@ pub fn succeed(game: &mut Match, team: Team) {
             sent_off = sent_off.or(Some(player.body));
         }
     }
-    let heir = game.team(team).map(|(id, _)| id).next();
-    if let (Some(keeper), Some(heir)) = (sent_off, heir) {
-        let player = &mut game.players[heir.index()];
+    let successor = game.team(team).map(|(id, _)| id).next();
+    if let (Some(keeper), Some(successor)) = (sent_off, successor) {
+        let player = &mut game.players[successor.index()];
         player.role = Role::GK;
         player.body.kickoff = keeper.kickoff;
         player.body.mind.slot = keeper.mind.slot;

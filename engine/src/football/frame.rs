@@ -1,11 +1,11 @@
-//! Players and the goals: nobody walks through a post or a net; into a goal there is only the way through its mouth.
+//! Keeps players out of posts and nets; the only way into a goal is through its mouth.
 
 use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 
-/// How near a body's middle may come to a post or net, metres: half its breadth and the post's.
+/// Least distance of a body's middle from a post or net, metres: half the breadth of both.
 const KEEP_M: f32 = 0.36;
-/// Sides and rear of the goal at +x, ends of each, metres.
+/// Sides and rear of the goal at +x, the ends of each, metres.
 const WALLS: [[Vec2; 2]; 3] = {
     let (line, rear, post) = (HALF_LENGTH_M as f32, (HALF_LENGTH_M + GOAL_DEPTH_M) as f32, GOAL_HALF_WIDTH_M as f32);
     [
@@ -15,7 +15,7 @@ const WALLS: [[Vec2; 2]; 3] = {
     ]
 };
 
-/// Keeps a player's place and velocity out of the frame and nets of both goals.
+/// Keeps a player's place and velocity out of the frames and nets of both goals.
 #[inline]
 pub fn keep_out(pos: &mut Vec2, vel: &mut Vec2) {
     let reach = HALF_LENGTH_M as f32 - KEEP_M;
@@ -24,9 +24,9 @@ pub fn keep_out(pos: &mut Vec2, vel: &mut Vec2) {
     }
 }
 
-/// Keeps someone at a goal out of its frame and net.
+/// Keeps a player at a goal out of its frame and net.
 fn keep_off_walls(pos: &mut Vec2, vel: &mut Vec2) {
-    // Both ends alike: the one at -x is turned by 180°.
+    // Both ends are alike: the one at -x is turned by 180°.
     let side = if pos.x < 0.0 { -1.0 } else { 1.0 };
     for [from, to] in WALLS {
         let at = *pos * side;
@@ -47,7 +47,7 @@ fn keep_off_walls(pos: &mut Vec2, vel: &mut Vec2) {
 mod tests {
     use super::*;
 
-    /// A player who runs for two seconds from one place at one velocity; where he is at the end.
+    /// Where a player is who runs for two seconds from a place at a velocity.
     fn run(from: Vec2, vel: Vec2) -> Vec2 {
         let mut pos = from;
         for _ in 0..100 {
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mouth_is_open_and_the_rear_holds_him() {
+    fn the_mouth_is_open_and_the_rear_holds_players() {
         let inside = run(Vec2::new(52.0, 1.0), Vec2::new(6.0, 0.0));
         assert!((57.1..57.3).contains(&inside.x) && (inside.y - 1.0).abs() < 0.1, "{inside}");
     }

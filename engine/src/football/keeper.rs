@@ -1,6 +1,7 @@
-//! The keeper's hands: saves, catches, the ball held and let go.
+//! The keeper's hands: saves, catches, holding the ball and letting it go.
 //!
-//! Decides whether he reaches a ball and whether he holds it; leaves where he stands to `control::bot::keeper`.
+//! Decides whether the keeper reaches a ball and holds it. `control::bot::keeper` decides where the
+//! keeper stands.
 
 use crate::football::{contact, forecast, foul, noise, report, touch};
 use crate::state::event::Events;
@@ -11,26 +12,28 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Role, Rule, Stat, Team};
 
-/// How high his hands reach, metres.
+/// How high the keeper's hands reach, metres.
 const HANDS_M: f32 = 2.55;
-/// How near a slow ball must be to be picked up, metres.
+/// A slow ball this near is picked up, metres.
 const PICK_M: f32 = 1.0;
-/// How often a keeper takes the ball off the feet of somebody who dribbles it; fitted to how many run past them.
+/// How often a keeper takes the ball off a dribbler's feet. Fitted to how many dribblers run past
+/// keepers.
 const BRAVE: f32 = 0.14;
-/// How long he may hold the ball, ticks. Laws.
+/// How long a keeper may hold the ball, ticks. Laws.
 const HOLD_TICKS: u32 = 600;
-/// A ball that comes nearer to his middle than this hits him, metres.
+/// A ball that comes nearer to the keeper's middle than this hits the keeper, metres.
 const BODY_M: f32 = 0.4;
-/// What share of the balls in reach a keeper without any skill saves; what share of them at once and how much more with
-/// every second left. Fitted to the goals that agents' and bots' shots come to.
+/// Shares of the balls in reach that a keeper without skill saves: any, at once, and more per
+/// second left. Fitted to how many goals agents' and bots' shots score.
 const SAVES: [f32; 3] = [0.0, 0.1, 0.9];
-/// How easy a ball must be to be held (GRF's), how often it is then, and how a flying ball slows, m/s²; chosen.
+/// A ball at least this easy can be held (`HOLDS_FROM`, GRF's); `HOLDS` is how often it then is.
+/// `SLOWS_MPS2`: how a flying ball slows, m/s²; chosen.
 const HOLDS_FROM: f32 = 0.3;
 const HOLDS: f32 = 0.85;
 const SLOWS_MPS2: f32 = 8.0;
-/// How long a dive takes at least, seconds; chosen.
+/// Shortest time of a dive, seconds; chosen.
 const DIVE_S: f32 = 0.1;
-/// No save for balls slower than this, m/s: they are picked up.
+/// Slower balls are picked up, not saved, m/s.
 const SHOT_MPS: f32 = 7.0;
 
 /// Lets both keepers use their hands.
@@ -47,7 +50,7 @@ pub fn use_hands(game: &mut Match, events: &mut Events) {
     }
     for team in game.teams() {
         let side = team.side() as f32;
-        // Only a ball in his own end concerns him.
+        // Only a ball in the keeper's own end matters.
         if game.ball.pos.x * side > -20.0 {
             continue;
         }
@@ -90,13 +93,15 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
 }
 
-/// How much of the keeper's own speed a parried ball takes along beside three tenths of its own. (GRF's.)
+/// The share of the keeper's own speed that a parried ball takes along, besides three tenths of its
+/// own. (GRF's.)
 const PARRIED: f32 = 2.5;
 
-/// The plan that names no moment: nothing to save.
+/// The plan of a keeper who has nothing to save.
 const IDLE: Save = Save { at_tick: u32::MAX, from_tick: u32::MAX, point: Vec2::ZERO, reaches: false, holds: false };
 
-/// Judges whether the ball is on its way into the goal, and whether he gets there; none while it is too far away to say.
+/// Judges whether the ball goes into the goal and whether the keeper reaches it. None while it is
+/// too far away to tell.
 fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     let team = id.team();
     let side = team.side() as f32;
@@ -108,7 +113,8 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     }
     let goal_x = -(HALF_LENGTH_M as f32) * side;
     let player = *game.player(id);
-    // How far beside the goal a ball still worries him: less, the better he reads it (GRF's).
+    // Balls this far beside the goal still count as dangerous; a keeper who reads them better
+    // ignores more (GRF's).
     let reading = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
     let panic = GOAL_HALF_WIDTH_M as f32 * (1.02 + 0.5 * (1.0 - reading));
     let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));
@@ -116,7 +122,7 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     let react_s = (reaction - since as f32 * 0.01).max(0.02);
     let path = || game.play.forecast.from(game.tick);
     let past = |point: Vec3| (point.x - goal_x) * side < 0.0;
-    // Where the forecast ends before the goal line it is too far away to say.
+    // A forecast that ends before the goal line can't tell yet.
     let goal = path().position(|(_, point)| past(point))?;
     let enters = path().nth(goal).is_some_and(|(_, point)| point.y.abs() < panic && point.z < 2.9);
     if !enters {
@@ -144,7 +150,7 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
         0.0
     };
     let reaches = noise::happens(game, chance);
-    // A ball that is fast at the hand, or was struck a moment ago, can't be held. (GRF's.)
+    // A ball that is fast at the hand, or was just struck, can't be held. (GRF's.)
     let at_hand = (game.ball.vel.length() - SLOWS_MPS2 * time_s).max(0.0);
     let window_s = 1.2 - 0.4 * player.skill(Stat::Reaction);
     let lately = (1.0 - (since as f32 * 0.01 + time_s) / window_s).clamp(0.0, 1.0);
@@ -159,7 +165,7 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     })
 }
 
-/// Weighs a point of the ball's path: the share of his reach that it takes.
+/// Weighs a point of the ball's path: which share of the keeper's reach it takes.
 fn consider(
     player: &crate::state::Player,
     react_s: f32,
@@ -180,7 +186,7 @@ fn consider(
     }
 }
 
-/// Meets the ball with his hands: holds it or pushes it away.
+/// Meets the ball with the hands: holds it or pushes it away.
 fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     let shot = game.play.shot.take();
     if let Some(shot) = shot.filter(|shot| shot.by.team() != id.team()) {
@@ -204,7 +210,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
     forecast::renew(game);
 }
 
-/// Picks up a ball that is near and slow enough.
+/// Picks up a near and slow ball.
 fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = game.player(id);
     let ball = game.ball.pos;
@@ -237,7 +243,7 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
 }
 
-/// Takes the ball into his hands.
+/// Takes the ball into the hands.
 pub fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     if !contact::touched(game, events, id, false) {
         return;
@@ -254,11 +260,11 @@ pub fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     hold(game, id);
 }
 
-/// Carries the ball in his hands.
+/// Carries the ball in the hands.
 fn hold(game: &mut Match, id: PlayerId) {
     let side = id.team().side() as f32;
     let player = &mut game.players[id.index()];
-    // He keeps to his box, and looks up the pitch.
+    // The keeper stays in the box and looks up the pitch.
     let line = HALF_LENGTH_M as f32;
     let x = (player.pos.x * side).clamp(-line + 0.6, -line + 15.5) * side;
     let inside = Vec2::new(x, player.pos.y.clamp(-19.0, 19.0));
@@ -269,7 +275,7 @@ fn hold(game: &mut Match, id: PlayerId) {
     }
     let vel = player.vel;
     let mut at = player.pos + player.body.facing * 0.35;
-    // What he has caught before it was over the line he does not carry over it.
+    // The keeper doesn't carry a ball over the line that was caught in front of it.
     at.x = (at.x * side).max(-line) * side;
     game.ball.pos = at.extend(1.0);
     game.ball.vel = vel.extend(0.0);

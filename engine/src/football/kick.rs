@@ -1,6 +1,6 @@
-//! Kicks: from the key to the moment at which the foot meets the ball.
+//! Kicks: from the key to the moment when the foot meets the ball.
 //!
-//! Leaves the choice of a pass's target to `pass_target`, how the ball leaves the foot to `pass` and `shot`.
+//! `pass_target` chooses a pass's target. `pass` and `shot` decide how the ball leaves the foot.
 
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::football::pass::Struck;
@@ -12,47 +12,50 @@ use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
-/// Ticks from the beginning of a bot's swing to the contact: a pass on the ground, a lofted one, a shot.
+/// Ticks from the start of a bot's swing to the contact: ground pass, lofted pass, shot.
 const SWING_TICKS: [i32; 3] = [28, 25, 22];
-/// Ticks that a kick waits for the ball once its key is let go. (GRF's.)
+/// Ticks that a kick waits for the ball after its key is released. (GRF's.)
 pub const PATIENCE_TICKS: i32 = 200;
-/// A key held for longer than this no longer keeps the swing from beginning, ticks. (GRF's.)
+/// A key held for longer than this no longer delays the swing, ticks. (GRF's.)
 const CHARGE_TICKS: u8 = 50;
-/// The gauge is full after so many ticks. (GRF's.)
+/// Ticks until the gauge is full. (GRF's.)
 const GAUGE_TICKS: u8 = 100;
-/// A plan ends where the ball has got so much further away in a step, seconds. (GRF's.)
+/// A plan ends if the ball has become this much harder to reach within a step, seconds. (GRF's.)
 const LOST_S: f32 = 0.7;
-/// A swing that has not met the ball after so many ticks begins again; chosen.
+/// A swing that has missed the ball for this many ticks begins again; chosen.
 const MISSED_TICKS: i32 = 30;
-/// How near the ball must be to be kicked, metres.
+/// The ball must be this near for a kick, metres.
 pub const KICK_M: f32 = 0.85;
-/// How far from their path a ball may be at the contact for a player to begin the swing, metres; chosen.
+/// A swing begins only if the ball will be this near to the player's path at the contact, metres;
+/// chosen.
 const BEGIN_M: f32 = 1.3;
-/// What share of their pace whoever begins a swing has on the way to the contact; chosen.
+/// The share of their speed that a player keeps between the swing's start and the contact; chosen.
 const BEGIN_PACE: f32 = 0.7;
-/// How soon a sprinter shoots whose ball comes to their foot, ticks, and how near that is, metres; fitted to how soon shots
-/// leave from many points of the stride.
+/// How soon a sprinter shoots a ball that comes to the foot, ticks, and how near that is, metres.
+/// Fitted to how soon shots leave at many points of the stride.
 const QUICK_TICKS: i32 = 48;
 const REACH_M: f32 = 0.8;
-/// How soon a ball that comes fast can be struck without being taken, ticks. Fitted to how late that can be asked for.
+/// How soon a fast ball can be struck without a first touch, ticks. Fitted to how late that can be
+/// asked for.
 const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;
-/// The highest ball that is, metres, and how often that comes off: short, long and high passes, shots. Measured.
+/// Striking without a first touch: the highest ball, metres, and how often it succeeds for short,
+/// long and high passes and shots. Measured.
 const FIRST_TIME_M: f32 = 0.9;
 const FIRST_TIME: [f32; 4] = [0.75, 0.5, 0.2, 0.85];
-/// The angle by which a pass may still be turned at the contact, radians. (GRF's.)
+/// The contact may still turn a pass by this angle, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
-/// A ball that comes faster than this is taken before it is kicked, m/s; chosen.
+/// A ball faster than this needs a first touch before the kick, m/s; chosen.
 const TAKES_MPS: f32 = 8.0;
-/// A swing begins for a ball that is no higher at the contact, metres; chosen.
+/// A swing begins only for a ball at most this high at the contact, metres; chosen.
 const LOW_M: f32 = 0.5;
-/// How near it must be to a leg that has been on its way to it, metres; chosen.
+/// How near the ball must be to a leg that is already on its way, metres; chosen.
 const STRETCH_M: f32 = 1.2;
-/// For how many ticks a leg that has kicked follows through. Measured.
+/// Ticks of a leg's follow-through after a kick. Measured.
 const FOLLOW_TICKS: i32 = 20;
-/// Highest ball that can be volleyed, metres.
+/// The highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
-/// A kick that a bot decides on now: its swing begins at once.
+/// A kick that a bot decides on now; its swing begins at once.
 pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
     let now = tick as i32;
     let ticks = match kind {
@@ -64,7 +67,7 @@ pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
     KickPlan { swing: Some(swing), until: now + PATIENCE_TICKS, ..asked(kind) }
 }
 
-/// A kick whose key goes down now.
+/// A kick whose key is pressed now.
 pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
     KickPlan { held: true, until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
@@ -92,14 +95,16 @@ fn asked(kind: KickKind) -> KickPlan {
 }
 
 impl KickPlan {
-    /// How full the gauge is, 0..1: a key can't be pressed for less than 60 ms. (GRF's.)
+    /// How full the gauge is, 0..1. A key press counts for at least 60 ms. (GRF's.)
     pub fn gauge(&self) -> f32 {
         ((f32::from(self.gauge_ticks) - 6.0) / 94.0).clamp(0.0, 1.0)
     }
 }
 
-/// Goes on with every kick that is asked for: gauges fill, swings begin, and whoever has the ball in reach at the end of
-/// their swing kicks it; at most one kick a tick. `kicks`: who may have asked for one.
+/// Advances every requested kick.
+///
+/// Gauges fill and swings begin. A player with the ball in reach at the end of their swing kicks
+/// it. At most one kick happens per tick. `kicks`: the players that may have requested one.
 pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
     let now = game.tick as i32;
     let mut kicked = false;
@@ -132,8 +137,8 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
     }
 }
 
-/// Begins the swing of an agent's kick, once the key is let go (or held long enough) and the ball will be in reach at its
-/// end.
+/// Begins the swing of an agent's kick. The key must be released (or held long enough), and the
+/// ball in reach at the end.
 fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     if plan.held && (plan.gauge_ticks <= CHARGE_TICKS || stays(game, plan.kind)) {
         return None;
@@ -157,8 +162,8 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs })
 }
 
-/// Whether a player takes the ball before they kick it, or is still taking it: it comes fast, from somebody else.
-/// (Measured.)
+/// Whether a player must take the ball before the kick, or is still taking it: it comes fast, from
+/// somebody else. (Measured.)
 fn must_take(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     if game.last_touch == Some(id) {
@@ -168,8 +173,8 @@ fn must_take(game: &Match, id: PlayerId) -> bool {
     meeting.length_squared() > TAKES_MPS * TAKES_MPS
 }
 
-/// Begins the swing at a ball that comes fast, if it will be struck without being taken before: how often that comes off
-/// depends on the kick.
+/// Begins the swing at a fast ball that is struck without a first touch. The kick's kind decides
+/// how often that succeeds.
 fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swing> {
     let free = game.play.set_piece.is_none() && game.play.hands.is_none();
     if plan.held || plan.taken || !free || game.last_touch == Some(id) || !must_take(game, id) {
@@ -195,8 +200,8 @@ fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swi
     (!plan.taken).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs })
 }
 
-/// How far a player will be from the ball so many ticks from now, metres; `pace`: what share of their own is left to them
-/// meanwhile. None for a ball that will be too high.
+/// How far a player will be from the ball after this many ticks, metres. None for a ball that will
+/// be too high. `pace`: the share of their speed that they keep.
 fn apart(game: &Match, id: PlayerId, ticks: i32, pace: f32) -> Option<f32> {
     let there = game.play.forecast.at(game.tick + ticks as u32);
     let player = game.player(id);
@@ -204,7 +209,8 @@ fn apart(game: &Match, id: PlayerId, ticks: i32, pace: f32) -> Option<f32> {
     (there.z <= LOW_M).then(|| place.distance(there.truncate()))
 }
 
-/// Ticks after which a sprinter who shoots reaches the ball, if that is sooner than they would catch up with one just pushed.
+/// Ticks after which a shooting sprinter reaches the ball, if that is sooner than catching up with
+/// a ball just pushed.
 fn soonest(game: &Match, id: PlayerId, plan: &KickPlan, longest: i32) -> Option<i32> {
     if plan.kind != KickKind::Shot || game.player(id).vel.length() < RUN_MPS {
         return None;
@@ -212,7 +218,7 @@ fn soonest(game: &Match, id: PlayerId, plan: &KickPlan, longest: i32) -> Option<
     (QUICK_TICKS..longest).step_by(2).find(|&ticks| apart(game, id, ticks, 1.0).is_some_and(|apart| apart < REACH_M))
 }
 
-/// What a kick is meant for now: the way to it from the ball, world metres, and the mate.
+/// What a kick aims at now: the way from the ball, world metres, and the teammate.
 fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>) {
     let from = game.ball.pos.truncate();
     match plan.kind {
@@ -225,13 +231,13 @@ fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>
     }
 }
 
-/// Whether the taker of a set piece stands for as long as the key is held, however long; a lofted pass and a throw begin.
-/// (Measured.)
+/// Whether the taker of a set piece stands for as long as the key is held. A lofted pass and a
+/// throw begin earlier. (Measured.)
 fn stays(game: &Match, kind: KickKind) -> bool {
     kind != KickKind::High && game.play.set_piece.is_some_and(|set_piece| set_piece.mode != GameMode::ThrowIn)
 }
 
-/// Ticks from the beginning of a run-up to the contact at a set piece. Measured.
+/// Ticks from the start of a run-up to the contact at a set piece. Measured.
 fn run_up_ticks(mode: GameMode) -> i32 {
     match mode {
         GameMode::ThrowIn => 22,
@@ -245,8 +251,10 @@ fn at_hand_ticks(kind: KickKind) -> i32 {
     if matches!(kind, KickKind::Short | KickKind::Long) { 34 } else { 24 }
 }
 
-/// Ticks of a swing at a rolling ball. Fitted to the measured steps after which kicks leave: a runner at full speed must
-/// catch the ball first, less so the longer they have braked for it; a pass across or behind the body needs a turn.
+/// Ticks of a swing at a rolling ball. Fitted to the measured steps after which kicks leave.
+///
+/// A runner at full speed must catch the ball first, less so the longer they have braked for it. A
+/// pass across or behind the body needs a turn.
 fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     let speed = player.vel.length();
     let walks = (speed / RUN_MPS).min(1.0);
@@ -271,7 +279,7 @@ fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     (straight + turn) as i32
 }
 
-/// Whether the ball is at his foot, and his to kick.
+/// Whether the ball is at the player's foot and may be kicked.
 fn can_kick(game: &Match, id: PlayerId) -> bool {
     if game.dead || !game.player(id).is_up() {
         return false;
@@ -339,7 +347,7 @@ pub(super) fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: 
         }
     }
     contact::note(game, id, if exempt { contact::Touch::Exempt } else { contact::Touch::Played });
-    // The kicker does not meet his own ball again at once.
+    // The kicker can't meet the same ball again at once.
     game.players[id.index()].body.ready_at = game.tick as i32 + 30;
     game.players[id.index()].body.follows_until = game.tick as i32 + FOLLOW_TICKS;
     game.mode = GameMode::Normal;
@@ -358,9 +366,10 @@ pub(super) fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: 
     game.players[id.index()].body.touched_at = if exempt { NEVER } else { game.tick as i32 };
 }
 
-/// The way of a pass as the foot meets the ball, world metres, and the mate it is for.
+/// The way of a pass as the foot meets the ball, world metres, and its receiver.
 ///
-/// What the keys mean now counts as far as the leg can still be turned to it; what lies further off comes too late. (GRF's.)
+/// The keys that are held now count as far as the leg can still turn. Anything further off comes
+/// too late. (GRF's.)
 fn refined(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>) {
     let (now, mate) = meant(game, id, plan);
     let Some(swing) = plan.swing else { return (now, mate) };
@@ -380,8 +389,9 @@ fn refined(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerI
 
 /// Gives the ball a velocity and spin.
 ///
-/// Who plays for the team that is not the early one turns it the wrong way: their passes float and their lofted balls and
-/// shots dip. (GRF's: the team whose turn is second is played in a turned frame, which the spin is not turned back from.)
+/// For the team that isn't the early one the spin is turned the wrong way: its passes float, and
+/// its lofted balls and shots dip. (GRF's: the team whose turn is second is played in a turned
+/// frame, and the spin isn't turned back.)
 fn send(game: &mut Match, id: PlayerId, struck: Struck) {
     let turned = if id.team() == game.play.early { 1.0 } else { -1.0 };
     game.ball.pos.z = game.ball.pos.z.max(0.13);
@@ -389,8 +399,8 @@ fn send(game: &mut Match, id: PlayerId, struck: Struck) {
     game.ball.spin = (struck.spin.truncate() * turned).extend(struck.spin.z);
 }
 
-/// How awkward the kick is, 0..1: a fast, high or far ball (less for who volleys well), an opponent near (less for a
-/// calm man).
+/// How awkward the kick is, 0..1. A fast, high or distant ball adds to it (less for good
+/// volleyers), and so does an opponent nearby (less for calm players).
 fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
     if game.play.set_piece.is_some() || game.play.hands.is_some() {
         return 0.0;
@@ -405,7 +415,7 @@ fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
         .count()
         .saturating_sub(1);
     let pushed = 3.0 * player.body.push_m;
-    // What a moving ball makes of a shot is reckoned with the shot.
+    // A shot computes the effect of a moving ball itself.
     let moving = if kind == KickKind::Shot { 0.0 } else { ((relative - 4.0) / 25.0).clamp(0.0, 0.7) + high * 0.4 };
     // About 1 for the average player of the table.
     let hurry = 1.3 - 0.4 * player.skill(Stat::Calmness);

@@ -1,8 +1,8 @@
 //! Where a team lines up for a set piece. (GRF's figures.)
 //!
-//! Places go by the number in the team, whatever the roles: each number has a slot of one 4-3-3, and a set piece stretches
-//! that block over a part of the pitch and draws it towards the ball. Everything is in the own frame of the team, which
-//! attacks towards +x.
+//! A player's number in the team decides the place, not the role. Each number has a slot of one
+//! 4-3-3. A set piece stretches that block over a part of the pitch and draws it towards the ball.
+//! All coordinates are in the team's own frame; the team attacks towards +x.
 
 use crate::football::block::{Block, HALF};
 use crate::math;
@@ -13,10 +13,11 @@ use setpiece_scenario::vocabulary::{GameMode, Team};
 
 /// How far in front of the goal line a keeper waits, metres.
 const KEEPER_M: f32 = 0.02 * HALF.x;
-/// How far everybody keeps from a penalty and from its box, metres beyond the law's distance.
+/// How far everybody keeps from a penalty and its box, metres beyond the law's distance.
 const PENALTY_MARGIN_M: f32 = 0.5;
 
-/// The slot of each number in a whole team: x -1 back to 1 front, y + to the right of the own frame; the first is a keeper's.
+/// The slot of each number in a full team: x from -1 (back) to 1 (front), y + to the right in the
+/// own frame. The first is the keeper's.
 pub const SLOTS: [Vec2; TEAM_MAX] = [
     Vec2::new(-1.0, 0.0),
     Vec2::new(-0.74, -0.77),
@@ -78,7 +79,8 @@ pub fn taker(mode: GameMode, ball: Vec2) -> Vec2 {
     }
 }
 
-/// The slot of a number in a team of some size: without a neighbour the last of a small team stand elsewhere.
+/// The slot of a number in a team of some size. The last players of a small team stand elsewhere,
+/// because they lack a neighbour.
 pub fn slot(number: usize, size: usize) -> Vec2 {
     match (size, number) {
         (3, 2) => Vec2::new(-1.0, -0.15),
@@ -89,7 +91,7 @@ pub fn slot(number: usize, size: usize) -> Vec2 {
     }
 }
 
-/// A place no nearer to the ball than so far.
+/// Moves a place away from the ball to this distance, if it is nearer.
 fn keep_off(place: Vec2, ball: Vec2, least_m: f32) -> Vec2 {
     let away = place - ball;
     if away.length_squared() < least_m * least_m { ball + away.normalize_or(Vec2::NEG_X) * least_m } else { place }

@@ -1,7 +1,7 @@
 //! How a body runs, turns and stops.
 //!
-//! Decides where a player's body goes: what each wants to run is one man's, and [`super::stride`] does the running for
-//! all of them. Leaves to `control` where he wants to go.
+//! Decides where each player's body goes. What one player wants to run is computed here;
+//! [`super::stride`] moves four at once. `control` decides where a player wants to go.
 
 use crate::football::dribble::{self, LIES_MPS, SOLE_M};
 use crate::football::pace::{DT, SETS_OFF_MPS, SPRINTS_FROM_MPS, WITH_BALL};
@@ -14,32 +14,34 @@ use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece_scenario::vocabulary::Stat;
 
-/// How fast somebody speeds up with the ball against that without. Fitted to the starts of the Academy.
+/// Acceleration with the ball relative to without it. Fitted to the starts of the Academy.
 const BURST_WITH_BALL: f32 = 0.95;
 
-/// Who wants to stand stops for a ball this near, metres: it is laid where the stop ends.
+/// A player who wants to stand stops for a ball this near, metres, and lays it where they stop.
 const STOPPING_M: f32 = 1.1;
 
-/// How near somebody has come to the ball who waits there for a start, metres: to play it elsewhere, and straight on; chosen.
+/// How near a player has come who waits at the ball of a start, metres: to play it elsewhere, and
+/// straight on; chosen.
 const AT_M: f32 = 0.75;
 const RIGHT_AT_M: f32 = 0.4;
 
-/// Who does more in a tick than run.
+/// The players who do more in a tick than run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Busy {
-    /// Who slides.
+    /// Players in a slide.
     pub slides: Squad,
-    /// Who has a kick in mind, on the pitch or not.
+    /// Players who intend a kick, on the pitch or not.
     pub kicks: Squad,
 }
 
-/// Moves every player on by a tick; says who has more to do in it, so that nobody else is asked.
+/// Moves every player by one tick. Returns the players with more to do, so that the others are
+/// skipped.
 pub fn advance(game: &mut Match) -> Busy {
     let mut busy = Busy::default();
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
     let owner = game.owner;
-    // Until the ball of a start can be touched, whoever has come to it stands there.
+    // Until the ball of a start can be touched, a player who has reached it stands there.
     let starts = game.last_touch.is_none();
     let now = game.tick as i32;
     let frozen = game.play.set_piece.map(|set_piece| set_piece.taker);
@@ -101,7 +103,8 @@ pub fn advance(game: &mut Match) -> Busy {
     busy
 }
 
-/// Whether a player has come to the ball of a start; whoever plays it straight on goes right up to it.
+/// Whether a player has reached the ball of a start. A player who plays it straight on goes right
+/// up to it.
 fn is_at(player: &Player, ball: Vec2) -> bool {
     let to_ball = ball - player.pos;
     let wish = player.body.dribble;
@@ -130,7 +133,7 @@ fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool, now: i32) {
     (four.facing_x[at], four.facing_y[at]) = (body.facing.x, body.facing.y);
 }
 
-/// Gives a player back what his lane has become.
+/// Copies a lane back to its player.
 fn give(four: &Four, at: usize, player: &mut Player) {
     player.pos = Vec2::new(four.x[at], four.y[at]);
     player.vel = Vec2::new(four.vx[at], four.vy[at]);
@@ -138,20 +141,20 @@ fn give(four: &Four, at: usize, player: &mut Player) {
     player.body.facing = Vec2::new(four.facing_x[at], four.facing_y[at]);
 }
 
-/// Carries a player along his velocity, no further than the rim.
+/// Moves a player along their velocity, no further than the rim.
 fn go(player: &mut Player) {
     let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
     player.pos = (player.pos + player.vel * DT).clamp(-rim, rim);
 }
 
-/// The velocity that brings a player to the ball and keeps him with it.
+/// The velocity that brings a player to the ball and keeps them with it.
 fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, speed: f32) -> Vec2 {
     let to_ball = ball - player.pos;
     let distance = to_ball.length();
     let wish = player.body.dribble;
     let lies = ball_vel.length_squared() < LIES_MPS * LIES_MPS;
     if !has_ball && lies && wish.length_squared() > 0.25 && distance > SOLE_M * 0.5 {
-        // Nobody slows down for a ball that lies there.
+        // Players don't slow down for a ball that lies there.
         return to_ball * (speed / distance);
     }
     if has_ball || distance < 1.2 {
@@ -167,7 +170,8 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
             return Vec2::ZERO;
         }
         let catch_up = ball_vel + (to_ball - behind) * 3.5;
-        // With the ball before his feet he runs on as he wants to: the next touch comes before he overruns it.
+        // With the ball at their feet, players run on as they want; the next touch comes before
+        // they overrun it.
         let pace = wish.length().min(speed);
         let ahead = wish.dot(to_ball) > 0.2 * pace && wish.dot(catch_up) > 0.9 * pace * catch_up.length();
         return catch_up.clamp_length(if ahead { pace } else { 0.0 }, speed);
@@ -175,26 +179,27 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
     let to_meet = player.body.meet - player.pos;
     let meet_m = to_meet.length();
     if meet_m < 0.3 {
-        // He is where the ball will come by: he waits, leaning towards it.
+        // The ball will come past the player, who waits for it and leans towards it.
         return (to_ball * 0.6).clamp_length_max(1.5);
     }
     let needed = meet_m / player.body.meet_s.max(0.05);
     to_meet * ((needed * 1.25).clamp(2.0, speed.max(2.0)).min(speed) / meet_m)
 }
 
-/// Braking of a body that slides or lies.
+/// Brakes a body that slides or lies.
 fn slow_down(player: &mut Player, brake: f32) {
     let speed = player.vel.length();
     player.vel = if speed > 0.05 { player.vel * ((speed - brake * DT).max(0.0) / speed) } else { Vec2::ZERO };
 }
 
-/// Brings a stumbling body, which runs on where it faces, nearer to the speed at which it will have its balance again.
+/// Brings a stumbling body, which runs on where it faces, closer to the speed at which it regains
+/// its balance.
 fn stumble(player: &mut Player, to_mps: f32) {
     let end = player.body.facing * to_mps;
     player.vel += (end - player.vel) / f32::from(player.body.pose_ticks.max(1));
 }
 
-/// Counts a pose down; the next one follows.
+/// Counts down a pose and then changes to the next one.
 fn pass_time(player: &mut Player, next: Pose, ticks: u8) {
     player.body.pose_ticks = player.body.pose_ticks.saturating_sub(1);
     if player.body.pose_ticks == 0 {

@@ -1,4 +1,5 @@
-//! Offside: who stands beyond the line when the ball is touched, and who is caught when he touches it next.
+//! Offside: which players are beyond the line when the ball is touched, and who is caught at their
+//! next touch.
 
 use crate::football::{advantage, report, whistle};
 use crate::state::event::Events;
@@ -6,13 +7,13 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Team};
 
-/// The offside line of the attackers, own frame x of theirs, metres: the second-last opponent or the ball, never in
-/// their own half.
+/// The attackers' offside line, x in their own frame, metres: the second-last opponent or the ball,
+/// never in their own half.
 pub fn line(game: &Match, attackers: Team) -> f32 {
     line_in(game, attackers, 0.0)
 }
 
-/// The offside line a moment from now, if everybody runs on, as [`line()`].
+/// The offside line a moment from now if everybody runs on; otherwise like [`line()`].
 pub fn line_in(game: &Match, attackers: Team, ahead_s: f32) -> f32 {
     let side = attackers.side() as f32;
     let (mut last, mut second) = (f32::MIN, f32::MIN);
@@ -28,12 +29,12 @@ pub fn line_in(game: &Match, attackers: Team, ahead_s: f32) -> f32 {
     second.max(game.ball.pos.x * side).max(0.0)
 }
 
-/// Whether nobody is offside at the kick of such a restart.
+/// Whether nobody can be offside at this kind of restart.
 pub fn exempt(mode: GameMode) -> bool {
     matches!(mode, GameMode::ThrowIn | GameMode::Corner | GameMode::GoalKick)
 }
 
-/// The mates of the toucher who are beyond the line now, a bit each.
+/// The toucher's teammates who are beyond the line now, one bit each.
 pub fn positions(game: &Match, toucher: PlayerId) -> u32 {
     if !game.rule(Rule::Offside) {
         return 0;
@@ -46,7 +47,7 @@ pub fn positions(game: &Match, toucher: PlayerId) -> u32 {
         .fold(0, |bits, (id, _)| bits | 1 << id.0)
 }
 
-/// Calls offside if the toucher stood in an offside position; play stops then.
+/// Calls offside if the toucher was in an offside position; play stops then.
 pub fn caught(game: &mut Match, events: &mut Events, by: PlayerId) -> bool {
     let several = game.team(by.team().other()).count() > 1;
     if game.play.offside & (1 << by.0) == 0 || !several || !game.rule(Rule::Offside) {

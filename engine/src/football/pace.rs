@@ -4,7 +4,7 @@
 pub const DRIBBLE_MPS: f32 = 3.5;
 /// Speed without sprint, m/s.
 pub const RUN_MPS: f32 = 5.0;
-/// Speed asked for when sprinting, m/s: above everyone's top speed.
+/// The speed that a sprinting player asks for, m/s: above everyone's top speed.
 pub const SPRINT_MPS: f32 = 8.0;
 /// Speed of a player right after they have pushed the ball of a start off, m/s. Measured.
 pub const SETS_OFF_MPS: f32 = 2.4;
@@ -12,7 +12,7 @@ pub const SETS_OFF_MPS: f32 = 2.4;
 pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
 /// Speed without sprint with the ball, m/s. Measured.
 pub const RUN_WITH_BALL_MPS: f32 = 5.12;
-/// Top speed with the ball against that without. Measured.
+/// Top speed with the ball relative to without it. Measured.
 pub const WITH_BALL: f32 = 0.955;
 
 /// From this speed on a runner dribbles rather than stands, m/s. (GRF's gaits.)
@@ -24,5 +24,5 @@ pub const SPRINTS_FROM_MPS: f32 = 6.0;
 
 /// Length of a tick, seconds.
 pub const DT: f32 = 0.01;
-/// Metres of distance to m/s of speed wanted.
+/// Wanted speed (m/s) per metre of distance.
 pub const ARRIVAL_PER_S: f32 = 2.6;

@@ -1,6 +1,6 @@
 //! How hard, how high and with what spin a pass or a throw-in leaves a player.
 //!
-//! Its target is `pass_target`'s, its way `kick`'s.
+//! `pass_target` decides its target, and `kick` its direction.
 
 use crate::football::noise;
 use crate::math;
@@ -10,34 +10,34 @@ use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
 
-/// The hardest pass along the ground at a resting ball, m/s. Measured.
+/// Speed of the hardest ground pass at a resting ball, m/s. Measured.
 const GROUND_MPS: f32 = 27.6;
-/// How much harder it is struck in stride at most, m/s. Measured.
+/// The most that running adds to it, m/s. Measured.
 const STRIDE_MPS: f32 = 1.4;
-/// The hardest pass behind one's back, m/s. Measured.
+/// Speed of the hardest pass behind the player's back, m/s. Measured.
 const HEEL_MPS: f32 = 16.8;
-/// The hardest lofted pass behind one's back, m/s. Measured.
+/// Speed of the hardest lofted pass behind the player's back, m/s. Measured.
 const HIGH_HEEL_MPS: f32 = 33.0;
-/// How much harder a charged pass is struck in stride, m/s, and the gauge from which on. Measured.
+/// What a charged pass in stride gains, m/s, and from which gauge on. Measured.
 const CHARGE_MPS: f32 = 2.5;
 const CHARGED: f32 = 0.35;
-/// How much less hard a pass to the side is struck at most, m/s. Measured.
+/// The most that a pass to the side loses, m/s. Measured.
 const ASIDE_LESS_MPS: f32 = 2.0;
-/// How much faster a ball rises that is played to the side, and behind one's back, m/s. Measured.
+/// How much faster the ball rises when played to the side, and behind the back, m/s. Measured.
 const ASIDE_UP_MPS: f32 = 0.3;
 const HEEL_UP_MPS: f32 = 0.4;
-/// From which angle to the run on a pass is played with the heel, degrees; chosen.
+/// From this angle to the run on, a pass is played with the heel, degrees; chosen.
 const HEEL_DEG: f32 = 135.0;
-/// Topspin of a pass along the ground and backspin of a lofted one, rad/s for each m/s, and up to which speed they grow.
-/// (GRF's shares of each other; fitted to the measured heights.)
+/// Topspin of a ground pass and backspin of a lofted one, rad/s per m/s, and the speed up to which
+/// they grow. (GRF's ratios; fitted to the measured heights.)
 const TOPSPIN_PER_MPS: f32 = 4.0;
 const BACKSPIN_PER_MPS: f32 = 1.5;
 const SPUN_MPS: f32 = 15.0;
-/// How fast a throw-in is, however far the mate is, m/s. Measured.
+/// Speed of a throw-in at any distance, m/s. Measured.
 const THROW_MPS: f32 = 17.4;
-/// How much faster a throw-in rises for every metre of its way, 1/s. Measured.
+/// How much faster a throw-in rises per metre of its way, 1/s. Measured.
 const THROW_UP_PER_S: f32 = 0.115;
-/// How far a throw-in is aimed at most, metres; chosen.
+/// Longest aim of a throw-in, metres; chosen.
 const THROW_M: f32 = 30.0;
 
 /// A ball as it leaves the foot.
@@ -49,10 +49,10 @@ pub struct Struck {
     pub spin: Vec3,
 }
 
-/// A pass along a way of so many metres; its side spin bends it back to the way.
+/// Strikes a pass along a way, metres; its side spin bends it back to that way.
 ///
-/// How hard a pass of a length is struck, how hard a foot can strike at most, and that what is missing goes into height
-/// are GRF's.
+/// GRF's: how hard a pass of a length is struck, how hard a foot can strike at most, and that
+/// missing speed becomes height.
 pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough: f32, by_hand: bool) -> Struck {
     let player = *game.player(id);
     let kind = plan.kind;
@@ -66,7 +66,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
     let heel = degrees > HEEL_DEG;
     let charge = (plan.gauge() / CHARGED).min(1.0);
     let (level, up) = if kind == KickKind::High {
-        // Struck to the side it is a little harder.
+        // A pass to the side is struck a little harder.
         let rise = 0.45 - 0.15 * distance / 60.0;
         let speed =
             (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
@@ -83,7 +83,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
         let lifted = ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
         (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
     };
-    // Measured passes without pressure hardly scatter; awkward ones and poor passers do.
+    // Measured: passes without pressure hardly scatter; awkward passes and those of poor passers
+    // do.
     let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
     let aside = noise::bell(game) * wild;
     let power = 1.0 + noise::bell(game) * wild * 0.8;
@@ -97,14 +98,15 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
     Struck { velocity, spin: spin.with_z(-2.0 * lag / (distance * MAGNUS)) }
 }
 
-/// By what angle a ball leaves nearer to the way a body faces than the kick is meant, radians. (GRF's.)
+/// The angle by which a ball leaves closer to where the body faces than the kick is meant, radians.
+/// (GRF's.)
 pub fn curl(facing: Vec2, way: Vec2, speed_mps: f32) -> f32 {
     let turn = math::atan2(facing.perp_dot(way), facing.dot(way)) / std::f32::consts::PI;
     let turn = if turn.abs() > 0.5 { (1.0 - turn.abs()) * math::sign_or(turn, 1.0) } else { turn };
     -0.5 * turn * (0.4 + 0.6 * (speed_mps / 70.0).clamp(0.0, 1.0))
 }
 
-/// A throw-in: as hard for any distance, higher for a longer one.
+/// A throw-in: the speed is the same for any distance, and longer ones rise more.
 pub fn thrown(game: &mut Match, id: PlayerId, way: Vec2) -> Struck {
     let rise = THROW_UP_PER_S * way.length().clamp(2.0, THROW_M);
     let ahead = way.normalize_or(game.player(id).body.facing);
@@ -112,13 +114,13 @@ pub fn thrown(game: &mut Match, id: PlayerId, way: Vec2) -> Struck {
     Struck { velocity: ((ahead + aside) * THROW_MPS).extend(rise), spin: Vec3::ZERO }
 }
 
-/// The axis of backspin for a velocity: level, unit.
+/// The horizontal unit axis of backspin for a velocity.
 fn across(velocity: Vec3) -> Vec3 {
     let flat = velocity.truncate().normalize_or_zero();
     Vec3::new(flat.y, -flat.x, 0.0)
 }
 
-/// The angle between the way a player runs (or faces) and another, degrees.
+/// The angle between the way a player runs (or faces) and another way, degrees.
 pub fn off_run(player: &Player, way: Vec2) -> f32 {
     let ahead = player.vel.normalize_or(player.body.facing);
     math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees()

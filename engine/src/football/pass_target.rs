@@ -1,4 +1,4 @@
-//! Whom a pass is for, and the point it is played to.
+//! Which teammate a pass is for, and the point that it is played to.
 
 use crate::math;
 use crate::state::player::{KickKind, KickPlan};
@@ -8,13 +8,14 @@ use glam::Vec2;
 /// Where a pass goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassTarget {
-    /// Whom it is for.
+    /// The receiver.
     pub mate: Option<PlayerId>,
     /// The point it is played to.
     pub point: Vec2,
 }
 
-/// How far ahead a held direction looks for a mate, metres: the further, the longer the key was held. (GRF's.)
+/// How far ahead a held direction looks for a teammate, metres; a longer key press looks further.
+/// (GRF's.)
 fn look_ahead_m(plan: &KickPlan) -> f32 {
     let steep = match plan.kind {
         KickKind::Long => 0.65,
@@ -24,13 +25,14 @@ fn look_ahead_m(plan: &KickPlan) -> f32 {
     60.0 * libm::powf(plan.gauge(), steep).clamp(1.0 / 60.0, 1.0)
 }
 
-/// Where a player will be when a pass over a distance reaches him.
+/// Where a player will be when a pass over this distance arrives.
 pub fn lead(mate: &Player, distance_m: f32) -> Vec2 {
     let time = (0.3 + 0.05 * distance_m).clamp(0.0, 1.0);
     mate.pos + mate.vel * (0.7 * libm::powf(time, 0.7))
 }
 
-/// Chooses the mate by GRF's rule (near the point that the input looks at, and in its direction) or takes the bot's.
+/// Chooses the receiver by GRF's rule (near the input's target point, and in its direction), or
+/// takes the bot's choice.
 pub fn choose(game: &Match, id: PlayerId, plan: &KickPlan) -> PassTarget {
     let player = game.player(id);
     let side = id.team().side() as f32;
@@ -50,7 +52,7 @@ pub fn choose(game: &Match, id: PlayerId, plan: &KickPlan) -> PassTarget {
     PassTarget { mate: mate.or_else(|| nearest_mate(game, id, point)), point }
 }
 
-/// The mate whom the input means.
+/// The teammate that the input means.
 fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
     let player = game.player(id);
     let input = plan.dir.unwrap_or(player.body.facing);
@@ -63,7 +65,7 @@ fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
         }
         let target = lead(other, other.pos.distance(player.pos));
         let share = (target.distance(look) / 70.0).clamp(0.0, 1.0);
-        // Neither the power nor an angle makes that less.
+        // Neither the power nor the angle can lower this bound.
         if best.is_some_and(|(least, _)| 0.8 * share >= least) {
             continue;
         }
@@ -81,7 +83,7 @@ fn best_mate(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<PlayerId> {
     best.map(|(_, mate)| mate)
 }
 
-/// The mate nearest to a point.
+/// The teammate nearest to a point.
 fn nearest_mate(game: &Match, id: PlayerId, point: Vec2) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (mate, other) in game.team(id.team()) {

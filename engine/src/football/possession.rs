@@ -5,16 +5,16 @@ use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::EventKind;
 
-/// A dribbler's ball is no higher than this, metres; chosen: how high a trapped one hops.
+/// A dribbler's ball is at most this high, metres; chosen: how high a trapped ball hops.
 const HIGH_M: f32 = 1.5;
 
 impl Match {
-    /// Whoever has the ball at their feet or in their hands, or else is dribbling it.
+    /// The player with the ball at their feet or in their hands, or the one who dribbles it.
     pub fn on_ball(&self) -> Option<PlayerId> {
         self.owner.or_else(|| self.controller())
     }
 
-    /// Whoever is dribbling the ball though it rolls free between two touches.
+    /// The player who dribbles the ball, even while it rolls free between two touches.
     pub fn controller(&self) -> Option<PlayerId> {
         let id = self.last_touch?;
         let player = self.player(id);
@@ -24,7 +24,7 @@ impl Match {
     }
 }
 
-/// Whether a player has the ball at his feet: near, low and about as fast as he.
+/// Whether a player has the ball at their feet: it is near, low and about as fast as the player.
 pub fn has_ball(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     if !player.active || game.ball.pos.z > 0.5 {
@@ -35,7 +35,7 @@ pub fn has_ball(game: &Match, id: PlayerId) -> bool {
         && (game.ball.vel.truncate() - player.vel).length_squared() <= 36.0
 }
 
-/// Reckons the owner again: the last toucher, while he has the ball; the keeper, while he holds it.
+/// Updates the owner: the last toucher while they have the ball, or the keeper while holding it.
 pub fn update(game: &mut Match, events: &mut Events) {
     let owner = match (game.play.hands, game.play.set_piece) {
         (Some((keeper, _)), _) => Some(keeper),
@@ -62,7 +62,7 @@ fn won(game: &Match, events: &mut Events, owner: Option<PlayerId>) {
     let Some(before) = game.possession else { return };
     events.push(report::event(game, EventKind::BallWon).by(winner));
     let lost = report::event(game, EventKind::BallLost).team(before);
-    // At a set piece the ball may have been given to a team without anybody having had it.
+    // A set piece gives the ball to a team even if none of its players had it.
     let loser = game.play.last_owner.filter(|loser| loser.team() == before);
     events.push(loser.map_or(lost, |loser| lost.by(loser)));
 }

@@ -1,4 +1,5 @@
-//! Who can be at the ball first: time to the ball for everyone, and the player of each team who goes for it.
+//! Who reaches the ball first: everyone's time to the ball, and the player of each team who goes
+//! for it.
 
 use crate::physics::forecast::{Forecast, POINTS, SPACING_TICKS, time_s};
 use crate::rows::WIDTH;
@@ -11,40 +12,41 @@ use std::cmp::Ordering;
 use std::ops::Range;
 use wide::f32x4;
 
-/// Highest ball that a player can play without his hands, metres.
+/// The highest ball that a player can play without hands, metres.
 pub const PLAYABLE_M: f32 = 1.25;
-/// What sums of a way are off by at most, generously, metres.
+/// A generous bound on the rounding error of sums of distances, metres.
 const ROUNDING_M: f32 = 0.01;
 /// Seconds between two points of a forecast.
 const SPACING_S: f32 = SPACING_TICKS as f32 * 0.01;
-/// How near the ball must come to be played, metres, how far before a runner it is best, and what share of their top speed
-/// somebody reaches. (GRF's.)
+/// The ball must come this near to be played (`REACH_M`), and is best this far ahead of a runner
+/// (`FOOT_M`), metres. Runners reach `TOP_SHARE` of their top speed. (GRF's.)
 const REACH_M: f32 = 0.28;
 const FOOT_M: f32 = 0.1;
 const TOP_SHARE: f32 = 0.94;
-/// How long it takes to run another way, seconds. (GRF's.)
+/// Seconds until a player runs another way. (GRF's.)
 const CHANGES_S: f32 = 0.7;
-/// Whoever can be at the ball sooner is at it: seconds; from how near, metres. (GRF's.)
+/// A player who reaches the ball sooner than this is at it: seconds, and from how near, metres.
+/// (GRF's.)
 const AT_ONCE_S: f32 = 0.08;
 const AT_ONCE_M: f32 = 0.6;
 
-/// A ball faster than this that passes within so many metres is waited for, m/s; chosen.
+/// A ball faster than this, m/s, that passes within `COMES_M` is waited for; chosen.
 const COMES_MPS: f32 = 10.0;
 const COMES_M: f32 = 0.4;
 
-/// The ball's way on the pitch from a moment on: off the pitch nobody follows the ball.
+/// The ball's path on the pitch from a moment on. Players don't follow the ball off the pitch.
 pub struct Way<'a> {
     forecast: &'a Forecast,
-    /// The points of the forecast that belong to it.
+    /// The points of the forecast that belong to the path.
     points: Range<usize>,
-    /// Those of them at which the ball is low enough to be played, a bit each.
+    /// The points at which the ball is low enough to play, one bit each.
     playable: u64,
-    /// The moment, in seconds after the forecast's first point.
+    /// The start of the path, in seconds after the forecast's first point.
     offset_s: f32,
 }
 
 impl Way<'_> {
-    /// The way of a forecast from a tick on.
+    /// The path of a forecast from a tick on.
     pub fn of(forecast: &Forecast, tick: u32) -> Way<'_> {
         let (first, offset_s) = forecast.first(tick);
         let points = forecast.on_pitch(first);
@@ -55,13 +57,13 @@ impl Way<'_> {
     }
 }
 
-/// A point of a forecast and those behind it, a bit each.
+/// A point of a forecast and all later ones, one bit each.
 fn from(point: usize) -> u64 {
     u64::MAX.checked_shl(point as u32).unwrap_or_default()
 }
 
-/// Where and when a player can first meet the ball: what they run now fades within [`CHANGES_S`], while they come to run
-/// wherever they want. (GRF's.)
+/// Where and when a player can first meet the ball. Their current run fades within [`CHANGES_S`],
+/// after which they run wherever they want. (GRF's.)
 pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     const PLACES: [f32; WIDTH] = [0.0, 1.0, 2.0, 3.0];
     let speed = TOP_SHARE * player.body.speed_top_mps;
@@ -69,7 +71,7 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     let is = f32x4::splat;
     let (at_x, at_y, vel_x, vel_y) = (is(foot.x), is(foot.y), is(player.vel.x), is(player.vel.y));
     let Range { start, end } = way.points;
-    // So much nearer to each other the ball and they come from a point to the next, at most.
+    // From one point to the next, the ball and the player can close at most this distance.
     let per_closing_m = 1.0 / (way.forecast.stride_m() + speed.max(player.vel.length()) * SPACING_S);
     let mut row = start / WIDTH;
     while row * WIDTH < end {
@@ -88,7 +90,7 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
             let (point, time_s) = (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
             return (point, if time_s < AT_ONCE_S { at_once_s(player, point) } else { time_s });
         }
-        // The rows that they can't have come near enough in are passed over.
+        // Skips rows in which the player can't have come near enough.
         let [.., dx] = dx.to_array();
         let [.., dy] = dy.to_array();
         let [.., radius] = radius.to_array();
@@ -104,13 +106,13 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     (last, time_s + (lacks_m / speed).max(0.0))
 }
 
-/// The time of whoever is at the ball already: the nearer they are, the less. (GRF's.)
+/// The time of a player who is already at the ball; nearer means less. (GRF's.)
 fn at_once_s(player: &Player, point: Vec2) -> f32 {
     let apart_m = (player.pos + player.vel * AT_ONCE_S).distance(point);
     AT_ONCE_S * (apart_m / AT_ONCE_M).min(1.0)
 }
 
-/// Whether a fast ball comes to a player, low enough to be taken: they need not go to meet it.
+/// Whether a fast ball comes to a player low enough to take, so that they needn't move towards it.
 pub fn comes_to(game: &Match, player: &Player) -> bool {
     let ball = &game.ball;
     let fast = ball.vel.truncate().length_squared() > COMES_MPS * COMES_MPS;
@@ -118,26 +120,26 @@ pub fn comes_to(game: &Match, player: &Player) -> bool {
     fast && game.play.forecast.from(game.tick).any(|(_, at)| comes(at))
 }
 
-/// Ticks until a player sees what somebody else's touch has made of the ball: 80 - 40 · reaction ms, and a bot 100 ms
-/// more for all the difficulty it lacks (GRF's delay).
+/// Ticks until a player sees where somebody else's touch sends the ball: 80 - 40 · reaction ms, and
+/// up to 100 ms more for a bot, by the difficulty that it lacks (GRF's delay).
 fn delay_ticks(player: &Player, driven: bool) -> i32 {
     let slow = if driven { 0.0 } else { 10.0 * (1.0 - player.difficulty) };
     (8.0 - 4.0 * player.body.stats[Stat::Reaction.index()] + slow) as i32
 }
 
-/// Whether a player has seen what the last touch has made of the ball.
+/// Whether a player has seen where the last touch sends the ball.
 pub fn has_seen(game: &Match, id: PlayerId) -> bool {
     let (since, toucher) = last_touch(game);
     toucher == Some(id) || since >= delay_ticks(game.player(id), game.is_driven(id))
 }
 
-/// Ticks since the last touch, and whose it was.
+/// Ticks since the last touch, and who touched.
 fn last_touch(game: &Match) -> (i32, Option<PlayerId>) {
     let since = |id: PlayerId| ticks_since(game.tick, game.player(id).body.touched_at);
     (game.last_touch.map_or(i32::MAX, since), game.last_touch)
 }
 
-/// Reckons everyone's meeting with the ball, and who goes for it.
+/// Computes everyone's meeting with the ball, and who goes for it.
 pub fn assess(game: &mut Match) {
     renew(game, |_| true);
     for team in [Team::Left, Team::Right] {
@@ -145,12 +147,12 @@ pub fn assess(game: &mut Match) {
     }
 }
 
-/// Renews the meetings of those who are going for the ball.
+/// Updates the meetings of the players who are going for the ball.
 pub fn refresh(game: &mut Match) {
     renew(game, |player| matches!(player.body.intent, Intent::Ball(_)));
 }
 
-/// Renews the meetings of some players; who has not seen the last touch yet keeps his.
+/// Updates the meetings of some players. A player who hasn't seen the last touch keeps the old one.
 fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
     let (since, toucher) = last_touch(game);
     let way = Way::of(&game.play.forecast, game.tick);
@@ -170,7 +172,7 @@ fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
     }
 }
 
-/// Who will be at a free ball first; nobody where two of both teams are there together.
+/// The player who will reach a free ball first. None if two players of both teams arrive together.
 pub fn first(game: &Match) -> Option<PlayerId> {
     let [left, right] = game.play.chaser;
     let needs = |id: Option<PlayerId>| id.map_or(f32::MAX, |id| game.player(id).body.meet_s);
@@ -181,7 +183,7 @@ pub fn first(game: &Match) -> Option<PlayerId> {
     }
 }
 
-/// Chooses the player of a team who goes for the ball, and the two behind him.
+/// Chooses the player of a team who goes for the ball, and the next two.
 fn choose(game: &mut Match, team: Team) {
     let index = team.index();
     let current = game.play.chaser[index];

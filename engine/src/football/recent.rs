@@ -1,15 +1,15 @@
-//! What is kept of the last seconds, and when.
+//! The memory of the last seconds of play, and when it is updated.
 
 use crate::state::Match;
 use setpiece_scenario::vocabulary::Team;
 
-/// What is added to both teams' times to the ball before they are compared, seconds. (GRF's.)
+/// Added to both teams' times to the ball before they are compared, seconds. (GRF's.)
 const CALM_S: f32 = 1.5;
-/// How much of a player's mean speed a step is.
+/// The weight of one step in a player's mean speed.
 const TIRES: f32 = 0.02;
 
-/// A start, and the moment in which play goes on after a stop: whose the ball is counts as having had it, or whoever is
-/// sooner at it. (GRF's.)
+/// Resets the memory at a start and when play goes on after a stop. The team that has the ball, or
+/// reaches it sooner, counts as having had it. (GRF's.)
 pub fn begin(game: &mut Match) {
     let [left, right] = soonest(game);
     let sooner = if left < right { Team::Left } else { Team::Right };
@@ -17,7 +17,7 @@ pub fn begin(game: &mut Match) {
     game.play.recent.begin(team);
 }
 
-/// The team that has the ball to itself: in hands, or at a set piece.
+/// The team that has the ball uncontested: in hands, or at a set piece.
 fn holder(game: &Match) -> Option<Team> {
     match (game.play.hands, game.play.set_piece) {
         (Some((keeper, _)), _) => Some(keeper.team()),
@@ -26,14 +26,14 @@ fn holder(game: &Match) -> Option<Team> {
     }
 }
 
-/// In how many seconds each team is at the ball, and some.
+/// Seconds until each team reaches the ball, plus [`CALM_S`].
 fn soonest(game: &Match) -> [f32; 2] {
     [Team::Left, Team::Right].map(|team| {
         game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.body.meet_s)).min(60.0) + CALM_S
     })
 }
 
-/// Takes a step in.
+/// Adds a step to the memory.
 pub fn remember(game: &mut Match) {
     let (soonest, holder, possession) = (soonest(game), holder(game), game.possession);
     let ball = game.ball.pos.truncate();

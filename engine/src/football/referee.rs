@@ -1,4 +1,4 @@
-//! The referee: goals and the ball out of play. Stops play and says which restart follows.
+//! The referee: goals and balls out of play. Stops play and names the restart.
 
 use crate::football::{advantage, contact, report, whistle};
 use crate::physics::{self, Line};
@@ -8,10 +8,10 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
 
-/// No nearer to a corner than this, from the middle, is a throw-in taken, metres. (GRF's.)
+/// A throw-in is taken at most this far from the middle, along x, metres. (GRF's.)
 const THROW_IN_X_M: f32 = 54.4;
 
-/// Judges the tick in which the ball came from `before`.
+/// Judges a tick in which the ball came from `before`.
 pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
     if game.dead || game.play.set_piece.is_some() {
         return;
@@ -25,7 +25,7 @@ pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
     }
 }
 
-/// A goal.
+/// Awards a goal.
 fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
     let shot = game.play.shot.take().filter(|shot| shot.by.team() == scorers);
     if let Some(shot) = shot {
@@ -53,7 +53,7 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
     whistle::stop(game, events, GameMode::KickOff, scorers.other(), Vec2::ZERO);
 }
 
-/// The ball is out of play.
+/// Handles a ball that left the pitch.
 fn out(game: &mut Match, events: &mut Events, line: Line) {
     let ball = game.ball.pos;
     if let Some(shot) = game.play.shot.take() {

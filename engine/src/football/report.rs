@@ -1,4 +1,4 @@
-//! Writing events.
+//! Building events.
 
 use crate::state::event::{Event, Events};
 use crate::state::{Match, PlayerId};
@@ -6,7 +6,8 @@ use glam::Vec3;
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::EventKind;
 
-/// An event of now, at the ball; where it has left the pitch, on the line it crossed.
+/// An event that happens now, at the ball. If the ball has left the pitch, its place is on the line
+/// it crossed.
 pub fn event(game: &Match, kind: EventKind) -> Event {
     let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
     Event {

@@ -1,4 +1,5 @@
-//! Restarts: what follows a stop of play. Ball and players are placed; dead time costs no step.
+//! Restarts: what follows a stop of play. The ball and the players are placed; dead time costs no
+//! step.
 
 use crate::football::{forecast, lineup, reach, recent, set_piece, switching};
 use crate::physics::Ball;
@@ -9,7 +10,7 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, CIRCLE_RADIUS_M};
 use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
-/// Places everyone for the restart that waits, and ends the stop.
+/// Places everyone for the pending restart, and ends the stop.
 pub fn apply(game: &mut Match) {
     game.dead = false;
     if let Some(restart) = game.play.pending.take() {
@@ -19,7 +20,8 @@ pub fn apply(game: &mut Match) {
 
 /// Sets up a set piece.
 ///
-/// One that is awarded to a team without players is taken by the others; without anybody the ball just lies there.
+/// If the awarded team has no players, the other team takes it. If no players exist at all, the
+/// ball lies there.
 pub fn place(game: &mut Match, restart: Restart) {
     calm(game);
     let empty = game.team(restart.team).next().is_none();
@@ -46,13 +48,14 @@ pub fn place(game: &mut Match, restart: Restart) {
     switching::reassign(game);
 }
 
-/// Times that a crowd at the circle is gone through.
+/// How often a crowd at the circle is resolved.
 const CLEARING_PASSES: usize = 4;
 
-/// Sends everyone to their place of the kick-off. Play is on at once; the mode shows that it has not been taken.
+/// Sends everyone to their kick-off place. Play is on at once; the mode shows that the kick-off
+/// hasn't been taken.
 ///
-/// Where opponents keep out of the circle, somebody of the team that kicks off is brought to the ball. Elsewhere everyone
-/// stays in place, and whoever is first there has the ball. (GRF's.)
+/// If opponents keep out of the circle, a player of the team that kicks off is brought to the ball.
+/// Otherwise everyone stays in place, and the first player there has the ball. (GRF's.)
 fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     for (i, player) in game.players.iter_mut().enumerate() {
         let own = PlayerId(i as u8).team() == team;
@@ -70,7 +73,8 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
     }
     clear_circle(game, team, spot);
     if let Some(kicker) = bring_kicker(game, team, spot) {
-        // Who is moved aside may stand in the circle again, and who leaves it in somebody.
+        // A player moved aside may end up in the circle again, and one moved out of it may end up
+        // inside another player.
         for _ in 0..CLEARING_PASSES {
             if !set_piece::spread_out(game, kicker) {
                 break;
@@ -92,7 +96,7 @@ fn clear_circle(game: &mut Match, team: Team, spot: Vec2) {
     }
 }
 
-/// Brings somebody of the team that kicks off to the ball; returns who it is.
+/// Brings a player of the team that kicks off to the ball, and returns that player.
 fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(team) {
@@ -109,7 +113,7 @@ fn bring_kicker(game: &mut Match, team: Team, spot: Vec2) -> Option<PlayerId> {
     Some(id)
 }
 
-/// Ends everything under way: flights, poses, wishes.
+/// Ends everything under way: flights, poses, intents.
 fn calm(game: &mut Match) {
     game.play.pass = None;
     game.play.shot = None;
@@ -137,12 +141,12 @@ fn calm(game: &mut Match) {
     }
 }
 
-/// Lays the ball down.
+/// Places the ball at rest.
 fn lay_ball(game: &mut Match, spot: Vec2) {
     game.ball = Ball { pos: spot.extend(BALL_RADIUS_M as f32), vel: Vec3::ZERO, spin: Vec3::ZERO };
 }
 
-/// Everyone looks at the ball.
+/// Turns everyone to the ball.
 pub fn face_ball(game: &mut Match) {
     let ball = game.ball.pos.truncate();
     for player in &mut game.players {

@@ -1,5 +1,5 @@
-//! Bodies don't pass through each other: circles of 0.36 m are pushed apart. Who is pushed plays worse for a moment, and
-//! may fall.
+//! Keeps bodies apart: overlapping circles of 0.36 m are pushed apart. A pushed player plays worse
+//! for a moment, and may fall.
 
 use crate::football::pace::{DT, SPRINT_MPS};
 use crate::football::{frame, reach, stumble};
@@ -16,37 +16,39 @@ use wide::f32x4;
 
 /// Distance at which two bodies touch, metres.
 pub const CONTACT_M: f32 = 0.72;
-/// How near one comes to a man who lies, metres; chosen.
+/// Players keep this distance from a player on the ground, metres; chosen.
 const LYING_M: f32 = 0.5;
-/// Most that one meeting moves a body in two ticks, metres. (GRF's: 0.08 a tick.)
+/// The most that one collision moves a body in two ticks, metres. (GRF's: 0.08 a tick.)
 const PUSH_MAX_M: f32 = 0.16;
-/// Within this distance two players carry each other along, metres, and how much of the other's velocity they take over
-/// at most. (GRF's.)
+/// Within this distance two players drag each other along, metres. `DRAG`: how much of the other's
+/// velocity they take over at most. (GRF's.)
 const SHELL_M: f32 = 1.872;
 const DRAG: f32 = 0.25;
-/// What counts in a meeting beside balance: a turned back, pace, the ball nearer by so much, being first at the ball where
-/// bodies touch and where they only run close. (GRF's.)
+/// What else counts in a collision, besides balance: a turned back, speed, being this much nearer
+/// to the ball. Being first at the ball counts too: where bodies touch, and where they only run
+/// close. (GRF's.)
 const BACK: f32 = 0.8;
 const PACE: f32 = 0.2;
 const BALL_M: f32 = 0.6;
-/// A leg that is out for the ball, without any skill, and what all of it adds. (GRF's.)
+/// Weight of a leg that is out for the ball, without any skill, and what full skill adds. (GRF's.)
 const TACKLES: [f32; 2] = [0.1, 0.4];
 const FIRST_PUSHED: f32 = 0.4;
 const FIRST_DRAGGED: f32 = 0.6;
-/// Share of a displacement in two ticks that a runner's own velocity takes over; fitted to how dribblers are slowed.
+/// The share of a displacement in two ticks that a runner's own velocity takes over. Fitted to how
+/// dribblers are slowed.
 const TAKEN_OVER: f32 = 0.03;
 
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;
-/// Share of a push that is left after two ticks: 0.95 a tick.
+/// The share of a push that is left after two ticks: 0.95 a tick.
 const SHOVE_LEFT: f32 = 0.9025;
 
-/// Where nobody is, metres.
+/// The place of empty lanes, metres: far from everybody.
 const FAR_M: f32 = 1.0e6;
 
-/// Pushes overlapping bodies apart and keeps everyone within the rim and out of the goals' frames.
+/// Pushes overlapping bodies apart, and keeps everyone within the rim and out of the goals' frames.
 pub fn separate(game: &mut Match, events: &mut Events) {
-    // Places beyond the last lie too far off to meet anybody.
+    // Unused places lie too far off to touch anybody.
     let mut xs = [[FAR_M; WIDTH]; ROWS];
     let mut ys = [[0.0; WIDTH]; ROWS];
     let mut ids: ArrayVec<PlayerId, PLAYERS_MAX> = ArrayVec::new();
@@ -69,7 +71,7 @@ pub fn separate(game: &mut Match, events: &mut Events) {
             let (dx, dy) = (f32x4::new(xs[row]) - x, f32x4::new(ys[row]) - y);
             meets |= (dx * dx + dy * dy).simd_lt(near).to_bitmask() << (row * WIDTH);
         }
-        // Whoever comes before has met this one already.
+        // Earlier players have been paired with this one already.
         meets &= u32::MAX << i << 1;
         while meets != 0 {
             let j = meets.trailing_zeros() as usize;
@@ -88,15 +90,15 @@ pub fn separate(game: &mut Match, events: &mut Events) {
     }
 }
 
-/// Who comes to a man on the ground goes round him; `away`: from that man to him.
+/// Lets a player go round one on the ground. `away`: from that player to the one who moves.
 fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
     let player = &mut game.players[id.index()];
     player.pos += away * (LYING_M - distance).clamp(0.0, PUSH_MAX_M);
     player.vel -= away * player.vel.dot(away).min(0.0);
 }
 
-/// Two players meet: who runs close is carried along by the other, bodies that touch are pushed apart; the one who stands
-/// better yields less. (GRF's.)
+/// Lets two players collide. Players who run close drag each other along, and bodies that touch are
+/// pushed apart. The one who stands better yields less. (GRF's.)
 fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Option<PlayerId>) {
     let (a, b) = (*game.player(i), *game.player(j));
     let between = b.pos - a.pos;
@@ -121,7 +123,7 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
         stands += (off(&b) - off(&a)).clamp(-BALL_M, BALL_M);
     }
     let is_first = f32::from(i8::from(first == Some(i)) - i8::from(first == Some(j)));
-    // The share of each displacement that is the first's.
+    // The first player's share of each displacement.
     let dragged = 0.5 - 0.45 * (stands + FIRST_DRAGGED * is_first).clamp(-1.0, 1.0);
     let close = 1.0 - ((distance - CONTACT_M) / (SHELL_M - CONTACT_M)).clamp(0.0, 1.0);
     let carried = (b.vel - a.vel) * (2.0 * DT * DRAG * math::eighths::<2>(close));
@@ -139,14 +141,14 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     }
 }
 
-/// How much better somebody stands whose leg is out for the ball. (GRF's.)
+/// How much better a player stands whose leg is out for the ball. (GRF's.)
 fn tackles(player: &Player) -> f32 {
     let pokes = player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke);
     let stat = if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
     if pokes || stat == Stat::SlidingTackle { TACKLES[0] + TACKLES[1] * player.skill(stat) } else { 0.0 }
 }
 
-/// Moves a player in two ticks by so much, metres; their own velocity takes some of it over.
+/// Moves a player by this much over two ticks, metres; their own velocity takes over a part of it.
 fn displace(game: &mut Match, id: PlayerId, by: Vec2) {
     let player = &mut game.players[id.index()];
     player.pos += by;

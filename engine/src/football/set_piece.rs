@@ -14,19 +14,20 @@ const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
 const THROW_IN_M: f32 = 2.0;
 /// A wall is built for free kicks nearer to goal than this, metres (GRF's).
 pub const WALL_WITHIN_M: f32 = 40.0;
-/// How near two men stand at a set piece at the nearest, metres: about a body's breadth.
+/// Least distance between two players at a set piece, metres: about a body's breadth.
 const APART_M: f32 = 0.74;
-/// How far behind the offside line attackers wait for a free kick, metres; chosen: they may be moved apart yet.
+/// Attackers wait this far behind the offside line at a free kick, metres; chosen: they may still
+/// be moved apart.
 const ONSIDE_M: f32 = 1.0;
-/// Times that a crowd is gone through until nobody stands in anybody.
+/// How often a crowd is resolved until no two players overlap.
 const SPREAD_PASSES: usize = 8;
 /// How high the ball is held before a throw-in, metres; chosen.
 const OVERHEAD_M: f32 = 1.9;
-/// From one player of a wall to the next, share of the distance to the ball. (GRF's.)
+/// Distance between players of a wall, as a share of the distance to the ball. (GRF's.)
 const WALL_SPACING: f32 = 0.07;
 
-/// Who takes a set piece: whoever of the team stands nearest to the ball once everybody is in place. (GRF's.) Lazy players
-/// that no agent can lead take it only where nobody else is there.
+/// The taker of a set piece: the teammate nearest to the ball once everybody is in place. (GRF's.)
+/// A lazy player that no agent can control takes it only if nobody else is there.
 fn nearest(game: &Match, team: Team, spot: Vec2, unfit: impl Fn(&Player) -> bool) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(team) {
@@ -44,8 +45,8 @@ fn nearest(game: &Match, team: Team, spot: Vec2, unfit: impl Fn(&Player) -> bool
     best.map(|(_, id)| id)
 }
 
-/// Gives the set piece that waits to a taker where everybody else stands as a scenario has it: the nearest, and that is the
-/// keeper for goal kicks and an outfielder else.
+/// Appoints the taker of the pending set piece if the scenario has placed everybody else. It is the
+/// nearest player: the keeper for goal kicks, an outfielder otherwise.
 pub fn appoint(game: &mut Match) {
     let Some(SetPiece { mode, team, spot, .. }) = game.play.set_piece else { return };
     let unfit = |player: &Player| (player.role == Role::GK) != (mode == GameMode::GoalKick);
@@ -60,7 +61,7 @@ pub fn appoint(game: &mut Match) {
     (player.pos, player.vel) = (side * lineup::taker(mode, side * spot), Vec2::ZERO);
 }
 
-/// Places everyone for a set piece other than a kick-off; returns who takes it.
+/// Places everyone for a set piece other than a kick-off, and returns the taker.
 pub fn arrange(game: &mut Match, restart: Restart) -> Option<PlayerId> {
     line_up(game, restart);
     keep_distance(game, restart);
@@ -96,7 +97,7 @@ fn line_up(game: &mut Match, restart: Restart) {
     }
 }
 
-/// Nobody of the team that takes a free kick waits in an offside position.
+/// Moves the kicking team's players out of offside positions.
 fn keep_onside(game: &mut Match, team: Team) {
     let side = team.side() as f32;
     let line = offside::line(game, team) - ONSIDE_M;
@@ -107,7 +108,8 @@ fn keep_onside(game: &mut Match, team: Team) {
     });
 }
 
-/// Moves those apart who would stand inside each other; the taker and keepers stay. Returns whether anybody was moved.
+/// Moves apart players who would overlap. The taker and keepers stay. Returns whether anybody was
+/// moved.
 pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
     for pass in 0..SPREAD_PASSES {
         let mut moved = false;
@@ -133,14 +135,16 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
     true
 }
 
-/// The place so far from another; on the other side of it where this one lies behind the rim.
+/// The place at this distance from another; on the other side of it if that place is beyond the
+/// rim.
 fn beside(of: Vec2, away: Vec2) -> Vec2 {
     let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
     let outside = (of + away).abs().cmpgt(rim);
     (of + Vec2::select(outside, -away, away)).clamp(-rim, rim)
 }
 
-/// The three defenders nearest to the ball stand in the way of a free kick near their goal, as near as they may.
+/// Builds a wall of the three defenders nearest to the ball, as close to a free kick near their
+/// goal as allowed.
 fn build_wall(game: &mut Match, restart: Restart) {
     let goal = Vec2::new(HALF_LENGTH_M as f32 * restart.team.side() as f32, 0.0);
     let way = goal - restart.spot;
@@ -167,7 +171,7 @@ fn build_wall(game: &mut Match, restart: Restart) {
     }
 }
 
-/// Opponents keep their distance.
+/// Keeps opponents at the legal distance.
 fn keep_distance(game: &mut Match, restart: Restart) {
     let least = if restart.mode == GameMode::ThrowIn { THROW_IN_M } else { CIRCLE_RADIUS_M as f32 };
     let inward = (-restart.spot).normalize_or(Vec2::new(-(restart.team.side() as f32), 0.0));

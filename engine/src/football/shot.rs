@@ -10,52 +10,56 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::Stat;
 
-/// Backspin of a shot, rad/s: at 25 m/s it falls with 8 m/s², and with 11.5 where the spin is turned. Measured.
+/// Backspin of a shot, rad/s. At 25 m/s it falls with 8 m/s², or with 11.5 m/s² if the spin is
+/// turned. Measured.
 const SHOT_BACKSPIN: f32 = 11.0;
-/// Side spin of a shot across the body that bends it back, rad/s a radian; chosen.
+/// Side spin of a shot across the body that bends it back, rad/s per radian; chosen.
 const CURL: f32 = 420.0;
-/// Side spin that a shot gets by chance at most, rad/s; chosen.
+/// The most side spin that a shot gets by chance, rad/s; chosen.
 const STRAY_SPIN: f32 = 8.0;
-/// With how much a shot falls, whichever way it spins, m/s².
+/// Fall of a shot without spin, m/s².
 const FALL_MPS2: f32 = 9.81;
-/// How far ahead a player's own movement counts in the aim, seconds. (GRF's.)
+/// A player's own movement counts in the aim for this long, seconds. (GRF's.)
 const AHEAD_S: f32 = 0.12;
 /// The angle to the run at which a shot is easiest, radians: across the body. (GRF's.)
 const IDEAL_RAD: f32 = 0.2 * std::f32::consts::PI;
-/// The paces at which a ball is struck at least and at most, m/s. Fitted to the measured speeds of standing and sprinting
-/// shots.
+/// Bounds of the speed at which a player strikes, m/s. Fitted to the measured speeds of standing
+/// and sprinting shots.
 const STEP_MPS: f32 = 1.6;
 const BRAKED_MPS: f32 = 4.5;
-/// What share of the hardest shot is left without a run-up. Measured.
+/// The share of the hardest shot that is left without a run-up. Measured.
 const STANDING: f32 = 0.765;
-/// How much a hard shot is lifted (GRF's), and how much the hardest more than the others. Fitted to the measured heights.
+/// How much a hard shot is lifted (GRF's), and how much more the hardest one is. Fitted to the
+/// measured heights.
 const LIFT: f32 = 0.7;
 const LIFTS: f32 = 1.25;
-/// The pace at which a shot is easiest (GRF's), and what a runner has left of theirs at most as they strike, m/s; fitted to
-/// the measured heights.
+/// The speed at which a shot is easiest (GRF's), and the most speed that a runner has left at the
+/// strike, m/s. Fitted to the measured heights.
 const EASIEST_MPS: f32 = 3.5;
 const LEFT_MPS: f32 = 3.8;
-/// The pace beyond which a run makes aiming no harder, m/s; fitted to how far shots on the run go astray.
+/// Above this speed running makes aiming no harder, m/s. Fitted to how far shots on the run go
+/// astray.
 const RUN_MPS: f32 = 6.0;
-/// How hard the easiest shot is. Fitted to the measured directions.
+/// Difficulty of the easiest shot. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
-/// How much of what GRF's foot gives the ball arrives in ours: its ball is braked before it is first seen.
+/// The factor from GRF's ball speed at the foot to ours. GRF brakes the ball before it can first be
+/// observed.
 const GIVEN: f32 = 1.015;
 
-/// The point that a shot is meant for now: the bot's, or what the held direction means.
+/// The point that a shot aims at now: the bot's choice, or what the held direction means.
 pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
     let player = game.player(id);
     let dir = plan.dir.unwrap_or(player.body.facing);
     plan.point.unwrap_or_else(|| aim_of(player.pos + player.vel * AHEAD_S, id.team().side() as f32, Some(dir)))
 }
 
-/// The point that a shot aims at: settled as the swing began, or chosen by the bot.
+/// The point that a shot aims at: fixed when the swing began, or chosen by the bot.
 fn aim(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
     let settled = plan.swing.and_then(|swing| swing.way).map(|way| game.ball.pos.truncate() + way);
     settled.unwrap_or_else(|| meant(game, id, plan))
 }
 
-/// Whether somebody runs, rather than sets off or stands.
+/// Whether a player runs, as opposed to setting off or standing.
 pub fn runs(player: &Player) -> bool {
     player.vel.length_squared() >= WALKS_FROM_MPS * WALKS_FROM_MPS
 }
@@ -71,34 +75,35 @@ fn off_goal(from: Vec2, side: f32, dir: Vec2) -> f32 {
     math::atan2(way.perp_dot(dir), way.dot(dir))
 }
 
-/// The point of the goal mouth that a held world direction means, whatever the keeper does: the further it points off the
-/// middle, the nearer to the post, whichever way it points. (GRF's.)
+/// The point of the goal mouth that a held world direction means, whatever the keeper does. The
+/// further it points off the middle, the closer it is to the post. (GRF's.)
 pub fn aim_of(from: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
     let goal = goal_of(side);
     let Some(dir) = dir else { return goal };
-    // The sign of the angle tells the side of the goal in the shooter's own view.
+    // The sign of the angle gives the side of the goal in the shooter's own view.
     let angle = off_goal(from, side, dir);
     let turn = (2.0 * angle / std::f32::consts::PI).clamp(-1.0, 1.0);
     let shift = libm::powf(turn.abs(), 0.7) * math::sign_or(turn, 1.0);
     Vec2::new(goal.x, shift * math::sign_or(goal.x - from.x, side) * GOAL_HALF_WIDTH_M as f32 * 0.9)
 }
 
-/// A smooth step from 0 to 1, mixed with the straight one.
+/// A smooth step from 0 to 1, mixed with a linear one.
 fn eased(share: f32, smooth: f32) -> f32 {
     let curve = 0.5 - 0.5 * math::cos(share * std::f32::consts::PI);
     curve * smooth + share * (1.0 - smooth)
 }
 
-/// A shot from the ground or in the air; `rough` 0..1 is how much rivals hamper it.
+/// A shot from the ground or in the air. `rough` (0..1) is how much opponents hamper it.
 ///
-/// What makes a shot hard (the angle to the run, the pace, a ball that moves, its own power), how that pulls it towards
-/// the run, lifts and weakens it, and how chance mixes the best shot with the worst are GRF's.
+/// GRF's: what makes a shot hard (the angle to the run, speed, a moving ball, its own power); how
+/// that pulls it towards the run, lifts and weakens it; and how chance mixes the best shot with the
+/// worst.
 pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> Struck {
     let player = *game.player(id);
     let from = game.ball.pos.truncate();
     let way = (aim(game, id, plan) - from).normalize_or(Vec2::new(id.team().side() as f32, 0.0));
     let run = if player.vel.length() > 1.0 { player.vel.normalize() } else { player.body.facing };
-    // Whoever stands takes a step; whoever sprints brakes for the ball.
+    // A standing player takes a step, and a sprinter brakes for the ball.
     let pace = player.vel.length().clamp(STEP_MPS, BRAKED_MPS);
     let off = math::atan2(run.perp_dot(way), run.dot(way)).abs();
     let across = eased(1.0 - (off - IDEAL_RAD).abs() / std::f32::consts::PI, 0.8).max(0.0);
@@ -124,7 +129,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
         let easy = 1.0 - 0.3 * ((pace - EASIEST_MPS).abs() / 4.0).clamp(0.0, 1.0);
         (1.0 - ease * easy).clamp(LEAST_HARD, 1.0)
     };
-    // Whoever has begun to swing before they were running strikes the ball from a step.
+    // A swing that began before the run strikes the ball from a step.
     let steps = plan.swing.is_some_and(|swing| !swing.runs);
     let pace = if steps { STEP_MPS } else { pace };
     let hard = hard_at(if steps { pace } else { player.vel.length().clamp(STEP_MPS, RUN_MPS) });
@@ -150,7 +155,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
 
 /// A free kick at goal: slower and higher, so that it comes down behind the wall.
 ///
-/// The rise is the one with which a ball of that speed crosses the goal line at 1.2 m.
+/// The rise is chosen so that a ball of that speed crosses the goal line at 1.2 m.
 pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Struck {
     let from = game.ball.pos.truncate();
     let way = aim(game, id, plan) - from;

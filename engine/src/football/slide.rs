@@ -1,4 +1,4 @@
-//! Slide tackles: the slide itself, the ball or the legs it meets.
+//! Slide tackles: the slide itself, and the ball or the legs that it meets.
 
 use crate::football::{contact, foul, noise, report};
 use crate::state::event::Events;
@@ -11,26 +11,26 @@ use std::ops::Range;
 
 /// Ticks of a slide.
 const SLIDE_TICKS: u8 = 60;
-/// Ticks after which a slide has lost its force.
+/// Ticks after which a slide has no force left.
 const FORCE_TICKS: u8 = 42;
-/// Ticks until the leg is out: before, it brings nobody down. (GRF's.)
+/// Ticks until the leg is out; before that it brings nobody down. (GRF's.)
 const OUT_TICKS: u8 = 11;
 /// The ticks of a slide in which the foot can meet the ball. (GRF's.)
 const CONTACT_TICKS: Range<u8> = 18..33;
-/// m/s at its start.
+/// Speed at the start of a slide, m/s.
 const SLIDE_MPS: f32 = 6.5;
 /// How near a sliding foot must come to the ball, metres.
 const REACH_M: f32 = 1.0;
 /// How near a slide must come to bring a rival down, metres.
 const LEGS_M: f32 = 0.45;
 
-/// Whether a player can throw himself into a slide: on his feet, without the ball, while play is on.
+/// Whether a player can start a slide: on their feet, without the ball, while play is on.
 pub fn may_begin(game: &Match, id: PlayerId) -> bool {
     let waits = game.play.set_piece.is_some() || game.play.hands.is_some();
     game.player(id).is_up() && game.owner != Some(id) && !waits
 }
 
-/// Throws a player into a slide tackle, in the way he runs or towards the ball.
+/// Starts a slide tackle in the direction of the run or towards the ball.
 pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Vec2>) {
     if !may_begin(game, id) {
         return;
@@ -48,7 +48,7 @@ pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Ve
     report::did(game, events, EventKind::Slide, id, None);
 }
 
-/// Lets every sliding player meet the ball or a rival; `slides`: who may be one.
+/// Lets every sliding player meet the ball or a rival. `slides`: the players that may be sliding.
 pub fn resolve(game: &mut Match, events: &mut Events, slides: Squad) {
     for id in game.order_of(slides) {
         let player = game.player(id);
@@ -78,7 +78,7 @@ pub fn resolve(game: &mut Match, events: &mut Events, slides: Squad) {
     }
 }
 
-/// The sliding foot meets the ball.
+/// Lets the sliding foot meet the ball.
 fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let rival = game.owner.filter(|owner| owner.team() != id.team());
@@ -94,7 +94,7 @@ fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
 }
 
-/// The slide meets a rival's legs.
+/// Lets the slide meet a rival's legs.
 fn meet_legs(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let ball = game.ball.pos.truncate();
@@ -112,7 +112,7 @@ fn meet_legs(game: &mut Match, events: &mut Events, id: PlayerId) {
     if pos.distance_squared(ball) > 8.0 * 8.0 {
         return;
     }
-    // Far from the ball, badly timed and from behind is worse; at the worst 2.
+    // A slide far from the ball, badly timed or from behind is worse; the worst is 2.
     let off = 0.5 * (foot.distance(ball) / 2.0).clamp(0.0, 1.0);
     let late = 0.5 * libm::powf(noise::roll(game), 0.7);
     let behind = 0.5 + 0.5 * facing.dot(player.body.facing);

@@ -9,7 +9,7 @@ use setpiece_scenario::vocabulary::Stat;
 /// Heights by index in the team, metres.
 const HEIGHT_M: [f32; TEAM_MAX] = [1.87, 1.70, 1.74, 1.93, 1.72, 1.71, 1.89, 1.84, 1.74, 1.81, 1.69];
 
-/// A statistic's row: by index in the team.
+/// A statistic's row, by index in the team.
 const fn row(stat: Stat) -> [f32; TEAM_MAX] {
     match stat {
         Stat::Balance => [0.941, 0.834, 1.0, 1.0, 0.773, 0.613, 1.0, 0.798, 0.599, 0.635, 0.658],
@@ -36,7 +36,7 @@ const fn row(stat: Stat) -> [f32; TEAM_MAX] {
     }
 }
 
-/// The statistics of a team's player: the table's, and those that his scenario gives him.
+/// The statistics of a player: the table's, overridden by the scenario's.
 pub fn stats_of(index: usize, drawn: &DrawnPlayer) -> [f32; Stat::ALL.len()] {
     let mut stats = [0.0; Stat::ALL.len()];
     for &stat in Stat::ALL {

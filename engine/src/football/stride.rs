@@ -1,7 +1,7 @@
-//! Running, four players with one instruction: velocities are steered, bodies carried on and turned.
+//! Running, four players per instruction: steers velocities, moves bodies and turns them.
 //!
-//! Every lane computes both sides of what would be a branch for one man and keeps one. The curves are fitted to the
-//! measured ones (speed step by step from a standstill, ticks to turn, length of a stop).
+//! Where code for one player would branch, every lane computes both sides and keeps one. The curves
+//! are fitted to measured ones (speed per step from a standstill, ticks to turn, length of a stop).
 
 use crate::football::pace::{ARRIVAL_PER_S, DT};
 use crate::rows::{Lane, WIDTH};
@@ -14,27 +14,27 @@ const BRAKE_MPS2: f32 = 14.0;
 const TURN_MPS2: f32 = 17.0;
 /// Ticks from the wish to the first push.
 const LAG_TICKS: f32 = 3.0;
-/// Slower than this he stands and must get off first, m/s.
+/// A player slower than this stands and must set off first, m/s.
 const STANDS_MPS: f32 = 0.3;
-/// A slower wish is none, m/s.
+/// A slower wish counts as none, m/s.
 const WISH_MPS: f32 = 0.15;
-/// The cosine from which a change of way costs nothing.
+/// From this cosine on, a change of direction costs nothing.
 const STRAIGHT: f32 = 0.996;
 
-/// How much of their run takes a player to their left. Nobody would notice it, but GRF's rounding does the same: a place on
-/// the border between two pixels of a map lies in the same pixel then.
+/// The share of their run by which players drift to their left. It is invisible, but it matches
+/// GRF's rounding: places on the border between two pixels of a map fall into the same pixel.
 const ASIDE: f32 = 1.0e-6;
 
-/// The pace of who runs to no point.
+/// The pace of a player who doesn't run to a point.
 pub(super) const NO_POINT: f32 = -1.0;
-/// Nearer than this he is there, metres.
+/// Nearer than this a player has arrived, metres.
 const THERE_M: f32 = 0.25;
-/// Nearer than this the ball is at a player's feet, metres; chosen.
+/// The ball is at a player's feet within this distance, metres; chosen.
 const AT_FEET_M: f32 = 0.8;
-/// How far within the rim nobody runs on outwards, metres.
+/// This close to the rim no player runs further outwards, metres.
 const RIM_CARE_M: f32 = 0.5;
 
-/// Four who run: what a stride takes of them and changes.
+/// Four runners: the values that a stride reads and changes.
 pub(super) struct Four {
     /// World metres.
     pub(super) x: Lane,
@@ -44,32 +44,34 @@ pub(super) struct Four {
     pub(super) vx: Lane,
     /// World m/s.
     pub(super) vy: Lane,
-    /// The velocity he wants, world m/s; the way to the point that he runs to, metres, where `pace` says so.
+    /// The wanted velocity, world m/s; or the way to a target point, metres, if `pace` is set.
     pub(super) want_x: Lane,
     /// The same along y.
     pub(super) want_y: Lane,
-    /// How fast he runs to a point at most, m/s; [`NO_POINT`] where he runs to none.
+    /// Speed limit on the way to a point, m/s; [`NO_POINT`] without a point.
     pub(super) pace: Lane,
-    /// His top speed, m/s.
+    /// Top speed, m/s.
     pub(super) top: Lane,
-    /// Ticks spent on getting off a standstill.
+    /// Ticks spent so far on setting off.
     pub(super) lag: Lane,
-    /// What agility makes of a turn: about 1.
+    /// The factor of agility in a turn: about 1.
     pub(super) turn: Lane,
-    /// What acceleration makes of a push: about 1.
+    /// The factor of acceleration in a push: about 1.
     pub(super) burst: Lane,
-    /// How much he has been pushed lately, metres.
+    /// How far others have pushed the player lately, metres.
     pub(super) shoved: Lane,
-    /// His balance as it counts now.
+    /// Balance as it counts now.
     pub(super) balance: Lane,
-    /// The unit vector he faces.
+    /// The unit vector that the player faces, x.
     pub(super) facing_x: Lane,
-    /// The unit vector he faces.
+    /// The unit vector that the player faces, y.
     pub(super) facing_y: Lane,
 }
 
-/// Brings every velocity nearer to its wish, carries everyone along it, and turns him. Act by act, because one act of
-/// some fours goes on at once, the acts of one four wait for each other.
+/// Brings every velocity closer to its wish, moves everyone along it, and turns them.
+///
+/// All fours do one act before the next: acts of different fours overlap in the processor, while
+/// acts of one four wait for each other.
 pub(super) fn run(fours: &mut [Four], ball_x: f32, ball_y: f32) {
     for four in fours.iter_mut() {
         four.wish();
@@ -84,7 +86,7 @@ pub(super) fn run(fours: &mut [Four], ball_x: f32, ball_y: f32) {
 }
 
 impl Four {
-    /// All at rest, nobody wanting anything.
+    /// Four players at rest who want nothing.
     pub(super) const fn still() -> Four {
         let zero = [0.0; WIDTH];
         Four {
@@ -106,7 +108,8 @@ impl Four {
         }
     }
 
-    /// Turns the ways to points into velocities that stop there, and wishes back that lead further out than the rim.
+    /// Turns ways to points into velocities that stop there, and turns back wishes that lead beyond
+    /// the rim.
     fn wish(&mut self) {
         let (none, there) = (f32x4::ZERO, f32x4::splat(THERE_M));
         let rim_x = f32x4::splat(RIM_X_M as f32 - RIM_CARE_M);
@@ -128,7 +131,7 @@ impl Four {
         }
     }
 
-    /// Brings every velocity nearer to its wish, as a body can in a tick.
+    /// Brings every velocity closer to its wish, as far as a body can in one tick.
     fn steer(&mut self) {
         let is = f32x4::splat;
         let (none, one) = (f32x4::ZERO, f32x4::ONE);
@@ -139,10 +142,10 @@ impl Four {
         let wanted = (want_x * want_x + want_y * want_y).sqrt();
         let wish = wanted.fast_min(top);
         let braked = speed - is(BRAKE_MPS2 * DT);
-        // Where he wants to stand: he brakes.
+        // Braking, for players who want to stand.
         let (kept, moves) = (braked.fast_max(none) / speed, speed.simd_gt(is(1e-3)));
         let (brake_x, brake_y) = (moves.select(vx * kept, none), moves.select(vy * kept, none));
-        // Where he stands: he gets off.
+        // Setting off, for players who stand.
         let (aim_x, aim_y) = (want_x / wanted, want_y / wanted);
         let later = is(9.4) - is(1.8) * (speed - is(2.4)).fast_max(none);
         let early = speed.simd_lt(is(2.0)).select(is(18.0), later.fast_max(is(4.4)).fast_min(is(9.4)));
@@ -152,7 +155,7 @@ impl Four {
         let pushed = (speed + push * is(DT)).fast_min(wish);
         let waits = lag.simd_lt(is(LAG_TICKS));
         let (off_x, off_y) = (waits.select(vx, aim_x * pushed), waits.select(vy, aim_y * pushed));
-        // Where they run: straight on, or round a bend.
+        // Running, for the others: straight on, or round a bend.
         let (rests, stands) = (wish.simd_lt(is(WISH_MPS)), speed.simd_lt(is(STANDS_MPS)));
         let (ahead_x, ahead_y) = (vx / speed, vy / speed);
         let cos = (ahead_x * aim_x + ahead_y * aim_y).fast_max(-one).fast_min(one);
@@ -161,7 +164,7 @@ impl Four {
         let (mut way_x, mut way_y, mut pace) = (aim_x, aim_y, next);
         // A bend costs as much as all the rest, and most fours run straight on.
         if bends.to_bitmask() != 0 {
-            // They lean into an arc and lose speed; about turns brake first.
+            // Players lean into an arc and lose speed; before an about-turn they brake.
             let sin = ahead_x * aim_y - ahead_y * aim_x;
             let about = cos.simd_lt(is(-0.5)) & speed.simd_gt(is(2.0));
             let angle = is(TURN_MPS2) * f32x4::new(self.turn) / speed.fast_max(is(1.2)) * is(DT);
@@ -186,7 +189,7 @@ impl Four {
         self.lag = rests.select(none, got_off).to_array();
     }
 
-    /// Carries everyone along his velocity, no further than the rim.
+    /// Moves everyone along their velocity, no further than the rim.
     fn go(&mut self) {
         let (rim_x, rim_y) = (f32x4::splat(RIM_X_M as f32), f32x4::splat(RIM_Y_M as f32));
         let (dt, aside) = (f32x4::splat(DT), f32x4::splat(DT * ASIDE));
@@ -197,7 +200,7 @@ impl Four {
         self.y = y.fast_max(-rim_y).fast_min(rim_y).to_array();
     }
 
-    /// Turns everyone to where he runs, or to the ball.
+    /// Turns everyone to where they run, or to the ball.
     fn turn(&mut self, ball_x: f32, ball_y: f32) {
         let little = f32x4::splat(0.12);
         let (vx, vy) = (f32x4::new(self.vx), f32x4::new(self.vy));

@@ -1,7 +1,8 @@
-//! Who loses their balance when two bodies meet.
+//! Who loses their balance when two bodies collide.
 //!
-//! Nothing is left to chance: a runner stumbles or falls where pace, the ball, their opponent's side and depth of the
-//! meeting outweigh their balance. (GRF's rule; its motions are measured.)
+//! There is no chance in it. Speed, the ball, the opponent's side and the depth of the collision
+//! count against balance; if they outweigh it, a runner stumbles or falls. (GRF's rule; its motions
+//! are measured.)
 
 use crate::football::foul;
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
@@ -11,33 +12,34 @@ use crate::state::player::{Aim, Pose};
 use crate::state::{Match, Player, PlayerId};
 use setpiece_scenario::vocabulary::Stat;
 
-/// What counts beside what counts 1: a lack of balance, and how deep two bodies are in each other. (GRF's.)
+/// Weights relative to 1: a lack of balance, and how deep two bodies overlap. (GRF's.)
 const BALANCE: f32 = 3.0;
 const DEPTH: f32 = 6.0;
 const DEPTH_POWER: f32 = 0.4;
-/// How far ahead in time depth is looked at, seconds, and how near the ball is in the way, metres. (GRF's.)
+/// Depth is judged this far ahead, seconds. A ball this near is in the way, metres. (GRF's.)
 const AHEAD_S: f32 = 0.03;
 const BALL_M: f32 = 0.7;
-/// Shares of all that counts from which on somebody stumbles, and falls. (GRF's.)
+/// Shares of the total weight from which on a player stumbles, and falls. (GRF's.)
 const STUMBLES: f32 = 0.48;
 const FALLS: f32 = 0.58;
-/// How bad a foul it is to bring somebody down with a leg that is out, and how much worse from behind; chosen, so that it is
-/// worth no card.
+/// Severity of bringing somebody down with a leg that is out, and what is added from behind. Chosen
+/// so that it earns no card.
 const SEVERITY: f32 = 1.05;
 const FROM_BEHIND: f32 = 0.3;
 /// Within this distance of the ball a fall may be a foul, metres. (GRF's.)
 const FOUL_M: f32 = 2.0;
-/// What each gait counts: standing, dribbling, walking, sprinting. (GRF's.)
+/// The weight of each gait: standing, dribbling, walking, sprinting. (GRF's.)
 const PACES: [f32; 4] = [0.0, 0.44, 0.63, 1.0];
-/// How a push goes: shares of both runs in it.
+/// The direction of a push: shares of both runs in it.
 const OWN_RUN: f32 = 0.1;
 const OTHER_RUN: f32 = 0.06;
-/// Cosines between a push and where somebody faces: pushed back, pushed back at a sprint, pushed on.
+/// Cosines between a push and where the player faces: pushed back, pushed back at a sprint, pushed
+/// on.
 const BACK: f32 = -0.4;
 const BACK_SPRINTING: f32 = -0.7;
 const ON: f32 = 0.7;
 
-/// A stumble, or a fall that is run out of: how long it lasts, ticks, and how fast it ends, m/s.
+/// A stumble, or a fall that is run out of: its length, ticks, and its final speed, m/s.
 struct Motion(u8, f32);
 
 const STANDING: Motion = Motion(30, 0.7);
@@ -49,7 +51,7 @@ const PUSHED_ON: Motion = Motion(46, 6.6);
 const FALLEN: Motion = Motion(60, 4.2);
 const FALLEN_SPRINTING: Motion = Motion(96, 1.2);
 
-/// How a meeting ends for one of the two.
+/// How a collision ends for one of the two players.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Outcome {
     Stands,
@@ -57,7 +59,8 @@ enum Outcome {
     Falls,
 }
 
-/// Two bodies touch: both may lose their balance. `contact_m`: how near bodies are that touch.
+/// Lets two bodies collide; both may lose their balance. `contact_m`: the distance at which bodies
+/// touch.
 pub fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], contact_m: f32) {
     if game.play.hands.is_some_and(|(keeper, _)| keeper == i || keeper == j) {
         return;
@@ -71,7 +74,7 @@ pub fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], contac
     }
 }
 
-/// How a meeting ends for a player.
+/// How a collision ends for a player.
 fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f32) -> Outcome {
     let from = (player.pos - other.pos).normalize_or_zero();
     let turned = 0.5 - 0.5 * player.body.facing.dot(from);
@@ -96,13 +99,13 @@ fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f
     }
 }
 
-/// What a gait counts.
+/// The weight of a gait.
 fn pace(mps: f32) -> f32 {
     let gaits = [DRIBBLES_FROM_MPS, WALKS_FROM_MPS, SPRINTS_FROM_MPS];
     PACES[gaits.iter().filter(|&&from_mps| mps >= from_mps).count()]
 }
 
-/// A player stumbles or falls over another.
+/// Lets a player stumble or fall over another.
 fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerId, outcome: Outcome) {
     let (player, other) = (*game.player(id), *game.player(by));
     let worse = match player.body.pose {
@@ -135,7 +138,7 @@ fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerI
     }
 }
 
-/// How somebody stumbles who is pushed so far back or on.
+/// How a player stumbles who is pushed backwards or onwards.
 fn stumble(speed: f32, cos: f32) -> Motion {
     let sprints = speed >= SPRINTS_FROM_MPS;
     if speed < DRIBBLES_FROM_MPS {

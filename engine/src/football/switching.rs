@@ -1,8 +1,9 @@
 //! Which player an agent's slot controls.
 //!
-//! Fixed slots keep their player. The others follow the ball: to the mate who reaches it much sooner, to whoever has it, to
-//! the receiver of a pass, to the taker of a set piece. A match begins with certain places of the team, keepers too; a
-//! restart with the players nearest to the ball. In play no slot changes to a keeper.
+//! Fixed slots keep their player. Other slots follow the ball: to the teammate who reaches it much
+//! sooner, to its owner, to the receiver of a pass, to the taker of a set piece. A match begins
+//! with certain places of the team, keepers included. A restart begins with the players nearest to
+//! the ball. During play no slot changes to a keeper.
 
 use crate::state::{AgentSlot, Match, PlayerId};
 use arrayvec::ArrayVec;
@@ -11,28 +12,29 @@ use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
-/// How long a run lasts that is called for, steps. (GRF's.)
+/// How long a requested run lasts, steps. (GRF's.)
 const RUN_STEPS: u32 = 40;
-/// Whoever is nearest to a point so far ahead of the caller runs, metres. (GRF's.)
+/// The player nearest to the point this far ahead of the caller runs, metres. (GRF's.)
 const AHEAD_M: f32 = 26.0;
-/// A mate takes over if three times their time to the ball is still less than the player's own. (GRF's.)
+/// A teammate takes over if three times their time to the ball is still less than the current
+/// player's. (GRF's.)
 const SOONER: f32 = 3.0;
 
-/// The places of a team in the order in which a match's first slots get them. (GRF's.)
+/// The order in which a match's first slots get the places of a team. (GRF's.)
 const FIRST_PLACES: [usize; TEAM_MAX] = [6, 5, 7, 8, 10, 0, 9, 2, 3, 1, 4];
 
-/// Whether some slot controls the player.
+/// Whether a slot controls the player.
 pub fn controlled(game: &Match, id: PlayerId) -> bool {
     game.agents.iter().any(|slot| slot.player == Some(id))
 }
 
-/// Whether a slot that may switch can be given the player.
+/// Whether a switching slot can be given the player.
 fn free(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     player.active && player.controllable && !controlled(game, id)
 }
 
-/// Switches at the start of a step.
+/// Switches players at the start of a step.
 pub fn update(game: &mut Match) {
     fill(game);
     for team in [Team::Left, Team::Right] {
@@ -65,7 +67,7 @@ pub fn update(game: &mut Match) {
     }
 }
 
-/// Gives a player to a slot of his team that may switch, if he may be controlled and isn't yet.
+/// Gives a player to a switching slot of their team, if they may be controlled and aren't yet.
 pub fn hand_to(game: &mut Match, id: PlayerId) {
     let team = id.team();
     let takes = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
@@ -76,7 +78,7 @@ pub fn hand_to(game: &mut Match, id: PlayerId) {
     let keep = game.owner.or(game.last_touch);
     let turn = usize::from(game.play.next_slot[team.index()]);
     let count = game.agents.len();
-    // In turn, but the slot that has the ball goes last.
+    // Slots take turns, but the one that has the ball comes last.
     let mut pick: Option<usize> = None;
     for i in 0..count {
         let slot = (turn + i) % count;
@@ -101,8 +103,8 @@ pub fn hand_to(game: &mut Match, id: PlayerId) {
     }
 }
 
-/// Presses `switch` for a slot: in possession a mate is sent on a run, else the slot takes the mate who is sooner at
-/// the ball. Nothing where there is none.
+/// Presses `switch` for a slot: in possession it sends a teammate on a run, otherwise the slot
+/// takes the teammate who is sooner at the ball. No-op if there is none.
 pub fn press(game: &mut Match, slot: usize) {
     if let Some(mate) = runner(game, slot) {
         game.players[mate.index()].body.mind.run_until_step = game.step + RUN_STEPS;
@@ -115,7 +117,8 @@ pub fn press(game: &mut Match, slot: usize) {
     }
 }
 
-/// Whom `switch` would send on a run: the bot's man nearest to a point ahead of the slot's, where his team has the ball.
+/// The player that `switch` would send on a run, if the slot's team has the ball: the bot-driven
+/// player nearest to a point ahead of the slot's player.
 pub fn runner(game: &Match, slot: usize) -> Option<PlayerId> {
     let agent = game.agents.get(slot)?;
     let id = agent.player.filter(|id| game.player(*id).active)?;
@@ -130,8 +133,8 @@ pub fn runner(game: &Match, slot: usize) -> Option<PlayerId> {
     nearest(bots.map(|(mate, player)| (player.pos.distance_squared(ahead), mate)))
 }
 
-/// Whom `switch` would give to a slot: the free man who is soonest at a ball that his team does not have, if he is sooner
-/// there than the slot's.
+/// The player that `switch` would give to a slot, if the slot's team doesn't have the ball: the
+/// free player who reaches it first, if sooner than the slot's player.
 pub fn sooner(game: &Match, slot: usize) -> Option<PlayerId> {
     let agent = game.agents.get(slot)?;
     if agent.fixed || has_ball(game, agent.team) || game.play.set_piece.is_some() {
@@ -149,12 +152,12 @@ fn has_ball(game: &Match, team: Team) -> bool {
     owner.is_some_and(|id| id.team() == team)
 }
 
-/// The first of those with the least measure.
+/// The first of those with the least value.
 fn nearest(measured: impl Iterator<Item = (f32, PlayerId)>) -> Option<PlayerId> {
     measured.reduce(|best, next| if next.0 < best.0 { next } else { best }).map(|(_, id)| id)
 }
 
-/// Gives every slot without a player the free one nearest to the ball.
+/// Gives every empty slot the free player nearest to the ball.
 fn fill(game: &mut Match) {
     for slot in 0..game.agents.len() {
         let agent = game.agents[slot];
@@ -168,7 +171,7 @@ fn fill(game: &mut Match) {
     }
 }
 
-/// Gives the slots that may switch their first players, wherever the ball is: each team's slots by place.
+/// Gives the switching slots their first players, wherever the ball is: each team's slots by place.
 pub fn open(game: &mut Match) {
     release(game);
     for team in [Team::Left, Team::Right] {
@@ -183,13 +186,13 @@ pub fn open(game: &mut Match) {
     }
 }
 
-/// Gives the slots that may switch the players nearest to the ball, and the taker of a set piece.
+/// Gives the switching slots the players nearest to the ball, and the taker of a set piece.
 pub fn reassign(game: &mut Match) {
     release(game);
     fill(game);
 }
 
-/// Frees the slots that may switch of their players; the taker of a set piece gets one.
+/// Frees the switching slots of their players; the taker of a set piece gets one.
 fn release(game: &mut Match) {
     for slot in &mut game.agents {
         if !slot.fixed {

@@ -14,9 +14,10 @@ use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, PLAYERS_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Role, Rule};
 
-/// How long the circle is kept for a kick-off that is not taken, ticks: as long as a set piece waits for an agent.
+/// How long opponents keep out of the circle while the kick-off isn't taken, ticks: as long as a
+/// set piece waits for an agent.
 const KICK_OFF_TICKS: u32 = 200;
-/// Most bodies that a tick shows to the ball.
+/// The most bodies that the ball can meet in a tick.
 const BODIES_MAX: usize = 8;
 
 /// Plays one tick.
@@ -77,7 +78,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
         }
         Some(Contact::Body(i)) if (i as usize) < PLAYERS_MAX => {
             let by = PlayerId(i);
-            // A player whom the ball hits has touched it.
+            // A player hit by the ball has touched it.
             if offside::caught(game, events, by) {
                 return;
             }
@@ -90,7 +91,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
     }
 }
 
-/// The bodies that a free, fast ball may meet in this tick, of those near it.
+/// The bodies among those nearby that a free, fast ball may meet in this tick.
 fn near_bodies(game: &Match, near: Squad) -> ArrayVec<Body, BODIES_MAX> {
     let mut bodies = ArrayVec::new();
     let ball = game.ball;
@@ -104,7 +105,7 @@ fn near_bodies(game: &Match, near: Squad) -> ArrayVec<Body, BODIES_MAX> {
             continue;
         }
         let lately = ticks_since(game.tick, player.body.touched_at) < 30;
-        // In the box a keeper meets it with their hands, or does not meet it at all.
+        // In the box a keeper meets the ball with the hands or not at all.
         let planned = game.play.save[id.team().index()].is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
         let by_hand = planned && player.role == Role::GK && foul::in_box(flat, id.team());
         if !lately && !by_hand {
@@ -119,7 +120,7 @@ fn keep_circle(game: &mut Match) {
     let Some(team) = game.play.kick_off.filter(|_| game.rule(Rule::KickoffCircle)) else { return };
     let waited = game.tick.saturating_sub(game.play.kick_off_tick);
     if game.rule(Rule::AntiStalling) && waited > KICK_OFF_TICKS {
-        // Whoever does not take it gives it up.
+        // A team that doesn't take the kick-off in time gives it up.
         whistle::end_kick_off(game);
         return;
     }

@@ -1,7 +1,8 @@
 //! Who plays a ball within reach.
 //!
-//! Leaves the touches of a dribble to `dribble`, the first touch of a free ball to `first_touch`, duels for an owned ball to
-//! `duel`, hands to `keeper`, what a touch means (passes, offside) to `contact` and `offside`.
+//! `dribble` handles the touches of a dribble, `first_touch` those of a free ball, `duel` fights
+//! for an owned ball, and `keeper` hands. `contact` and `offside` decide what a touch means
+//! (passes, offside).
 
 use crate::football::{dribble, first_touch, kick};
 use crate::state::event::Events;
@@ -12,9 +13,9 @@ use glam::Vec2;
 use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::Rule;
 
-/// A ball above this is not at the foot yet, metres: as of whoever owns it.
+/// A ball higher than this isn't at its owner's foot yet, metres.
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
-/// The ticks in which the ball of a start is pushed straight on by who stands there. Measured.
+/// The ticks in which a player standing at the ball of a start pushes it straight on. Measured.
 const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
 /// From how far at most, metres. Measured.
 const PUSH_OFF_M: f32 = 0.76;
@@ -25,13 +26,14 @@ pub(super) const NEAR_M: f32 = 1.3;
 const ABOUT_M: f32 = 4.5;
 /// For how many ticks before a bot's kick its leg is on the way. (Measured of GRF's motions.)
 const SWING_TICKS: i32 = 28;
-/// How near the ball must be to whoever stumbles and keeps it, metres, and how many ticks after their last touch. (GRF's.)
+/// A stumbling player keeps a ball this near, metres, within `KEPT_TICKS` of their last touch.
+/// (GRF's.)
 const KEPT_M: f32 = 0.4;
 const KEPT_TICKS: i32 = 45;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 24;
 
-/// Who is so near to the ball that they may meet it in this tick.
+/// The players near enough to meet the ball in this tick.
 pub(super) fn near(game: &Match) -> Squad {
     let ball = game.ball.pos.truncate();
     let mut near = Squad::default();
@@ -43,7 +45,7 @@ pub(super) fn near(game: &Match) -> Squad {
     near
 }
 
-/// Who is so near to the ball that they may reach for it.
+/// The players near enough to reach for the ball.
 pub(super) fn about(game: &Match) -> Squad {
     let ball = game.ball.pos.truncate();
     let free = !game.dead && game.play.hands.is_none() && game.play.set_piece.is_none();
@@ -51,7 +53,8 @@ pub(super) fn about(game: &Match) -> Squad {
     game.squad.ids().filter(|id| free && near(id)).collect()
 }
 
-/// Lets whoever can and will play the ball do so; at most one touch a tick. `near`: who may be in reach.
+/// Lets a player who can and wants to play the ball do so, at most one touch per tick. `near`: who
+/// may be in reach.
 pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     if game.dead || game.play.hands.is_some() || game.play.set_piece.is_some() {
         return;
@@ -73,7 +76,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
             continue;
         }
         if owner == Some(id) {
-            // His own touch comes first; where he lets the ball be, a rival may try it.
+            // The owner's own touch comes first. If the owner lets the ball be, a rival may try.
             let foot = dribble::foot_m(game, player);
             let reaches = distance <= foot * foot && ball.z < FOOT_HIGH_M;
             if reaches && wants_ball(game, id) && !swings(game, id) && dribble::touch(game, events, id) {
@@ -100,12 +103,13 @@ pub(super) fn contests(game: &Match, id: PlayerId) -> bool {
     (game.player(id).ai != Ai::Lazy || game.is_driven(id)) && game.last_touch != Some(id)
 }
 
-/// Whether whoever had the ball last can play it on: not at once after a poke at a rival's ball, so that it is anybody's.
+/// Whether the last owner can play the ball on. Not right after a poke at a rival's ball: then it
+/// is free.
 fn plays_on(game: &Match, id: PlayerId) -> bool {
     game.tick as i32 >= game.player(id).body.ready_at
 }
 
-/// Whether a player would play the ball that is near him.
+/// Whether a player would play the nearby ball.
 fn wants_ball(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     if (game.tick as i32) < player.body.ready_at && !pushes_off(game, player) {
@@ -115,14 +119,14 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
         return false;
     }
     if game.last_touch == Some(id) {
-        // What they have taken they let come down.
+        // Players let a ball that they have taken come down.
         return game.ball.pos.z < FOOT_HIGH_M && ticks_since(game.tick, player.body.touched_at) >= PAUSE_TICKS;
     }
     let Some(last) = game.last_touch else { return true };
     if last.team() != id.team() {
         return true;
     }
-    // A mate's dribble and a mate's pass to somebody else are left alone.
+    // Players leave alone a teammate's dribble and a teammate's pass to somebody else.
     if game.controller() == Some(last) {
         return false;
     }
@@ -132,7 +136,7 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
     }
 }
 
-/// Whether a player who stumbles keeps the ball at their feet nevertheless. (GRF's.)
+/// Whether a stumbling player keeps the ball at their feet. (GRF's.)
 fn keeps(game: &Match, id: PlayerId, distance_squared: f32) -> bool {
     let player = game.player(id);
     matches!(player.body.pose, Pose::Stumbling { .. })
@@ -141,13 +145,14 @@ fn keeps(game: &Match, id: PlayerId, distance_squared: f32) -> bool {
         && ticks_since(game.tick, player.body.touched_at) >= KEPT_TICKS
 }
 
-/// Whether a bot's leg is on its way to a kick: it lets the ball roll until then.
+/// Whether a bot's leg is on its way to a kick: the player lets the ball roll until then.
 fn swings(game: &Match, id: PlayerId) -> bool {
     let swing = game.player(id).body.kick.and_then(|plan| plan.swing);
     !game.is_driven(id) && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
 }
 
-/// Whether a player stands at the ball of a start and only has to push it straight on: they do so at once.
+/// Whether a player stands at the ball of a start and only has to push it straight on, which
+/// happens at once.
 fn pushes_off(game: &Match, player: &Player) -> bool {
     let wish = player.body.dribble;
     let to_ball = game.ball.pos.truncate() - player.pos;
@@ -171,7 +176,7 @@ fn heads(game: &Match, id: PlayerId) -> bool {
     player.body.kick.is_some() || deep || rival()
 }
 
-/// Whether he will meet the ball with the kick he has in mind, so that he need not take it down before.
+/// Whether the planned kick will meet the ball, so that the player needn't take it down first.
 fn about_to_kick(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     let Some(plan) = player.body.kick else { return false };
@@ -181,7 +186,8 @@ fn about_to_kick(game: &Match, id: PlayerId) -> bool {
     apart.length_squared() <= kick::KICK_M * kick::KICK_M
 }
 
-/// Whether a keeper may use his hands: not where an agent has him under `grf_keeper`, and not if he is lazy.
+/// Whether a keeper may use their hands: not if lazy, and not if driven by an agent under
+/// `grf_keeper`.
 pub fn may_handle(game: &Match, id: PlayerId) -> bool {
     let driven = game.is_driven(id);
     let player = game.player(id);

@@ -1,7 +1,7 @@
-//! The whistle: play stops, and it goes on.
+//! The whistle: stops and resumes play.
 //!
-//! Knows no reason for either: those are `referee`'s, `offside`'s, `foul`'s and `advantage`'s. Where ball and players
-//! are then is `restart`'s.
+//! The reasons are decided by `referee`, `offside`, `foul` and `advantage`. `restart` places the
+//! ball and the players.
 
 use crate::football::report;
 use crate::state::Match;
@@ -35,7 +35,7 @@ pub fn event_of(mode: GameMode) -> EventKind {
     }
 }
 
-/// The kick-off has been taken, or given up.
+/// Ends the kick-off: it has been taken, or given up.
 pub fn end_kick_off(game: &mut Match) {
     if game.play.kick_off.take().is_some() {
         game.mode = GameMode::Normal;

@@ -1,4 +1,4 @@
-//! When an episode ends, and what that says of it.
+//! When an episode ends, and with which outcome.
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
@@ -10,7 +10,7 @@ use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
 use setpiece_scenario::{Ending, Endings};
 use std::sync::Arc;
 
-/// The label of an episode that ran into its limit.
+/// The label of an episode that reached its limit.
 pub const LIMIT: &str = "limit";
 
 /// How an episode ended.
@@ -18,9 +18,9 @@ pub const LIMIT: &str = "limit";
 pub struct Outcome {
     /// The ending's name; `limit` for the limit.
     pub label: Arc<str>,
-    /// Success or failure of the side that has agents, where the ending says so.
+    /// Success or failure of the side that has agents, if the ending says so.
     pub verdict: Option<Verdict>,
-    /// By its limit, not by what happened.
+    /// Whether the limit ended it.
     pub truncated: bool,
 }
 
@@ -32,7 +32,7 @@ pub struct EndingJudge {
     limit: Arc<str>,
     regs: Registers,
     cells: Vec<[f64; 1]>,
-    /// Ending by ending, where any has a script.
+    /// One per ending, if any has a script.
     memories: Vec<Memory>,
     faults: u32,
     at_start: Option<usize>,
@@ -58,7 +58,7 @@ impl EndingJudge {
         }
     }
 
-    /// Begins an episode: `input` shows the start state.
+    /// Begins an episode; `input` shows the start state.
     pub fn reset(&mut self, input: &Input<'_>) {
         self.cells.fill([0.0]);
         self.memories.fill(Memory::default());
@@ -70,11 +70,11 @@ impl EndingJudge {
         self.at_start = self.endings.list.iter().position(holds);
     }
 
-    /// Writes or reads what it remembers; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads its memory. Before reading, [`Self::reset`] has been called.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         archive.slots("cells", &mut self.cells)?;
         for memory in &mut self.memories {
-            memory.pass("this", archive)?;
+            memory.archive("this", archive)?;
         }
         archive.value("faults", &mut self.faults)?;
         let mut at_start = self.at_start.map(|which| which as u32);
@@ -86,7 +86,8 @@ impl EndingJudge {
         Ok(())
     }
 
-    /// The first ending that held in the start state: such an episode is over before its first step.
+    /// The first ending that held in the start state. Such an episode is over before its first
+    /// step.
     pub fn holds_at_start(&self) -> Option<&str> {
         self.at_start.map(|which| &*self.labels[which])
     }
@@ -158,7 +159,8 @@ pub fn announce(outcome: &Outcome, game: &Match, events: &mut Events) {
     });
 }
 
-/// The side that endings are judged for: the one that has agents, the left one where both or none have.
+/// The side that endings are judged for: the one that has agents. If both or none have, the left
+/// one.
 pub fn judged_side(game: &Match) -> Team {
     let has = |team: Team| game.agents.iter().any(|agent| agent.team == team);
     if has(Team::Right) && !has(Team::Left) { Team::Right } else { Team::Left }

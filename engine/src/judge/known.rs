@@ -1,4 +1,4 @@
-//! What programs and scripts know of an episode beside the match itself.
+//! What programs and scripts know of an episode besides the match itself.
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
@@ -10,12 +10,12 @@ use crate::state::event::Event;
 use setpiece_scenario::vocabulary::Team;
 use std::sync::Arc;
 
-/// What an episode is given beside its match.
+/// The data of an episode besides its match.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<'a> {
-    /// The seed that its streams are keyed by.
+    /// The seed of its streams.
     pub seed: u64,
-    /// Its index, likewise.
+    /// Its index, also part of their key.
     pub index: u64,
     /// The parameters' values.
     pub params: &'a [f64],
@@ -23,15 +23,15 @@ pub struct Given<'a> {
     pub lets: &'a [f64],
 }
 
-/// Parameters, `let`s, and what scripts are shown.
+/// Parameters, `let`s, and what scripts may read.
 #[derive(Debug)]
 pub struct Known {
     scripts: Scripts,
-    /// Whether a script is asked at all.
+    /// Whether any script runs.
     scripted: bool,
     purpose: Purpose,
     params: Vec<f64>,
-    /// What scripts are shown, with their parameters and their stream; none where no script is asked.
+    /// What scripts may read, with their parameters and their stream; none if no script runs.
     scene: Option<Arc<Scene>>,
     lets: Vec<f64>,
     seed: u64,
@@ -43,7 +43,7 @@ clone_in_place! {
 }
 
 impl Known {
-    /// Nothing yet; `purpose` says which stream scripts draw from.
+    /// Creates it empty. `purpose` is the stream that scripts draw from.
     pub fn new(scripts: Scripts, scripted: bool, purpose: Purpose) -> Known {
         Known { scripts, scripted, purpose, params: Vec::new(), scene: None, lets: Vec::new(), seed: 0, index: 0 }
     }
@@ -62,21 +62,21 @@ impl Known {
         });
     }
 
-    /// Writes or reads what scripts are shown; the rest is known since the episode began.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        Shelf::pass("scene", &mut self.scene, archive)?;
+    /// Writes or reads what scripts may read; the rest is fixed when the episode begins.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+        Shelf::archive("scene", &mut self.scene, archive)?;
         if self.scene.is_some() == self.scripted {
             return Ok(());
         }
         Err(SnapshotError::damaged("scene", "is not what the scenario's scripts need"))
     }
 
-    /// What the episode was given; no numbers before the first.
+    /// What the episode was given; no numbers before the first episode.
     pub(crate) fn given(&self) -> Given<'_> {
         Given { seed: self.seed, index: self.index, params: &self.params, lets: &self.lets }
     }
 
-    /// Goes on with other scripts.
+    /// Replaces the scripts.
     pub fn adopt(&mut self, scripts: Scripts) {
         self.scripts = scripts;
     }
@@ -91,7 +91,7 @@ impl Known {
         (self.seed, self.index)
     }
 
-    /// What a program is shown, from a side, without events.
+    /// The input of a program, as seen from a side, without events.
     pub fn input<'a>(&'a self, now: Sight<'a>, prev: &'a View, us: Team) -> Input<'a> {
         Input {
             now: Some(now),
@@ -105,10 +105,10 @@ impl Known {
         }
     }
 
-    /// Shows scripts a step; none where no script is asked.
+    /// Shows a step to scripts; none if no script runs.
     ///
-    /// A script may keep in its memory what it was shown, and a clone of the environment shares it: then the next
-    /// step is shown by a scene of its own.
+    /// A script may keep in its memory what it was shown, and a clone of the environment shares it.
+    /// The next step then gets a new scene.
     pub fn show(&mut self, now: impl FnOnce() -> View, prev: &View, events: &[Event]) -> Option<Arc<Scene>> {
         let scene = self.scene.as_mut()?;
         match Arc::get_mut(scene) {

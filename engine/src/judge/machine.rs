@@ -1,9 +1,10 @@
 //! Runs register programs: rewards, endings and starts.
 //!
-//! The meaning of every instruction is that of [`setpiece_scenario::program`]. A program runs for several players of a
-//! team at once, each in a lane of its own: every register and cell holds `W` numbers, and what is the same for all is
-//! computed once. A [`Machine`] borrows all it needs, so running allocates nothing; registers and cells belong to the
-//! caller. Programs must have passed [`setpiece_scenario::verify`].
+//! [`setpiece_scenario::program`] defines the meaning of every instruction. A program runs for
+//! several players of a team at once, each in a separate lane. Every register and cell holds `W`
+//! numbers, and what is the same for all is computed once. A [`Machine`] borrows all it needs, so
+//! running allocates nothing; registers and cells belong to the caller. Programs must have passed
+//! [`setpiece_scenario::verify`].
 
 mod fold;
 mod plan;
@@ -24,12 +25,13 @@ use setpiece_scenario::{BinaryOp, Distribution, EventFilter, Instr, Over, Progra
 use std::array;
 use std::sync::Arc;
 
-/// What a program reads.
+/// The input of a program.
 #[derive(Clone, Copy)]
 pub struct Input<'a> {
-    /// The state after this step, before any restart; none in a start program, which may not look at it.
+    /// The state after this step, before any restart. None in a start program, which may not read
+    /// it.
     pub now: Option<Sight<'a>>,
-    /// The state that the step before left behind, after its restart.
+    /// The state that the last step left behind, after its restart.
     pub prev: Option<Sight<'a>>,
     /// This step's events.
     pub events: &'a [Event],
@@ -41,16 +43,16 @@ pub struct Input<'a> {
     pub index: u64,
     /// The team judged for.
     pub us: Team,
-    /// On the start state: temporal instructions see it, effects don't happen.
+    /// Whether this is the start state: temporal instructions see it, but effects don't happen.
     pub silent: bool,
 }
 
-/// Who sits in the lanes: their players by number, -1 for nobody.
+/// The occupants of the lanes: their players by number, -1 for nobody.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crew<const W: usize = 1> {
     /// The players.
     pub players: [f64; W],
-    /// Which lanes are taken: effects happen in these alone.
+    /// Which lanes are taken. Effects happen only in these.
     pub seated: [bool; W],
 }
 
@@ -61,11 +63,11 @@ impl Crew {
     }
 }
 
-/// A program at work: its input, and the memory it writes.
+/// A running program: its input, and the memory it writes.
 pub struct Machine<'a, const W: usize = 1> {
-    /// What it reads.
+    /// The input.
     pub input: Input<'a>,
-    /// For whom.
+    /// The players it runs for.
     pub crew: Crew<W>,
     /// The program.
     pub plan: &'a Plan,
@@ -73,22 +75,22 @@ pub struct Machine<'a, const W: usize = 1> {
     pub regs: &'a mut [[f64; W]],
     /// The program's memory cells.
     pub cells: &'a mut [[f64; W]],
-    /// What each term was paid; [`Instr::Give`] adds here.
+    /// The payments of each term; [`Instr::Give`] adds here.
     pub terms: &'a mut [[f64; W]],
-    /// Effects that were stopped because their value was impossible.
+    /// Effects that were dropped because their value was impossible.
     pub faults: &'a mut u32,
-    /// What draws are keyed by; without it a draw is NaN.
+    /// The key of draws; without it a draw is NaN.
     pub draws: Option<DrawKey>,
 }
 
-/// What the draws of one attempt are keyed by, beside their own names.
+/// The key of one attempt's draws, besides the draw's own key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawKey {
     /// The seed.
     pub seed: u64,
     /// The episode's index.
     pub index: u64,
-    /// Which attempt at a start that meets its requirements.
+    /// The number of the attempt at a start that meets its requirements.
     pub attempt: u32,
 }
 
@@ -104,12 +106,12 @@ clone_in_place! {
 }
 
 impl<const W: usize> Registers<W> {
-    /// Registers for a verified program.
+    /// Creates registers for a verified program.
     pub fn of(program: &Program) -> Registers<W> {
         Registers { plan: Arc::new(Plan::of(program)), values: vec![[0.0; W]; program.code.len()] }
     }
 
-    /// What a [`Machine`] needs of it.
+    /// The parts that a [`Machine`] needs.
     pub fn parts(&mut self) -> (&Plan, &mut [[f64; W]]) {
         (&self.plan, &mut self.values)
     }
@@ -130,18 +132,19 @@ impl Machine<'_> {
 }
 
 impl<const W: usize> Machine<'_, W> {
-    /// Computes what is the same in every step of an episode: once, before the first [`Machine::run`] of it.
+    /// Computes what is the same in every step of an episode, once, before its first
+    /// [`Machine::run`].
     pub fn begin(&mut self) {
         self.block(&self.plan.once, None);
     }
 
-    /// Runs the program for a step; its values stand in the registers afterwards.
+    /// Runs the program for a step; its values are then in the registers.
     pub fn run(&mut self) {
         self.block(&self.plan.each_step, None);
     }
 
-    /// Computes the values anew after cells were written from outside, but for those of temporal instructions: they
-    /// happen once a step.
+    /// Computes the values again after cells were written from outside, except those of temporal
+    /// instructions, which run once per step.
     pub fn run_again(&mut self) {
         for step in self.plan.each_step.iter().filter(|step| step.op != Op::Temporal) {
             self.block(std::slice::from_ref(step), None);
@@ -159,7 +162,7 @@ impl<const W: usize> Machine<'_, W> {
         self.lanes::<W>(reg).map(truth)
     }
 
-    /// In which lanes an effect happens.
+    /// The lanes in which an effect happens.
     #[inline]
     fn allowed(&self, guard: u32) -> [bool; W] {
         if self.input.silent {
@@ -248,7 +251,7 @@ impl<const W: usize> Machine<'_, W> {
         self.regs[step.at as usize] = array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] });
     }
 
-    /// What seldom occurs.
+    /// The rare instructions.
     #[inline(never)]
     fn rare(&mut self, step: &Step, instr: &Instr, event: Option<&Event>) {
         self.regs[step.at as usize] =
@@ -294,7 +297,7 @@ impl<const W: usize> Machine<'_, W> {
                 array::from_fn(|lane| cell[lane])
             }
             Instr::Random { key, from } => [self.draw(*key, from); N],
-            // What has memory, effects and loops are run by `at`.
+            // `at` runs instructions with memory, effects and loops.
             Instr::Held { .. }
             | Instr::Ever { .. }
             | Instr::Since { .. }
@@ -400,7 +403,7 @@ impl<const W: usize> Machine<'_, W> {
         }
     }
 
-    /// Runs a loop, and folds it in the first `N` lanes: in one where all are the same.
+    /// Runs a loop and folds it in the first `N` lanes; in one lane if all are the same.
     fn each<const N: usize>(&mut self, each: &Loop, at: usize) -> [f64; N] {
         let mut folding = Folding::<N>::new(each.fold.kind);
         let around = self.crew.seated;
@@ -455,7 +458,7 @@ impl<const W: usize> Machine<'_, W> {
         folding.add(element, array::from_fn(|lane| taken[lane] & guard[lane]), value);
     }
 
-    /// Draws from the stream of a key; the distribution's registers have their present values.
+    /// Draws from the stream of a key; the distribution's registers have their current values.
     pub fn draw(&self, key: u64, from: &Distribution) -> f64 {
         let Some(draws) = self.draws else { return f64::NAN };
         let random = &mut Stream::of_draw(draws.seed, draws.index, draws.attempt, key);
@@ -501,7 +504,7 @@ impl<const W: usize> Machine<'_, W> {
         filter.by.is_none_or(|who| match who {
             Who::Team(reg) => event.team.is_some() && event.team == team_of_number(value(reg)),
             Who::Player(reg) => {
-                // An own goal rises the other team's score: it is no goal of its scorer's.
+                // An own goal counts for the other team, so it isn't a goal of its scorer.
                 let own = event.kind == EventKind::Goal && event.by.map(PlayerId::team) != event.team;
                 is_player(event.by, value(reg)) && !own
             }
@@ -512,7 +515,7 @@ impl<const W: usize> Machine<'_, W> {
     }
 }
 
-/// The players a loop may go through: those of one team where every lane asks for the same.
+/// The players that a loop may visit: only one team's if every lane asks for the same.
 fn players_of<const N: usize, const W: usize>(teams: &[f64; W]) -> std::ops::Range<usize> {
     if teams[..N].iter().all(|team| *team == teams[0]) {
         match team_of_number(teams[0]) {
@@ -525,12 +528,12 @@ fn players_of<const N: usize, const W: usize>(teams: &[f64; W]) -> std::ops::Ran
     }
 }
 
-/// Whether an event is of a filter's kind and qualifier.
+/// Whether an event matches the kind and qualifier of a filter.
 pub fn is_kind(filter: &EventFilter, event: &Event) -> bool {
     event.kind == filter.kind
         && match (filter.qualifier, filter.kind) {
             (Some(qualifier), _) => event.qualifier == Some(qualifier),
-            // However the episode ends, it ends.
+            // Without a qualifier, any end of the episode matches.
             (None, EventKind::End) => true,
             (None, EventKind::Pass) => event.qualifier == Some(Qualifier::Attempted),
             (None, _) => event.qualifier.is_none(),

@@ -1,4 +1,4 @@
-//! The observation that a scenario declares: a program, run for each agent on the state as it stands.
+//! The observation that a scenario declares: a program, run for each agent on the current state.
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers};
@@ -6,7 +6,7 @@ use crate::state::Match;
 use setpiece_scenario::Observation;
 use std::sync::Arc;
 
-/// Greatest size of an observed number: what is beyond is held there, and what is no number is 0.
+/// The largest absolute value of an observed number. Larger values are clamped, and NaN becomes 0.
 pub const OBSERVED_MAX: f32 = 1.0e6;
 
 /// Writes a declared observation.
@@ -21,7 +21,7 @@ clone_in_place! {
 }
 
 impl ObservationJudge {
-    /// Prepares it.
+    /// Prepares the program.
     pub fn new(observation: &Observation) -> ObservationJudge {
         ObservationJudge { regs: Registers::of(&observation.program), observation: Arc::new(observation.clone()) }
     }
@@ -31,7 +31,7 @@ impl ObservationJudge {
         self.observation.values.iter().map(|value| value.name.as_str())
     }
 
-    /// Writes what an agent observes; `out` is as long as there are names, and the agent is there.
+    /// Writes an agent's observation. `out` is as long as there are names, and the agent exists.
     pub fn write(&mut self, game: &Match, agent: usize, shared: &Input<'_>, out: &mut [f32]) {
         let Some(slot) = game.agents.get(agent) else { return };
         let me = slot.player.filter(|player| game.players[player.index()].active);

@@ -1,7 +1,7 @@
-//! Records: what a scenario measures of an episode, beside what it pays.
+//! Records: what a scenario measures of an episode, besides what it pays.
 //!
-//! Every record is a program of its own, run after the rewards of each step: once, or once per agent where it reads
-//! `me`. Its registers hold the metric so far; a series keeps them all.
+//! Every record is a separate program, run after the rewards of each step: once, or once per agent
+//! if it reads `me`. Its registers hold the metric so far; a series keeps all its values.
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers};
@@ -13,15 +13,15 @@ use std::sync::Arc;
 /// The value of a record when an episode ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Recorded {
-    /// A number in SI units; `None` where it could not be computed.
+    /// A number in SI units; `None` if it could not be computed.
     Number(Option<f64>),
     /// A normalised place, world frame.
     Place([f64; 2]),
-    /// A number per step.
+    /// One number per step.
     Numbers(Vec<f64>),
-    /// A normalised place per step.
+    /// One normalised place per step.
     Places(Vec<[f64; 2]>),
-    /// Agent by agent.
+    /// One value per agent.
     PerAgent(Vec<Recorded>),
 }
 
@@ -38,7 +38,7 @@ clone_in_place! {
     RecordJudge { records, states, n_agents, faults }
 }
 
-/// The memory of one record, instance by instance.
+/// The memory of one record, one entry per instance.
 #[derive(Debug)]
 struct RecordState {
     per_agent: bool,
@@ -47,7 +47,7 @@ struct RecordState {
     cells: Vec<[f64; 1]>,
     /// The last values, as many per instance as the record has.
     last: Vec<f64>,
-    /// Of a series every step's values.
+    /// For a series, the values of every step.
     kept: Vec<Vec<f64>>,
 }
 
@@ -56,7 +56,7 @@ clone_in_place! {
 }
 
 impl RecordJudge {
-    /// Prepares the records for so many agents.
+    /// Prepares the records for this many agents.
     pub fn new(records: &[Record], n_agents: usize) -> RecordJudge {
         let state = |record: &Record| {
             let per_agent = record.program.uses_me();
@@ -73,7 +73,7 @@ impl RecordJudge {
         RecordJudge { states: records.iter().map(state).collect(), records: records.into(), n_agents, faults: 0 }
     }
 
-    /// Begins an episode: `input` shows the start state.
+    /// Begins an episode; `input` shows the start state.
     pub fn reset(&mut self, game: &Match, input: &Input<'_>) {
         for state in &mut self.states {
             state.cells.fill([0.0]);
@@ -83,8 +83,8 @@ impl RecordJudge {
         self.run(game, &Input { silent: true, ..*input });
     }
 
-    /// Writes or reads what was measured; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads what was measured. Before reading, [`Self::reset`] has been called.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         for state in &mut self.states {
             archive.slots("cells", &mut state.cells)?;
             archive.slots("last", &mut state.last)?;
@@ -156,7 +156,7 @@ impl RecordJudge {
 }
 
 impl Recorded {
-    /// The number it is, or the mean over agents: what can be averaged over episodes.
+    /// The value as a number, or the mean over agents: what can be averaged over episodes.
     pub fn number(&self) -> Option<f64> {
         match self {
             Recorded::Number(value) => *value,

@@ -1,8 +1,9 @@
-//! What a scenario pays: its rewards run for each agent, their terms kept apart.
+//! What a scenario pays: its rewards run for each agent, with separate terms.
 //!
-//! A reward lives once per agent: its memory and its terms are his. The agents of a team are judged together, each in a
-//! lane of [`Lanes`], so that what doesn't depend on `me` is computed once for all. Scripts are called first and leave
-//! their values in cells; one that reads nothing of `me` is called once per team and its value copied.
+//! Every agent has an instance of each reward, with its own memory and terms. The agents of a team
+//! are judged together, each in a lane of [`Lanes`], so that what doesn't depend on `me` is
+//! computed once for all. Scripts are called first and leave their values in cells. A script that
+//! reads nothing of `me` is called once per team, and its value is copied.
 
 mod lanes;
 
@@ -12,7 +13,7 @@ use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Sc
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
-use lanes::{Lanes, Pass};
+use lanes::{Lanes, Stage};
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Reward, RewardBody, RewardHook};
@@ -25,9 +26,9 @@ pub struct RewardJudge {
     names: Arc<[String]>,
     states: Vec<RewardState>,
     n_agents: usize,
-    /// Agent by agent, the terms of this step.
+    /// The terms of this step, agent by agent.
     terms: Vec<f64>,
-    /// Agent by agent, their sums over the episode.
+    /// Their sums over the episode, agent by agent.
     sums: Vec<f64>,
     paid: Vec<f32>,
     faults: u32,
@@ -40,10 +41,10 @@ clone_in_place! {
 /// The memory of one reward.
 #[derive(Debug)]
 struct RewardState {
-    /// Its first term's place among all.
+    /// The index of its first term among all terms.
     first_term: usize,
     n_terms: usize,
-    /// Team by team.
+    /// One entry per team.
     lanes: [Option<Lanes>; 2],
     hooks: Vec<HookState>,
 }
@@ -55,9 +56,9 @@ clone_in_place! {
 /// The memory of one script of a reward.
 #[derive(Debug)]
 struct HookState {
-    /// Whether it lives per team rather than per agent.
+    /// Whether it has one instance per team instead of one per agent.
     shared: bool,
-    /// Instance by instance.
+    /// One entry per instance.
     memories: Vec<Memory>,
 }
 
@@ -77,7 +78,7 @@ struct Judged {
 type Side = ArrayVec<Judged, TEAM_MAX>;
 
 impl RewardJudge {
-    /// Prepares rewards for so many agents.
+    /// Prepares rewards for this many agents.
     pub fn new(rewards: Arc<[Reward]>, scripts: &Scripts, n_agents: usize) -> RewardJudge {
         let mut names = Vec::new();
         let mut states = Vec::with_capacity(rewards.len());
@@ -105,7 +106,7 @@ impl RewardJudge {
         }
     }
 
-    /// Goes on with other scripts; one that is now run for each agent, or no longer is, forgets.
+    /// Replaces the scripts. A script that starts or stops running per agent loses its memory.
     pub fn adopt(&mut self, scripts: &Scripts) {
         for (state, reward) in self.states.iter_mut().zip(self.rewards.iter()) {
             for (state, hook) in state.hooks.iter_mut().zip(&reward.body.hooks) {
@@ -122,7 +123,7 @@ impl RewardJudge {
         &self.rewards
     }
 
-    /// What each agent was paid in this step.
+    /// The reward of each agent in this step.
     pub fn paid(&self) -> &[f32] {
         &self.paid
     }
@@ -132,24 +133,24 @@ impl RewardJudge {
         &self.names
     }
 
-    /// An agent's terms of this step; empty for no such agent.
+    /// An agent's terms of this step; empty for unknown agents.
     pub fn terms(&self, agent: usize) -> &[f64] {
         let n = self.names.len();
         self.terms.get(agent * n..(agent + 1) * n).unwrap_or_default()
     }
 
-    /// An agent's terms, summed over the episode; empty for no such agent.
+    /// An agent's terms, summed over the episode; empty for unknown agents.
     pub fn sums(&self, agent: usize) -> &[f64] {
         let n = self.names.len();
         self.sums.get(agent * n..(agent + 1) * n).unwrap_or_default()
     }
 
-    /// Payments of this episode that were stopped because their value was impossible.
+    /// Payments of this episode that were dropped because their value was impossible.
     pub fn faults(&self) -> u32 {
         self.faults
     }
 
-    /// Begins an episode: `input` shows the start state.
+    /// Begins an episode; `input` shows the start state.
     pub fn reset(&mut self, game: &Match, input: &Input<'_>) {
         self.faults = 0;
         self.sums.fill(0.0);
@@ -170,21 +171,21 @@ impl RewardJudge {
                 let Some(lanes) = lanes else { continue };
                 let input = Input { us: *team, ..*input };
                 lanes.clear();
-                lanes.run(&players(side), &input, Pass::Init, &mut self.faults);
-                lanes.run(&players(side), &input, Pass::Silent, &mut self.faults);
+                lanes.run(&players(side), &input, Stage::Init, &mut self.faults);
+                lanes.run(&players(side), &input, Stage::Silent, &mut self.faults);
             }
         }
         self.clear_step();
     }
 
-    /// Writes or reads what was paid and what is remembered; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads payments and memory. Before reading, [`Self::reset`] has been called.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         for state in &mut self.states {
             for lanes in state.lanes.iter_mut().flatten() {
-                lanes.pass(archive)?;
+                lanes.archive(archive)?;
             }
             for memory in state.hooks.iter_mut().flat_map(|hook| &mut hook.memories) {
-                memory.pass("this", archive)?;
+                memory.archive("this", archive)?;
             }
         }
         archive.slots("terms", &mut self.terms)?;
@@ -248,7 +249,7 @@ impl RewardJudge {
                 state.call(hook, side, lanes, scripts, scene)?;
             }
         }
-        lanes.run(&players(side), input, Pass::Step, &mut self.faults);
+        lanes.run(&players(side), input, Stage::Step, &mut self.faults);
         for (lane, judged) in side.iter().enumerate() {
             let at = judged.agent * n_all + state.first_term;
             lanes.paid(lane, &mut self.terms[at..at + state.n_terms]);
@@ -274,7 +275,7 @@ impl HookState {
         HookState { shared, memories: vec![Memory::default(); n_memories] }
     }
 
-    /// Calls a script for a team's agents: for each, or for the first and all.
+    /// Calls a script for a team's agents: for each, or for the first on behalf of all.
     fn call(
         &mut self,
         hook: &RewardHook,

@@ -1,13 +1,14 @@
-//! Rewards and endings by Rhai hooks: the way out for what the language can't say.
+//! Rewards and endings by Rhai hooks, for what the language can't express.
 //!
-//! One Rhai engine serves the process, one compilation each script of a scenario; both are shared by all matches and
-//! threads. A hook sees the match through the language's own properties, in the frame of the side judged, and can do
-//! nothing else: no files, no clock, no modules, bounded operations, depth and sizes, random numbers from the episode's
-//! seed alone. `this` is the script's memory: a map that lives as long as the episode.
+//! One Rhai engine serves the process, and each script of a scenario is compiled once; all matches
+//! and threads share both. A hook sees the match through the language's own properties, in the
+//! frame of the judged side. It can do nothing else: no files, no clock, no modules. Operations,
+//! depth and sizes are bounded, and random numbers come only from the episode's seed. `this` is the
+//! script's memory: a map that lives as long as the episode.
 //!
-//! - `fn reward(ctx, now, prev, events)` gives a number, each step, for each agent.
-//! - `fn done(ctx, now, prev, events)` says whether the episode ends: true, or its label.
-//! - `fn act(ctx, me, now)` names the action of the player it plays, each step.
+//! - `fn reward(ctx, now, prev, events)` returns a number, each step, for each agent.
+//! - `fn done(ctx, now, prev, events)` returns whether the episode ends: true, or its label.
+//! - `fn act(ctx, me, now)` returns the action of the player it plays, each step.
 
 mod api;
 mod budget;
@@ -30,13 +31,13 @@ use setpiece_scenario::vocabulary::{Action, Type};
 use setpiece_scenario::{Param, Scenario};
 use std::sync::Arc;
 
-/// A hook that failed; it ends the episode, not the process.
+/// A hook that failed. It ends the episode, not the process.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{script}:{line}:{column}: `{hook}` failed: {message} (seed {seed}, episode {index}, step {step})")]
 pub struct ScriptError {
     /// The script, as the scenario names it.
     pub script: String,
-    /// Line of the file that the script stands in, from 1; the hook's own where the failure has no place.
+    /// Line in the script's file, from 1. The hook's own line if the failure has no place.
     pub line: usize,
     /// Column, from 1.
     pub column: usize,
@@ -69,7 +70,7 @@ pub struct ScriptLoadError {
 /// A script's memory of the episode.
 #[derive(Clone, Debug)]
 pub struct Memory {
-    /// What the script calls `this`.
+    /// The value that the script calls `this`.
     this: Dynamic,
     /// Whether the episode's `reset` hook has been called.
     begun: bool,
@@ -81,10 +82,10 @@ impl Default for Memory {
     }
 }
 
-/// What a `done` hook says.
+/// The result of a `done` hook.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Done {
-    /// The episode goes on.
+    /// The episode continues.
     No,
     /// It ends.
     Yes,
@@ -95,7 +96,7 @@ pub enum Done {
 /// A scenario's parameters as scripts see them.
 pub type Params = Arc<rhai::Map>;
 
-/// The scripts of a scenario, compiled.
+/// The compiled scripts of a scenario.
 #[derive(Clone, Debug)]
 pub struct Scripts {
     list: Arc<[Compiled]>,
@@ -109,21 +110,22 @@ struct Compiled {
     at: (u32, u32),
     source: String,
     code: Code,
-    /// What leads places of the code back to the source.
+    /// Maps places in the code back to the source.
     edits: Edits,
     uses_me: bool,
-    /// Whether a hook looks at the step's events.
+    /// Whether a hook reads the step's events.
     reads_events: bool,
     /// Whether it has a `reset` hook.
     resets: bool,
-    /// Its memory's share of those of an episode, one for each of the players and scripts.
+    /// Its share of the memory of an episode, one for each of the players and scripts.
     memory_bytes: usize,
 }
 
-/// Why places in a script can't be found: Rhai counts lines and columns in two bytes, and its own line ends.
+/// Why places in a script can't be mapped: Rhai stores lines and columns in two bytes, and has its
+/// own line ends.
 const UNFOLLOWED: &str =
     "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
-/// The hook that is called before a script's first hook of an episode.
+/// The hook that runs before a script's first hook of an episode.
 const RESET: &str = "reset";
 const REWARD: &str = "reward";
 const DONE: &str = "done";
@@ -132,7 +134,7 @@ impl Scripts {
     /// Compiles a scenario's scripts.
     ///
     /// # Errors
-    /// The first that is not Rhai.
+    /// The first script that isn't valid Rhai.
     pub fn compile(scenario: &Scenario) -> Result<Scripts, ScriptLoadError> {
         let memory_bytes = host::MEMORIES_BYTES_MAX / (PLAYERS_MAX * scenario.scripts.len().max(1));
         let compile = |script: &setpiece_scenario::Script| {
@@ -174,12 +176,12 @@ impl Scripts {
         self.list.iter().all(|compiled| compiled.code.is_lowered())
     }
 
-    /// Whether a script asks about the agent's own player, so that it must be run for each agent.
+    /// Whether a script reads the agent's own player, so that it must run for each agent.
     pub fn uses_me(&self, script: u32) -> bool {
         self.list.get(script as usize).is_some_and(|compiled| compiled.uses_me)
     }
 
-    /// The scenario's parameters under these values, as scripts see them.
+    /// The scenario's parameters with these values, as scripts see them.
     pub fn params(&self, values: &[f64]) -> Params {
         let map =
             self.params.iter().zip(values).map(|(param, &value)| (param.name.as_str().into(), shown(param, value)));
@@ -189,7 +191,7 @@ impl Scripts {
     /// Calls a script's `reward` hook.
     ///
     /// # Errors
-    /// [`ScriptError`] where the hook fails or gives no number.
+    /// [`ScriptError`] if the hook fails or doesn't return a number.
     pub fn reward(
         &self,
         script: u32,
@@ -211,7 +213,7 @@ impl Scripts {
     /// Calls a script's `done` hook.
     ///
     /// # Errors
-    /// [`ScriptError`] where the hook fails or gives neither a truth value nor a label.
+    /// [`ScriptError`] if the hook fails or returns neither a bool nor a label.
     pub fn done(
         &self,
         script: u32,
@@ -233,7 +235,7 @@ impl Scripts {
     /// Calls a script's `act` hook for the player of the perspective.
     ///
     /// # Errors
-    /// [`ScriptError`] where the hook fails or names no action.
+    /// [`ScriptError`] if the hook fails or returns no known action.
     pub fn act(
         &self,
         script: u32,
@@ -255,7 +257,7 @@ impl Scripts {
         let word = called?
             .into_string()
             .map_err(|found| self.wrong_type(script, HOOK, "the name of an action", found, seen))?;
-        // The rest of the full set are orders of whoever plays for a team.
+        // The other actions of the full set are team orders.
         let known = &Action::ALL[..Action::V2_SET];
         known.iter().copied().find(|action| action.name() == word).ok_or_else(|| {
             let names = known.iter().map(|action| action.name());
@@ -313,7 +315,7 @@ impl Compiled {
         self.call(RESET, (now.ctx(),), memory, now.scene()).map(drop)
     }
 
-    /// Calls a hook; what it leaves in its memory must be within bounds.
+    /// Calls a hook; the memory that it leaves must be within bounds.
     fn call(
         &self,
         hook: &str,
@@ -358,7 +360,8 @@ impl Compiled {
     }
 }
 
-/// A parameter's value as a script sees it: words and teams by name, else numbers in SI units.
+/// A parameter's value as a script sees it: words and teams by name, everything else as numbers in
+/// SI units.
 fn shown(param: &Param, value: f64) -> Dynamic {
     if let Some(word) = param.choices.get(value as usize) {
         return word.clone().into();

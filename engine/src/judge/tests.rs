@@ -11,7 +11,7 @@ use setpiece_scenario::{
 
 const GOAL_LINE_M: f32 = 55.0;
 
-/// A judge over a striker with an agent, and his match, which the tests move by hand.
+/// A judge, a striker with an agent, and their match, which the tests change by hand.
 fn bench(rewards: Vec<Reward>, prepare: impl FnOnce(&mut Scenario)) -> (Judge, Match, Events) {
     let mut scenario = scenario(&[(Team::Left, Role::CF, 0.0, 0.0), (Team::Right, Role::GK, 50.0, 0.0)]);
     prepare(&mut scenario);
@@ -26,7 +26,7 @@ fn bench(rewards: Vec<Reward>, prepare: impl FnOnce(&mut Scenario)) -> (Judge, M
     (judge, game, Events::new())
 }
 
-/// Pays the ball's x now into one term and its x a step ago into another.
+/// Pays the ball's current x into one term and its x of the last step into another.
 fn where_is_the_ball() -> Reward {
     let mut code = Code::default();
     let now = code.load(Field::BallX);
@@ -98,7 +98,7 @@ fn rewards_of_the_last_step_see_the_end() {
     let outcome = judge.step(&game, &mut events).unwrap().unwrap();
     assert_eq!((&*outcome.label, outcome.verdict), ("scored", Some(Verdict::Success)));
     assert_eq!(judge.rewards().terms(0), [3.0, 3.0, 0.0]);
-    // Its limit ends an episode too, without success or failure.
+    // The limit ends an episode too, without success or failure.
     events.clear();
     game.step = 50;
     assert!(judge.step(&game, &mut events).unwrap().unwrap().truncated);
@@ -108,7 +108,7 @@ fn rewards_of_the_last_step_see_the_end() {
 #[test]
 fn judging_and_observing_allocate_nothing() {
     let crowded = |reward: Reward| {
-        // A loop over everybody, with a distance each.
+        // A loop over everybody that computes a distance each.
         let RewardBody { init, mut step, terms, hooks } = reward.body;
         let mut code = Code { program: std::mem::take(&mut step) };
         let everybody = code.number(-1.0);
@@ -154,7 +154,7 @@ fn judging_and_observing_allocate_nothing() {
     assert!(judge.rewards().sums(0)[0] > 0.0);
 }
 
-/// A program that looks back at a field, and what is kept of the last step for it.
+/// A program that reads a field of the last state, and what is kept of the last step for it.
 #[test]
 fn what_a_program_looks_back_at_is_kept() {
     let (_, mut game, _) = bench(Vec::new(), |_| ());

@@ -1,4 +1,5 @@
-//! What programs and scripts may read of a match: the match itself, or a small copy that outlives the step.
+//! What programs and scripts may read of a match: the match itself, or a small copy that outlives
+//! the step.
 
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
@@ -8,7 +9,7 @@ use setpiece_scenario::vocabulary::{Field, GameMode, Owner, Role, Team};
 use setpiece_scenario::{Instr, Program, When};
 use std::ops::Range;
 
-/// What may be read of a player; world frame, SI.
+/// The readable data of a player; world frame, SI.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PlayerView {
     /// Metres.
@@ -21,17 +22,17 @@ pub struct PlayerView {
     pub fatigue: f32,
     /// Cards so far.
     pub yellow_cards: u8,
-    /// His role.
+    /// The player's role.
     pub role: Role,
-    /// Belongs to this episode's roster.
+    /// Whether they belong to this episode's roster.
     pub present: bool,
-    /// Is on the pitch.
+    /// Whether they are on the pitch.
     pub active: bool,
-    /// An agent controls him.
+    /// Whether an agent controls them.
     pub controlled: bool,
 }
 
-/// What may be read of a match; world frame, SI.
+/// The readable data of a match; world frame, SI.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct View {
     /// The ball's centre, metres.
@@ -48,16 +49,16 @@ pub struct View {
     pub score: [u16; 2],
     /// Open play or a set piece.
     pub mode: GameMode,
-    /// Play is stopped.
+    /// Whether play is stopped.
     pub dead: bool,
     /// Steps since the start.
     pub step: u32,
-    /// Truncation after so many steps.
+    /// The episode is truncated after this many steps.
     pub limit_steps: Option<u32>,
 }
 
 impl View {
-    /// A pitch without anybody: what a program that runs before the match sees.
+    /// An empty pitch, for programs that run before the match.
     pub const EMPTY: View = View {
         ball: [0.0; 3],
         ball_vel: [0.0; 3],
@@ -81,7 +82,7 @@ impl View {
         limit_steps: None,
     };
 
-    /// The view of a match as it stands.
+    /// The view of a match's current state.
     pub fn of(game: &Match) -> View {
         let players = std::array::from_fn(|i| PlayerView::of(game, PlayerId(i as u8)));
         let mut view = View { players, ..View::EMPTY };
@@ -92,8 +93,13 @@ impl View {
         view
     }
 
-    /// Writes or reads what [`Memory`] says: the rest is never looked back at.
-    pub(crate) fn pass(&mut self, name: &str, memory: Memory, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads the parts that [`Memory`] names; the rest is never read later.
+    pub(crate) fn archive(
+        &mut self,
+        name: &str,
+        memory: Memory,
+        archive: &mut Archive<'_>,
+    ) -> Result<(), SnapshotError> {
         match memory {
             Memory::Nothing => Ok(()),
             Memory::ButPlayers => {
@@ -109,7 +115,7 @@ impl View {
         }
     }
 
-    /// Takes over of a match what [`Memory`] says, and leaves the rest.
+    /// Copies the parts of a match that [`Memory`] names, and leaves the rest.
     pub fn keep(&mut self, game: &Match, memory: Memory) {
         match memory {
             Memory::Nothing => {}
@@ -141,7 +147,7 @@ impl View {
 /// How much of a state is remembered until the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Memory {
-    /// Nothing looks back.
+    /// Nothing: no program reads it.
     #[default]
     Nothing,
     /// Everything but the players.
@@ -151,11 +157,11 @@ pub enum Memory {
 }
 
 impl Memory {
-    /// What a program looks back at.
+    /// The parts of the last state that a program reads.
     pub fn of(program: &Program) -> Memory {
         let of = |instr: &Instr| match instr {
             Instr::Load { field, when: When::Prev, .. } => match (field, field.subject()) {
-                // The line is drawn by players.
+                // The line depends on players.
                 (_, Owner::Player) | (Field::OffsideLine, _) => Memory::All,
                 _ => Memory::ButPlayers,
             },
@@ -165,10 +171,10 @@ impl Memory {
     }
 }
 
-/// A state that is looked at: the match itself, or what was kept of one.
+/// A state to read: the match itself, or a copy.
 #[derive(Clone, Copy, Debug)]
 pub enum Sight<'a> {
-    /// The match as it stands.
+    /// The current match.
     Live(&'a Match),
     /// A copy.
     Kept(&'a View),
@@ -184,7 +190,8 @@ impl Sight<'_> {
         }
     }
 
-    /// The player of an id as programs write it; `None` for -1, for what is no id, and where nobody is.
+    /// The player of an id as programs write it. `None` for -1, for other values that aren't ids,
+    /// and for empty slots.
     #[inline]
     fn player(self, id: f64) -> Option<PlayerView> {
         let index = player_index(id)?;
@@ -203,7 +210,7 @@ impl Sight<'_> {
         }
     }
 
-    /// Whether a program's number means somebody on the pitch.
+    /// Whether a program's number is a player on the pitch.
     #[inline]
     pub fn exists(self, id: f64) -> bool {
         player_index(id).is_some_and(|index| self.is_active(index))
@@ -232,8 +239,8 @@ impl Sight<'_> {
         }
     }
 
-    /// World x beyond which a team's players are offside, metres: the second-last opponent, the ball or the halfway
-    /// line, whichever is nearest to the opponents' goal.
+    /// World x beyond which a team's players are offside, metres: the second-last opponent, the
+    /// ball or the halfway line, whichever is nearest to the opponents' goal.
     pub fn offside_line_m(self, team: Team) -> f64 {
         let side = team.side();
         let (mut last, mut second) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
@@ -253,7 +260,7 @@ impl Sight<'_> {
         side * second.max(side * f64::from(self.ball()[0])).max(0.0)
     }
 
-    /// One number of the match as a program reads it; NaN of nobody, and of no team.
+    /// One number of the match as a program reads it; NaN if there is no such player or team.
     #[inline]
     pub fn load(self, field: Field, of: f64) -> f64 {
         match field {
@@ -285,7 +292,7 @@ impl Sight<'_> {
         }
     }
 
-    /// What is seldom asked.
+    /// The rarely read fields.
     #[inline(never)]
     fn load_of_match(self, field: Field, of: f64) -> f64 {
         let (possession, score, mode, dead, step, limit_steps) = match self {
@@ -312,7 +319,7 @@ pub fn remaining_s(step: u32, limit_steps: Option<u32>) -> f64 {
 }
 
 impl PlayerView {
-    /// The view of a player; who controls him is not known here.
+    /// The view of a player, without who controls them.
     #[inline]
     fn of(game: &Match, id: PlayerId) -> PlayerView {
         let player = game.player(id);

@@ -1,4 +1,4 @@
-//! `egocentric`: what a player sees from where he is.
+//! `egocentric`: what a player sees from their own place.
 
 use super::frame::Frame;
 use super::layout::{FAR_M, OTHER, OTHERS};
@@ -14,16 +14,16 @@ use setpiece_scenario::vocabulary::{Role, StickyAction};
 const SPEED_MPS: f32 = 10.0;
 /// The unit of heights, metres.
 const HEIGHT_M: f32 = 10.0;
-/// Goals ahead that fill the scale.
+/// Number of goals that fills the scale.
 const GOALS: f32 = 5.0;
-/// Greatest size of a number of places and velocities: [`super::layout::egocentric`].
+/// The largest absolute value of places and velocities: [`super::layout::egocentric`].
 const MOST: f32 = 4.0;
 
-/// Writes agent `agent`'s egocentric observation; the layout is [`super::layout::egocentric`] of the larger team's size.
-/// All zeros for an agent without a player.
+/// Writes agent `agent`'s egocentric observation. The layout is [`super::layout::egocentric`] of
+/// the larger team's size. All zeros for an agent without a player.
 ///
 /// # Errors
-/// [`ObserveError`] for no such agent, or a buffer of another size; nothing is written then.
+/// [`ObserveError`] for unknown agents, or a buffer of another size; nothing is written then.
 pub fn egocentric(game: &Match, agent: usize, team: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), size(team))?;
@@ -92,12 +92,12 @@ pub fn egocentric(game: &Match, agent: usize, team: usize, out: &mut [f32]) -> R
     Ok(())
 }
 
-/// Numbers of the observation for teams of up to `team` players.
+/// The length of the observation for teams of up to `team` players.
 pub fn size(team: usize) -> usize {
     OTHERS + OTHER * (2 * team).saturating_sub(1)
 }
 
-/// Writes one number after the other, held within ± its bound.
+/// Writes one number after the other, each clamped to ± its bound.
 struct Pen<'a> {
     out: &'a mut [f32],
     at: usize,

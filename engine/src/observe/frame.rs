@@ -1,4 +1,4 @@
-//! The reader's frame: which team is his own, and how the world is turned for him.
+//! The reader's frame: which team is their own, and how the world is turned for them.
 
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
@@ -23,7 +23,7 @@ impl<'a> Frame<'a> {
         self.game.squad.of(team).ids().map(move |id| (id, self.game.player(id)))
     }
 
-    /// A player's place among his team's roster.
+    /// A player's index in the roster of their team.
     pub(super) fn place(self, player: PlayerId) -> Option<usize> {
         self.roster(player.team()).position(|(id, _)| id == player)
     }
@@ -57,7 +57,7 @@ impl<'a> Frame<'a> {
         [x, y, f64::from(velocity.z) / STEPS_PER_S]
     }
 
-    /// Who has the ball: 0 for the own team, 1 for the other, and his place in its roster.
+    /// Who has the ball: 0 for the own team, 1 for the other, and their index in its roster.
     pub(super) fn owner(self) -> Option<(usize, usize)> {
         let owner = self.game.owner?;
         let team = usize::from(owner.team() != self.us);

@@ -1,4 +1,5 @@
-//! The layouts of array observations: one row per block, from which spaces and documentation are made.
+//! The layouts of array observations: one row per block. Spaces and documentation are generated
+//! from them.
 
 use setpiece_scenario::pitch::{STEPS_PER_S, TEAM_MAX, X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::StickyAction;
@@ -7,27 +8,27 @@ use setpiece_scenario::vocabulary::StickyAction;
 pub const SIMPLE115: usize = 115;
 /// Length of `simple115v2+sticky`.
 pub const SIMPLE115_STICKY: usize = SIMPLE115 + StickyAction::DEFAULT_SET;
-/// Numbers of one other player in `egocentric`.
+/// Number of values for one other player in `egocentric`.
 pub const OTHER: usize = 7;
 /// Where the other players begin in `egocentric`.
 pub const OTHERS: usize = 46;
 
-/// A block of an observation: numbers that mean the like.
+/// A block of an observation: related numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
     /// Index of its first number.
     pub start: usize,
-    /// How many numbers.
+    /// The number of values.
     pub len: usize,
-    /// What they mean.
+    /// The meaning of the values.
     pub meaning: String,
-    /// Their unit.
+    /// The unit of the values.
     pub unit: &'static str,
     /// Least values, repeated over the block.
     pub low: Vec<f32>,
     /// Greatest values, repeated over the block.
     pub high: Vec<f32>,
-    /// How `scale` changes it; `None` leaves it as it is.
+    /// How `scale` changes the block; `None` for no change.
     pub scale: Option<Scale>,
 }
 
@@ -36,19 +37,19 @@ pub struct Block {
 pub struct Scale {
     /// The unit after scaling.
     pub unit: &'static str,
-    /// What the numbers are multiplied by, repeated over the block.
+    /// The factors on the values, repeated over the block.
     pub factors: Vec<f32>,
 }
 
-/// How the numbers of an observation lie.
+/// The layout of an observation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layout {
-    /// The blocks, one after the other.
+    /// The blocks, in order.
     pub blocks: Vec<Block>,
 }
 
 impl Layout {
-    /// How many numbers.
+    /// The number of values.
     pub fn len(&self) -> usize {
         self.blocks.last().map_or(0, |block| block.start + block.len)
     }
@@ -58,7 +59,7 @@ impl Layout {
         self.len() == 0
     }
 
-    /// Least and greatest value of every number; what is written is held between them.
+    /// The bounds of every number; written values are clamped to them.
     pub fn bounds(&self) -> (Vec<f32>, Vec<f32>) {
         let over = |bounds: fn(&Block) -> &Vec<f32>| {
             self.blocks.iter().flat_map(|block| bounds(block).iter().copied().cycle().take(block.len)).collect()
@@ -78,7 +79,7 @@ impl Layout {
         self
     }
 
-    /// What `scale` multiplies every number by: 1 for those that it leaves as they are.
+    /// The factor of `scale` on every number: 1 for unchanged ones.
     pub fn factors(&self) -> Vec<f32> {
         let one = [1.0];
         let of = |block: &Block| {
@@ -88,7 +89,7 @@ impl Layout {
         self.blocks.iter().flat_map(of).collect()
     }
 
-    /// Says what `scale` makes of the last block.
+    /// Sets how `scale` changes the last block.
     fn in_units(mut self, unit: &'static str, factors: &[f32]) -> Layout {
         if let Some(block) = self.blocks.last_mut() {
             block.scale = Some(Scale { unit, factors: factors.to_vec() });
@@ -119,7 +120,8 @@ impl Layout {
         self
     }
 
-    /// What `simple115` and `simple115v2` end with: the ball, who has it, whom the agent plays, the game mode.
+    /// The end of `simple115` and `simple115v2`: the ball, its owner, the controlled player, the
+    /// game mode.
     fn ball_and_modes(self) -> Layout {
         self.block(3, "ball x, y, z", "normalised; z in metres", vec![-2.0, -1.5, 0.0], vec![2.0, 1.5, 100.0])
             .in_units("50 m; z in 10 m", &[SCALED_PLACE[0], SCALED_PLACE[1], 1.0 / SCALE_HEIGHT_M])
@@ -131,7 +133,7 @@ impl Layout {
     }
 }
 
-/// Bounds of a normalised place: the rim of the pitch and what lies behind it.
+/// Bounds of a normalised place: the rim of the pitch and what lies beyond.
 const PLACE: [f32; 2] = [2.0, 1.5];
 /// Bounds of a displacement in one step.
 const STRIDE: [f32; 2] = [1.0, 1.0];
@@ -142,14 +144,14 @@ const SCALE_M: f32 = 50.0;
 const SCALE_HEIGHT_M: f32 = 10.0;
 /// The unit of velocities under `scale`, m/s: that of `egocentric`.
 const SCALE_MPS: f32 = 10.0;
-/// From a normalised place to a scaled one.
+/// Factor from a normalised place to a scaled one.
 const SCALED_PLACE: [f32; 2] = [X_SCALE_M as f32 / SCALE_M, Y_SCALE_M as f32 / SCALE_M];
-/// From a displacement in one step to a scaled velocity.
+/// Factor from a displacement per step to a scaled velocity.
 const SCALED_STRIDE: [f32; 2] =
     [(X_SCALE_M * STEPS_PER_S) as f32 / SCALE_MPS, (Y_SCALE_M * STEPS_PER_S) as f32 / SCALE_MPS];
-/// From a way in 54.4 m to a scaled one.
+/// Factor from a relative position in units of 54.4 m to a scaled one.
 const SCALED_WAY: f32 = SCALED_PLACE[0];
-/// From a distance in 128 m to a scaled one.
+/// Factor from a distance in units of 128 m to a scaled one.
 const SCALED_DISTANCE: f32 = FAR_M / SCALE_M;
 /// The unit of distances in `egocentric`: across the pitch and its rim, metres.
 pub(super) const FAR_M: f32 = 128.0;
@@ -168,13 +170,14 @@ pub fn simple115v2() -> Layout {
         .ball_and_modes()
 }
 
-/// `simple115v2+sticky`: `simple115v2`, and the keys that the agent holds.
+/// `simple115v2+sticky`: `simple115v2`, plus the keys that the agent holds.
 pub fn simple115v2_sticky() -> Layout {
     simple115v2().shares(StickyAction::DEFAULT_SET, "held actions", "flags of `sticky_actions`")
 }
 
-/// `simple115`: as `simple115v2`, but that the four blocks of players follow each other without a gap, so that they lie
-/// elsewhere where players are missing; what is left of the 88 numbers is -1.
+/// `simple115`: like `simple115v2`, except that the four blocks of players follow each other
+/// without gaps. If players are missing, later players move up, and the rest of the 88 numbers is
+/// -1.
 pub fn simple115() -> Layout {
     Layout::default()
         .around(
@@ -186,8 +189,8 @@ pub fn simple115() -> Layout {
         .ball_and_modes()
 }
 
-/// `egocentric`, for teams of up to `team` players: what the agent's player sees from where he is, his mates and the
-/// opponents each nearest first.
+/// `egocentric`, for teams of up to `team` players: what the agent's player sees from their own
+/// place, with teammates and opponents each sorted nearest first.
 pub fn egocentric(team: usize) -> Layout {
     let layout = Layout::default()
         .around(2, "my x, y", "normalised", &PLACE)
@@ -236,10 +239,10 @@ fn times(values: &[f32], factors: &[f32]) -> Vec<f32> {
     pairs.take(n).map(|(value, factor)| value * factor).collect()
 }
 
-/// Greatest size of a number of a scenario's own observation: what is beyond is held there.
+/// The largest absolute value in a scenario's own observation; larger values are clamped.
 pub const DECLARED_MAX: f32 = 1.0e6;
 
-/// A scenario's own observation, a number each.
+/// A scenario's own observation, one block per number.
 pub fn declared(names: &[String]) -> Layout {
     names.iter().fold(Layout::default(), |layout, name| layout.around(1, name, "as declared", &[DECLARED_MAX]))
 }

@@ -1,4 +1,4 @@
-//! Which actions can change anything.
+//! Which actions have an effect.
 
 use super::{ObserveError, slot};
 use crate::control::driver;
@@ -7,15 +7,19 @@ use crate::state::Match;
 use crate::state::player::KickKind;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
 
-/// Which of the 33 actions of GRF's `full` set can change something for agent `agent`; the first 19 are its `default`
-/// set, the first 20 its `v2` set. `idle` always may be chosen.
+/// Which of the 33 actions of GRF's `full` set can have an effect for agent `agent`. The first 19
+/// are its `default` set, the first 20 its `v2` set. `idle` is always allowed.
 ///
-/// Masked are: what is held already and the release of what isn't held; a switch to nobody; passes and shots while the ball is not the
-/// player's to play, and sliding while it is; high passes and shots at a throw-in; everything but `idle` for an agent
-/// without a player on the pitch.
+/// Masked are:
+///
+/// - actions already held, and the release of what isn't held;
+/// - a switch without a player to switch to;
+/// - passes and shots while the ball isn't the player's to play, and sliding while it is;
+/// - high passes and shots at a throw-in;
+/// - everything but `idle` for an agent without a player on the pitch.
 ///
 /// # Errors
-/// [`ObserveError::Agent`] for no such agent.
+/// [`ObserveError::Agent`] for unknown agents.
 pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET], ObserveError> {
     let slot = slot(game, agent)?;
     let mut mask = [false; Action::FULL_SET];
@@ -23,7 +27,7 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET
     let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;
     let directions = &StickyAction::ALL[..StickyAction::Sprint.index()];
-    // A key that is down may stay so: letting it go is what makes it heard again.
+    // A key that is down may stay down; it must be released before it can act again.
     let kick = |kind: KickKind| slot.key == Some(kind) || driver::may_arm(game, player, kind);
     for (action, open) in Action::ALL.iter().zip(&mut mask) {
         *open = match action {

@@ -16,7 +16,7 @@ pub struct RawTeam {
     pub directions: ArrayVec<[f64; 2], TEAM_MAX>,
     /// `*_team_tired_factor`: 0 fresh to 1 exhausted.
     pub tired_factors: ArrayVec<f64, TEAM_MAX>,
-    /// `*_team_yellow_card`: he has a card.
+    /// `*_team_yellow_card`: whether the player has a card.
     pub yellow_cards: ArrayVec<bool, TEAM_MAX>,
     /// `*_team_active`: still on the pitch.
     pub active: ArrayVec<bool, TEAM_MAX>,
@@ -31,17 +31,17 @@ pub struct Raw {
     pub ball: [f64; 3],
     /// `ball_direction`: displacement per step.
     pub ball_direction: [f64; 3],
-    /// `ball_rotation`: turn per millisecond, scaled as GRF scales it; not turned for the right team.
+    /// `ball_rotation`: rotation per millisecond, in GRF's scale; not turned for the right team.
     pub ball_rotation: [f64; 3],
-    /// `ball_owned_team`: -1 nobody, 0 we, 1 they.
+    /// `ball_owned_team`: -1 nobody, 0 us, 1 them.
     pub ball_owned_team: i64,
-    /// `ball_owned_player`: his place in his team, or -1.
+    /// `ball_owned_player`: the owner's index in their team, or -1.
     pub ball_owned_player: i64,
     /// `left_team…`: the own side.
     pub left: RawTeam,
     /// `right_team…`: the opponents.
     pub right: RawTeam,
-    /// `designated`: the own team's foremost player for the ball, or -1.
+    /// `designated`: the own team's best placed player for the ball, or -1.
     pub designated: i64,
     /// `active`: the agent's player, or -1.
     pub active: i64,
@@ -55,10 +55,10 @@ pub struct Raw {
     pub game_mode: i64,
 }
 
-/// Agent `agent`'s raw observation.
+/// Builds agent `agent`'s raw observation.
 ///
 /// # Errors
-/// [`ObserveError::Agent`] for no such agent.
+/// [`ObserveError::Agent`] for unknown agents.
 pub fn raw(game: &Match, agent: usize) -> Result<Raw, ObserveError> {
     let slot = slot(game, agent)?;
     let mut raw = raw_of(game, slot.team);
@@ -71,7 +71,7 @@ pub fn raw(game: &Match, agent: usize) -> Result<Raw, ObserveError> {
     Ok(raw)
 }
 
-/// The raw observation of a side without an agent: nobody is `active`, nothing is held.
+/// The raw observation of a side without an agent: no player is `active`, nothing is held.
 pub fn raw_of(game: &Match, us: Team) -> Raw {
     let frame = Frame { game, us };
     let owner = frame.owner();
@@ -101,7 +101,7 @@ fn side(frame: Frame<'_>, team: Team) -> RawTeam {
         side.places.push(frame.place_of(player.pos));
         side.directions.push(frame.stride_of(player.vel));
         side.tired_factors.push(player.fatigue.into());
-        // Any card, as GRF has it.
+        // Any card counts, as in GRF.
         side.yellow_cards.push(player.yellow_cards > 0 || !player.active);
         side.active.push(player.active);
         side.roles.push(player.role.index() as i64);
@@ -109,7 +109,7 @@ fn side(frame: Frame<'_>, team: Team) -> RawTeam {
     side
 }
 
-/// The own player who has the ball, else the one nearest to it.
+/// The own player who has the ball, or the one nearest to it.
 fn designated(frame: Frame<'_>) -> Option<PlayerId> {
     if let Some(owner) = frame.game.owner.filter(|owner| owner.team() == frame.us) {
         return Some(owner);

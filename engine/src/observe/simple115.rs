@@ -1,4 +1,4 @@
-//! `simple115v2`, with the held keys behind it or without, and `simple115` before it.
+//! `simple115v2`, with or without the held keys, and its predecessor `simple115`.
 
 use super::frame::Frame;
 use super::layout::{SIMPLE115, SIMPLE115_STICKY};
@@ -6,28 +6,30 @@ use super::{ObserveError, check_size, slot};
 use crate::state::{AgentSlot, Match};
 use setpiece_scenario::pitch::TEAM_MAX;
 
-/// What stands for a missing player.
+/// The value of a missing player.
 const MISSING: f32 = -1.0;
 
 /// Writes agent `agent`'s `simple115v2` observation; the layout is [`super::layout::simple115v2`].
 ///
 /// # Errors
-/// [`ObserveError`] for no such agent, or a buffer that has not 115 numbers; nothing is written then.
+/// [`ObserveError`] for unknown agents, or a buffer that doesn't have 115 numbers; nothing is
+/// written then.
 pub fn simple115v2(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     write_v2(game, agent, SIMPLE115, MISSING, out)
 }
 
-/// Writes agent `agent`'s `simple115v2+sticky` observation: the held keys stand behind `simple115v2`; the layout is
-/// [`super::layout::simple115v2_sticky`].
+/// Writes agent `agent`'s `simple115v2+sticky` observation: `simple115v2` followed by the held
+/// keys. The layout is [`super::layout::simple115v2_sticky`].
 ///
 /// # Errors
-/// [`ObserveError`] for no such agent, or a buffer that has not 125 numbers; nothing is written then.
+/// [`ObserveError`] for unknown agents, or a buffer that doesn't have 125 numbers; nothing is
+/// written then.
 pub fn simple115v2_sticky(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     write_v2(game, agent, SIMPLE115_STICKY, MISSING, out)
 }
 
-/// Writes `simple115v2` and as many held keys as `expected` has room for; `missing` fills the numbers of players who
-/// are missing.
+/// Writes `simple115v2` and as many held keys as `expected` has room for. `missing` fills the
+/// numbers of missing players.
 pub(super) fn write_v2(
     game: &Match,
     agent: usize,
@@ -57,11 +59,12 @@ pub(super) fn write_v2(
     Ok(())
 }
 
-/// Writes agent `agent`'s `simple115` observation: the four blocks of players without gaps; the layout is
-/// [`super::layout::simple115`].
+/// Writes agent `agent`'s `simple115` observation: the four blocks of players without gaps. The
+/// layout is [`super::layout::simple115`].
 ///
 /// # Errors
-/// [`ObserveError`] for no such agent, or a buffer that has not 115 numbers; nothing is written then.
+/// [`ObserveError`] for unknown agents, or a buffer that doesn't have 115 numbers; nothing is
+/// written then.
 pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), SIMPLE115)?;
@@ -85,7 +88,7 @@ pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), Obse
     Ok(())
 }
 
-/// What stands behind the players in both.
+/// Writes what follows the players in both layouts.
 fn write_ball_and_modes(game: &Match, frame: Frame<'_>, slot: AgentSlot, out: &mut [f32]) {
     write(&mut out[88..91], &frame.ball(), &[2.0, 1.5, 100.0]);
     out[90] = out[90].max(0.0);
@@ -97,7 +100,7 @@ fn write_ball_and_modes(game: &Match, frame: Frame<'_>, slot: AgentSlot, out: &m
     out[108 + game.mode.index()] = 1.0;
 }
 
-/// Writes numbers, held within ± the bounds of their space.
+/// Writes numbers, clamped to ± the bounds of their space.
 fn write(out: &mut [f32], values: &[f64], bounds: &[f32]) {
     for ((out, value), bound) in out.iter_mut().zip(values).zip(bounds) {
         *out = (*value as f32).clamp(-bound, *bound);

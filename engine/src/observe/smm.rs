@@ -1,4 +1,4 @@
-//! The super mini map: four planes of a small picture.
+//! The super mini map: a small picture with four planes.
 
 use super::frame::Frame;
 use super::{ObserveError, check_size, slot};
@@ -21,13 +21,15 @@ pub fn smm_size(width: usize, height: usize) -> usize {
     width * height * PLANES
 }
 
-/// Writes agent `agent`'s map: row by row from the top, the four planes of a pixel together, 0 or 255.
+/// Writes agent `agent`'s map: row by row from the top, the four planes of a pixel together, 0 or
+/// 255.
 ///
-/// Planes: own team, opponents, ball, the controlled player (empty without one). What lies outside is drawn at the
-/// edge.
+/// Planes: own team, opponents, ball, the controlled player (empty without one). Anything outside
+/// is drawn at the edge.
 ///
 /// # Errors
-/// [`ObserveError`] for no such agent, or a buffer of another size than [`smm_size`]; nothing is written then.
+/// [`ObserveError`] for unknown agents, or a buffer whose size isn't [`smm_size`]; nothing is
+/// written then.
 pub fn smm(game: &Match, agent: usize, width: usize, height: usize, out: &mut [u8]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), smm_size(width, height))?;
@@ -53,8 +55,8 @@ pub fn smm(game: &Match, agent: usize, width: usize, height: usize, out: &mut [u
     Ok(())
 }
 
-/// The pixel of a share of the picture, held inside.
+/// The pixel of a share of the picture, clamped to it.
 fn pixel(share: f64, n: usize) -> usize {
-    // The cast cuts towards 0 and holds at 0.
+    // The cast truncates, and saturates at 0.
     ((share * n as f64) as usize).min(n.saturating_sub(1))
 }

@@ -159,7 +159,7 @@ fn the_mask_leaves_what_can_matter() {
     assert!(open(Action::Idle) && open(Action::Left) && open(Action::ReleaseDirection) && open(Action::Shot));
     assert!(!open(Action::Right) && !open(Action::Sprint) && open(Action::ReleaseSprint));
     assert!(open(Action::Dribble) && !open(Action::ReleaseDribble) && !open(Action::Sliding));
-    // The keeper of the other side has no ball to pass.
+    // The goalkeeper of the other side has no ball to pass.
     let mask = action_mask(&game, 1).unwrap();
     assert!(!mask[Action::ShortPass.index()] && mask[Action::Sliding.index()]);
     game.players[1].active = false;
@@ -191,7 +191,7 @@ fn egocentric_is_seen_from_the_player() {
     let me = game.player(game.agents[0].player.unwrap());
     let ball = (game.ball.pos.truncate() - me.pos) / 54.4;
     near(&out[17..19], &ball.to_array());
-    // The nearest mate is `there`, and where he is.
+    // The nearest teammate is `there`, and where they are.
     let mate = game.team(Team::Left).find(|(id, _)| Some(*id) != game.agents[0].player).unwrap().1;
     let way = (mate.pos - me.pos) / 54.4;
     near(&out[46..49], &[1.0, way.x, way.y]);
@@ -203,7 +203,7 @@ fn egocentric_is_seen_from_the_player() {
     game.ball.vel = Vec3::splat(-1e6);
     egocentric(&game, 0, team, &mut out).unwrap();
     assert!(within(&out));
-    // The turned match shows the other side's agent the same.
+    // The turned match looks the same to the other side's agent.
     let mut other = out.clone();
     egocentric(&game, 1, team, &mut other).unwrap();
     assert_ne!(out, other);

@@ -1,9 +1,9 @@
 //! The figures of the ball's world, each with its source.
 //!
-//! "Measured" means: taken from the flight of Google Research Football's ball and the series it is
-//! drawn from. "Laws" are the IFAB's Laws of the Game. "Fitted" means: chosen so that the measured series are met.
+//! "Measured": taken from the flight of Google Research Football's ball and the series drawn from
+//! it. "Laws": the IFAB's Laws of the Game. "Fitted": chosen to match the measured series.
 
-/// Length of a tick, s: ten to an agent's step.
+/// Length of a tick, s. An agent's step has ten.
 pub const TICK_S: f32 = 0.01;
 /// Acceleration of free fall, m/s². Standard gravity.
 pub const GRAVITY: f32 = 9.81;
@@ -14,68 +14,73 @@ pub const BALL_MASS: f32 = 0.43;
 /// Moment of inertia over mass and radius squared. A ball is a thin shell: 2/3.
 pub const BALL_INERTIA_SHARE: f32 = 2.0 / 3.0;
 
-/// Air drag over squared speed, 1/m. Measured at 12–30 m/s. (A smooth sphere of this size with a drag coefficient of
-/// 0.29 has the same: ½ · 1.2 · 0.038 · 0.29 / 0.43.)
+/// Air drag over squared speed, 1/m. Measured at 12–30 m/s. (A smooth sphere of this size with a
+/// drag coefficient of 0.29 has the same: ½ · 1.2 · 0.038 · 0.29 / 0.43.)
 pub const AIR_DRAG: f32 = 0.0155;
-/// Magnus acceleration over speed and the product of spin and velocity, s/m. Fitted: with 15 rad/s of backspin a shot
-/// falls with 7.4 m/s² instead of 9.81, as measured.
+/// Magnus acceleration over speed and the product of spin and velocity, s/m. Fitted: with 15 rad/s
+/// of backspin a shot falls with 7.4 m/s² instead of 9.81, as measured.
 pub const MAGNUS: f32 = 0.00027;
-/// Beyond this spin the Magnus effect grows no more, rad/s: the lift coefficient of a football levels off near 0.3
-/// (Goff and Carré 2009, "Trajectory analysis of a soccer ball").
+/// The Magnus effect doesn't grow beyond this spin, rad/s: the lift coefficient of a football
+/// levels off near 0.3 (Goff and Carré 2009, "Trajectory analysis of a soccer ball").
 pub const MAGNUS_SPIN_MAX: f32 = 60.0;
 /// Beyond this speed the Magnus effect grows only in proportion to speed, m/s.
 pub const MAGNUS_SPEED_MAX: f32 = 37.0;
-/// Share of the spin that the air takes each second. Time constants of balls in flight are 10–20 s.
+/// Share of the spin that the air takes per second. Time constants of balls in flight are 10–20 s.
 pub const SPIN_DECAY: f32 = 0.07;
 
 /// Share of the downward speed that a bounce on grass gives back. Measured: height ratio 0.37.
 pub const BOUNCE: f32 = 0.62;
-/// What soft grass swallows of every bounce besides, m/s. Fitted; it ends the series of ever smaller bounces.
+/// Speed that soft grass takes from every bounce in addition, m/s. Fitted; it ends the series of
+/// ever smaller bounces.
 pub const BOUNCE_LOSS: f32 = 0.065;
-/// Below this downward speed a touch of the ground is rolling, no bounce, m/s.
+/// Below this downward speed a touch of the ground counts as rolling, not as a bounce, m/s.
 pub const BOUNCE_LEAST: f32 = 0.15;
 /// Sliding friction at a bounce. Fitted to low, flat bounces, which lose less than the full share.
 pub const BOUNCE_FRICTION: f32 = 0.40;
-/// The most of the sliding speed that one bounce takes. Measured: horizontal speed × 0.77.
+/// The largest share of the sliding speed that one bounce takes. Measured: horizontal speed × 0.77.
 pub const BOUNCE_GRIP: f32 = 0.23;
 /// Height of the blades that brake a ball, m above the resting centre. Fitted.
 pub const GRASS_DEPTH: f32 = 0.02;
 /// Rolling resistance that does not depend on speed, m/s². Measured: a ≈ −(1.7 + 0.060 v²).
 pub const ROLL_DRAG: f32 = 1.7;
-/// Rolling resistance over squared speed, 1/m: the measured 0.060 less the air's share.
+/// Rolling resistance over squared speed, 1/m: the measured 0.060 minus the air's share.
 pub const ROLL_DRAG_SQUARE: f32 = 0.060 - AIR_DRAG;
-/// How much of the angular speed that rolling resistance could bring (a/R · 3/2 for a shell) is brought. Less than one,
-/// so that spin never holds more energy than the roll has lost.
+/// Share of the angular speed that rolling resistance could add (a/R · 3/2 for a shell). Less than
+/// one, so that spin never holds more energy than the roll has lost.
 pub const ROLL_SPIN_SHARE: f32 = 0.9;
-/// Share of the spin about the upright that grass takes each second.
+/// Share of the spin about the vertical axis that grass takes per second.
 pub const ROLL_TWIST_DECAY: f32 = 2.0;
 
-/// Radius of posts and crossbar, m. Laws: at most 0.12 m across; 0.07 is Google Research Football's, and lets the ball
-/// be met at the 0.18 m from the axis that it uses.
+/// Radius of posts and crossbar, m. Laws: at most 0.12 m across. 0.07 is Google Research
+/// Football's; the ball then meets the frame 0.18 m from its axis, as in GRF.
 pub const FRAME_RADIUS: f32 = 0.07;
-/// Share of the speed that woodwork gives back straight. GRF: × 0.8.
+/// Share of the normal speed that woodwork gives back. GRF: × 0.8.
 pub const FRAME_BOUNCE: f32 = 0.8;
 /// Friction of woodwork on leather. Chosen: painted metal.
 pub const FRAME_FRICTION: f32 = 0.2;
-/// Half the thickness of the nets, m. Thick enough that a ball pressed against one never is nearer to its far side.
+/// Half the thickness of the nets, m. A ball pressed against a net must never be nearer to its far
+/// side.
 pub const NET_HALF: f32 = 0.03;
-/// Share of the speed that a net gives back. Chosen: a slack net swallows a shot.
+/// Share of the speed that a net gives back. Chosen: a slack net absorbs a shot.
 pub const NET_BOUNCE: f32 = 0.1;
 /// Friction of a net on leather. Chosen: meshes hold a ball.
 pub const NET_FRICTION: f32 = 0.6;
-/// Radius of the upright capsule that a player's body is, m: half the breadth of hips and shoulders.
+/// Radius of the upright capsule of a player's body, m: half the breadth of hips and shoulders.
 pub const BODY_RADIUS: f32 = 0.25;
-/// Share of the speed that a body gives back. GRF: 6 m/s and 0.6 of the speed along the normal, times 0.7; about this
-/// for shots and passes.
+/// Share of the speed that a body gives back. GRF: 6 m/s plus 0.6 of the speed along the normal,
+/// times 0.7; this is about the same for shots and passes.
 pub const BODY_BOUNCE: f32 = 0.55;
 /// Friction of a body on leather. Chosen: cloth.
 pub const BODY_FRICTION: f32 = 0.5;
-/// Length of a body's capsule, m; it ends below the ground, so that one length does for players of every height.
+/// Length of a body's capsule, m. It ends below the ground, so that one length fits players of
+/// every height.
 pub const BODY_LENGTH: f32 = 2.4;
 
-/// Rapier is asked when the swept ball comes nearer to something hard than this, m. Its own look-ahead is 0.02.
+/// Rapier runs if the swept ball comes nearer to something hard than this, m. Its own lookahead is
+/// 0.02.
 pub const NEAR: f32 = 0.05;
-/// Below this speed a ball that touches something and is held up lies still, m/s: what gravity adds in a tick.
+/// A ball slower than this that touches something and is held up lies still, m/s: what gravity adds
+/// in a tick.
 pub const REST_SPEED: f32 = 0.1;
-/// Most spin that rapier is given, rad/s: it turns nothing by more than 45° a tick.
+/// The most spin that rapier gets, rad/s: it turns nothing by more than 45° a tick.
 pub const RIGID_SPIN_MAX: f32 = 75.0;

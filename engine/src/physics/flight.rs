@@ -1,10 +1,13 @@
-//! Contact-free motion of the ball: flight, bounce on grass, roll. Our own integrator, a few nanoseconds a tick.
+//! Contact-free motion of the ball: flight, bounce on grass, roll. Our own integrator takes a few
+//! nanoseconds per tick.
 //!
-//! A tick is three acts: [`push`] turns forces into velocity, the ball is carried along its velocity, [`land`] lets the
-//! ground answer. Where something hard is near, rapier does the carrying, and the other two acts stay the same; so a
-//! tick of free flight has the same result with and without it.
+//! A tick has three acts: [`push`] turns forces into velocity, the ball moves along its velocity,
+//! and [`land`] applies the ground's response. Near something hard, rapier moves the ball and the
+//! other two acts stay the same. So a tick of free flight has the same result with and without
+//! rapier.
 //!
-//! Semi-implicit Euler: its energy falls by ½ g² dt² a tick in free fall, and never grows.
+//! The method is semi-implicit Euler. In free fall its energy falls by ½ g² dt² per tick; it never
+//! grows.
 
 use super::Ball;
 use super::constants::{
@@ -17,12 +20,12 @@ use glam::{Vec2, Vec3};
 /// Angular over linear speed gained at the rim of a shell: 1 / (2/3 · R).
 pub(super) const SPIN_PER_SPEED: f32 = 1.5 / BALL_RADIUS;
 
-/// Whether the ball lies still on the ground. Such a ball stays where it is until something touches it.
+/// Whether the ball lies still on the ground. Such a ball stays there until something touches it.
 pub fn lies_still(ball: &Ball) -> bool {
     ball.vel == Vec3::ZERO && ball.pos.z <= BALL_RADIUS
 }
 
-/// One tick with nothing hard near.
+/// Moves the ball by one tick with nothing hard nearby.
 pub(super) fn fly(ball: &mut Ball) {
     if lies_still(ball) {
         return;
@@ -32,7 +35,7 @@ pub(super) fn fly(ball: &mut Ball) {
     land(ball);
 }
 
-/// Gravity, air and grass change velocity and spin over one tick.
+/// Applies gravity, air and grass to velocity and spin over one tick.
 pub(super) fn push(ball: &mut Ball) {
     let vel = ball.vel;
     let speed = vel.length();
@@ -57,7 +60,8 @@ pub(super) fn magnus(spin: Vec3, vel: Vec3, speed: f32) -> Vec3 {
     spin.cross(vel) * (MAGNUS * share * speed.min(MAGNUS_SPEED_MAX))
 }
 
-/// Grass brakes the ball and turns it towards pure rolling. `grass`: how deep it is in, 0 to 1.
+/// Brakes the ball in the grass and turns it towards pure rolling. `grass`: how deep it is in, 0 to
+/// 1.
 fn roll(ball: &mut Ball, grass: f32) {
     let along = ball.vel.truncate();
     let speed = along.length();
@@ -75,7 +79,7 @@ fn roll(ball: &mut Ball, grass: f32) {
     ball.spin = turned.extend(ball.spin.z * (1.0 - ROLL_TWIST_DECAY * grass * TICK_S));
 }
 
-/// The ground holds the ball up, and throws back one that came down fast.
+/// Holds the ball up on the ground, and throws back one that came down fast.
 pub(super) fn land(ball: &mut Ball) {
     if ball.pos.z > BALL_RADIUS {
         return;
@@ -93,7 +97,8 @@ pub(super) fn land(ball: &mut Ball) {
     }
 }
 
-/// Friction in a bounce: it works against the sliding of the lowest point, and spins the ball as it slows it.
+/// Applies friction in a bounce: it acts against the sliding of the lowest point, and spins the
+/// ball as it slows it.
 fn grip(ball: &mut Ball, impact: f32) {
     let sliding = Vec2::new(ball.vel.x - BALL_RADIUS * ball.spin.y, ball.vel.y + BALL_RADIUS * ball.spin.x);
     let speed = sliding.length();

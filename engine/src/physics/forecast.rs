@@ -1,6 +1,7 @@
-//! Where the ball will be if nobody touches it: a coarse look ahead of 3.2 s, reckoned again after every touch.
+//! Where the ball will be if nobody touches it: a coarse lookahead of 3.2 s, computed again after
+//! every touch.
 //!
-//! What players believe of the ball's way. It goes where [`super::advance_ball`] takes it.
+//! This is what players expect of the ball. The ball itself moves by [`super::advance_ball`].
 
 use super::predict::places;
 use super::{Ball, left_pitch};
@@ -26,22 +27,22 @@ pub struct Forecast {
     /// World metres.
     #[serde(with = "crate::floats")]
     z: [f32; POINTS],
-    /// The points off the pitch, a bit each.
+    /// The points off the pitch, one bit each.
     off: u64,
-    /// The most that the ball goes along the ground from a point to the next, metres.
+    /// The most that the ball moves along the ground between two points, metres.
     stride_m: f32,
     /// The tick of the first point.
     from_tick: u32,
 }
 
 impl Forecast {
-    /// Nothing known.
+    /// A forecast that knows nothing.
     pub const fn blank() -> Forecast {
         let zero = [0.0; POINTS];
         Forecast { x: zero, y: zero, z: zero, off: 0, stride_m: 0.0, from_tick: u32::MAX }
     }
 
-    /// The path of a ball from a tick on.
+    /// Computes the path of a ball from a tick on.
     pub fn of(ball: &Ball, tick: u32) -> Forecast {
         let mut forecast = Forecast { from_tick: tick, ..Forecast::blank() };
         let points = std::iter::once(ball.pos).chain(places(ball, SPACING_TICKS));
@@ -55,23 +56,24 @@ impl Forecast {
         forecast
     }
 
-    /// A point of it, world metres.
+    /// A point of the forecast, world metres.
     pub fn point(&self, i: usize) -> Vec3 {
         Vec3::new(self.x[i], self.y[i], self.z[i])
     }
 
-    /// Four points of it: their places on the pitch along each axis.
+    /// Four points of the forecast: their places on the pitch along each axis.
     #[inline]
     pub(crate) fn row(&self, row: usize) -> [f32x4; 2] {
         [four(&self.x, row), four(&self.y, row)]
     }
 
-    /// The heights of four points of it.
+    /// The heights of four points of the forecast.
     pub(crate) fn heights(&self, row: usize) -> f32x4 {
         four(&self.z, row)
     }
 
-    /// The last point at a tick or before it, and the seconds from the forecast's first point to that tick.
+    /// The last point at or before a tick, and the seconds from the forecast's first point to that
+    /// tick.
     pub fn first(&self, tick: u32) -> (usize, f32) {
         let past = tick.saturating_sub(self.from_tick);
         (((past / SPACING_TICKS) as usize).min(POINTS - 1), past as f32 * 0.01)
@@ -82,7 +84,7 @@ impl Forecast {
         first..POINTS.min(first + (self.off >> first).trailing_zeros() as usize)
     }
 
-    /// The most that the ball goes along the ground from a point to the next, metres.
+    /// The most that the ball moves along the ground between two points, metres.
     pub fn stride_m(&self) -> f32 {
         self.stride_m
     }
@@ -105,7 +107,7 @@ impl Forecast {
         (first..POINTS).map(move |i| (time_s(i, offset_s), self.point(i)))
     }
 
-    /// Whether it covers a tick and the ball is where it said.
+    /// Whether the forecast covers a tick and the ball is where it predicted.
     pub fn holds(&self, ball: &Ball, tick: u32) -> bool {
         tick >= self.from_tick && tick - self.from_tick < 100 && self.at(tick).distance_squared(ball.pos) < 0.15 * 0.15
     }
@@ -117,7 +119,7 @@ fn four(column: &[f32; POINTS], row: usize) -> f32x4 {
     f32x4::new(column.as_chunks::<WIDTH>().0[row])
 }
 
-/// The time of a point from a moment on that is so many seconds after the first.
+/// The time from a moment to a point, if the moment is this many seconds after the first point.
 pub fn time_s(point: usize, offset_s: f32) -> f32 {
     ((point as u32 * SPACING_TICKS) as f32 * 0.01 - offset_s).max(0.0)
 }

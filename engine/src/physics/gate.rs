@@ -1,4 +1,5 @@
-//! Whether the ball can meet anything hard within a tick. Cheap, and never wrong on the side of "no".
+//! Whether the ball can meet anything hard within a tick. The check is cheap, and its "no" is
+//! always right.
 
 use super::Ball;
 use super::Body;
@@ -22,7 +23,7 @@ pub(super) fn near_goal(ball: &Ball) -> bool {
         && ball.pos.z.min(to.z) < high.z + MARGIN
 }
 
-/// The bodies that the ball can meet within a tick, the nearest first, at most [`BODIES_MAX`].
+/// The bodies that the ball can meet within a tick, nearest first, at most [`BODIES_MAX`].
 pub(super) fn near_bodies(ball: &Ball, bodies: &[Body]) -> ArrayVec<Body, BODIES_MAX> {
     const REACH: f32 = BALL_RADIUS + BODY_RADIUS + NEAR;
     let mut found: ArrayVec<(f32, Body), BODIES_MAX> = ArrayVec::new();

@@ -1,13 +1,13 @@
-//! When the whole of the ball is over a line. (What that means is the referee's.)
+//! When the whole ball is over a line. (The referee decides what that means.)
 
 use super::constants::BALL_RADIUS;
 use glam::Vec3;
 use setpiece_scenario::pitch;
 use setpiece_scenario::vocabulary::Team;
 
-/// The ball's centre is farther out than this in x when the whole ball is over the goal line, m: 55.17.
+/// Beyond this |x| of its centre the whole ball is over the goal line, m: 55.17.
 pub const OUT_X: f32 = pitch::HALF_LENGTH_M as f32 + pitch::LINE_HALF_WIDTH_M as f32 + BALL_RADIUS;
-/// The ball's centre is farther out than this in y when the whole ball is over a side line, m: 36.17.
+/// Beyond this |y| of its centre the whole ball is over a side line, m: 36.17.
 pub const OUT_Y: f32 = pitch::HALF_WIDTH_M as f32 + pitch::LINE_HALF_WIDTH_M as f32 + BALL_RADIUS;
 
 const MOUTH_HALF: f32 = pitch::GOAL_HALF_WIDTH_M as f32;
@@ -22,8 +22,8 @@ pub enum Line {
     Side,
 }
 
-/// Whose goal the whole ball went into between two ticks: under the bar and between the posts where its path crosses
-/// the far edge of the line.
+/// Whose goal the whole ball entered between two ticks. Its path must cross the far edge of the
+/// line under the bar and between the posts.
 pub fn crossed_goal_line(before: Vec3, after: Vec3) -> Option<Team> {
     let team = if after.x > 0.0 { Team::Right } else { Team::Left };
     let (from, to) = (before.x.abs(), after.x.abs());
@@ -34,7 +34,8 @@ pub fn crossed_goal_line(before: Vec3, after: Vec3) -> Option<Team> {
     (at.y.abs() < MOUTH_HALF && at.z < MOUTH_HEIGHT).then_some(team)
 }
 
-/// The line that the whole ball is over, if it is off the pitch. Over both at a corner, it is the goal line.
+/// The line that the whole ball is over, if it is off the pitch. At a corner, where it is over
+/// both, the goal line.
 pub fn left_pitch(pos: Vec3) -> Option<Line> {
     if pos.x.abs() > OUT_X {
         Some(Line::Goal(if pos.x > 0.0 { Team::Right } else { Team::Left }))
@@ -71,7 +72,8 @@ mod tests {
 
     #[test]
     fn what_counts_is_where_the_path_crosses_the_line() {
-        // Under the bar at the line, though above it before; beside the post after, though inside at the line.
+        // Under the bar at the line, though above it before; beside the post after, though inside
+        // at the line.
         assert_eq!(crossed_goal_line(Vec3::new(54.97, 0.0, 2.55), Vec3::new(55.37, 0.0, 2.35)), Some(Team::Right));
         assert_eq!(crossed_goal_line(Vec3::new(55.07, 3.5, 1.0), Vec3::new(55.47, 3.9, 1.0)), Some(Team::Right));
     }

@@ -1,8 +1,9 @@
-//! Where a free ball will be, for those who run to meet it. Posts, nets and bodies are left out.
+//! Where a free ball will be, for players who run to meet it. Posts, nets and bodies are ignored.
 //!
-//! Goes in strides of several ticks where it can: the roll has a closed form, and flight changes slowly. A bounce is
-//! reckoned tick by tick, by the physics itself. Off by centimetres mostly; where a fast ball falls steeply or spins much,
-//! by up to a quarter of a metre after a second.
+//! It takes strides of several ticks if possible: the roll has a closed form, and flight changes
+//! slowly. A bounce is computed tick by tick with the physics itself. The error is mostly
+//! centimetres. After a second it can reach a quarter of a metre if a fast ball falls steeply or
+//! spins much.
 
 use super::Ball;
 use super::constants::{
@@ -12,7 +13,8 @@ use super::constants::{
 use super::flight;
 use glam::{Vec2, Vec3};
 
-/// The ball's centre after `stride_ticks`, `2 * stride_ticks`, … ticks, in world metres, without an end.
+/// The ball's centre after `stride_ticks`, `2 * stride_ticks`, … ticks, in world metres; never
+/// ends.
 pub fn places(ball: &Ball, stride_ticks: u32) -> impl Iterator<Item = Vec3> + use<> {
     let mut ahead = *ball;
     let stride = Stride::of(stride_ticks);
@@ -22,19 +24,21 @@ pub fn places(ball: &Ball, stride_ticks: u32) -> impl Iterator<Item = Vec3> + us
     })
 }
 
-/// From this square of its speed on, (m/s)², the air may press a rolling ball so hard to the ground that it grips.
+/// From this squared speed on, (m/s)², the air may press a rolling ball so hard to the ground that
+/// it grips.
 const GRIPS_MPS2: f32 = (BOUNCE_LEAST / TICK_S - GRAVITY) / (MAGNUS * MAGNUS_SPIN_MAX);
 
-/// Some ticks at once.
+/// A stride of several ticks.
 struct Stride {
     ticks: u32,
     seconds: f32,
-    /// What the velocity at its beginning counts for in the way of a stride: velocity changes first in every tick, so
-    /// the last one counts more.
+    /// The weight of the initial velocity in a stride's way. Velocity changes first in every tick,
+    /// so the last one counts more.
     first_share: f32,
     /// The speed at which the two parts of rolling resistance are the same, m/s.
     even_mps: f32,
-    /// The tangent of what rolling takes off the angle whose tangent the speed is, in units of `even_mps`.
+    /// The speed, in units of `even_mps`, is the tangent of an angle that falls evenly while the
+    /// ball rolls. This is the tangent of that fall in one stride.
     braked: f32,
 }
 
@@ -77,7 +81,7 @@ impl Stride {
         let share = speed / self.even_mps;
         let slower = self.even_mps * (share - self.braked) / (1.0 + share * self.braked);
         if slower <= 0.0 {
-            // It comes to rest on the way, braked about evenly.
+            // It comes to rest on the way, braked almost evenly.
             ball.pos += (before * (0.5 * self.seconds * share / self.braked)).extend(0.0);
             ball.vel = Vec3::ZERO;
             ball.spin = Vec3::ZERO;
@@ -98,13 +102,14 @@ impl Stride {
         ball.spin = turned.extend(ball.spin.z * (1.0 - ROLL_TWIST_DECAY * self.seconds));
     }
 
-    /// What a twist about the upright adds to a rolling ball's velocity, which is `vel` in the middle of the stride, m/s.
+    /// What spin about the vertical axis adds to a rolling ball's velocity, m/s. `vel`: the
+    /// velocity in the middle of the stride.
     fn twist(&self, ball: &Ball, vel: Vec2) -> Vec2 {
         let spin = ball.spin.with_z(ball.spin.z * (1.0 - 0.5 * ROLL_TWIST_DECAY * self.seconds));
         flight::magnus(spin, vel.extend(0.0), vel.length()).truncate() * self.seconds
     }
 
-    /// The ball after a stride in the air: forces are those in its middle.
+    /// The ball after a stride in the air, with the forces at the stride's middle.
     fn fly(&self, ball: &Ball) -> Ball {
         let force = |vel: Vec3| {
             let speed = vel.length();

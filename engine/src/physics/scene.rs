@@ -1,10 +1,10 @@
 //! The rapier world of rigid contact: one goal, the ball, and a few players' bodies.
 //!
-//! There is but one goal, the right team's. A ball in the left half is turned by 180° about the centre spot, met with
-//! this goal, and turned back; so both ends behave alike to the bit.
+//! There is only one goal, the right team's. A ball in the left half is turned by 180° about the
+//! centre spot, simulated with this goal, and turned back. So both ends behave the same to the bit.
 //!
-//! The grass is no part of it: bouncing and rolling are [`super::flight`]'s in every mode. Nor is gravity: all forces
-//! are in the ball's velocity before rapier sees it.
+//! Grass isn't simulated here: [`super::flight`] handles bouncing and rolling in every mode.
+//! Gravity isn't either: all forces are in the ball's velocity before rapier sees it.
 
 use super::constants::{
     BALL_INERTIA_SHARE, BALL_MASS, BALL_RADIUS, BODY_BOUNCE, BODY_FRICTION, BODY_LENGTH, BODY_RADIUS, FRAME_BOUNCE,
@@ -20,7 +20,7 @@ use rapier3d::math::Pose;
 use rapier3d::pipeline::PhysicsPipeline;
 use setpiece_scenario::pitch;
 
-/// Most bodies that one tick can take.
+/// The most bodies of one tick.
 pub(super) const BODIES_MAX: usize = 4;
 
 const GOAL_X: f32 = pitch::HALF_LENGTH_M as f32;
@@ -28,13 +28,14 @@ const POST_Y: f32 = pitch::GOAL_HALF_WIDTH_M as f32;
 const BAR_Z: f32 = pitch::GOAL_HEIGHT_M as f32;
 const DEPTH: f32 = pitch::GOAL_DEPTH_M as f32;
 
-/// Lowest and highest corner of all that is hard about the right goal, m.
+/// Lowest and highest corner of the hard parts of the right goal, m.
 pub(super) const GOAL_BOUNDS: [Vec3; 2] = [
     Vec3::new(GOAL_X - FRAME_RADIUS, -POST_Y - FRAME_RADIUS, 0.0),
     Vec3::new(GOAL_X + DEPTH + NET_HALF, POST_Y + FRAME_RADIUS, BAR_Z + FRAME_RADIUS),
 ];
 
-/// What rapier wants besides: sets that stay empty, and working memory that carries nothing from step to step.
+/// What else rapier needs: sets that stay empty, and working memory that carries nothing from step
+/// to step.
 pub(super) struct Workspace {
     pipeline: PhysicsPipeline,
     parameters: IntegrationParameters,
@@ -62,11 +63,11 @@ impl Default for Workspace {
 pub(super) enum Part {
     Frame,
     Net,
-    /// A body by its place in the list that the tick was given.
+    /// A body, by its place in the tick's list.
     Body(usize),
 }
 
-/// The parts of rapier's state that a tick changes, and that must be restored before the next.
+/// The parts of rapier's state that a tick changes and that must be restored before the next tick.
 #[derive(Clone)]
 pub(super) struct World {
     pub(super) islands: IslandManager,
@@ -80,7 +81,8 @@ pub(super) struct World {
 }
 
 impl World {
-    /// The world with room for so many bodies, stepped once, so that its trees and lists are laid out.
+    /// Builds the world with room for this many bodies, stepped once so that its trees and lists
+    /// are laid out.
     pub(super) fn template(bodies: usize, workspace: &mut Workspace) -> World {
         let mut rigid = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
@@ -92,7 +94,7 @@ impl World {
             RigidBodyBuilder::dynamic()
                 .translation(Vec3::new(0.0, 0.0, 20.0))
                 .can_sleep(false)
-                // Fixed parts are swept against in any case; moving ones only with this.
+                // Fixed parts are always swept against; moving ones only with this.
                 .ccd_enabled(bodies > 0)
                 .additional_mass_properties(MassProperties::new(Vec3::ZERO, BALL_MASS, inertia)),
         );
@@ -120,7 +122,7 @@ impl World {
         world
     }
 
-    /// Becomes as the template is. Part by part: that is half the price of a whole clone.
+    /// Restores the template's state, part by part: that costs half as much as a whole clone.
     pub(super) fn restore(&mut self, template: &World) {
         self.islands.clone_from(&template.islands);
         self.broad_phase.clone_from(&template.broad_phase);
@@ -132,7 +134,7 @@ impl World {
         self.bodies = template.bodies;
     }
 
-    /// One tick.
+    /// Simulates one tick.
     pub(super) fn step(&mut self, workspace: &mut Workspace) {
         workspace.pipeline.step(
             Vec3::ZERO,
@@ -151,7 +153,7 @@ impl World {
         );
     }
 
-    /// What a collider is.
+    /// The part that a collider belongs to.
     pub(super) fn part(&self, collider: ColliderHandle) -> Option<Part> {
         match self.colliders.get(collider)?.user_data {
             FRAME => Some(Part::Frame),
@@ -166,7 +168,7 @@ const FRAME: u128 = 1;
 const NET: u128 = 2;
 const BODY: u128 = 3;
 
-/// The solver's settings. Every tick meets a contact anew, so nothing is carried over from the last one.
+/// The solver's settings. Every tick solves its contacts from scratch, so nothing is carried over.
 fn parameters() -> IntegrationParameters {
     IntegrationParameters {
         dt: TICK_S,

@@ -1,8 +1,8 @@
-//! The rapier worlds that one worker lends to one tick after the other.
+//! The rapier worlds of one worker, reused by one tick after another.
 //!
-//! A used rapier world remembers (its contact graph, the order of its lists), so the same ball put into it may take
-//! another path. Therefore every tick starts from a copy of the template, and the result depends on the ball and the
-//! bodies alone.
+//! A used rapier world has a memory (its contact graph, the order of its lists), so the same ball
+//! may take another path in it. Therefore every tick starts from a copy of the template, and the
+//! result depends only on the ball and the bodies.
 
 use super::Ball;
 use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
@@ -11,9 +11,10 @@ use super::{Body, Contact};
 use crate::laps::Laps;
 use glam::{Vec2, Vec3};
 
-/// Memory that one worker lends to one tick: the scratch rapier world and its templates, by the number of bodies.
+/// Memory that one worker lends to one tick: the scratch rapier world, and its templates by number
+/// of bodies.
 ///
-/// What a tick finds in it has no influence on what it computes.
+/// Its contents never affect what a tick computes.
 pub struct Scratch {
     templates: [World; BODIES_MAX + 1],
     live: World,
@@ -23,12 +24,12 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// How many times rapier has been asked; it allocates each time.
+    /// How many times rapier has run; each time it allocates.
     pub fn rigid(&self) -> u64 {
         self.rigid
     }
 
-    /// What its steps have taken, where that is measured.
+    /// The time its steps have taken, if that is measured.
     pub fn laps(&mut self) -> &mut Laps {
         &mut self.laps
     }
@@ -58,18 +59,21 @@ pub(super) struct Touch {
     squeezed: bool,
 }
 
-/// Turned by 180° about the upright, so that the other goal is where the template has its own.
+/// Turns a vector by 180° about the vertical axis, so that the other goal is where the template has
+/// its own.
 fn turned(v: Vec3) -> Vec3 {
     Vec3::new(-v.x, -v.y, v.z)
 }
 
 impl Scratch {
-    /// Carries the ball along its velocity over one tick, off whatever is hard. At most [`BODIES_MAX`] bodies.
+    /// Moves the ball along its velocity over one tick, rebounding off whatever is hard. At most
+    /// [`BODIES_MAX`] bodies.
     pub(super) fn meet(&mut self, ball: &mut Ball, bodies: &[Body]) -> Option<Touch> {
         let before = *ball;
         let touch = self.carry(ball, bodies)?;
         if touch.squeezed {
-            // A body's proxy yields to nothing, and would press the ball through the net: here the body gives way.
+            // A body's proxy yields to nothing and would press the ball through the net. Here the
+            // body gives way.
             *ball = before;
             let against = self.carry(ball, &[]);
             return Some(Touch { held_up: against.is_some_and(|t| t.held_up), ..touch });
@@ -79,7 +83,7 @@ impl Scratch {
 
     fn carry(&mut self, ball: &mut Ball, bodies: &[Body]) -> Option<Touch> {
         let bodies = &bodies[..bodies.len().min(BODIES_MAX)];
-        // On the halfway line its way decides.
+        // On the halfway line the ball's direction decides.
         let left_half = ball.pos.x < 0.0 || ball.pos.x == 0.0 && ball.vel.x < 0.0;
         let frame = |v: Vec3| if left_half { turned(v) } else { v };
         self.rigid += 1;
@@ -118,7 +122,7 @@ impl Scratch {
         }
     }
 
-    /// The contacts of the tick that has just been stepped.
+    /// The contacts of the tick just simulated.
     fn touch(&self, bodies: &[Body]) -> Option<Touch> {
         let world = &self.live;
         let mut strongest = 0.0;

@@ -1,7 +1,9 @@
-//! Writing and reading in one: a part names its values once, and what is written is what is read.
+//! Writing and reading in one function: each part names its values once, so what is written is what
+//! is read.
 //!
-//! A part that is archived hands over its values by turns, in the same order either way. On the way in each is checked
-//! by itself: its form, its length where the scenario gives one, its numbers. Parts check what hangs together.
+//! A part that is archived passes its values one by one, in the same order for both. While reading,
+//! each value is checked by itself: its form, its length if the scenario fixes one, its numbers.
+//! Parts check how their values fit together.
 
 use super::error::SnapshotError;
 use super::walk::{Found, walk};
@@ -11,10 +13,10 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt;
 
-/// Values on their way to bytes or from them.
+/// A stream of values being written to bytes or read from them.
 pub(crate) struct Archive<'a> {
     way: Way<'a>,
-    /// What scripts were shown and have kept.
+    /// The scenes that scripts were shown and have kept.
     pub(crate) shelf: Shelf,
 }
 
@@ -24,22 +26,22 @@ enum Way<'a> {
 }
 
 impl<'a> Archive<'a> {
-    /// To be written behind some bytes.
+    /// Starts writing, after some bytes.
     pub(super) fn writing(bytes: Vec<u8>) -> Archive<'a> {
         Archive { way: Way::Out(bytes), shelf: Shelf::default() }
     }
 
-    /// To be read.
+    /// Starts reading.
     pub(super) fn reading(bytes: &'a [u8]) -> Archive<'a> {
         Archive { way: Way::In(bytes), shelf: Shelf::default() }
     }
 
-    /// Whether it is read.
+    /// Whether this archive reads.
     pub(crate) fn is_reading(&self) -> bool {
         matches!(self.way, Way::In(_))
     }
 
-    /// How many bytes there are so far.
+    /// The number of bytes so far.
     pub(super) fn written(&self) -> usize {
         match &self.way {
             Way::Out(bytes) => bytes.len(),
@@ -47,7 +49,7 @@ impl<'a> Archive<'a> {
         }
     }
 
-    /// The bytes, with those that were there.
+    /// The bytes, including those that were there before.
     pub(super) fn into_bytes(self) -> Vec<u8> {
         match self.way {
             Way::Out(bytes) => bytes,
@@ -55,7 +57,7 @@ impl<'a> Archive<'a> {
         }
     }
 
-    /// What is still to be read.
+    /// The bytes not yet read.
     pub(super) fn rest(&self) -> &'a [u8] {
         match self.way {
             Way::Out(_) => &[],
@@ -63,7 +65,7 @@ impl<'a> Archive<'a> {
         }
     }
 
-    /// Writes a value; does nothing on the way in.
+    /// Writes a value; no-op while reading.
     pub(super) fn put<T: Serialize + ?Sized>(&mut self, name: &str, value: &T) -> Result<(), SnapshotError> {
         if let Way::Out(bytes) = &mut self.way {
             let behind = Growing(std::mem::take(bytes));
@@ -73,7 +75,7 @@ impl<'a> Archive<'a> {
         Ok(())
     }
 
-    /// Writes a value, or puts the one that was read in its place.
+    /// Writes a value, or replaces it by the one that was read.
     pub(crate) fn value<T: Serialize + DeserializeOwned>(
         &mut self,
         name: &str,
@@ -85,7 +87,7 @@ impl<'a> Archive<'a> {
         self.put(name, value)
     }
 
-    /// Reads a value; there is none on the way out.
+    /// Reads a value. May only be called while reading.
     pub(crate) fn read<T: Serialize + DeserializeOwned>(&mut self, name: &str) -> Result<T, SnapshotError> {
         self.read_at(format_args!("{name}"))
     }
@@ -100,7 +102,7 @@ impl<'a> Archive<'a> {
         Ok(value)
     }
 
-    /// The same for as many values as there are: the scenario says how many.
+    /// Like [`Self::value`], for a list whose length the scenario fixes.
     pub(crate) fn slots<T: Serialize + DeserializeOwned>(
         &mut self,
         name: &str,
@@ -121,20 +123,20 @@ impl<'a> Archive<'a> {
         Ok(())
     }
 
-    /// Passes a part: what is wrong in it is told by its name.
+    /// Archives a part; its name appears in errors about it.
     pub(crate) fn part(
         &mut self,
         name: &str,
-        pass: impl FnOnce(&mut Self) -> Result<(), SnapshotError>,
+        content: impl FnOnce(&mut Self) -> Result<(), SnapshotError>,
     ) -> Result<(), SnapshotError> {
-        pass(self).map_err(|error| match error {
+        content(self).map_err(|error| match error {
             SnapshotError::Damaged { place, why } => SnapshotError::damaged(format!("{name}.{place}"), why),
             other => other,
         })
     }
 }
 
-/// Bytes that are written behind others: postcard's own way to do so goes byte by byte.
+/// Appends bytes at once; postcard's own way goes byte by byte.
 struct Growing(Vec<u8>);
 
 impl Flavor for Growing {

@@ -1,4 +1,4 @@
-//! Lists of bounded length: a byte of a snapshot may stand for a hundred in memory.
+//! Lists of bounded length, because one byte of a snapshot may expand to a hundred in memory.
 
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -7,7 +7,7 @@ use std::marker::PhantomData;
 /// Reads a list of at most `MAX` parts.
 ///
 /// # Errors
-/// The format's own where there are more.
+/// The format's own if there are more.
 pub(crate) fn bounded<'de, D: Deserializer<'de>, T: Deserialize<'de>, const MAX: usize>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {

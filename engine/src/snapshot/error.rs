@@ -1,4 +1,4 @@
-//! What can be wrong with a snapshot.
+//! Errors of snapshots.
 
 /// The version of snapshots that this build takes and restores.
 pub const SNAPSHOT_VERSION: u32 = 13;
@@ -6,19 +6,19 @@ pub const SNAPSHOT_VERSION: u32 = 13;
 /// Why a snapshot can't be taken, restored or begun from.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SnapshotError {
-    /// It is something else.
-    #[error("not a snapshot: it doesn't begin as one")]
+    /// It has another format.
+    #[error("not a snapshot: its header isn't recognised")]
     NotASnapshot,
     /// It was taken by another version.
     #[error("the snapshot has version {0}; this build reads version {SNAPSHOT_VERSION}: take it again")]
     Version(u32),
-    /// It ends before it should.
-    #[error("the snapshot is cut off: its end is missing")]
+    /// It is truncated.
+    #[error("the snapshot is truncated: its end is missing")]
     Truncated,
-    /// It is not what was written.
+    /// Its content isn't what was written.
     #[error("the snapshot was changed after it was taken: its checksum differs")]
     Checksum,
-    /// It is well-formed but holds something impossible.
+    /// It is well-formed but holds an impossible value.
     #[error("the snapshot is damaged: `{place}` {why}")]
     Damaged {
         /// Where: `match.players[3].pos[0]`.
@@ -26,7 +26,7 @@ pub enum SnapshotError {
         /// What is wrong there.
         why: String,
     },
-    /// It is of another scenario.
+    /// It belongs to another scenario.
     #[error("{}", other_scenario(found, expected))]
     Scenario {
         /// The name of its scenario.
@@ -42,33 +42,33 @@ pub enum SnapshotError {
         /// This environment's.
         expected: Vec<String>,
     },
-    /// Other players or agents take part.
+    /// The players or agents differ.
     #[error("the {what} differ: the snapshot has {found}, this environment {expected}")]
     Roster {
-        /// Who: `left players`, `agents`.
+        /// What differs: `left players`, `agents`.
         what: String,
         /// What the snapshot has.
         found: String,
         /// What this environment has.
         expected: String,
     },
-    /// It shows a match before its start.
+    /// It was taken before an episode began.
     #[error("the snapshot was taken before an episode had begun")]
     NotBegun,
-    /// A script's memory holds what bytes can't.
+    /// A script's memory holds a value that can't be encoded.
     #[error(
         "a script keeps {what} in `{place}`: a snapshot holds numbers, words, lists, maps and what a hook is shown"
     )]
     Unkept {
         /// Where: `this.last[2]`.
         place: String,
-        /// What it is.
+        /// What the value is.
         what: String,
     },
 }
 
 impl SnapshotError {
-    /// Damage at a place.
+    /// An error about damage at a place.
     pub(crate) fn damaged(place: impl Into<String>, why: impl Into<String>) -> SnapshotError {
         SnapshotError::Damaged { place: place.into(), why: why.into() }
     }

@@ -1,23 +1,23 @@
-//! What stands around a snapshot: a mark, version, checksum and length.
+//! The header of a snapshot: a magic number, version, checksum and length.
 
 use super::error::{SNAPSHOT_VERSION, SnapshotError};
 
-/// What a snapshot begins with: no text does.
+/// The first bytes of a snapshot; no text starts with them.
 pub const MAGIC: &[u8; 8] = b"\x8bpitchs\n";
-/// Mark, version, checksum, length.
+/// Length of the header: magic number, version, checksum, length.
 const HEAD: usize = 8 + 4 + 8 + 8;
 
-/// Room for a match of eleven a side: bytes that outgrow their place are copied.
+/// Initial capacity, enough for a match of eleven a side: growing means copying.
 const USUAL_BYTES: usize = 12 * 1024;
 
-/// An empty place for a head; the content goes behind it.
+/// Reserves space for a header; the content follows it.
 pub(super) fn begun() -> Vec<u8> {
     let mut file = Vec::with_capacity(USUAL_BYTES);
     file.resize(HEAD, 0);
     file
 }
 
-/// Fills in the head of what was [`begun`].
+/// Fills in the header of a file from [`begun`].
 pub(super) fn sealed(mut file: Vec<u8>) -> Vec<u8> {
     let (head, body) = file.split_at_mut(HEAD);
     let (version, sum, length) =
@@ -27,7 +27,7 @@ pub(super) fn sealed(mut file: Vec<u8>) -> Vec<u8> {
     file
 }
 
-/// The content behind a head that fits it.
+/// Checks the header and returns the content.
 pub(super) fn unwrap(file: &[u8]) -> Result<&[u8], SnapshotError> {
     let rest = file.strip_prefix(MAGIC).ok_or(SnapshotError::NotASnapshot)?;
     let (version, rest) = rest.split_first_chunk::<4>().ok_or(SnapshotError::Truncated)?;
@@ -48,8 +48,9 @@ pub(super) fn unwrap(file: &[u8]) -> Result<&[u8], SnapshotError> {
     Ok(body)
 }
 
-/// The sum in a snapshot's head over what follows, in the manner of FNV-1a: over words of eight bytes, in four lanes
-/// that a processor reckons at once, then over what is left, byte by byte. One changed word always shows.
+/// Computes the checksum of the content, similar to FNV-1a: over words of eight bytes, in four
+/// lanes that a processor computes in parallel, then over the remaining bytes. A single changed
+/// word always changes it.
 pub fn checksum(body: &[u8]) -> u64 {
     let step = |hash: u64, word: u64| (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29);
     let mut lanes = [0xcbf2_9ce4_8422_2325, 1, 2, 3];

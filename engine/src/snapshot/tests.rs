@@ -46,7 +46,7 @@ fn busy() -> Match {
     game
 }
 
-/// Every name in a value, with the kind of what stands there.
+/// Collects every name in a value, with the kind of its value.
 fn names(value: &Value, path: &str, found: &mut BTreeSet<String>) {
     let kind = match value {
         Value::Object(fields) => {
@@ -62,7 +62,7 @@ fn names(value: &Value, path: &str, found: &mut BTreeSet<String>) {
     found.insert(format!("{path} {kind}"));
 }
 
-/// Where this fails the bytes of a match are others: raise [`SNAPSHOT_VERSION`] with it.
+/// If this fails, the bytes of a match have changed: raise [`SNAPSHOT_VERSION`] as well.
 #[test]
 fn the_layout_is_that_of_the_version() {
     let game = busy();
@@ -76,7 +76,7 @@ fn the_layout_is_that_of_the_version() {
         names(&value, name, &mut found);
     }
     let found: Vec<String> = found.into_iter().collect();
-    // How they are encoded, and how they are summed.
+    // The encoding and the checksum.
     let (length, sum) = (match_bytes(&game).unwrap().len(), checksum(&[7; 100]));
     let head = format!("version {SNAPSHOT_VERSION}\nmatch {length} bytes, sum {sum:016x}");
     insta::assert_snapshot!("layout", format!("{head}\n{}", found.join("\n")));

@@ -1,30 +1,32 @@
-//! A walk over everything in a value that was read: no number in it may be one that play can't go on from.
+//! Checks every number in a value that was read: play must be able to continue from it.
 //!
-//! A serializer that writes nothing. Floats of 32 bits, of which matches are made, are finite and within what a pitch
-//! can need; counts leave room to count on. Numbers of 64 bits are free: they are sums, parameters and keys, or what
-//! programs reckon with, where infinity and NaN are values like others.
+//! This is a serializer that writes nothing. 32-bit floats, which make up a match, must be finite
+//! and of a plausible size. Counts must leave room for further counting. 64-bit numbers are
+//! unrestricted: they are sums, parameters and keys, or values of programs, where infinity and NaN
+//! are valid.
 
 use serde::Serialize;
 use serde::ser::{self, Error as _, Impossible, Serializer};
 use std::fmt::{self, Display};
 
-/// Greatest size of a float of a match: metres, m/s, rad/s, seconds.
+/// The largest float of a match: metres, m/s, rad/s, seconds.
 const FLOAT_MAX: f32 = 1.0e4;
-/// Greatest count: of ticks that is a third of a year of play.
+/// The largest count. In ticks this is a third of a year of play.
 const COUNT_MAX: u32 = 1 << 30;
-/// Counts that may be `u32::MAX`: never, or nowhere.
+/// Counts that may be `u32::MAX`, which means never or nowhere.
 const NEVER: &[&str] = &["limit_steps", "at_tick", "from_tick", "node"];
 
-/// Says where a value holds an impossible number, and why.
+/// Finds an impossible number in a value.
 pub(super) fn walk(value: &impl Serialize) -> Result<(), Fault> {
     value.serialize(Walk { key: "" })
 }
 
-/// An impossible number; in a box, since nearly every value is sound and hands on a result.
+/// An impossible number. It is boxed because nearly every value is valid and the result should be
+/// small.
 #[derive(Debug)]
 pub(super) struct Fault(Box<Found>);
 
-/// What [`Fault`] says.
+/// The content of a [`Fault`].
 #[derive(Debug)]
 pub(super) struct Found {
     /// Its place within the value: `.players[3].pos[0]`.
@@ -63,11 +65,11 @@ impl ser::Error for Fault {
 
 #[derive(Clone, Copy)]
 struct Walk {
-    /// The name of the field that it is at; none within a list.
+    /// The name of the current field; none within a list.
     key: &'static str,
 }
 
-/// The parts of a value in their order.
+/// The parts of a value, in order.
 struct Parts(usize);
 
 impl Parts {
@@ -118,11 +120,11 @@ impl Serializer for Walk {
     }
 
     fn serialize_f32(self, value: f32) -> Result<(), Fault> {
-        // What is no number is not within either.
+        // NaN fails this comparison too.
         if value.abs() <= FLOAT_MAX { Ok(()) } else { Err(Fault::custom(format_args!("is {value}"))) }
     }
 
-    /// As what writes snapshots is: the walk is over what is written.
+    /// The same as for writing a snapshot, so that the walk covers what is written.
     fn is_human_readable(&self) -> bool {
         false
     }
@@ -130,7 +132,7 @@ impl Serializer for Walk {
     /// Bytes are floats: see [`crate::floats`].
     fn serialize_bytes(self, bytes: &[u8]) -> Result<(), Fault> {
         let floats = bytes.as_chunks().0.iter().map(|float| f32::from_le_bytes(*float));
-        // All at once first: they are sound but for damage.
+        // Checks all at once first, because they are nearly always valid.
         if floats.clone().fold(true, |sound, value| sound & (value.abs() <= FLOAT_MAX)) {
             return Ok(());
         }

@@ -5,7 +5,7 @@ use crate::in_place::clone_in_place;
 use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
 
-/// Most events of one step; further ones are dropped and counted (a step has ten ticks).
+/// The most events of one step; further ones are dropped and counted (a step has ten ticks).
 pub use setpiece_scenario::bounds::EVENTS_MAX;
 
 /// Something that happened.
@@ -17,59 +17,59 @@ pub struct Event {
     pub kind: EventKind,
     /// A refinement; `pass` is always attempted, completed or intercepted.
     pub qualifier: Option<Qualifier>,
-    /// The team of who did it, or that it is awarded to.
+    /// The team of the player who did it, or that it is awarded to.
     pub team: Option<Team>,
     /// Who did it.
     pub by: Option<PlayerId>,
-    /// Whom it reached or hurt.
+    /// The player who received it or was hurt.
     pub to: Option<PlayerId>,
     /// Where, world metres, before any restart moved things.
     pub at: Vec3,
-    /// How far the ball travelled, metres; 0 where it says nothing.
+    /// How far the ball travelled, metres; 0 if that has no meaning.
     pub length_m: f32,
     /// The ball's speed, m/s.
     pub speed_mps: f32,
 }
 
 impl Event {
-    /// Done by a player.
+    /// Sets the player who did it.
     #[must_use]
     pub fn by(self, id: PlayerId) -> Event {
         Event { by: Some(id), team: self.team.or(Some(id.team())), ..self }
     }
 
-    /// Reaching or hurting a player.
+    /// Sets the player who received it or was hurt.
     #[must_use]
     pub fn to(self, id: Option<PlayerId>) -> Event {
         Event { to: id, ..self }
     }
 
-    /// Of or for a team.
+    /// Sets the team.
     #[must_use]
     pub fn team(self, team: Team) -> Event {
         Event { team: Some(team), ..self }
     }
 
-    /// Refined.
+    /// Sets the refinement.
     #[must_use]
     pub fn qualified(self, qualifier: Qualifier) -> Event {
         Event { qualifier: Some(qualifier), ..self }
     }
 
-    /// Over a way of so many metres.
+    /// Sets the length, metres.
     #[must_use]
     pub fn length(self, length_m: f32) -> Event {
         Event { length_m, ..self }
     }
 
-    /// At a place.
+    /// Sets the place.
     #[must_use]
     pub fn at(self, at: Vec3) -> Event {
         Event { at, ..self }
     }
 }
 
-/// The events of a step: a buffer that is reused.
+/// The events of a step, in a reusable buffer.
 #[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
 pub struct Events {
     list: Vec<Event>,
@@ -92,7 +92,8 @@ impl Events {
         self.dropped = 0;
     }
 
-    /// Forgets the first `n`: those that were judged. What a restart added after them belongs to the next step.
+    /// Forgets the first `n` events, which were judged. Events that a restart added after them
+    /// belong to the next step.
     pub fn forget(&mut self, n: usize) {
         self.list.drain(..n.min(self.list.len()));
         self.dropped = 0;
@@ -112,7 +113,7 @@ impl Events {
         &self.list
     }
 
-    /// How many did not fit.
+    /// How many events did not fit.
     pub fn dropped(&self) -> u32 {
         self.dropped
     }

@@ -1,4 +1,4 @@
-//! What the game keeps of a match beside what everyone may see.
+//! The internal state of a match, besides the public one.
 
 use super::PlayerId;
 use super::player::{KickKind, NEVER};
@@ -14,11 +14,11 @@ use setpiece_scenario::vocabulary::{Action, GameMode, Team};
 pub struct Play {
     /// Where the ball will be.
     pub forecast: Forecast,
-    /// What team mates of an agent do without an agent.
+    /// What an agent's teammates do while no agent controls them.
     pub others: Others,
-    /// The set piece that waits.
+    /// The pending set piece.
     pub set_piece: Option<SetPiece>,
-    /// The restart that a stop of play calls for.
+    /// The restart that a stop of play requires.
     pub pending: Option<Restart>,
     /// The foul that was let run.
     pub advantage: Option<Advantage>,
@@ -26,50 +26,52 @@ pub struct Play {
     pub pass: Option<Flight>,
     /// The shot under way.
     pub shot: Option<Flight>,
-    /// The keeper who holds the ball in his hands, and since which tick.
+    /// The keeper who holds the ball in their hands, and since which tick.
     pub hands: Option<(PlayerId, u32)>,
     /// Who had the ball last.
     pub last_owner: Option<PlayerId>,
     /// Since which tick that player has had it.
     pub owned_since: u32,
-    /// Where the ball was just before its last touch and how it moved, world metres and m/s: what somebody goes by who has
-    /// not seen the touch yet.
+    /// The ball's place and velocity just before its last touch, world metres and m/s. Players who
+    /// haven't seen the touch yet go by these.
     pub unseen: [Vec2; 2],
-    /// When the ball sprang off a body last, ticks.
+    /// When the ball last bounced off a body, ticks.
     pub bounced_at: i32,
-    /// Who kicked the ball on purpose last (the back-pass rule), by foot.
+    /// Who last kicked the ball on purpose by foot (the back-pass rule).
     pub kicked_by: Option<PlayerId>,
-    /// Players in an offside position when the ball was last touched, a bit each.
+    /// Players in an offside position when the ball was last touched, one bit each.
     pub offside: u32,
     /// Nearest to the ball in time, by team: the player who goes for it.
     pub chaser: [Option<PlayerId>; 2],
-    /// The two who are there next.
+    /// The next two players to reach the ball.
     pub behind: [[Option<PlayerId>; 2]; 2],
-    /// What the last seconds were like.
+    /// The memory of the last seconds.
     pub recent: Recent,
-    /// The team that goes first in everything that both do: the last to touch the ball, else whose restart it was.
+    /// The team that goes first in everything that both teams do: the last to touch the ball, or
+    /// the one that had the restart.
     pub lead: Team,
     /// The team that has a kick-off and has not taken it yet.
     pub kick_off: Option<Team>,
-    /// When that was awarded, ticks.
+    /// When the kick-off was awarded, ticks.
     pub kick_off_tick: u32,
     /// The team that kicked off first.
     pub first_kickoff: Team,
-    /// The team whose slots are given out first, and whose marks last. (GRF's teams take turns; which begins is drawn.)
+    /// The team whose slots are assigned first, and whose marks last. (GRF's teams take turns;
+    /// which begins is drawn.)
     pub early: Team,
     /// Whether half-time has been.
     pub second_half: bool,
-    /// Which teams are led by an agent in this step (not handed to the bot).
+    /// Which teams are controlled by an agent in this step (not handed to the bot).
     pub led: [bool; 2],
     /// Which teams' agents call their keeper out in this step.
     pub rush: [bool; 2],
-    /// Which teams' agents have a mate press in this step.
+    /// Which teams' agents let a teammate press in this step.
     pub team_pressure: [bool; 2],
-    /// Players whom an agent drives in this step, a bit each.
+    /// Players driven by an agent in this step, one bit each.
     pub driven: u32,
-    /// What everyone presses who is played by presses, by id.
+    /// The presses of everyone who is played by presses, by id.
     pub acting: [Acting; PLAYERS_MAX],
-    /// Agents' slots by turn: the next to be given a player.
+    /// The slot of each team that is next in turn to get a player.
     pub next_slot: [u8; 2],
     /// The keeper's plan against the ball on its way.
     pub save: [Option<Save>; 2],
@@ -78,37 +80,39 @@ pub struct Play {
 /// The actions of a player who is played by actions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Acting {
-    /// What his behaviour has chosen for the step to come, or the kick of the bot that is yet to be told.
+    /// The action that their behaviour has chosen for the next step, or the bot's kick that is
+    /// still to be pressed.
     pub chosen: Option<Action>,
-    /// What he played in the last step: his agent's action, else his behaviour's, else what is told of the bot.
+    /// The action of the last step: their agent's, else their behaviour's, else the bot's play
+    /// expressed as one.
     pub played: Option<Action>,
-    /// As [`AgentSlot::key`](super::AgentSlot::key), for who is scripted.
+    /// Like [`AgentSlot::key`](super::AgentSlot::key), for scripted players.
     pub key: Option<KickKind>,
-    /// What he holds by that, as [`AgentSlot::sticky`](super::AgentSlot::sticky).
+    /// What they hold after that, like [`AgentSlot::sticky`](super::AgentSlot::sticky).
     pub sticky: u16,
 }
 
-/// A set piece that waits to be taken.
+/// A pending set piece.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SetPiece {
-    /// Which.
+    /// Its kind.
     pub mode: GameMode,
-    /// Whose.
+    /// The team that takes it.
     pub team: Team,
-    /// Who takes it.
+    /// The taker.
     pub taker: PlayerId,
     /// Where the ball lies.
     pub spot: Vec2,
-    /// Steps it has waited.
+    /// How many steps it has waited.
     pub waited_steps: u16,
 }
 
-/// A restart that a stop of play calls for.
+/// A restart that a stop of play requires.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Restart {
-    /// Which.
+    /// Its kind.
     pub mode: GameMode,
-    /// Whose.
+    /// The team that takes it.
     pub team: Team,
     /// Where.
     pub spot: Vec2,
@@ -119,7 +123,7 @@ pub struct Restart {
 pub struct Advantage {
     /// Who committed it.
     pub by: PlayerId,
-    /// On whom.
+    /// The player who was fouled.
     pub victim: PlayerId,
     /// The free kick that it would be.
     pub restart: Restart,
@@ -132,7 +136,7 @@ pub struct Advantage {
 pub struct Flight {
     /// Who kicked.
     pub by: PlayerId,
-    /// Whom it is meant for.
+    /// The intended receiver.
     pub to: Option<PlayerId>,
     /// From where.
     pub from: Vec2,
@@ -143,20 +147,20 @@ pub struct Flight {
 /// A keeper's plan against a ball on its way.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Save {
-    /// The tick at which the ball meets his hands.
+    /// The tick at which the ball meets the keeper's hands.
     pub at_tick: u32,
-    /// The tick at which he moves.
+    /// The tick at which the keeper moves.
     pub from_tick: u32,
     /// Where, in the ground plane.
     pub point: Vec2,
-    /// Whether he will get there.
+    /// Whether the keeper will get there.
     pub reaches: bool,
-    /// Whether he will hold it.
+    /// Whether the keeper will hold the ball.
     pub holds: bool,
 }
 
 impl Play {
-    /// Before `begin` has filled it in.
+    /// An empty state, before `begin` fills it in.
     pub const fn blank() -> Play {
         Play {
             forecast: Forecast::blank(),

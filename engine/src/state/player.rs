@@ -1,5 +1,5 @@
-//! A player: what everyone may see of them, and what the game keeps beside that, their [`Body`]: statistics, what they
-//! want, what their body does.
+//! A player: the public state, and the internal [`Body`] with statistics, intents and what the body
+//! does.
 
 use glam::Vec2;
 use setpiece_scenario::Ai;
@@ -33,33 +33,33 @@ impl PlayerId {
         self.0 as usize
     }
 
-    /// His team.
+    /// The player's team.
     pub const fn team(self) -> Team {
         if self.index() < TEAM_MAX { Team::Left } else { Team::Right }
     }
 
-    /// His place in the team, source order.
+    /// The player's index in the team, source order.
     pub const fn in_team(self) -> usize {
         self.index() % TEAM_MAX
     }
 }
 
-/// A player: what everyone may see of him. What `football` needs beside it stands in his `body`.
+/// A player's public state. What `football` needs besides is in `body`.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Player {
-    /// Is on the pitch: of the squad and not sent off.
+    /// Whether they are on the pitch: in the squad and not sent off.
     pub active: bool,
-    /// His role.
+    /// The role.
     pub role: Role,
-    /// Who plays him without an agent.
+    /// Who plays them if no agent does.
     pub ai: Ai,
-    /// Whether an agent may be given him.
+    /// Whether an agent may control them.
     pub controllable: bool,
     /// World metres.
     pub pos: Vec2,
     /// m/s.
     pub vel: Vec2,
-    /// The way he faces, world radians.
+    /// The direction they face, world radians.
     pub heading_rad: f32,
     /// 0 fresh to 1 exhausted.
     pub fatigue: f32,
@@ -67,79 +67,79 @@ pub struct Player {
     pub yellow_cards: u8,
     /// 0..1.
     pub difficulty: f32,
-    /// What `football` and `control` keep of him.
+    /// The internal state of `football` and `control`.
     pub body: Body,
 }
 
-/// A player's inner state.
+/// A player's internal state.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
     /// Raw statistics by [`Stat::index`], 0..1.
     #[serde(with = "crate::floats")]
     pub stats: [f32; Stat::ALL.len()],
-    /// 0.3 + 0.7 · difficulty: the share of his statistics that he shows.
+    /// 0.3 + 0.7 · difficulty: the share of their statistics that counts.
     pub level: f32,
     /// Top speed without the ball, m/s.
     pub speed_top_mps: f32,
     /// Metres.
     pub height_m: f32,
-    /// Where he stands when his own team kicks off, and when the others do.
+    /// Where they stand when their own team kicks off, and when the other team does.
     pub kickoff: [Vec2; 2],
-    /// The unit vector he faces, world.
+    /// The unit vector that they face, world.
     pub facing: Vec2,
-    /// Where he wants to go.
+    /// Where they want to go.
     pub intent: Intent,
-    /// The velocity he wants to have with the ball at his feet, world m/s.
+    /// The velocity that they want with the ball at their feet, world m/s.
     pub dribble: Vec2,
-    /// A kick that he wants to make, as soon as he can.
+    /// A kick that they want to make, as soon as possible.
     pub kick: Option<KickPlan>,
-    /// What his body does.
+    /// What the body does.
     pub pose: Pose,
     /// Ticks until the pose ends.
     pub pose_ticks: u8,
-    /// How much he has been pushed lately, metres, at most 0.1.
+    /// How far others have pushed them lately, metres, at most 0.1.
     pub push_m: f32,
-    /// Ticks spent on getting off a standstill.
+    /// Ticks spent so far on setting off.
     pub lag_ticks: i8,
-    /// Tick of his last touch.
+    /// Tick of their last touch.
     pub touched_at: i32,
-    /// Tick before which he may not try the ball.
+    /// Tick before which they may not try for the ball.
     pub ready_at: i32,
-    /// Tick before which they begin no kick: they are still turning with the ball.
+    /// Tick before which they begin no kick, because they are still turning with the ball.
     pub turned_at: i32,
     /// Tick until which a leg that has kicked follows through.
     pub follows_until: i32,
     /// A leg that is out for the ball.
     pub lunge: Option<Lunge>,
-    /// Where he can first meet the ball.
+    /// Where they can first meet the ball.
     pub meet: Vec2,
-    /// In how many seconds.
+    /// Seconds until then.
     pub meet_s: f32,
-    /// How fast they have run over the last ten seconds or so, m/s.
+    /// Mean speed over about the last ten seconds, m/s.
     pub mean_mps: f32,
-    /// What the bot has in mind for him.
+    /// The bot's plans for them.
     pub mind: Mind,
 }
 
 /// Where a player wants to go.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Intent {
-    /// Brakes to a stand.
+    /// Brake to a stop.
     Stand,
-    /// Runs at a world velocity, m/s.
+    /// Run at a world velocity, m/s.
     Run(Vec2),
-    /// Runs to a world point with at most so many m/s and stops there.
+    /// Run to a world point with at most this speed, m/s, and stop there.
     Go(Vec2, f32),
-    /// Runs to the ball with at most so many m/s, and dribbles when he has it.
+    /// Run to the ball with at most this speed, m/s, and dribble once they have it.
     Ball(f32),
 }
 
-/// What a body does.
+/// The pose of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Pose {
-    /// On his feet.
+    /// On their feet.
     Up,
-    /// Losing their balance, on the way to so many tenths of a m/s.
+    /// Losing their balance, towards this speed.
     Stumbling {
         /// 0.1 m/s.
         to_dmps: u8,
@@ -155,9 +155,9 @@ pub enum Pose {
 /// A kind of kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum KickKind {
-    /// On the ground, to a mate's feet.
+    /// On the ground, to a teammate's feet.
     Short,
-    /// On the ground, ahead of a mate.
+    /// On the ground, ahead of a teammate.
     Long,
     /// Lofted.
     High,
@@ -167,16 +167,16 @@ pub enum KickKind {
     Clear,
 }
 
-/// A kick that has been asked for: it waits for the key to be let go, for the ball, then for the swing.
+/// A requested kick: it waits for the key's release, then for the ball, then for the swing.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct KickPlan {
     /// What kind.
     pub kind: KickKind,
     /// The direction held now, world, unit; none: the way the player faces.
     pub dir: Option<Vec2>,
-    /// The mate it is meant for, if the bot has chosen one.
+    /// The intended receiver, if the bot has chosen one.
     pub mate: Option<PlayerId>,
-    /// The point it is meant for, if the bot has chosen one.
+    /// The target point, if the bot has chosen one.
     pub point: Option<Vec2>,
     /// 0..1 of the power of a bot's shot or of a steered kick; 0 leaves it to the gauge.
     pub power: f32,
@@ -184,26 +184,27 @@ pub struct KickPlan {
     pub gauge_ticks: u8,
     /// Whether the key is held in this step.
     pub held: bool,
-    /// Whether a ball that comes fast is taken before the kick, rather than struck as it comes.
+    /// Whether a fast ball is taken before the kick, instead of struck as it comes.
     pub taken: bool,
-    /// In how many seconds the player meets the ball, as last seen: a ball that gets away ends the plan.
+    /// Seconds until the player meets the ball, as last computed. A ball that gets away ends the
+    /// plan.
     pub meet_s: f32,
     /// The swing, once it has begun.
     pub swing: Option<Swing>,
-    /// Tick after which it is forgotten.
+    /// Tick after which the plan is dropped.
     pub until: i32,
 }
 
-/// The swing of a leg: what the kick was to be as it began.
+/// The swing of a leg, with the kick as planned when it began.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Swing {
     /// First tick at which the foot can meet the ball.
     pub ready_at: i32,
-    /// The way from the ball to what the kick is meant for, world metres; none where the bot has chosen it.
+    /// The way from the ball to the target, world metres; none if the bot has chosen it.
     pub way: Option<Vec2>,
-    /// The mate meant as it began.
+    /// The receiver when it began.
     pub mate: Option<PlayerId>,
-    /// Whether the player was running as it began.
+    /// Whether the player was running when it began.
     pub runs: bool,
 }
 
@@ -231,23 +232,24 @@ pub struct Lunge {
     pub stops: bool,
 }
 
-/// What the bot has in mind for a player.
+/// The bot's plans for a player.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Mind {
-    /// The slot of their number in the team's block, own frame: x -1 (back) to 1 (front), y -1..1 (+ is down the picture).
+    /// The slot of their number in the team's block, own frame: x -1 (back) to 1 (front), y -1..1
+    /// (+ is down the picture).
     pub slot: Vec2,
-    /// Whose slot and role they fill now.
+    /// The player whose slot and role they fill now.
     pub fills: PlayerId,
-    /// The opponent he marks.
+    /// The opponent they mark.
     pub mark: Option<PlayerId>,
-    /// Until which step he makes a run forward.
+    /// The step until which they make a run forward.
     pub run_until_step: u32,
-    /// Step of his next decision with the ball.
+    /// Step of their next decision with the ball.
     pub decide_at_step: u32,
 }
 
 impl Body {
-    /// A body before `begin` has filled it in.
+    /// An empty body, before `begin` fills it in.
     pub const fn blank() -> Body {
         Body {
             stats: [0.75; Stat::ALL.len()],
@@ -275,7 +277,7 @@ impl Body {
         }
     }
 
-    /// Takes a pose for so many ticks.
+    /// Takes a pose for this many ticks.
     pub fn strike_pose(&mut self, pose: Pose, ticks: u8) {
         self.pose = pose;
         self.pose_ticks = ticks;
@@ -283,28 +285,29 @@ impl Body {
 }
 
 impl Player {
-    /// Ticks that a knock costs him: fewer, the more resilient he is; as many as said for the average of the table.
+    /// Ticks that a knock costs: fewer for a resilient player, exactly `ticks` for the average of
+    /// the table.
     pub fn shaken(&self, ticks: f32) -> f32 {
         ticks * (1.3 - 0.4 * self.skill(Stat::Resilience))
     }
 
-    /// Brings him down for so many ticks.
+    /// Makes the player fall for this many ticks.
     pub fn fall(&mut self, ticks: f32) {
         let ticks = self.shaken(ticks);
         self.body.strike_pose(Pose::Down, ticks as u8);
     }
 
-    /// A statistic as it counts now: raw · (0.3 + 0.7 difficulty) · (0.7 + 0.3 freshness).
+    /// A statistic's current value: raw · (0.3 + 0.7 difficulty) · (0.7 + 0.3 freshness).
     pub fn skill(&self, stat: Stat) -> f32 {
         self.body.stats[stat.index()] * self.body.level * (1.0 - 0.3 * self.fatigue)
     }
 
-    /// Whether he stands on his feet on the pitch and can do something.
+    /// Whether the player is on their feet on the pitch and can act.
     pub fn is_up(&self) -> bool {
         self.active && self.body.pose == Pose::Up
     }
 
-    /// Whether they are on their feet on the pitch, if only just.
+    /// Whether the player is on their feet on the pitch, even if stumbling.
     pub fn is_on_feet(&self) -> bool {
         self.active && matches!(self.body.pose, Pose::Up | Pose::Stumbling { .. })
     }

@@ -1,44 +1,45 @@
-//! What the last seconds were like: where the ball was, and which team was nearer to it.
+//! The memory of the last seconds: where the ball was, and which team was nearer to it.
 
 use super::PlayerId;
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Team;
 
-/// Places of the ball that are kept, and how many steps apart they are.
+/// How many places of the ball are kept, and how many steps apart they are.
 const PLACES: usize = 20;
 const APART_STEPS: u32 = 2;
 const APART_S: f32 = 0.1 * APART_STEPS as f32;
-/// The nearness of a team that alone is near the ball, and of the other.
+/// The nearness of a team that is near the ball unopposed, and of the other.
 const NEAR: f32 = 1.5;
 const FAR: f32 = 0.5;
-/// What a team's nearness to the ball fades by in a step. (GRF's, of ten ticks.)
+/// How much a team's nearness to the ball decays per step. (GRF's, of ten ticks.)
 const FADES: f32 = 0.0489;
-/// How many steps the average side covers. (GRF's.)
+/// Number of steps in the average of `side`. (GRF's.)
 const SIDE_STEPS: u8 = 60;
-/// No team is further ahead in the ball's last minute, seconds.
+/// The largest lead of a team in the ball's last minute, seconds.
 const MINUTE_S: f32 = 60.0;
 
 /// The last seconds of a match.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Recent {
-    /// Where the ball was, in a ring.
+    /// Recent places of the ball, in a ring.
     places: [Vec2; PLACES],
-    /// Which place is the next to be written, and how many are.
+    /// The index of the next place to write, and how many are valid.
     next: u8,
     count: u8,
-    /// How near each team was to the ball, compared with the other: 0.5 far to 1.5 near, fading over two seconds.
+    /// How near each team was to the ball, relative to the other: 0.5 far to 1.5 near, fading over
+    /// two seconds.
     pub nearness: [f32; 2],
-    /// How much nearer the left team was over the last six seconds, -1..1, and over how many steps that is.
+    /// How much nearer the left team was over the last six seconds, -1..1, and over how many steps.
     side: f32,
     side_steps: u8,
-    /// How many seconds longer the left team had the ball lately, -60..60.
+    /// How many seconds longer the left team had the ball recently, -60..60.
     pub minute_s: f32,
-    /// By team, the mate who comes forward to help whoever has the ball.
+    /// By team, the teammate who comes forward to support the player on the ball.
     pub helper: [Option<PlayerId>; 2],
 }
 
 impl Recent {
-    /// Before anything has happened.
+    /// The empty memory.
     pub const fn blank() -> Recent {
         Recent {
             places: [Vec2::ZERO; PLACES],
@@ -52,17 +53,17 @@ impl Recent {
         }
     }
 
-    /// Begins anew: nothing is known of the ball, and a team counts as having had it.
+    /// Resets the memory: nothing is known of the ball, and a team counts as having had it.
     pub fn begin(&mut self, team: Team) {
         (self.next, self.count) = (0, 0);
         self.nearness = [FAR; 2];
         self.nearness[team.index()] = NEAR;
     }
 
-    /// Takes a step in, at the end of which the ball is at `ball`.
+    /// Adds a step, at the end of which the ball is at `ball`.
     ///
     /// - `soonest`: how far in time each team is from the ball, seconds;
-    /// - `holder`: the team that has the ball to itself;
+    /// - `holder`: the team that has the ball uncontested;
     /// - `possession`: the team that had it last.
     pub fn remember(
         &mut self,
@@ -100,7 +101,7 @@ impl Recent {
         }
     }
 
-    /// Where the ball, which is at `ball` now, was on average over each of the last moments.
+    /// The ball's mean places over recent spells of each length. The ball is at `ball` now.
     pub fn ball_means(&self, ball: Vec2) -> BallMeans {
         let count = usize::from(self.count).min(PLACES);
         let mut means = BallMeans { means: [ball; PLACES + 1], count };
@@ -119,17 +120,18 @@ impl Recent {
     }
 }
 
-/// Where the ball was on average over spells of every length up to four seconds: summed once for all who ask.
+/// The ball's mean place over spells of every length up to four seconds, computed once for
+/// everyone.
 #[derive(Clone, Copy, Debug)]
 pub struct BallMeans {
-    /// Over so many places before the present one.
+    /// Index n: over the last n places and the current one.
     means: [Vec2; PLACES + 1],
     /// How many places are known.
     count: usize,
 }
 
 impl BallMeans {
-    /// Over so many seconds, at most four, world metres.
+    /// The mean over the last seconds (at most four), world metres.
     pub fn over(&self, seconds: f32) -> Vec2 {
         self.means[((seconds / APART_S) as usize).min(self.count)]
     }

@@ -1,15 +1,15 @@
-//! Some of the players of a match, a bit each: who takes part in it.
+//! A set of a match's players, one bit each.
 
 use super::PlayerId;
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::Team;
 
-/// Some players. Going through them costs nothing for those who are not among them.
+/// A set of players. Iterating costs nothing for players outside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(try_from = "u32")]
 pub struct Squad(u32);
 
-/// A bit for everybody there can be.
+/// The bits of all possible players.
 const ALL: u32 = (1 << PLAYERS_MAX) - 1;
 
 impl TryFrom<u32> for Squad {
@@ -27,17 +27,17 @@ impl FromIterator<PlayerId> for Squad {
 }
 
 impl Squad {
-    /// Whether a player is among them.
+    /// Whether a player is in the set.
     pub const fn has(self, id: PlayerId) -> bool {
         self.0 & (1 << id.0) != 0
     }
 
-    /// Takes a player in.
+    /// Adds a player.
     pub const fn add(&mut self, id: PlayerId) {
         self.0 |= 1 << id.0;
     }
 
-    /// Those of a team.
+    /// The players of a team.
     #[must_use]
     pub const fn of(self, team: Team) -> Squad {
         Squad(self.0 & (((1 << TEAM_MAX) - 1) << (team.index() * TEAM_MAX)))
@@ -48,17 +48,17 @@ impl Squad {
         self.0.count_ones() as usize
     }
 
-    /// Whether nobody is.
+    /// Whether the set is empty.
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// By id.
+    /// The players by id.
     pub fn ids(self) -> Ids {
         self.ids_from(Team::Left)
     }
 
-    /// By id, a team before the other.
+    /// The players by id, one team before the other.
     pub fn ids_from(self, team: Team) -> Ids {
         let first = (team.index() * TEAM_MAX) as u8;
         let turned = (self.0 >> first | self.0 << (PLAYERS_MAX as u8 - first)) & ALL;
@@ -66,7 +66,7 @@ impl Squad {
     }
 }
 
-/// Goes through some players, each once.
+/// Iterates over a set of players.
 #[derive(Clone, Debug)]
 pub struct Ids {
     /// Bit k: the k-th from the first.

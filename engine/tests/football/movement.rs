@@ -1,13 +1,13 @@
-//! Movement against the curves measured on the original, 100 ms a step.
+//! Movement against the curves measured on the original, 100 ms per step.
 
 use crate::Bench;
 use crate::layouts::Layout;
 use setpiece_scenario::vocabulary::Action;
 
-/// Speeds at each step, m/s: from the way covered in it.
+/// Speeds at each step, m/s, from the distance covered in it.
 fn speeds(layout: Layout, keys: &[Action], steps: usize) -> Vec<f32> {
     let mut bench = Bench::new(layout, 0);
-    // Whoever has stood for a step sets off at once.
+    // A player who has stood for a step sets off at once.
     bench.step(Action::Idle);
     let id = bench.game.agents[0].player.unwrap();
     let mut before = bench.game.player(id).pos;
@@ -28,7 +28,7 @@ fn a_sprint_from_standstill_follows_the_measured_curve() {
         0.36, 2.19, 3.11, 3.93, 4.69, 5.07, 5.34, 5.86, 6.31, 6.69, 6.97, 7.19, 7.36, 7.48, 7.57, 7.64, 7.69, 7.73,
         7.75, 7.77,
     ];
-    // The direction alone is pressed in the first step: both gaits start alike.
+    // The first step presses only the direction, so both gaits start alike.
     let run = speeds(Layout::Alone, &[Action::Right, Action::Sprint], 24);
     for (step, (is, should)) in run.iter().zip(measured).enumerate() {
         let tolerance = (0.1f32 * should).max(0.4);
@@ -91,7 +91,8 @@ fn stops_are_as_long_as_measured() {
 
 #[test]
 fn turns_take_as_long_as_measured() {
-    // Steps until the velocity is within 12 degrees of the new direction, and until 90 % of the speed is back.
+    // Steps until the velocity is within 12 degrees of the new direction, and until 90 % of the
+    // speed is back.
     let cases = [
         (false, Action::BottomRight, 2..=5, 2..=6),
         (false, Action::Bottom, 3..=6, 4..=9),

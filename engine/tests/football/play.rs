@@ -1,4 +1,4 @@
-//! Full matches of the bot against itself, and that a seed repeats.
+//! Full matches of the bot against itself; a seed repeats.
 
 use crate::Bench;
 use crate::layouts::{Layout, drawn, set_level};
@@ -8,12 +8,12 @@ use setpiece_engine::state::player::{Aim, Lunge};
 use setpiece_engine::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
 
-/// Everything that is seen of a match.
+/// Everything visible of a match.
 fn seen(game: &Match) -> String {
     format!("{:?} {:?} {:?} {:?} {:?}", game.ball, game.players, game.score, game.owner, game.agents)
 }
 
-/// Plays so many steps of bot against bot.
+/// Plays this many steps of bot against bot.
 fn play(bench: &mut Bench, steps: u32) {
     for _ in 0..steps {
         bench.step(Action::BuiltinAi);

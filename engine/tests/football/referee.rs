@@ -10,7 +10,7 @@ use setpiece_engine::state::event::Event;
 use setpiece_engine::state::player::{Aim, Lunge, Pose};
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Rule, Team};
 
-/// Sends the ball on its way as if a player had touched it last, and plays until play stops.
+/// Starts the ball as if a player had touched it last, and plays until play stops.
 fn roll(bench: &mut Bench, from: Vec3, vel: Vec3, last: PlayerId) {
     // Nobody is near enough to meet it.
     for player in &mut bench.game.players {
@@ -81,7 +81,7 @@ fn a_goal_counts_and_an_own_goal_for_the_others() {
 }
 
 #[test]
-fn whoever_stood_beyond_the_line_is_offside_when_he_plays_the_pass() {
+fn a_player_beyond_the_line_is_offside_when_playing_the_pass() {
     for on in [true, false] {
         let mut start = drawn(Layout::Eleven, 0);
         start.rules[Rule::Offside.index()] = f64::from(u8::from(on));
@@ -172,7 +172,7 @@ fn half_time_gives_the_others_the_kick_off() {
     assert_eq!(halves, 1);
 }
 
-/// A bench where nobody but the named stands near anything.
+/// A bench where only the named players stand near anything.
 fn alone(rules: &[(Rule, f64)], seed: u64) -> Bench {
     let mut start = drawn(Layout::Eleven, seed);
     for (rule, value) in rules {
@@ -185,7 +185,7 @@ fn alone(rules: &[(Rule, f64)], seed: u64) -> Bench {
     bench
 }
 
-/// A standing foul of the right man on the left one, who has the ball.
+/// A standing foul of the right player on the left one, who has the ball.
 fn fouled(bench: &mut Bench) {
     bench.game.players[LEFT_MAN.index()].pos = Vec2::new(10.0, 5.0);
     bench.game.players[RIGHT_MAN.index()].pos = Vec2::new(10.8, 5.0);
@@ -197,7 +197,7 @@ fn fouled(bench: &mut Bench) {
     assert!(!bench.game.dead && bench.seen(EventKind::FreeKick).is_none(), "it was let run");
 }
 
-/// Plays until play stops or an event is seen.
+/// Plays until play stops or an event occurs.
 fn until(bench: &mut Bench, steps: usize, kind: EventKind) -> Option<usize> {
     (1..=steps).find(|_| {
         bench.step(Action::BuiltinAi);
@@ -260,8 +260,9 @@ fn a_card_or_a_penalty_is_not_let_run() {
     }
 }
 
-/// Whether a player who runs with the ball at so many m/s and another who comes at them lose their balance as they meet, and
-/// whether a foul was called; `lunges`: whether the other's leg is out.
+/// Whether a player with the ball at this speed and an opponent who comes at them lose their
+/// balance as they meet, and whether a foul was called. `lunges`: whether the opponent's leg is
+/// out.
 fn meeting(mps: f32, lunges: bool) -> ([Pose; 2], bool) {
     let mut bench = alone(&[], 0);
     let now = bench.game.tick as i32;
@@ -290,7 +291,7 @@ fn who_runs_into_a_rival_loses_their_balance_and_who_stands_does_not() {
     assert!(meeting(7.0, true).1, "a leg that is out brings a sprinter down");
 }
 
-/// Shots at a man's chest: how often each seed's was a handball, and what was given.
+/// Shoots at a player's chest: the handballs of each seed, and what was given.
 fn handballs(rules: &[(Rule, f64)], man: PlayerId, at: Vec2, height: f32) -> Vec<(Event, GameMode)> {
     let mut called = Vec::new();
     for seed in 0..400 {
@@ -330,18 +331,18 @@ fn handball_is_rare_and_only_where_the_rule_is_on() {
     }
 }
 
-/// However a shot comes out, it is told of the place it was struck from.
+/// However a shot ends, its event names the place it was struck from.
 #[test]
-fn a_goal_and_a_shots_verdict_are_told_of_where_it_was_struck() {
+fn a_goal_and_a_shots_verdict_name_where_it_was_struck() {
     for (y, verdict) in [(1.0, Qualifier::OnTarget), (12.0, Qualifier::OffTarget)] {
         let mut bench = Bench::new(Layout::Eleven, 0);
         let struck = Vec2::new(40.0, y);
         contact::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, struck);
         roll(&mut bench, Vec3::new(54.0, y, 0.5), Vec3::new(20.0, 0.0, 0.0), LEFT_MAN);
-        let told: Vec<Event> =
+        let verdicts: Vec<Event> =
             bench.events.as_slice().iter().copied().filter(|it| it.qualifier == Some(verdict)).collect();
-        assert_eq!(told.len(), 1);
-        for event in told.into_iter().chain(bench.seen(EventKind::Goal)) {
+        assert_eq!(verdicts.len(), 1);
+        for event in verdicts.into_iter().chain(bench.seen(EventKind::Goal)) {
             assert_eq!(event.at.truncate(), struck, "{:?}", event.kind);
             assert!((event.length_m - struck.distance(Vec2::new(55.0, 0.0))).abs() < 1e-4);
         }

@@ -1,4 +1,4 @@
-//! What the laws and bodies ask for beyond the referee's first cases: walls, hands, deflections, crowds, challenges.
+//! Laws and bodies beyond the referee's first cases: walls, hands, deflections, crowds, challenges.
 
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
@@ -39,7 +39,7 @@ fn a_wall_stands_in_the_way_of_a_free_kick_near_goal() {
 }
 
 #[test]
-fn nobody_waits_offside_for_his_teams_free_kick() {
+fn nobody_waits_offside_for_their_teams_free_kick() {
     for (i, team) in [Team::Left, Team::Right].into_iter().cycle().take(24).enumerate() {
         let spot = Vec2::new(i as f32 * 4.0 - 46.0, i as f32 * 2.5 - 30.0);
         let mut bench = bench(&[], i as u64);
@@ -82,15 +82,15 @@ fn a_long_shot_at_a_lone_keeper_is_seen_coming() {
 fn a_shot_that_has_run_dead_is_off_target_whoever_comes_for_it() {
     let mut bench = bench(&[], 0);
     let (by, rival) = (PlayerId(5), PlayerId(14));
-    let mut told = |speed: f32| {
+    let mut verdict = |speed: f32| {
         contact::shot_struck(&mut bench.game, &mut bench.events, by, Vec2::ZERO);
         bench.game.ball.vel = Vec3::new(speed, 0.0, 0.0);
         bench.events.clear();
         contact::touched(&mut bench.game, &mut bench.events, rival, false);
         bench.seen(EventKind::Shot).and_then(|event| event.qualifier)
     };
-    assert_eq!(told(20.0), Some(Qualifier::Blocked));
-    assert_eq!(told(0.0), Some(Qualifier::OffTarget));
+    assert_eq!(verdict(20.0), Some(Qualifier::Blocked));
+    assert_eq!(verdict(0.0), Some(Qualifier::OffTarget));
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn who_stands_on_the_ball_is_attacked_where_mates_are_about() {
             }
         }
     }
-    // GRF's do so; one who is alone waits.
+    // GRF's players do so; a player who is alone waits.
     assert!(won >= 15, "in {won} of 20 matches somebody won the ball");
 }
 
@@ -223,7 +223,7 @@ fn pushes_tell_and_fade() {
 }
 
 #[test]
-fn a_shot_at_the_keepers_chest_does_not_go_through_him() {
+fn a_shot_at_the_keepers_chest_does_not_go_through() {
     let mut goals = 0;
     for seed in 0..200 {
         let mut bench = bench(&[], seed);
@@ -243,7 +243,7 @@ fn a_shot_at_the_keepers_chest_does_not_go_through_him() {
         }
         goals += u32::from(bench.game.score[0]);
     }
-    assert!(goals < 30, "{goals} of 200 went through him");
+    assert!(goals < 30, "{goals} of 200 went through the defender");
 }
 
 #[test]
@@ -266,7 +266,7 @@ fn an_agents_keeper_has_hands_unless_the_rule_takes_them() {
 }
 
 #[test]
-fn what_a_keeper_has_caught_he_does_not_carry_over_his_line() {
+fn a_keeper_does_not_carry_a_caught_ball_over_the_line() {
     let mut bench = bench(&[], 0);
     bench.game.players[0].pos = Vec2::new(-55.6, 1.0);
     bench.game.ball.pos = Vec3::new(-55.0, 1.0, 1.0);
@@ -349,8 +349,8 @@ fn nobody_walks_through_a_man_on_the_ground() {
         bench.step(Action::Right);
         least = least.min(bench.game.players[9].pos.distance(bench.game.players[14].pos));
     }
-    assert!(bench.game.players[9].pos.x > -2.0, "he came by: {}", bench.game.players[9].pos);
-    assert!(least > 0.4, "he went through: {least} m");
+    assert!(bench.game.players[9].pos.x > -2.0, "the runner came past: {}", bench.game.players[9].pos);
+    assert!(least > 0.4, "the runner went through: {least} m");
 }
 
 #[test]
@@ -394,7 +394,7 @@ fn who_begins_exhausted_stays_it() {
 }
 
 #[test]
-fn a_keeper_who_is_to_hold_his_place_still_lets_the_ball_go() {
+fn a_keeper_who_holds_their_place_still_releases_the_ball() {
     let mut bench = bench(&[(Rule::SixSeconds, 0.0)], 0);
     bench.game.players[0].ai = setpiece_scenario::Ai::Hold;
     bench.game.ball.pos = bench.game.players[0].pos.extend(1.0);

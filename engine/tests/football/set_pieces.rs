@@ -1,4 +1,5 @@
-//! Set pieces beside those of Google Research Football: who stands where, and how long they take.
+//! Set pieces compared with those of Google Research Football: who stands where, and how long they
+//! take.
 
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
@@ -13,7 +14,8 @@ use setpiece_scenario::vocabulary::{Action, GameMode, Rule, Team};
 
 type Eleven = [(f32, f32); 11];
 
-/// A set piece of the right team as measured, metres: the ball, the left team and the right team by number.
+/// A set piece of the right team as measured, metres: the ball, the left team and the right team by
+/// number.
 struct Measured {
     mode: GameMode,
     ball: (f32, f32),
@@ -239,7 +241,7 @@ fn an_agents_run_up_takes_as_long_as_measured() {
     for (mode, spot) in SPOTS {
         let throw = mode == GameMode::ThrowIn;
         for key in keys {
-            // A throw-in is a short pass, whatever is pressed.
+            // A throw-in is a short pass, whatever key is pressed.
             let heard = !throw || key == Action::ShortPass;
             let once = |at: usize| move |step: usize| if step == at { key } else { Action::Idle };
             // A penalty's run-up is a step longer.
@@ -256,7 +258,7 @@ fn an_agents_run_up_takes_as_long_as_measured() {
             let held = match key {
                 Action::ShortPass if throw => 8,
                 Action::HighPass if !throw => 11 + longer,
-                // The short pass that is pressed for them lets it go.
+                // The short pass that is pressed for them releases the key.
                 Action::Shot if !throw => 25 + longer,
                 _ => stalled,
             };

@@ -1,11 +1,12 @@
-//! Every statistic of a player tells.
+//! Every statistic of a player has an effect.
 
 use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use setpiece_engine::digest;
 use setpiece_scenario::vocabulary::{Action, Stat};
 
-/// A match of bots in which every player has a statistic at a value; the state at its end.
+/// Plays a match of bots in which every player has a statistic at a value; returns the digest at
+/// its end.
 fn played(stat: Option<Stat>, value: f32, seed: u64) -> u64 {
     let mut start = drawn(Layout::Eleven, seed);
     for player in start.players.iter_mut().flatten() {
@@ -16,7 +17,7 @@ fn played(stat: Option<Stat>, value: f32, seed: u64) -> u64 {
         bench.step(Action::BuiltinAi);
         bench.restart();
     }
-    // What the players' statistics are is no part of what came of them.
+    // The statistics themselves must not affect the comparison.
     for player in &mut bench.game.players {
         player.body.stats = [0.0; Stat::ALL.len()];
     }

@@ -164,7 +164,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// An event with what belongs to it.
+    /// An event with its clauses.
     pub(super) fn event(&mut self, view: View) -> String {
         let mut event = self.choices.one(EVENTS).to_owned();
         if event != "half_time" && self.choices.rarely(2) {
@@ -214,7 +214,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// A player, who may be nobody.
+    /// A player, possibly nobody.
     pub(super) fn player(&mut self, view: View) -> String {
         let named = self.choices.rarely(2).then(|| self.somebody()).flatten();
         if let (Some(name), false) = (named, view == View::Behavior) {
@@ -228,7 +228,7 @@ impl Writer<'_, '_> {
     }
 }
 
-/// The view of what an operator over time looks at.
+/// The context inside a temporal function.
 fn inner(view: View) -> View {
     View::Inner { own: view.is_own() }
 }

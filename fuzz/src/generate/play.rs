@@ -1,4 +1,4 @@
-//! What a generated episode pays, measures and ends by, and its behaviours.
+//! The rewards, records and endings of a generated episode, and its behaviours.
 
 use super::{View, Writer};
 

@@ -42,7 +42,7 @@ impl Writer<'_, '_> {
         for (side, name) in ["left", "right"].into_iter().enumerate() {
             let difficulty = self.choices.between(1.0, 0.0);
             self.line(&format!("team {name} {{ difficulty: {difficulty:.2}"));
-            // Players stand on lines of their own, so that no two of them share a spot.
+            // Players stand on separate lines, so that no two of them share a spot.
             for (n, player) in self.squads[side].clone().into_iter().enumerate() {
                 self.place(n, &player);
             }

@@ -1,4 +1,5 @@
-//! Figures of traces recorded of Google Research Football: beside those on file, or in their place.
+//! Figures of traces recorded of Google Research Football: compared with the stored ones, or
+//! replacing them.
 
 use super::keys::action;
 use super::limits::Measured;
@@ -11,12 +12,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::BufRead;
 
-/// A step as `lab/record` writes it: ball and its velocity; owning team, owner and `game_mode`; places of both teams;
-/// keys; the agents' players; score.
+/// A step as `lab/record` writes it: ball and its velocity; owning team, owner and `game_mode`;
+/// places of both teams; keys; the agents' players; score.
 type Step = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
 
-/// Runs `recorded FILE TRACES [--write | --add]`: sets figures of traces beside the file's, writes them in their place, or
-/// makes one of both.
+/// Runs `recorded FILE TRACES [--write | --add]`: compares figures of traces with the file's,
+/// replaces them, or merges both.
 pub(crate) fn recorded(args: &[String]) -> Result<(), Failure> {
     let [file, traces, rest @ ..] = args else { return Err("recorded wants a file of lab/data and traces".to_owned()) };
     let topic = topics().find(|topic| topic.file == file).ok_or_else(|| format!("no topic has `{file}`"))?;
@@ -72,7 +73,7 @@ fn views(file: &File, row: &Row, steps: Vec<Step>) -> Result<Vec<View>, Failure>
     Ok(trace)
 }
 
-/// Which figures of the traces lie outside the limits of those on file.
+/// The figures of the traces that are outside the limits of the stored ones.
 fn compared(topic: &Topic, file: &File, values: &BTreeMap<usize, Values>) -> String {
     let mut section = Section::new(6, topic.name, topic.file);
     for (number, values) in values {
@@ -89,7 +90,8 @@ fn compared(topic: &Topic, file: &File, values: &BTreeMap<usize, Values>) -> Str
     text
 }
 
-/// Puts the figures of the rows that have traces into the file, with those of `before` where it has some.
+/// Writes the figures of the rows with traces into the file, merged with those of `before` if
+/// given.
 fn write<'a>(
     topic: &Topic,
     values: &BTreeMap<usize, Values>,
@@ -111,7 +113,7 @@ fn write<'a>(
     std::fs::write(topic.path(), written).map_err(|why| topic.named(why))
 }
 
-/// The figures of a row as the file has them.
+/// The figures of a row in the file's format.
 fn figures(topic: &Topic, values: &Values, before: Option<&Row>) -> String {
     let mut parts = Vec::new();
     for ((name, kind), of) in topic.columns.iter().zip(values) {
@@ -119,7 +121,7 @@ fn figures(topic: &Topic, values: &Values, before: Option<&Row>) -> String {
         if let Some(before) = before {
             all = match before.figures.get(*name) {
                 Some(before) => all.with(*kind, before),
-                // A figure that a row leaves out on purpose stays out.
+                // A figure that a row omits on purpose stays omitted.
                 None => continue,
             };
         }

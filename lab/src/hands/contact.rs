@@ -7,7 +7,7 @@ use super::trace::{View, apart, pace, yes};
 const CONTACT_M: f64 = 1.0;
 /// A defender nearer than this jockeys, metres.
 const JOCKEY_M: f64 = 8.0;
-/// Steps of jockeying that a mean is taken of.
+/// Steps of jockeying for a mean.
 const JOCKEY_STEPS: usize = 5;
 
 const COLUMNS: [Column; 19] = [

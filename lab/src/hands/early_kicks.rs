@@ -1,16 +1,16 @@
-//! Kicks that a receiver asks for before the pass arrives.
+//! Kicks requested by a receiver before the pass arrives.
 
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, first, leaves, yes};
 use setpiece::scenario::vocabulary::Action;
 
-/// A ball so near to the receiver has arrived, metres.
+/// A ball this near to the receiver has arrived, metres.
 const ARRIVED_M: f64 = 1.2;
 /// A free ball faster than this may have been kicked, m/s.
 const KICKED_MPS: f64 = 11.5;
-/// A kick turns the ball by so much, degrees.
+/// A kick turns the ball by at least this angle, degrees.
 const TURN_DEG: f64 = 25.0;
-/// Or makes it so much faster, m/s.
+/// Or makes it faster by this, m/s.
 const FASTER_MPS: f64 = 3.0;
 /// Steps over which the largest height is taken.
 const PEAK_STEPS: usize = 12;
@@ -59,7 +59,7 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     ]
 }
 
-/// When a pass that left in a step arrives at the receiver, and when it is kicked on.
+/// The steps in which a pass that left in a step arrives at the receiver, and is kicked on.
 pub(super) fn struck(trace: &[View], left: usize, receiver: usize) -> (Option<usize>, Option<usize>) {
     let arrives = first(trace, left, |view| view.ball_from(view.teams[0][receiver]) < ARRIVED_M);
     let kick = arrives.and_then(|arrives| {

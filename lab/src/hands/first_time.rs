@@ -1,13 +1,14 @@
-//! Kicks asked for before a pass arrives, with one agent that goes over to the receiver: first time or after a trap.
+//! Kicks requested before a pass arrives, with one agent that switches to the receiver: first time
+//! or after a trap.
 
 use super::early_kicks::{peak, struck};
 use super::kicks::is_kick;
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, first, leaves, yes};
 
-/// A ball kicked within so many steps of its arrival was not trapped.
+/// A ball kicked within this many steps of its arrival was not trapped.
 const AT_ONCE_STEPS: usize = 3;
-/// The receiver's place in the team.
+/// The receiver's index in the team.
 const RECEIVER: usize = 2;
 
 const COLUMNS: [Column; 10] = [

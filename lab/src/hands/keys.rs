@@ -4,7 +4,7 @@ use super::trace::{View, apart};
 use crate::pitch::Failure;
 use setpiece::scenario::vocabulary::Action;
 
-/// The eight directions from the right round by the top.
+/// The eight directions, from the right via the top.
 const WAYS: [Action; 8] = [
     Action::Right,
     Action::TopRight,
@@ -16,10 +16,10 @@ const WAYS: [Action; 8] = [
     Action::BottomRight,
 ];
 
-/// The scripted agent shoots when it owns the ball nearer to the goal than this, metres.
+/// The scripted agent shoots when it owns the ball within this distance of the goal, metres.
 const SHOT_M: f64 = 16.0;
 
-/// A condition as recorded: so many steps, or words.
+/// A condition as recorded: a number of steps, or words.
 #[derive(Clone, Debug, serde::Deserialize)]
 #[serde(untagged)]
 enum Until {
@@ -27,14 +27,14 @@ enum Until {
     Words(String),
 }
 
-/// What one agent presses.
+/// The presses of one agent.
 pub(super) type Plan = Vec<Phase>;
 
 /// A key and how long it is pressed.
 #[derive(Clone, Debug, serde::Deserialize)]
 pub(super) struct Phase(String, Until);
 
-/// An agent on its way through a plan.
+/// An agent working through a plan.
 pub(super) struct Keys<'a> {
     plan: &'a [Phase],
     agent: usize,
@@ -43,7 +43,7 @@ pub(super) struct Keys<'a> {
     mirrored: bool,
     at: usize,
     pressed: u32,
-    /// What the scripted agent holds: its direction, and the sprint.
+    /// The scripted agent's held direction, and whether it holds sprint.
     held: Option<Action>,
     sprints: bool,
 }
@@ -140,7 +140,7 @@ pub(super) fn action(key: &str) -> Result<Action, Failure> {
     })
 }
 
-/// A direction mirrored top to bottom; other keys as they are.
+/// A direction mirrored top to bottom; other keys unchanged.
 fn mirror(key: Action) -> Action {
     let at = WAYS.iter().position(|way| *way == key);
     at.map_or(key, |at| WAYS[(8 - at) % 8])

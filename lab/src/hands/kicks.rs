@@ -34,7 +34,8 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
     figures(trace, STEPS)
 }
 
-/// Whether and when the first kick asked for leaves within so many steps, how fast, where to and how high.
+/// Whether and when the first requested kick leaves within this many steps, its speed, direction
+/// and height.
 pub(super) fn figures(trace: &[View], steps: usize) -> Vec<Option<f64>> {
     let key = first(trace, 1, |view| is_kick(view.pressed[0]));
     let until = trace.len().min(key.unwrap_or_default() + steps + 1);

@@ -1,4 +1,4 @@
-//! After how many steps a kick leaves the foot, by the step in which it was asked for.
+//! The number of steps until a kick leaves the foot, by the step in which it was requested.
 
 use super::kicks;
 use super::recorded::{Column, Group, Kind, Row, Topic};

@@ -1,12 +1,13 @@
-//! How far our figures may lie from recorded ones.
+//! The tolerance between our figures and recorded ones.
 
 use crate::figure::Part;
 use crate::pitch::{deviation, mean};
 
-/// Rows of theirs in which fewer episodes have a value say too little.
+/// Rows in which fewer of their episodes have a value say too little.
 pub(super) const FEWEST: u64 = 5;
 
-/// What a figure measures, which says how far ours may be off beside what chance does to the two means.
+/// What a figure measures. It decides the tolerance in addition to the random error of the two
+/// means.
 #[derive(Clone, Copy)]
 pub(super) enum Kind {
     /// A share of the episodes.
@@ -21,7 +22,7 @@ pub(super) enum Kind {
     Speed,
     /// Degrees: ±3.
     Degrees,
-    /// Degrees round the circle: ±3, by the shorter way.
+    /// Degrees around the circle: ±3, the shorter way.
     Way,
     /// Metres of height: ±25 %, at least 0.3.
     Height,
@@ -31,7 +32,7 @@ pub(super) enum Kind {
     Place,
 }
 
-/// A figure as recorded; without a mean where no episode has a value.
+/// A figure as recorded; without a mean if no episode has a value.
 #[derive(serde::Deserialize)]
 pub(super) struct Measured {
     pub(super) mean: Option<f64>,
@@ -40,14 +41,14 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// What episodes say.
+    /// The figure from these episodes' values.
     pub(super) fn of(kind: Kind, values: &[f64]) -> Measured {
         let some = !values.is_empty();
         let [mean, sd] = [kind.mean(values), kind.deviation(values)].map(|it| Some(it).filter(|_| some));
         Measured { mean, sd, n: values.len() as u64 }
     }
 
-    /// What these episodes and others say together.
+    /// Combines these episodes with others.
     pub(super) fn with(self, kind: Kind, other: &Measured) -> Measured {
         let (Some(mean), Some(theirs)) = (self.mean, other.mean) else {
             return if self.mean.is_some() { self } else { Measured { ..*other } };
@@ -64,11 +65,11 @@ impl Measured {
     }
 }
 
-/// A figure beside theirs.
+/// Compares our figure with theirs.
 pub(super) fn part(name: &str, kind: Kind, theirs: &Measured, ours: &[f64]) -> Option<Part> {
     let middle = theirs.mean?;
     let n = ours.len().max(1) as u64;
-    // Events that a few episodes happen not to show are not impossible: one more in all of them.
+    // Events that a few episodes happen not to show aren't impossible: adds one to their total.
     let least = if let Kind::Count = kind { (middle + 1.0 / theirs.n as f64).sqrt() } else { 0.0 };
     let chance = 1.96 * theirs.sd.unwrap_or_default().max(least) * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
     let give = match kind {
@@ -101,7 +102,7 @@ impl Kind {
     pub(super) fn deviation(self, of: &[f64]) -> f64 {
         let Kind::Way = self else { return deviation(of) };
         let middle = self.mean(of);
-        // Around a middle of 0 the deviations are what they are round the circle.
+        // Around a middle of 0 the deviations are the same as around the circle.
         let off: Vec<f64> = of.iter().map(|way| wrapped(way - middle)).collect();
         deviation(&off)
     }
@@ -112,10 +113,11 @@ fn wrapped(degrees: f64) -> f64 {
     (degrees + 180.0).rem_euclid(360.0) - 180.0
 }
 
-/// How far two shares may be apart: what chance does to samples of `theirs` and `ours` in nineteen cases of twenty, and a
-/// tenth more.
+/// The tolerance between two shares: the random error of samples of `theirs` and `ours` in nineteen
+/// cases of twenty, plus a tenth.
 pub(super) fn share_give(share: f64, theirs: u64, ours: u64) -> f64 {
-    // Agresti and Coull's two successes and two failures keep shares of 0 and 1 from looking certain.
+    // Agresti and Coull's two successes and two failures keep shares of 0 and 1 from looking
+    // certain.
     let n = theirs as f64;
     let p = (share * n + 2.0) / (n + 4.0);
     1.96 * (p * (1.0 - p) * (1.0 / (n + 4.0) + 1.0 / ours as f64)).sqrt() + 0.1

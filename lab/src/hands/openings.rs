@@ -1,4 +1,4 @@
-//! The first steps of matches: how fast the ball is and who has it.
+//! The first steps of matches: the speed of the ball and its owner.
 
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, yes};

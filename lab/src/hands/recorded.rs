@@ -1,4 +1,5 @@
-//! Rows of recorded scenes in the common form: scene, keys, and figures that are means over jittered starts.
+//! Rows of recorded scenes in the common form: scene, keys, and figures that are means over
+//! jittered starts.
 
 use super::keys::Plan;
 pub(super) use super::limits::Kind;
@@ -16,17 +17,17 @@ const EPISODES: u64 = 48;
 /// A figure's name and kind.
 pub(super) type Column = (&'static str, Kind);
 
-/// Related figures, which make one row of the report: what they say, and the columns.
+/// Related figures that form one row of the report: their meaning, and the columns.
 pub(super) type Group = (&'static str, &'static [&'static str]);
 
 /// A topic: its file and how its figures are read from an episode.
 pub(super) struct Topic {
-    /// What its rows are about.
+    /// What its rows cover.
     pub(super) name: &'static str,
     /// In `lab/data`.
     pub(super) file: &'static str,
     pub(super) columns: &'static [Column],
-    /// Every column once, a few in each.
+    /// Every column once, in groups.
     pub(super) groups: &'static [Group],
     /// The figures of an episode in the order of the columns.
     pub(super) read: fn(&[View], &Row) -> Vec<Option<f64>>,
@@ -59,10 +60,10 @@ pub(super) struct Row {
     steps: u32,
     #[serde(default)]
     stop: Vec<String>,
-    /// What the figures count from, where a topic has several.
+    /// The origin of the figures' count, if a topic has several.
     #[serde(default)]
     pub(super) event: String,
-    /// By column.
+    /// One entry per column.
     pub(super) figures: BTreeMap<String, Measured>,
 }
 
@@ -74,7 +75,7 @@ fn usual() -> f64 {
     0.6
 }
 
-/// The figures of a row, column by column: a value for each episode that has one.
+/// The figures of a row by column: a value for each episode that has one.
 pub(super) type Values = Vec<Vec<f64>>;
 
 impl Topic {
@@ -84,12 +85,12 @@ impl Topic {
         serde_json::from_str(&text).map_err(|why| self.named(why))
     }
 
-    /// Where the topic's file is.
+    /// The path of the topic's file.
     pub(super) fn path(&self) -> PathBuf {
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(self.file)
     }
 
-    /// What went wrong in the topic's file.
+    /// An error in the topic's file.
     pub(super) fn named(&self, why: impl Display) -> Failure {
         format!("lab/data/{}: {why}", self.file)
     }
@@ -102,7 +103,7 @@ impl Topic {
         }
     }
 
-    /// The rows of the report for a recorded row: figures beside those recorded.
+    /// The rows of the report for a recorded row: our figures and the recorded ones.
     pub(super) fn compare(&self, row: &Row, values: &Values) -> Vec<(String, Vec<Part>)> {
         let about = match [row.left, row.right] {
             [left, right] if left != one() => format!(", difficulties {left} and {right}"),

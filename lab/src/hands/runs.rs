@@ -5,13 +5,13 @@ use super::trace::{View, apart, first, pace};
 use crate::pitch::mean;
 use setpiece::scenario::vocabulary::Action;
 
-/// So near to the new direction the turn is done, degrees.
+/// A turn is done within this angle of the new direction, degrees.
 const TURNED_DEG: f64 = 12.0;
-/// The share of the old speed that is a full one again.
+/// From this share of the old speed on, the speed counts as full again.
 const FAST: f64 = 0.9;
-/// Slower than this a player stands, m/s.
+/// A slower player stands, m/s.
 const STANDS_MPS: f64 = 0.1;
-/// Steps after the key that are looked at.
+/// How many steps after the key are checked.
 const STEPS: usize = 60;
 
 const COLUMNS: [Column; 12] = [

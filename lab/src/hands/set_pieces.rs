@@ -1,4 +1,4 @@
-//! Set pieces: who takes them, when play goes on, and what an agent sees meanwhile.
+//! Set pieces: who takes them, when play resumes, and what an agent sees meanwhile.
 
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};

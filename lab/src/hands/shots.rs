@@ -39,7 +39,7 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
         Some(yes(end.score[0] > 0)),
         Some(yes(end.mode == 2)),
         Some(yes(key.is_none())),
-        // Counted from the step before the first press, in which the direction is set.
+        // Counted from the step before the first press, which sets the direction.
         key.zip(struck).map(|(key, step)| (step - key + 2) as f64),
         struck.map(|step| trace[step].degrees()),
         struck.filter(|step| step + 1 < trace.len()).map(speed),

@@ -1,4 +1,4 @@
-//! A recorded scene's start: who stands where in each episode, as a scenario's text.
+//! A recorded scene's start: everybody's place in each episode, as a scenario's text.
 
 use crate::pitch::Failure;
 use setpiece::scenario::vocabulary::Role;
@@ -16,10 +16,10 @@ pub(super) struct Scene {
     /// Largest offset of an episode's start.
     #[serde(default)]
     jitter: [f64; 2],
-    /// The ball moves with the start's offset.
+    /// Whether the ball moves with the start's offset.
     #[serde(default = "yes")]
     ball_jitter: bool,
-    /// Odd episodes are mirrored top to bottom.
+    /// Whether odd episodes are mirrored top to bottom.
     #[serde(default)]
     mirror: bool,
     #[serde(default)]
@@ -33,7 +33,7 @@ fn yes() -> bool {
 }
 
 impl Scene {
-    /// How many agents act in it, those of the left team first.
+    /// The number of agents, those of the left team first.
     pub(super) fn agents(&self) -> [usize; 2] {
         self.agents
     }

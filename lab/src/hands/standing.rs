@@ -1,4 +1,4 @@
-//! Shots of a standing player who is given no direction, with and without a keeper.
+//! Shots of a standing player without a held direction, with and without a keeper.
 
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};

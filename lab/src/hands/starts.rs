@@ -1,11 +1,11 @@
-//! The first touch of the ball that an episode begins with.
+//! The first touch of an episode's ball.
 
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};
 
 /// A ball that has gone further than this was touched, metres.
 const TOUCHED_M: f64 = 0.04;
-/// The step in which it is seen how far the ball has come.
+/// The step in which the ball's distance is measured.
 const LATER_STEP: usize = 10;
 
 const COLUMNS: [Column; 8] = [

@@ -1,4 +1,4 @@
-//! Which player the agent has, and when it changes.
+//! Which player the agent controls, and when it switches.
 
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, first, yes};

@@ -10,7 +10,7 @@ use setpiece::scenario::vocabulary::{Action, Role, Team};
 const OWNERLESS: [usize; 5] = [1, 2, 3, 4, 6];
 /// The mode of a kick-off, which the drop-in shows as play.
 const KICK_OFF: usize = 1;
-/// Steps after which a waiting set piece is taken for the agents.
+/// Steps after which a pending set piece is taken for the agents.
 const STALLED: u32 = 20;
 /// Steps after which its taker is sent the other way.
 const TURNING: u32 = 30;
@@ -20,13 +20,13 @@ const TURNING: u32 = 30;
 pub(super) struct View {
     /// Place of the ball; the last is its height.
     pub(super) ball: [f64; 3],
-    /// Its level velocity now, m/s.
+    /// Its current horizontal velocity, m/s.
     pub(super) vel: [f64; 2],
-    /// Its level way since the moment before, m/s.
+    /// Its horizontal speed since the last moment, m/s.
     pub(super) speed: f64,
-    /// -1 nobody, 0 the left team, 1 the right one.
+    /// The owner's team: -1 nobody, 0 left, 1 right.
     pub(super) owner: i8,
-    /// Place in the team of who owns it.
+    /// The owner's index in the team.
     pub(super) who: usize,
     /// `game_mode`.
     pub(super) mode: usize,
@@ -34,9 +34,9 @@ pub(super) struct View {
     pub(super) teams: [Vec<[f64; 2]>; 2],
     /// Roles of both teams.
     pub(super) roles: [Vec<Role>; 2],
-    /// What each agent pressed in the step that led here; nothing at the start.
+    /// Each agent's press in the step that led here; empty at the start.
     pub(super) pressed: Vec<Action>,
-    /// Each agent's player: place in its team.
+    /// Each agent's player: the index in its team.
     pub(super) active: Vec<usize>,
     /// Goals.
     pub(super) score: [u16; 2],
@@ -83,50 +83,51 @@ impl View {
         self.owner == team && self.who == player
     }
 
-    /// The ball's level speed now, m/s.
+    /// The ball's current horizontal speed, m/s.
     pub(super) fn velocity(&self) -> f64 {
         self.vel[0].hypot(self.vel[1])
     }
 
-    /// Where the ball goes, degrees, positive towards the top.
+    /// The ball's direction, degrees, positive towards the top.
     pub(super) fn degrees(&self) -> f64 {
         (-self.vel[1]).atan2(self.vel[0]).to_degrees()
     }
 
-    /// A team's player nearest to a place, by place in the team, of those that count.
+    /// The index of a team's player nearest to a place, among those that count.
     pub(super) fn nearest(&self, team: usize, at: [f64; 2], counts: impl Fn(usize) -> bool) -> usize {
         let players = self.teams[team].iter().enumerate().filter(|(i, _)| counts(*i));
         players.min_by(|(_, a), (_, b)| apart(**a, at).total_cmp(&apart(**b, at))).map_or(0, |(i, _)| i)
     }
 }
 
-/// 1 for what holds, 0 for what doesn't.
+/// 1 for true, 0 for false.
 pub(super) fn yes(holds: bool) -> f64 {
     f64::from(u8::from(holds))
 }
 
-/// The first step from one on in which something holds.
+/// The first step from one on in which a condition holds.
 pub(super) fn first(trace: &[View], from: usize, holds: impl Fn(&View) -> bool) -> Option<usize> {
     trace.iter().enumerate().skip(from).find(|(_, view)| holds(view)).map(|(step, _)| step)
 }
 
-/// The first step in which a kicked ball is on its way: nobody owns it, and it moved faster than 9 m/s.
+/// The first step in which a kicked ball is under way: nobody owns it, and it moved faster than 9
+/// m/s.
 pub(super) fn leaves(trace: &[View]) -> Option<usize> {
     first(trace, 1, |view| view.owner == -1 && view.speed > 9.0)
 }
 
-/// How fast a left player moves in the step to this one, m/s.
+/// The speed of a left player in the step to this one, m/s.
 pub(super) fn pace(trace: &[View], step: usize, player: usize) -> Option<f64> {
     let before = trace.get(step.checked_sub(1)?)?;
     Some(apart(trace.get(step)?.teams[0][player], before.teams[0][player]) * 10.0)
 }
 
-/// How far two places are apart.
+/// The distance of two places.
 pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// What one episode is played with.
+/// The settings of one episode.
 pub(super) struct Take<'a> {
     pub(super) scene: &'a Scene,
     pub(super) plans: &'a [Plan],
@@ -169,7 +170,7 @@ pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> 
     Ok(trace)
 }
 
-/// What the drop-in presses for an agent while a set piece waits for too long.
+/// The drop-in's press for an agent while a set piece waits for too long.
 fn hurried(view: &View, agent: usize, team: usize, waiting: u32) -> Action {
     if waiting == STALLED {
         return Action::ShortPass;

@@ -4,9 +4,9 @@ use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
-/// Slower than this nobody has a way, m/s.
+/// A slower player has no direction, m/s.
 const MOVES_MPS: f64 = 1.5;
-/// So near to the new direction the turn is done, degrees.
+/// A turn is done within this angle of the new direction, degrees.
 const TURNED_DEG: f64 = 25.0;
 
 const COLUMNS: [Column; 7] = [
@@ -29,7 +29,7 @@ const GROUPS: [Group; 3] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "turn", file: "grf_turns.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-/// The key of a turn and its way.
+/// The key of a turn and its direction.
 fn turn(plan: &str) -> (Action, f64) {
     match plan.rsplit(' ').next() {
         Some("45") => (Action::TopRight, 45.0),

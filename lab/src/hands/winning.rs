@@ -1,4 +1,4 @@
-//! An agent wins the ball from a bot, and races one for a loose ball.
+//! An agent wins the ball from a bot, and races a bot for a loose ball.
 
 use super::recorded::{Column, Group, Kind, Row, Topic};
 use super::trace::{View, apart, first, yes};

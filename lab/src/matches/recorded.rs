@@ -1,11 +1,11 @@
-//! Matches of Google Research Football's bots as `lab/record/matches.py` counted them.
+//! Matches of Google Research Football's bots, as counted by `lab/record/matches.py`.
 
 use crate::figure::{Part, short};
 use crate::pitch::{Failure, deviation, mean};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// A match: its difficulties and everything that was counted, by name.
+/// A match: its difficulties and all counts, by name.
 type Match = BTreeMap<String, f64>;
 
 /// Reads the matches between these difficulties.
@@ -19,22 +19,22 @@ pub(super) fn matches(left: f64, right: f64) -> Result<Vec<Match>, Failure> {
     Ok(of)
 }
 
-/// How far ours may be off beside what chance does to the two means.
+/// The tolerance in addition to the random error of the two means.
 #[derive(Clone, Copy)]
 pub(super) enum Give {
     /// A number of events in a match: ±25 %, at least 0.25.
     Count,
     /// A share: ±0.05.
     Share,
-    /// Anything else that is measured: ±15 %.
+    /// Any other measured value: ±15 %.
     Measure,
 }
 
-/// A count of ours, the mean of so many matches, beside theirs.
+/// Compares a count of ours, the mean over this many matches, with theirs.
 pub(super) fn part(theirs: &[Match], name: &str, give: Give, ours: f64, matches: usize) -> Part {
     let of: Vec<f64> = theirs.iter().filter_map(|one| one.get(name).copied()).collect();
     let (middle, n) = (mean(&of), of.len() as f64);
-    // Events that a few matches happen not to show are not impossible: one more in all of them.
+    // Events that a few matches happen not to show aren't impossible: adds one to their total.
     let least = if let Give::Count = give { ((middle * n + 1.0) / n).sqrt() } else { 0.0 };
     let chance = 1.96 * deviation(&of).max(least) * (1.0 / n + 1.0 / matches as f64).sqrt();
     let tolerance = match give {

@@ -1,4 +1,4 @@
-//! What must be true after every step of any match.
+//! Properties that hold after every step of any match.
 
 mod bodies;
 mod film;
@@ -15,7 +15,7 @@ use setpiece::engine::state::event::Event;
 use setpiece::scenario::vocabulary::{Action, EventKind};
 use waiting::Waiting;
 
-/// What a step has shown.
+/// What a step covered.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Seen {
     pub(super) goals: u64,
@@ -23,26 +23,26 @@ pub(super) struct Seen {
     pub(super) cards: u64,
 }
 
-/// A step: what was done in it and what came of it.
+/// A step: the actions and their result.
 pub(super) struct Step<'a> {
     /// The agents' actions.
     pub(super) actions: &'a [Action],
-    /// The state in which it was judged, before any restart.
+    /// The state that was judged, before any restart.
     pub(super) judged: &'a Match,
     /// The state after a restart.
     pub(super) after: &'a Match,
-    /// What happened, in order.
+    /// The events, in order.
     pub(super) events: &'a [Event],
 }
 
-/// What is remembered from step to step.
+/// The memory from step to step.
 pub(super) struct Witness {
     before: Match,
     film: Film,
     waiting: Waiting,
 }
 
-/// An error unless something is true.
+/// An error unless a condition holds.
 fn must(holds: bool, why: impl FnOnce() -> String) -> Result<(), Failure> {
     if holds { Ok(()) } else { Err(why()) }
 }
@@ -54,7 +54,7 @@ impl Witness {
         Ok(Witness { before: start.clone(), film: Film::default(), waiting: Waiting::default() })
     }
 
-    /// Looks at a step.
+    /// Checks a step.
     pub(super) fn see(&mut self, step: &Step, scratch: &mut Scratch) -> Result<Seen, Failure> {
         use EventKind::{Corner, FreeKick, Goal, GoalKick, Kickoff, Penalty, RedCard, ThrowIn, YellowCard};
         for game in [step.judged, step.after] {

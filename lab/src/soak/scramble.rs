@@ -1,4 +1,4 @@
-//! Scenarios made up at random: teams of any size anywhere, every rule, every start, agents of every kind.
+//! Random scenarios: teams of any size anywhere, every rule, every start, agents of every kind.
 
 mod script;
 
@@ -63,7 +63,7 @@ pub(super) fn scenario(random: &mut Stream, limit: u32) -> String {
     text
 }
 
-/// Whether something happens that happens once in `n` times.
+/// True once in `n` times.
 fn one_in(random: &mut Stream, n: u32) -> bool {
     random.below(n) == 0
 }
@@ -73,7 +73,7 @@ fn spread(random: &mut Stream) -> f32 {
     random.unit() * 2.0 - 1.0
 }
 
-/// How many play in a team: often few.
+/// The size of a team; often small.
 fn size(random: &mut Stream, least: u32) -> u32 {
     if one_in(random, 3) { least + random.below(3) } else { least + random.below(12 - least) }
 }
@@ -93,7 +93,7 @@ fn men(random: &mut Stream, team: usize, size: u32) -> Vec<Man> {
 fn rules(text: &mut String, random: &mut Stream) {
     text.push_str("    rules {");
     for rule in SWITCHES {
-        // Mostly as it is by default.
+        // Mostly the default.
         if one_in(random, 4) {
             let _ = write!(text, " {rule}: {}", if one_in(random, 2) { "on" } else { "off" });
         }
@@ -155,7 +155,7 @@ fn agents(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
     text.push_str("    agents {");
     for (side, team) in SIDES.into_iter().zip(teams) {
         let free: Vec<&Man> = team.iter().filter(|man| man.controllable).collect();
-        let whom = match random.below(5) {
+        let count = match random.below(5) {
             _ if free.is_empty() => "0".to_owned(),
             0 => "all".to_owned(),
             1 => "0".to_owned(),
@@ -165,12 +165,12 @@ fn agents(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
             }
             _ => random.below(free.len() as u32 + 1).to_string(),
         };
-        let _ = write!(text, " {side}: {whom},");
+        let _ = write!(text, " {side}: {count},");
     }
     manners(text, random);
 }
 
-/// What agents' mates do, and whether agents go from one to the other.
+/// What agents' teammates do, and whether agents switch players.
 fn manners(text: &mut String, random: &mut Stream) {
     let others = if one_in(random, 3) { "hold" } else { "bot" };
     let switching = if one_in(random, 4) { ", switching: fixed" } else { "" };
@@ -193,7 +193,7 @@ fn player(text: &mut String, random: &mut Stream, man: &Man, teams: &[Vec<Man>; 
         text.push_str("  controllable: off");
     }
     if one_in(random, 6) {
-        // Both ends of the range are among them.
+        // Includes both ends of the range.
         let _ = write!(text, "  fatigue: {:.2}", (random.unit() * 1.4 - 0.2).clamp(0.0, 1.0));
     }
     if one_in(random, 8) {
@@ -216,7 +216,7 @@ fn player(text: &mut String, random: &mut Stream, man: &Man, teams: &[Vec<Man>; 
     text.push_str(" }\n");
 }
 
-/// A scenario whose teams are those of a kick-off, of formations of its own.
+/// A scenario with the teams of a kick-off, with its own formations.
 fn kicked_off(text: &mut String, random: &mut Stream, limit: u32) {
     let size = size(random, 1);
     let keeper = !one_in(random, 4);
@@ -234,8 +234,8 @@ fn kicked_off(text: &mut String, random: &mut Stream, limit: u32) {
     rules(text, random);
     let whose = ["left", "right", "alternate(left, right)", "choice(left, right)"][random.below(4) as usize];
     let _ = writeln!(text, "    kickoff {whose} {{ kicking: kicking, receiving: receiving }}");
-    let mut whom = || if one_in(random, 3) { "all".to_owned() } else { random.below(size + 1).to_string() };
-    let _ = write!(text, "    agents {{ left: {}, right: {},", whom(), whom());
+    let mut count = || if one_in(random, 3) { "all".to_owned() } else { random.below(size + 1).to_string() };
+    let _ = write!(text, "    agents {{ left: {}, right: {},", count(), count());
     manners(text, random);
     for side in SIDES {
         let _ =

@@ -28,11 +28,11 @@ REPRESENTATIONS = {"SMM": "extracted", "Pixels": "pixels", "simple115": "simple1
 
 
 def install() -> None:
-    """Lets `import gfootball` and all below it find this package, and registers GRF's ids with Gymnasium.
+    """Lets `import gfootball` find this package, and registers GRF's ids with Gymnasium.
 
-    `gymnasium.make("GFootball-NAME-simple115v2-v0")` makes an environment by `create_environment`, with the interface
-    of old Gym; `-Pixels-v0` raises `UnavailableError`. Calling it again changes nothing. Raises `InUseError` where the
-    real `gfootball` is imported already.
+    `gymnasium.make("GFootball-NAME-simple115v2-v0")` makes an environment with
+    `create_environment`, with the interface of old Gym; `-Pixels-v0` raises `UnavailableError`.
+    Calling it again is a no-op. Raises `InUseError` if the real `gfootball` is already imported.
     """
     there = sys.modules.get(ALIAS)
     if there is not None and there is not sys.modules[__name__]:
@@ -52,7 +52,7 @@ def install() -> None:
                     env_id,
                     entry_point=f"{__name__}.env:create_environment",
                     kwargs={"env_name": name.name, "representation": representation},
-                    # Both expect the interface of today.
+                    # Both expect the current interface.
                     order_enforce=False,
                     disable_env_checker=True,
                 )

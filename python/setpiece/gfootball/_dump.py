@@ -19,18 +19,21 @@ from setpiece.gfootball.env.observation_rotation import flip_observation, flip_s
 from setpiece.gfootball.env.scenario_builder import Source, all_scenarios
 
 FIRST_EPISODE = 2
-"""The number of the episode whose index is 0; later ones take turns with it and the next."""
+"""The number of the episode with index 0; later ones alternate between it and the next."""
 
 
 def replay_to_dump(replay: Replay | str | PathLike[str], path: str | PathLike[str]) -> None:
-    """Writes a replay, or that of a file, as the dump of a whole episode: a record of every step for `ScriptHelpers`.
+    """Writes a replay, or a replay's file, as the dump of a whole episode for `ScriptHelpers`.
 
-    `reward` is how the left team's lead has changed, `time` in seconds from the start. `ScriptHelpers.replay` plays the
-    match again where the drop-in can: a scenario of the library as it is, one of its first two episodes, and no set
-    piece that waits for so long that the drop-in takes it. Else the dump's `level` is the replay's path, which is none.
+    It has a record of every step. `reward` is the change of the left team's lead, `time` is in
+    seconds from the start. `ScriptHelpers.replay` plays the match again if the drop-in can: an
+    unchanged scenario of the library, one of its first two episodes, and no set piece that waits so
+    long that the drop-in takes it. Otherwise the dump's `level` is the replay's path, which isn't a
+    level.
 
-    Raises `UnavailableError` where no agent played, or one with continuous actions; `ReplayError` where this build
-    plays the episode otherwise, or a file is no replay; `FileError` where one can't be read or written.
+    Raises `UnavailableError` if no agent played, or one with continuous actions; `ReplayError` if
+    this build diverges from the recording, or a file isn't a replay; `FileError` if one can't be
+    read or written.
     """
     if isinstance(replay, (str, PathLike)):
         replay = Replay(replay)
@@ -40,7 +43,7 @@ def replay_to_dump(replay: Replay | str | PathLike[str], path: str | PathLike[st
         raise _untellable(replay, "agents", "nobody was an agent, and a dump tells what agents see and do")
     if replay.action_set == "continuous":
         raise _untellable(replay, "action_set", "the agents' actions were continuous, and a dump tells of keys")
-    # Played before anything is written: one that comes to another end leaves no file.
+    # Played before anything is written, so that a diverging replay leaves no file.
     longest = _longest_wait(replay, {**defaults(), "action_set": replay.action_set})
     left, right = _counts(replay)
     config = {
@@ -93,7 +96,7 @@ def _whole(replay: Replay, moment: Moment, config: dict[str, Any]) -> dict[str, 
 
 
 def _longest_wait(replay: Replay, config: dict[str, Any]) -> int:
-    """Returns the most steps that a set piece waited, of those that the drop-in counts."""
+    """Returns the longest wait of a set piece in steps, of those that the drop-in counts."""
     longest = waiting = 0
     for moment in replay:
         waiting = waiting + 1 if slot_view(moment.observations[replay.agents[0].id], config)["game_mode"] else 0
@@ -102,7 +105,7 @@ def _longest_wait(replay: Replay, config: dict[str, Any]) -> int:
 
 
 def _is_known(replay: Replay) -> bool:
-    """Whether the drop-in has the scenario, with these agents, and comes to this episode."""
+    """Whether the drop-in has the scenario, with these agents, and reaches this episode."""
     name = replay.scenario.name
     if name not in all_scenarios() or setpiece.load(name).digest != replay.scenario.digest:
         return False

@@ -17,14 +17,14 @@ from setpiece.gfootball.env.scenario_config import FIXED_SEED, ScenarioConfig
 
 EVEN, ODD = 2, 1
 LATER = (3, 4, 5, 6)
-"""Episodes that have to be as the first ones are."""
+"""Episodes that must equal the first ones."""
 
 
 def import_script(path: str) -> str:
-    """Returns the text of a script's file; it compiles, and is laid out as `setpiece fmt` does.
+    """Returns the text of a script's file; it compiles and has the layout of `setpiece fmt`.
 
-    Raises `FileError`, `TranslationError` for what a text can't say, `CompileError` for what no scenario may say,
-    `GrfScriptError` where the script fails.
+    Raises `FileError`, `TranslationError` for what a text can't express, `CompileError` for what no
+    scenario may contain, `GrfScriptError` if the script fails.
     """
     script = script_of(load_script(path), path)
     even, odd = record(script, EVEN), record(script, ODD)
@@ -40,7 +40,7 @@ def import_script(path: str) -> str:
 
 
 def _check_later(script: Script, even: ScenarioConfig, odd: ScenarioConfig) -> None:
-    """Raises `TranslationError` where episodes don't take turns."""
+    """Raises `TranslationError` if episodes don't alternate."""
     for episode in (*LATER, EVEN, ODD):
         if record(script, episode) != (odd if episode % 2 else even):
             drawn = record(script, EVEN) != even or record(script, ODD) != odd
@@ -69,7 +69,7 @@ def main(arguments: Sequence[str]) -> int:
         return end.code if isinstance(end.code, int) else 2
     try:
         gfootball.install()
-        # Standard output is the text's: what a script prints goes elsewhere.
+        # Standard output is for the text, so the script's own output goes elsewhere.
         with redirect_stdout(sys.stderr):
             text = import_script(parsed.file)
         if parsed.output is None:

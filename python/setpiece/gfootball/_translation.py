@@ -1,4 +1,4 @@
-"""Writes a recorded scenario of Google Research Football as a `.pitch` text: the only home of that translation."""
+"""Translates a recorded scenario of Google Research Football to a `.pitch` text."""
 
 from __future__ import annotations
 
@@ -13,33 +13,33 @@ from setpiece.gfootball.env.scenario_config import FIXED_SEED, FormationEntry, S
 METRES = (54.4, 83.6)
 """Metres per unit of x and y."""
 PLACED = (55.0, 84.96)
-"""Metres per unit of x and y of a player's place in a script: wider than the ball's and that of observations."""
+"""Metres per unit of a player's x and y in a script: wider than the ball's and observations'."""
 OVERLAP = 0.3
 """Metres below which two constant places overlap."""
 AT_THE_BALL = 2.0
-"""Metres within which a man has to stand for a kick-off to leave everybody where he is."""
+"""A kick-off with a player within this many metres of the ball leaves everybody in place."""
 LIMIT_MAX = 1_000_000
-"""Greatest number of steps that `end limit` takes."""
+"""The largest number of steps for `end limit`."""
 
 
 class TranslationError(SetpieceError):
-    """A scenario script says what a `.pitch` text can't; the message says what."""
+    """A scenario script contains what a `.pitch` text can't express; the message says what."""
 
 
 def identifier(name: str) -> str:
-    """Returns a name that the language takes: that of a level, or of a path without folder and ending."""
+    """Returns a valid name: that of a level, or of a path without folder and ending."""
     stem = name.replace("\\", "/").rsplit("/", 1)[-1].removesuffix(".py")
     return re.sub(r"\W", "_", stem, flags=re.ASCII) or "scenario"
 
 
 def to_pitch(recorded: ScenarioConfig, name: str, other: ScenarioConfig | None = None) -> str:
-    """Returns the text of a recorded scenario; it compiles, and is laid out as `setpiece fmt` does.
+    """Returns the text of a recorded scenario; it compiles and has the layout of `setpiece fmt`.
 
-    - `recorded`: what the script says in even episodes, so in the first one.
-    - `other`: what it says in odd episodes, where that may differ.
+    - `recorded`: the script's result in even episodes, so in the first one.
+    - `other`: its result in odd episodes, if that may differ.
 
-    Raises `TranslationError` where the two differ in more than what `kickoff alternate(…)` or a number
-    `alternate(…, …)` can say.
+    Raises `TranslationError` if the two differ in more than `kickoff alternate(…)` or a number
+    `alternate(…, …)` can express.
     """
     other = recorded if other is None else other
     _check_same(recorded, other)
@@ -123,7 +123,7 @@ def _options(entry: FormationEntry, crowded: bool) -> str:
 
 
 def _crowded(recorded: ScenarioConfig, side: str) -> set[int]:
-    """Returns the players of a team who stand on somebody's spot."""
+    """Returns the players of a team who stand on somebody else's spot."""
     teams = {team: [_metres(entry, team) for entry in _team(recorded, team)] for team in ("left", "right")}
     everybody = [*teams["left"], *teams["right"]]
     return {
@@ -140,7 +140,7 @@ def _metres(entry: FormationEntry, side: str) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class _Kickoff:
-    """A kick-off by one team or by both in turn, and the layouts of whoever kicks and receives."""
+    """A kick-off by one team or by both alternately, with the layouts of both roles."""
 
     team: str
     kicking: list[FormationEntry]
@@ -160,7 +160,10 @@ class _Kickoff:
 
 
 def _kickoff(recorded: ScenarioConfig, other: ScenarioConfig) -> _Kickoff | None:
-    """Returns the kick-off that two layouts of one shape make, so that it can be played again after a goal, or None."""
+    """Returns the kick-off of two layouts, so that it can be repeated after a goal, or None.
+
+    The layouts must have one shape.
+    """
     kicker, second = _kicker(recorded), _kicker(other)
     if kicker is None or second is None or recorded.end_episode_on_out_of_play:
         return None
@@ -176,7 +179,7 @@ def _kickoff(recorded: ScenarioConfig, other: ScenarioConfig) -> _Kickoff | None
 
 
 def _kicker(recorded: ScenarioConfig) -> str | None:
-    """Returns the team that has the man at the ball, where the ball lies on the centre spot."""
+    """Returns the team with the player at the ball if the ball lies on the centre spot."""
     if any(recorded.ball_position[:2]):
         return None
     nearest = {side: min(hypot(*_metres(entry, side)) for entry in _team(recorded, side)) for side in ("left", "right")}
@@ -190,7 +193,7 @@ def _shape(entry: FormationEntry) -> tuple[object, ...]:
 
 
 def _check_same(recorded: ScenarioConfig, other: ScenarioConfig) -> None:
-    """Raises `TranslationError` where two episodes differ in what no text can alternate."""
+    """Raises `TranslationError` if two episodes differ in what no text can alternate."""
     may_differ = (
         *("ball_position", "left_team", "right_team", "left_team_difficulty", "right_team_difficulty"),
         "reverse_team_processing",  # The order of the teams has no effect here.
@@ -199,7 +202,7 @@ def _check_same(recorded: ScenarioConfig, other: ScenarioConfig) -> None:
         if each.name not in may_differ and getattr(recorded, each.name) != getattr(other, each.name):
             raise TranslationError(
                 f"`{each.name}` is {getattr(recorded, each.name)} in even and {getattr(other, each.name)} in odd"
-                " episodes; a text can't say that",
+                " episodes; a text can't express that",
                 help="write two scenarios, one for each",
             )
     if _kickoff(recorded, other) is not None:
@@ -222,7 +225,7 @@ def _role(entry: FormationEntry) -> str:
 
 
 def _place(entry: FormationEntry) -> tuple[float, float]:
-    """Returns where a player stands as observations show it, rounded to half a centimetre."""
+    """Returns a player's place as observations show it, rounded to half a centimetre."""
     x, y = (round(entry.position[axis] * PLACED[axis] / METRES[axis], 4) for axis in (0, 1))
     return x, y
 

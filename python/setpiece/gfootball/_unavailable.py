@@ -1,4 +1,4 @@
-"""What GRF has and this version has not."""
+"""GRF's features that aren't supported in this version."""
 
 from __future__ import annotations
 
@@ -6,5 +6,5 @@ from setpiece._errors import UnavailableError
 
 
 def unavailable(name: str, what: str, instead: str | None = None) -> UnavailableError:
-    """Returns the error of what GRF has and this version has not."""
+    """Returns the error for a feature of GRF that isn't supported in this version."""
     return UnavailableError(f"{what} is not in this version", name=name, help=instead)

@@ -1,4 +1,7 @@
-"""Writes a dump as text: `python -m setpiece.gfootball.dump_to_txt --trace_file=FILE.dump --output=FILE.txt`."""
+"""Writes a dump as text.
+
+`python -m setpiece.gfootball.dump_to_txt --trace_file=FILE.dump --output=FILE.txt`
+"""
 
 from __future__ import annotations
 
@@ -19,7 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--trace_file", metavar="FILE.dump", required=True, help="the dump; reading it runs what it says"
     )
     parser.add_argument("--output", metavar="FILE.txt", required=True, help="where the text is written")
-    # All three ways in which GRF's flags are written.
+    # All three ways to write GRF's flags.
     parser.add_argument("--include_debug", type=_flag, nargs="?", const=True, default=True, metavar="true|false")
     parser.add_argument(
         "--noinclude_debug", dest="include_debug", action="store_false", help="without what was pressed"

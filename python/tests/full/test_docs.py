@@ -1,4 +1,4 @@
-"""The examples of docs/python.md that need heavy packages run too."""
+"""The examples of docs/python.md that need heavy packages also run."""
 
 from typing import Any
 

@@ -38,7 +38,7 @@ pytestmark = pytest.mark.filterwarnings("default")
     ],
 )
 def test_is_step_by_step_what_dummy_vec_env_is(shown: dict[str, Any]) -> None:
-    """The reference is Stable-Baselines3's own vector environment over the same environments."""
+    """The reference is Stable-Baselines3's own vector environment with the same environments."""
     ours = make_vec(CLOSE, 3, **shown)
     theirs = DummyVecEnv([lambda: setpiece.make(CLOSE, **shown)] * 3)
     assert ours.observation_space == theirs.observation_space
@@ -67,7 +67,7 @@ def test_is_step_by_step_what_dummy_vec_env_is(shown: dict[str, Any]) -> None:
     assert ends > 3
 
 
-def test_a_limit_is_told_from_an_ending() -> None:
+def test_a_limit_is_distinguished_from_an_ending() -> None:
     envs = [lambda: TimeLimit(setpiece.make(CLOSE), 4)] * 2
     vec = Sb3VecEnv(SyncVectorEnv(envs, autoreset_mode=AutoresetMode.SAME_STEP))
     vec.seed(1)
@@ -183,7 +183,7 @@ def test_ppo_learns_to_score(tmp_path: Path) -> None:
     model.learn(60_000)
     assert np.mean([episode["r"] for episode in model.ep_info_buffer]) > 0.9
     assert list(tmp_path.glob("events*"))
-    # And what has been learnt can play for somebody else.
+    # What has been learnt can play as an opponent.
     env = setpiece.make(CLOSE, opponents={"left": model})
     scored = 0
     for seed in range(10):
@@ -231,7 +231,7 @@ def test_rewards_and_endings_in_python_are_played_by_single_environments() -> No
     vec.reset()
     outcomes = set()
     for step in range(300):
-        # One runs into the ending in Python, the other waits for the file's limit or the ball to be lost.
+        # One reaches the ending in Python, the other waits for the file's limit or a lost ball.
         _, rewards, dones, infos = vec.step(np.array([Action.RIGHT, Action.IDLE]))
         assert rewards.tolist() == [0.25, 0.25] or dones.any(), step
         outcomes |= {info["outcome"] for info in infos if "outcome" in info}

@@ -57,7 +57,7 @@ def test_stable_baselines3(example: Any, tmp_path: Path, masks: list[str]) -> No
 
 def test_rllib(tmp_path: Path) -> None:
     pytest.importorskip("ray.rllib")
-    # By itself, for Ray's runners import what the program is made of.
+    # Separate, because Ray's runners import the program's module.
     command = [*CLOSE, "--steps", "4000", "--envs", "8", "--out", str(tmp_path)]
     run = subprocess.run(
         [sys.executable, str(EXAMPLES / "train_rllib.py"), *command], capture_output=True, text=True, timeout=300

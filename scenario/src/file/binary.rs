@@ -1,20 +1,21 @@
-//! The compact form: a mark, version, checksum and length, then the scenario as CBOR (RFC 8949).
+//! The compact form: a magic number, version, checksum and length, then the scenario as CBOR (RFC
+//! 8949).
 
 use super::{FORMAT_VERSION, FormatError, check_size, fnv1a, to_json};
 use crate::scenario::Scenario;
 use crate::verify::verify;
 
-/// What a compact file begins with: no text does.
+/// The first bytes of a compact file; no text starts with them.
 pub const MAGIC: &[u8; 8] = b"\x8bpitchc\n";
-/// Mark, version, checksum, length.
+/// Length of the header: magic number, version, checksum, length.
 const HEAD: usize = 8 + 4 + 8 + 8;
 
 /// Writes a scenario in the compact form.
 ///
 /// # Errors
-/// [`FormatError::Write`] where a constant is not finite.
+/// [`FormatError::Write`] if a constant isn't finite.
 pub fn to_bytes(scenario: &Scenario) -> Result<Vec<u8>, FormatError> {
-    // What one form can't hold, the other doesn't either.
+    // What one form can't hold, the other mustn't either.
     to_json(scenario)?;
     let mut body = Vec::new();
     ciborium::into_writer(scenario, &mut body).map_err(|error| FormatError::Write(error.to_string()))?;
@@ -27,7 +28,7 @@ pub fn to_bytes(scenario: &Scenario) -> Result<Vec<u8>, FormatError> {
     Ok(file)
 }
 
-/// Reads a scenario in the compact form; what it returns is safe to run.
+/// Reads a scenario in the compact form. The result is safe to run.
 ///
 /// # Errors
 /// [`FormatError`] for anything but an unchanged file of this version.

@@ -3,12 +3,12 @@
 use super::{below, visible};
 use crate::behavior::{Act, Behavior, Do, Node, Then};
 
-/// Most nodes of one behaviour.
+/// The most nodes of one behaviour.
 const NODES_MAX: usize = 20_000;
-/// Most watches of one behaviour: each is looked at in every step.
+/// The most watches of one behaviour; each is checked in every step.
 const WATCHES_MAX: usize = 1_000;
 
-/// Says what is wrong with the nodes and watches, if anything; the program is checked apart.
+/// Checks the nodes and watches; the program is checked separately.
 pub(super) fn verify_nodes(behavior: &Behavior, n_scripts: usize) -> Result<(), String> {
     let n = behavior.nodes.len();
     if n > NODES_MAX || behavior.watches.len() > WATCHES_MAX {

@@ -3,7 +3,8 @@
 use super::words;
 
 words! {
-    /// An action, in the order of GRF's `full` set; the first 19 are its `default` set, the 20th completes its `v2` set.
+    /// An action, in the order of GRF's `full` set; the first 19 are its `default` set, the 20th
+    /// completes its `v2` set.
     Action {
         Idle = "idle", "no change; held directions, sprint and dribble go on";
         Left = "left", "run towards the own goal";
@@ -67,7 +68,8 @@ impl Action {
 }
 
 words! {
-    /// A held action, in the order of GRF's `sticky_actions` vector; the first 10 are those of the `default` set.
+    /// A held action, in the order of GRF's `sticky_actions` vector; the first 10 are those of the
+    /// `default` set.
     StickyAction {
         Left = "left", "held direction";
         TopLeft = "top_left", "held direction";
@@ -86,6 +88,6 @@ words! {
 }
 
 impl StickyAction {
-    /// How many GRF's `default` and `v2` sets have.
+    /// How many of them GRF's `default` and `v2` sets have.
     pub const DEFAULT_SET: usize = 10;
 }

@@ -1,9 +1,9 @@
-//! What happens in a match.
+//! The events of a match.
 
 use super::{Type, words};
 
 words! {
-    /// An event. `by` is who did it, `to` whom it reached or hurt.
+    /// An event. `by` is the player who did it, `to` the one who received it or was hurt.
     EventKind {
         Goal = "goal", "a goal; by the team whose score rose, or the player who touched last";
         OwnGoal = "own_goal", "a goal by a player of the conceding team; by the scorer";
@@ -43,8 +43,8 @@ words! {
     /// A refinement of an event.
     Qualifier {
         Attempted = "attempted", "of a pass: it was struck (the meaning of a bare `pass`)";
-        Completed = "completed", "of a pass: a team mate took it";
-        Intercepted = "intercepted", "of a pass: an opponent took it";
+        Completed = "completed", "of a pass: a teammate received it";
+        Intercepted = "intercepted", "of a pass: an opponent got it";
         OnTarget = "on_target", "of a shot: a goal, or saved on its way in";
         OffTarget = "off_target", "of a shot: it missed";
         Blocked = "blocked", "of a shot: an outfield opponent stopped it";
@@ -76,27 +76,28 @@ impl EventKind {
         matches!(self, EventKind::Pass | EventKind::Tackle | EventKind::Foul | EventKind::Advantage)
     }
 
-    /// Whether the event names who did it.
+    /// Whether the event names the player who did it.
     pub const fn has_actor(self) -> bool {
         !matches!(self, EventKind::HalfTime | EventKind::FullTime | EventKind::End)
     }
 }
 
 words! {
-    /// What an `on` block may read of its event.
+    /// The fields that an `on` block may read of its event.
     EventField {
-        By = "by", "who did it";
-        To = "to", "whom it reached or hurt";
+        By = "by", "the player who did it";
+        To = "to", "the player who received it or was hurt";
         X = "x", "world x of the place, metres";
         Y = "y", "world y of the place, metres";
         Length = "length", "how far the ball travelled, metres";
         Speed = "speed", "the ball's speed, m/s";
-        ByTeam = "by_team", "the team of who did it";
+        ByTeam = "by_team", "the team of the player who did it";
     }
 }
 
 impl EventField {
-    /// The fields that the language shows as `event.NAME`, with their types; `at` is made of `X` and `Y`.
+    /// The fields that the language shows as `event.NAME`, with their types; `at` is made of `X`
+    /// and `Y`.
     pub const NAMED: &'static [(&'static str, Type)] = &[
         ("by", Type::Player),
         ("to", Type::Player),

@@ -8,7 +8,7 @@ words! {
         Abs = "abs", "abs(x): the absolute value, in the unit of x";
         Min = "min", "min(a, b, …) or min(E for p in S where C): the least";
         Max = "max", "max(a, b, …) or max(E for p in S where C): the greatest";
-        Clamp = "clamp", "clamp(x, low, high): x held between low and high";
+        Clamp = "clamp", "clamp(x, low, high): x limited to low..high";
         Exp = "exp", "exp(x): e to the power x";
         Log = "log", "log(x): the natural logarithm";
         Pow = "pow", "pow(x, y): x to the power y";
@@ -33,10 +33,10 @@ words! {
         Mean = "mean", "mean(E for p in S where C): the average";
         MinBy = "min_by", "min_by(E for p in S where C): the player with the least E";
         MaxBy = "max_by", "max_by(E for p in S where C): the player with the greatest E";
-        Exists = "exists", "exists(p): p is somebody";
+        Exists = "exists", "exists(p): whether p is a player (not nobody)";
         Pressed = "pressed", "pressed(p, within: d): an opponent of p is nearer than d";
         OffsideLine = "offside_line", "offside_line(team): normalised x of its offside line";
-        Closing = "closing", "closing(a, b): the length by which they came nearer in this step";
+        Closing = "closing", "closing(a, b): how much closer they came in this step";
         Prev = "prev", "prev(e): e one step ago";
         Delta = "delta", "delta(e): e less prev(e)";
         Potential = "potential", "potential(e, gamma: g): g times e less prev(e), shaping that changes no best policy";

@@ -19,7 +19,8 @@ words! {
 }
 
 impl Landmark {
-    /// The place in metres at the left team's end; the right team's is rotated by 180° but for top and bottom.
+    /// The place in metres at the left team's end. The right team's is rotated by 180°, except top
+    /// and bottom.
     pub fn left_m(self) -> (f64, f64) {
         match self {
             Landmark::Goal => (-HALF_LENGTH_M, 0.0),

@@ -1,4 +1,4 @@
-//! What a program may read of the match, and the names under which the language shows it.
+//! The fields of the match that programs read, and the names that the language gives them.
 
 use super::{Type, words};
 
@@ -11,7 +11,7 @@ words! {
         BallVx = "ball_vx", "m/s";
         BallVy = "ball_vy", "m/s";
         BallVz = "ball_vz", "m/s";
-        BallOwner = "ball_owner", "player id of who has the ball now, or -1";
+        BallOwner = "ball_owner", "id of the player who has the ball now, or -1";
         Possession = "possession", "the team that had the ball last: 0, 1, or -1 before anyone had";
         PlayerX = "player_x", "metres";
         PlayerY = "player_y", "metres";
@@ -22,7 +22,7 @@ words! {
         PlayerYellowCards = "player_yellow_cards", "count";
         PlayerRole = "player_role", "index of the role";
         PlayerActive = "player_active", "1 while on the pitch";
-        PlayerControlled = "player_controlled", "1 while an agent controls him";
+        PlayerControlled = "player_controlled", "1 while an agent controls the player";
         Score = "score", "goals of a team";
         TeamHasBall = "team_has_ball", "1 while a player of the team has the ball";
         OffsideLine = "offside_line", "world x of the line beyond which the team's players are offside, metres";
@@ -61,7 +61,7 @@ impl Field {
 }
 
 words! {
-    /// What a property belongs to.
+    /// The owner of a property.
     Owner {
         Ball = "ball", "the ball";
         Player = "player", "a player";
@@ -73,7 +73,7 @@ words! {
 /// A property as an author writes it: `ball.height`, `me.fatigue`, `elapsed`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Property {
-    /// What it belongs to.
+    /// Its owner.
     pub owner: Owner,
     /// The name after the dot (or alone, for the match).
     pub name: &'static str,
@@ -95,18 +95,18 @@ pub const PROPERTIES: &[Property] = &[
     property(Owner::Ball, "speed", Type::Speed, "in three dimensions"),
     property(Owner::Ball, "velocity", Type::Vector, "along the ground, m/s"),
     property(Owner::Ball, "heading", Type::Angle, "direction of its motion in the reader's frame"),
-    property(Owner::Ball, "owner", Type::Player, "who has it now, or nobody"),
+    property(Owner::Ball, "owner", Type::Player, "the player who has it now, or nobody"),
     property(Owner::Player, "x", Type::Number, "normalised x in the reader's frame"),
     property(Owner::Player, "y", Type::Number, "normalised y in the reader's frame"),
     property(Owner::Player, "speed", Type::Speed, "along the ground"),
     property(Owner::Player, "velocity", Type::Vector, "along the ground, m/s"),
-    property(Owner::Player, "heading", Type::Angle, "the way he faces, in the reader's frame"),
+    property(Owner::Player, "heading", Type::Angle, "the direction the player faces, in the reader's frame"),
     property(Owner::Player, "fatigue", Type::Number, "0 fresh to 1 exhausted"),
     property(Owner::Player, "yellow_cards", Type::Int, "cards so far"),
-    property(Owner::Player, "role", Type::Role, "his role"),
-    property(Owner::Player, "team", Type::Team, "his team"),
+    property(Owner::Player, "role", Type::Role, "the player's role"),
+    property(Owner::Player, "team", Type::Team, "the player's team"),
     property(Owner::Player, "active", Type::Bool, "still on the pitch"),
-    property(Owner::Player, "controlled", Type::Bool, "an agent controls him now"),
+    property(Owner::Player, "controlled", Type::Bool, "whether an agent controls the player now"),
     property(Owner::Match, "possession", Type::Team, "the team that had the ball last"),
     property(Owner::Match, "elapsed", Type::Duration, "since the episode's start"),
     property(Owner::Match, "remaining", Type::Duration, "until the episode's limit"),

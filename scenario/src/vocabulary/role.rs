@@ -20,7 +20,8 @@ impl Team {
         }
     }
 
-    /// +1 for the left team, -1 for the right: multiplies world coordinates into the own frame and back.
+    /// +1 for the left team, -1 for the right: multiplies world coordinates into the own frame and
+    /// back.
     pub const fn side(self) -> f64 {
         match self {
             Team::Left => 1.0,
@@ -46,7 +47,7 @@ words! {
 }
 
 impl Role {
-    /// Where the role stands in a 4-3-3, normalised own frame; a pair stands on either side of it.
+    /// Where the role stands in a 4-3-3, normalised own frame. A pair stands on either side of it.
     ///
     /// Source: the default kick-off layout of Google Research Football's full matches.
     pub const fn zone(self) -> (f64, f64) {
@@ -68,8 +69,8 @@ impl Role {
 words! {
     /// A statistic of a player, 0..1.
     Stat {
-        Balance = "balance", "keeps his feet in duels and bumps";
-        Reaction = "reaction", "shortens the delay with which he sees the game";
+        Balance = "balance", "keeps their feet in duels and collisions";
+        Reaction = "reaction", "shortens the delay with which they see the game";
         Acceleration = "acceleration", "gains speed quickly";
         Speed = "speed", "top speed, 7.2 m/s at 0 to 8.0 m/s at 1";
         Stamina = "stamina", "tires slowly";

@@ -14,17 +14,17 @@ words! {
         BackPass = "back_pass", "the keeper may not handle a deliberate back pass";
         Fatigue = "fatigue", "running tires";
         Stochastic = "stochastic", "chance in play follows the seed";
-        Assist = "assist", "the controlled player runs to a ball that is his (GRF's magnet)";
-        AntiStalling = "anti_stalling", "a set piece that is not taken is taken for the agent";
+        Assist = "assist", "the controlled player runs to a ball that is theirs (GRF's magnet)";
+        AntiStalling = "anti_stalling", "a set piece that the agent does not take is taken for it";
         HalfTime = "half_time", "step of the half-time, 0 for none";
-        GrfKeeper = "grf_keeper", "an agent's keeper can't use his hands, as in GRF";
+        GrfKeeper = "grf_keeper", "an agent's keeper can't use their hands, as in GRF";
         SixSeconds = "six_seconds", "a keeper who holds the ball for longer than six seconds gives a free kick away";
         Physics = "physics", "gated: rapier resolves contacts; full: rapier runs on every tick";
     }
 }
 
 impl Rule {
-    /// The value where a scenario says nothing: 1 is on, 0 off; `physics` is 0 for gated, 1 for full.
+    /// The default value: 1 is on, 0 off; `physics` is 0 for gated, 1 for full.
     pub const fn default_value(self) -> f64 {
         match self {
             Rule::Handball | Rule::HalfTime | Rule::GrfKeeper | Rule::Physics => 0.0,
@@ -60,7 +60,7 @@ words! {
 }
 
 words! {
-    /// What an ending says of the episode.
+    /// The verdict of an ending on the episode.
     Verdict {
         Success = "success", "the side with agents reached its aim";
         Failure = "failure", "the side with agents failed";

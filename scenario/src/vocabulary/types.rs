@@ -28,7 +28,7 @@ words! {
 }
 
 impl Type {
-    /// The type in a sentence, with an example where its writing is not plain.
+    /// The type in a sentence, with an example if its notation isn't obvious.
     pub const fn noun(self) -> &'static str {
         match self {
             Type::Number => "a number",
@@ -55,7 +55,7 @@ impl Type {
 }
 
 words! {
-    /// A unit that touches its number.
+    /// A unit that directly follows its number.
     Unit {
         MetrePerSecond = "m/s", "metres per second";
         KilometrePerHour = "km/h", "kilometres per hour";
@@ -83,7 +83,7 @@ impl Unit {
         }
     }
 
-    /// A number of this unit in SI, rounded once: 3 steps are 0.3 s, as 0.3 s and 300 ms are.
+    /// A number of this unit in SI, rounded once, so that 3 steps equal 0.3 s and 300 ms.
     pub const fn si(self, number: f64) -> f64 {
         match self {
             Unit::KilometrePerHour => number / 3.6,

@@ -1,10 +1,11 @@
-//! A measurement for criterion: the thread's CPU time, so that a busy machine changes little.
+//! A measurement for criterion: the thread's CPU time, so that other load on the machine matters
+//! little.
 
 use cpu_time::ThreadTime;
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use std::time::Duration;
 
-/// The thread's CPU time in place of the wall clock's.
+/// The thread's CPU time instead of the wall clock's.
 pub(crate) struct CpuTime;
 
 impl Measurement for CpuTime {

@@ -1,4 +1,5 @@
-//! What is done once an episode, or once an observation: to create, to reset, to keep a state and go back to it, to look.
+//! Measures what is done once per episode or once per observation: creating, resetting, saving and
+//! restoring a state, observing.
 
 use super::BenchOptions;
 use crate::Error;
@@ -11,38 +12,40 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// How many times each is tried to find the quickest run of it, which no other work has disturbed.
+/// Runs per measurement. The fastest counts, because other work has disturbed it least.
 const RUNS: u32 = 20;
 
-/// What [`once`] measures, in its order:
+/// What [`once`] measures, in order:
 /// - `create`: an environment from a loaded scenario, and its first reset;
-/// - `reset`: a later one;
-/// - `memory`: the state copied to another environment and back;
-/// - `to_bytes`, `from_bytes`: a snapshot taken, and gone back to;
-/// - `simple115v2`, `smm`: the first agent's observation written, 115 floats or 72 by 96 by 4 bytes; 0 without agents.
+/// - `reset`: a later reset;
+/// - `memory`: copying the state to another environment and back;
+/// - `to_bytes`, `from_bytes`: taking and restoring a snapshot;
+/// - `simple115v2`, `smm`: writing the first agent's observation, 115 floats or 72 by 96 by 4
+///   bytes; 0 without agents.
 pub const ONCE_NAMES: [&str; 7] = ["create", "reset", "memory", "to_bytes", "from_bytes", "simple115v2", "smm"];
 
-/// Microseconds of each of [`ONCE_NAMES`]: the least of some runs' means, wall time on one thread.
+/// Microseconds of each of [`ONCE_NAMES`]: the least of several runs' means, wall time on one
+/// thread.
 ///
 /// # Errors
-/// As [`super::measure`].
+/// Like [`super::measure`].
 pub fn once(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<[f64; ONCE_NAMES.len()], Error> {
     let create = || Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment);
-    let told = |why: EpisodeError| Error::Episode(Box::new(why));
+    let failed = |why: EpisodeError| Error::Episode(Box::new(why));
     let mut played = create()?;
     let mut seed = options.seed;
     let mut reset = |environment: &mut Environment| {
         seed = seed.wrapping_add(1);
-        environment.reset(Some(seed), None).map_err(|why| told(why.into()))
+        environment.reset(Some(seed), None).map_err(|why| failed(why.into()))
     };
-    // In the midst of an episode, so that there is something to keep.
+    // In the middle of an episode, so that there is something to save.
     reset(&mut played)?;
     let (idle, mut scratch) = (vec![Action::Idle; played.n_agents()], Scratch::default());
     for _ in 0..20 {
         if !played.is_running() {
             reset(&mut played)?;
         }
-        played.step(&idle, &mut scratch).map_err(|why| told(why.into()))?;
+        played.step(&idle, &mut scratch).map_err(|why| failed(why.into()))?;
     }
     let mut kept = played.clone();
     let bytes = played.snapshot().map_err(Error::Snapshot)?;
@@ -63,7 +66,7 @@ pub fn once(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<[f64; ON
         timed(each, || played.snapshot().map(|bytes| drop(black_box(bytes))).map_err(Error::Snapshot))?,
         timed(each, || kept.restore(black_box(&bytes)).map_err(Error::Snapshot))?,
         timed(if looks { each } else { Duration::ZERO }, || {
-            // The buffer has the size that the observation asks for.
+            // The buffer has the size of the observation.
             let _ = black_box(&mut played).observe(Floats::Simple115v2, 0, &mut floats);
             black_box(&floats);
             Ok(())
@@ -76,7 +79,7 @@ pub fn once(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<[f64; ON
     ])
 }
 
-/// Does something for a while; the microseconds that it takes, 0 for no while.
+/// Repeats an action for a while and returns its microseconds; 0 for a zero duration.
 fn timed(duration: Duration, mut act: impl FnMut() -> Result<(), Error>) -> Result<f64, Error> {
     if duration.is_zero() {
         return Ok(0.0);
@@ -84,7 +87,7 @@ fn timed(duration: Duration, mut act: impl FnMut() -> Result<(), Error>) -> Resu
     let mut least = f64::INFINITY;
     for _ in 0..RUNS {
         let (begun, mut times) = (Instant::now(), 0u32);
-        // In tens, so that the clock is no part of it.
+        // In tens, so that reading the clock doesn't count.
         while times == 0 || begun.elapsed() < duration / RUNS {
             for _ in 0..10 {
                 act()?;

@@ -1,4 +1,5 @@
-//! What more threads bring, beside what they bring to a loop of bare arithmetic on the same machine at the same time.
+//! The gain from more threads, relative to their gain in a loop of bare arithmetic on the same
+//! machine at the same time.
 
 use super::{BenchOptions, measure};
 use crate::Error;
@@ -10,14 +11,14 @@ use std::time::{Duration, Instant};
 /// Rounds in which the four measurements take turns.
 const ROUNDS: usize = 5;
 
-/// The gain of `options.threads` threads over one (of as many as there are matches), as a share of what bare arithmetic
-/// gains: the median of some rounds.
+/// The gain of `options.threads` threads over one (with at most one thread per match), as a share
+/// of the gain of bare arithmetic: the median of several rounds.
 ///
 /// # Errors
-/// As [`measure`].
+/// Like [`measure`].
 pub fn scaling(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<f64, Error> {
     let each = options.duration / ROUNDS as u32;
-    // A match has one thread at a time.
+    // A match uses one thread at a time.
     let threads = options.threads.min(options.matches);
     let steps = |threads| {
         let options = BenchOptions { threads, duration: each, ..options.clone() };
@@ -32,7 +33,7 @@ pub fn scaling(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<f64, 
     Ok(shares[ROUNDS / 2])
 }
 
-/// Rounds of a loop without memory per second, on so many threads.
+/// Rounds per second of a loop without memory access, on this many threads.
 fn arithmetic(threads: usize, duration: Duration) -> f64 {
     let work = || {
         let (begun, mut rounds, mut value) = (Instant::now(), 0u64, 1u64);

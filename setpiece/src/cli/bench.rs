@@ -13,33 +13,36 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// What is measured unless something is named: the game of eleven, a small one, an empty one.
+/// The default scenarios: the game of eleven, a small one, an empty one.
 const SCENARIOS: [&str; 3] = ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper", "academy_empty_goal_close"];
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
-    /// Scenarios of the library, .pitch or .pitchc files [default: three of the library, of 22, 6 and 3 players]
+    /// Scenarios of the library, .pitch or .pitchc files [default: three of the library, of 22, 6
+    /// and 3 players]
     #[arg(value_name = "SCENARIO")]
     scenarios: Vec<OsString>,
-    /// Threads; several numbers with commas between them [default: 1 and one per core]
+    /// Numbers of threads, separated by commas [default: 1 and one per core]
     #[arg(short, long, value_name = "N", value_delimiter = ',', value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
     threads: Vec<u16>,
-    /// How many matches are stepped together; several numbers with commas between them
+    /// How many matches are stepped together; several numbers separated by commas
     #[arg(short, long, value_name = "N", default_value = "64", value_delimiter = ',', value_parser = RangedU64ValueParser::<u32>::new().range(1..=100_000))]
     matches: Vec<u32>,
-    /// How long each line is measured; with warm-up, phases and scaling it takes five to thirteen times as long
+    /// How long each line is measured; with warm-up, phases and scaling it takes five to thirteen
+    /// times as long
     #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds)]
     seconds: f64,
-    /// Who plays for the agents
+    /// Who controls the agents
     #[arg(short, long, value_enum, default_value_t = AgentName::Random)]
     agent: AgentName,
-    /// What the agents are shown after every step
+    /// The observation of the agents after every step
     #[arg(short, long, value_enum, default_value_t = ObservationName::Simple115v2)]
     observation: ObservationName,
-    /// How to print what came out
+    /// The output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Compare with what `--format jsonl` printed before on this machine: the ratio of steps per CPU-second
+    /// Compare with an earlier output of `--format jsonl` on this machine: the ratio of steps per
+    /// CPU-second
     #[arg(long, value_name = "FILE")]
     against: Option<PathBuf>,
 }
@@ -58,7 +61,7 @@ enum ObservationName {
 enum Format {
     /// A table
     Text,
-    /// One JSON object a line, for `--against`
+    /// One JSON object per line, for `--against`
     Jsonl,
 }
 
@@ -73,16 +76,17 @@ struct Row {
     steps_per_second: f64,
     steps_per_cpu_second: f64,
     resets_per_step: f64,
-    /// Steps per CPU-second against those of `--against`, where it has such a row.
+    /// Ratio of steps per CPU-second to those of `--against`, if it has such a row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ratio: Option<f64>,
-    /// The gain over one thread as a share of what bare arithmetic gains; on several threads alone.
+    /// The gain over one thread as a share of the gain of bare arithmetic; only with several
+    /// threads.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     scaling: Option<f64>,
-    /// By phase; on one thread alone.
+    /// By phase; only with one thread.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     microseconds: BTreeMap<String, f64>,
-    /// What is done once, [`once`]; on one thread alone.
+    /// The results of [`once`]; only with one thread.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     once_microseconds: BTreeMap<String, f64>,
 }

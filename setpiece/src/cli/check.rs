@@ -1,4 +1,4 @@
-//! `setpiece check`: every problem of some files.
+//! `setpiece check`: reports every problem of some files.
 
 use super::{FAULT, FINE, MessageFormat, out::Out};
 use crate::Error;
@@ -10,10 +10,10 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// How often the watcher looks up.
+/// How often the watcher checks.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Checks files again and again, as soon as one of them or of what they import has changed.
+/// Checks files again whenever one of them, or one of their imports, has changed.
 pub(crate) fn watch(files: &[OsString], format: MessageFormat, out: &Out) -> Result<u8, Error> {
     let mut inputs = Vec::new();
     check(files, format, out, &mut inputs);
@@ -29,7 +29,7 @@ pub(crate) fn watch(files: &[OsString], format: MessageFormat, out: &Out) -> Res
     }
 }
 
-/// Compiles each file and prints what was found; adds the files that were read to `inputs`.
+/// Compiles each file and prints its problems; adds the files that were read to `inputs`.
 pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs: &mut Vec<PathBuf>) -> u8 {
     let mut failed = false;
     let mut array = Vec::new();
@@ -43,7 +43,7 @@ pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs
                     MessageFormat::Human => out.error(&error),
                     MessageFormat::Json => array.push(bare(&error, &name)),
                 }
-                // A file that is not there may come.
+                // A missing file may appear later.
                 inputs.push(PathBuf::from(file));
                 continue;
             }
@@ -72,7 +72,7 @@ pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs
     if failed { FAULT } else { FINE }
 }
 
-/// A fault that has no place in a text, in the shape of the others.
+/// An error without a place in a text, in the same shape as the others.
 fn bare(error: &Error, file: &str) -> serde_json::Value {
     serde_json::json!({
         "code": error.code().to_string(), "severity": "error", "message": error.to_string(), "help": error.help(),

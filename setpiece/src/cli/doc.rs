@@ -18,10 +18,10 @@ pub(crate) struct DocArgs {
     /// Where to write the page [default: standard output]
     #[arg(short, long, value_name = "OUT.md")]
     output: Option<PathBuf>,
-    /// Draw a start too, as SVG
+    /// Also draw a start, as SVG
     #[arg(short, long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
-    /// The seed of the start that is shown
+    /// The seed of that start
     #[arg(short, long, value_name = "S", default_value_t = 0)]
     seed: u64,
 }
@@ -55,7 +55,7 @@ pub(crate) fn doc(args: &DocArgs, out: &Out) -> Result<u8, Error> {
     Ok(FINE)
 }
 
-/// How a page names a picture: by its file's name where they are neighbours.
+/// How a page refers to a picture: by its file name if both are in one folder.
 fn linked(picture: &Path, page: Option<&Path>) -> String {
     let beside = page.is_some_and(|page| page.parent() == picture.parent());
     let name = picture.file_name().filter(|_| beside).map_or(picture.as_os_str(), |name| name);

@@ -1,4 +1,4 @@
-//! `setpiece fmt`: files in the one layout.
+//! `setpiece fmt`: formats files.
 
 use super::{FAULT, FINE, out::Out};
 use crate::Error;
@@ -14,12 +14,12 @@ pub(crate) struct FmtArgs {
     /// .pitch files, folders of them, or `-` for standard input
     #[arg(value_name = "FILE", default_value = ".")]
     files: Vec<PathBuf>,
-    /// Write nothing; name the files that are laid out otherwise, and exit with 1 if there are any
+    /// Write nothing; list the files that would change, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
 }
 
-/// Lays the files out; what can't be read is reported and left alone.
+/// Formats the files. A file that can't be read is reported and left alone.
 pub(crate) fn fmt(args: &FmtArgs, out: &Out) -> u8 {
     let (mut changed, mut same, mut failed) = (0, 0, 0);
     for file in &args.files {
@@ -48,7 +48,7 @@ pub(crate) fn fmt(args: &FmtArgs, out: &Out) -> u8 {
     if failed > 0 || (args.check && changed > 0) { FAULT } else { FINE }
 }
 
-/// Lays one file out; whether that changes it.
+/// Formats one file. Returns whether that changes it.
 fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
     let piped = path.as_os_str() == "-";
     let name = if piped { PathBuf::from("<stdin>") } else { path.to_owned() };
@@ -65,7 +65,7 @@ fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
         (true, _) if changes => out.line(&source.name),
         (false, true) => out.text(&formatted),
         (false, false) if changes => {
-            // Through a link, so that it stays one.
+            // Writes through a link, so that it stays a link.
             write(&path.canonicalize().unwrap_or(name), &formatted)?;
             out.line(&source.name);
         }
@@ -74,7 +74,7 @@ fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
     Ok(changes)
 }
 
-/// Every `.pitch` file below a folder but for hidden folders, sorted.
+/// Every `.pitch` file below a folder, except in hidden folders, sorted.
 fn pitch_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let fault = |why: std::io::Error| Error::File { path: folder.to_owned(), why: FileFault::Io(why.to_string()) };
     let mut files = Vec::new();

@@ -1,4 +1,4 @@
-//! Printing: text to standard output, problems to standard error, colour where it is wanted.
+//! Printing: text to standard output, problems to standard error, in colour if wanted.
 
 use super::Colour;
 use crate::drawing::Paint;
@@ -9,17 +9,17 @@ use owo_colors::OwoColorize;
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 
-/// Where and how to print, and what every command may read.
+/// Where and how to print, and what commands may read.
 pub(crate) struct Out {
     stdout_colour: bool,
     stderr_colour: bool,
     failed: Cell<bool>,
-    /// Whether imports and scripts may lie outside of a scenario's folder.
+    /// Whether imports and scripts may lie outside the scenario's folder.
     pub(crate) allow_outside: bool,
 }
 
 impl Out {
-    /// Colour as asked for; `auto` looks at the terminal and `NO_COLOR`.
+    /// Uses colour as requested; `auto` checks the terminal and `NO_COLOR`.
     pub(crate) fn new(colour: Colour, allow_outside: bool) -> Out {
         let wanted = |terminal: bool| match colour {
             Colour::Always => true,
@@ -39,15 +39,15 @@ impl Out {
         LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() }
     }
 
-    /// Prints a line; a reader that has gone away (`| head`) is no error, a full disk is.
+    /// Prints a line. A closed reader (`| head`) isn't an error, but a full disk is.
     pub(crate) fn line(&self, text: &str) {
         self.text(&format!("{text}\n"));
     }
 
-    /// Prints a text; control characters that an author has written don't reach the terminal.
+    /// Prints a text. On a terminal, control characters from an author's text are removed.
     pub(crate) fn text(&self, text: &str) {
         let mut stdout = std::io::stdout();
-        // A file or another program gets what was written.
+        // A file or another program gets the text unchanged.
         let text = if stdout.is_terminal() { printable(text, self.stdout_colour) } else { text.into() };
         if let Err(why) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush())
             && why.kind() != std::io::ErrorKind::BrokenPipe
@@ -66,7 +66,7 @@ impl Out {
         let _ = writeln!(std::io::stderr(), "{}", printable(text, self.stderr_colour));
     }
 
-    /// Bold, padded to `width` before the escapes count.
+    /// Bold, padded to `width` (escapes don't count).
     pub(crate) fn bold(&self, text: &str, width: usize) -> String {
         let text = format!("{text:width$}");
         if self.stdout_colour { text.bold().to_string() } else { text }
@@ -77,7 +77,7 @@ impl Out {
         if self.stdout_colour { text.dimmed().to_string() } else { text.to_owned() }
     }
 
-    /// In the colour of what it stands for.
+    /// In the colour of its meaning.
     pub(crate) fn paint(&self, text: &str, paint: Paint) -> String {
         if !self.stdout_colour {
             return text.to_owned();

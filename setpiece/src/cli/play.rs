@@ -1,4 +1,4 @@
-//! `setpiece run`: episodes of a scenario, once or whenever its file changes.
+//! `setpiece run`: plays episodes of a scenario, once or whenever its file changes.
 
 use super::{FAULT, FINE, out::Out, playing::Playing, summary};
 use crate::engine::environment::EnvironmentOptions;
@@ -12,25 +12,25 @@ use std::io::IsTerminal;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// How long a reload may look for what only a dry run finds.
+/// Time that a reload may spend on the dry run.
 const PROBE: Duration = Duration::from_millis(10);
-/// How often a progress bar and a watcher look up.
+/// How often a progress bar and a watcher update.
 const TICK: Duration = Duration::from_millis(200);
 
 #[derive(Args, Debug)]
 pub(crate) struct RunArgs {
     #[command(flatten)]
     playing: Playing,
-    /// How many episodes
+    /// The number of episodes
     #[arg(short = 'n', long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
     episodes: u64,
-    /// Pay this reward in place of the scenario's own; may be repeated, or several with commas between them
+    /// Pay this reward instead of the scenario's own; may be repeated or separated by commas
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     reward: Vec<String>,
     /// Threads; the results don't depend on them [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
     threads: Option<u16>,
-    /// How to print what came of it
+    /// The output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// Run again whenever the file, or one it imports, changes
@@ -101,7 +101,8 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
     summary
 }
 
-/// Runs episode by episode: a changed file takes effect at the next one, a broken one leaves the last good one running.
+/// Runs episode by episode. A changed file takes effect at the next one; a broken one leaves the
+/// last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let mut live = Live::open(&args.playing.scenario, out.allow_outside)?;
     out.warnings(live.loaded());
@@ -137,7 +138,7 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     }
 }
 
-/// Takes a changed file; says what is wrong with a broken one, and the last good scenario goes on.
+/// Loads a changed file. If it is broken, reports why and keeps the last good scenario.
 fn reload(args: &RunArgs, live: &mut Live, timeout: Duration, out: &Out) -> Option<(Arc<Scenario>, RunOptions)> {
     let fresh = live.poll(timeout)?.and_then(|fresh| Ok((fresh, options(args, fresh)?)));
     match fresh {

@@ -1,4 +1,5 @@
-//! What commands that play episodes ask for alike: the scenario, its parameters, who plays, the seed, the physics.
+//! Options shared by commands that play episodes: the scenario, its parameters, the agent, the
+//! seed, the physics.
 
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{EnvironmentOptions, Physics};
@@ -14,10 +15,10 @@ pub(crate) struct Playing {
     /// A scenario of the library, a .pitch file or a compiled .pitchc file
     #[arg(value_name = "SCENARIO")]
     pub(crate) scenario: OsString,
-    /// Who plays for the agents
+    /// Who controls the agents
     #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
     agent: AgentName,
-    /// The seed: the same one gives the same episodes
+    /// The seed; the same seed gives the same episodes
     #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Set a parameter of the scenario; may be repeated
@@ -26,7 +27,7 @@ pub(crate) struct Playing {
     /// How the ball's contacts are found [default: as the scenario says]
     #[arg(long, value_enum)]
     physics: Option<PhysicsName>,
-    /// Begin every episode in the state of a snapshot, not at the scenario's start
+    /// Begin every episode in the state of a snapshot instead of the scenario's start
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
 }
@@ -34,7 +35,7 @@ pub(crate) struct Playing {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 pub(crate) enum AgentName {
-    /// The 19 actions at random
+    /// Uniform over the 19 actions
     Random,
     /// Nothing
     Idle,
@@ -46,7 +47,7 @@ pub(crate) enum AgentName {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum PhysicsName {
-    /// Rapier is asked where the ball comes near something hard
+    /// Rapier runs only if the ball comes near something hard
     Gated,
     /// Rapier runs on every tick
     Full,
@@ -60,7 +61,7 @@ fn pair(text: &str) -> Result<(String, String), String> {
 }
 
 impl AgentName {
-    /// Who that is.
+    /// The engine's agent.
     pub(crate) fn agent(self) -> Agent {
         match self {
             AgentName::Random => Agent::Random,
@@ -72,7 +73,7 @@ impl AgentName {
 }
 
 impl Playing {
-    /// Who plays for the agents.
+    /// The agent that plays every slot.
     pub(crate) fn agent(&self) -> Agent {
         self.agent.agent()
     }
@@ -80,8 +81,8 @@ impl Playing {
     /// The parameters, the physics and the snapshot to begin from, with the scenario's own rewards.
     ///
     /// # Errors
-    /// [`Error::Param`] for a parameter that the scenario doesn't have, or a value that it doesn't allow;
-    /// [`Error::File`] where the snapshot can't be read.
+    /// [`Error::Param`] for an unknown parameter or a value that isn't allowed; [`Error::File`] if
+    /// the snapshot can't be read.
     pub(crate) fn environment(&self, loaded: &Loaded) -> Result<EnvironmentOptions, Error> {
         let pairs = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
         Ok(EnvironmentOptions {

@@ -1,4 +1,4 @@
-//! `setpiece render`: an episode as a sheet of frames, or one moment of it large.
+//! `setpiece render`: draws an episode as a sheet of frames, or one moment of it large.
 
 use super::{FAULT, FINE, out::Out, playing::Playing};
 use crate::Error;
@@ -17,10 +17,10 @@ pub(crate) struct RenderArgs {
     /// Where to write the picture
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
-    /// Which episode of the seed
+    /// The episode's index under the seed
     #[arg(short, long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     episode: u64,
-    /// Draw one moment large: that after so many steps, 0 for the start
+    /// Draw one large moment: the state after this many steps, 0 for the start
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     step: Option<u32>,
 }
@@ -53,7 +53,7 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
             film(&loaded.scenario, &options)?
         }
     };
-    let (picture, told) = match args.step {
+    let (picture, shown) = match args.step {
         None => (sheet(&film), format!("{} steps", film.length())),
         Some(step) => {
             let length = film.length();
@@ -64,6 +64,6 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
     let fault = |why: String| Error::File { path: path.clone(), why: FileFault::Write(why) };
     let picture = picture.ok_or_else(|| fault("the picture is too large".to_owned()))?;
     write(path, picture.encode_png().map_err(|why| fault(why.to_string()))?)?;
-    out.line(&format!("{}, {} · {told} → {}", film.name, film.origin, path.display()));
+    out.line(&format!("{}, {} · {shown} → {}", film.name, film.origin, path.display()));
     Ok(FINE)
 }

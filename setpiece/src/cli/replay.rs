@@ -1,4 +1,4 @@
-//! `setpiece replay`: plays a recorded episode again, and tells what it was.
+//! `setpiece replay`: plays a recorded episode again and describes it.
 
 use super::{FINE, out::Out};
 use crate::Error;
@@ -17,7 +17,7 @@ pub(crate) struct ReplayArgs {
     /// A recorded episode (.pitchr)
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// How to tell it
+    /// The output format
     #[arg(long, value_enum, default_value_t = ReplayFormat::Text)]
     format: ReplayFormat,
 }
@@ -26,20 +26,20 @@ pub(crate) struct ReplayArgs {
 enum ReplayFormat {
     /// In a few lines
     Text,
-    /// A JSON object for the start and for every step, a line each
+    /// One JSON object per line, for the start and for every step
     Jsonl,
 }
 
-/// Plays it.
+/// Plays the episode.
 pub(crate) fn replay(args: &ReplayArgs, out: &Out) -> Result<u8, Error> {
     let replay = Replay::from_bytes(&read_file(&args.file, REPLAY_MAX_BYTES)?)?;
-    let told = args.format == ReplayFormat::Jsonl;
+    let as_jsonl = args.format == ReplayFormat::Jsonl;
     let environment = replay.play(|environment, actions| {
-        if told {
+        if as_jsonl {
             out.line(&moment(environment, actions).to_string());
         }
     })?;
-    if !told {
+    if !as_jsonl {
         summary(&replay, &environment, out);
     }
     Ok(FINE)
@@ -105,7 +105,7 @@ fn moment(environment: &Environment, actions: &[Action]) -> Value {
     })
 }
 
-/// A number as people read it.
+/// Rounds a number for readers.
 fn round(value: f64) -> f64 {
     (value * 1e5).round() / 1e5
 }

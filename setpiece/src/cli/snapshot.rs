@@ -17,10 +17,10 @@ pub(crate) struct SnapshotArgs {
     /// Where to write it
     #[arg(short, long, value_name = "OUT.pitchs")]
     output: PathBuf,
-    /// Which episode of the seed
+    /// The episode's index under the seed
     #[arg(short, long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     episode: u64,
-    /// After how many steps of 0.1 s
+    /// The number of steps of 0.1 s to play
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     step: u32,
 }

@@ -1,4 +1,4 @@
-//! What came of a run: a table, one JSON object, or one line per episode.
+//! Prints the results of a run: a table, one JSON object, or one line per episode.
 
 use super::out::Out;
 use crate::Error;
@@ -41,7 +41,7 @@ struct Score {
     right: f64,
 }
 
-/// What came of a run as one JSON object.
+/// The results of a run as one JSON object.
 pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary) -> String {
     let mut outcomes = BTreeMap::new();
     for (label, _, count) in &summary.outcomes {
@@ -67,7 +67,7 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
     serde_json::to_string(&report).unwrap_or_default()
 }
 
-/// The table, below a drawing of the first episode's start.
+/// Prints the table, below a drawing of the first episode's start.
 pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Summary, out: &Out) -> Result<(), Error> {
     out.line(&format!("{}  {}", out.bold(&scenario.name, 0), scenario.title()));
     let mut environment =
@@ -103,8 +103,8 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
         out.line(&format!("  {:width$}    {mean:+.3}  {name}", ""));
     }
     if summary.faults > 0 {
-        let told = format!("{} values were not finite and were not paid: a division by zero?", summary.faults);
-        out.line(&format!("  {:width$}    {}", "", out.paint(&told, Paint::Failure)));
+        let note = format!("{} values were not finite and were not paid: a division by zero?", summary.faults);
+        out.line(&format!("  {:width$}    {}", "", out.paint(&note, Paint::Failure)));
     }
     out.line(&format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
     for (index, (name, mean)) in summary.records.iter().enumerate() {
@@ -126,7 +126,7 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
     Ok(())
 }
 
-/// One line about an episode, for watching.
+/// One line about an episode, for `--watch`.
 pub(crate) fn episode_line(episode: &EpisodeSummary, out: &Out) -> String {
     let paint = match episode.verdict {
         Some(Verdict::Success) => Paint::Success,

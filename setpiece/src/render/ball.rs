@@ -1,4 +1,4 @@
-//! The ball: the nearer it is to the eye the larger, apart from its shadow by its height.
+//! The ball: larger the nearer it is to the viewer, and separated from its shadow by its height.
 
 use super::canvas::{Canvas, at};
 use super::colours::{BALL, DARK, SHADOW, faded};
@@ -9,17 +9,17 @@ use super::view::View;
 use crate::scenario::pitch::BALL_RADIUS_M;
 use tiny_skia::Point;
 
-/// Radius of the ball on the ground, metres, and its least, pixels: larger than life.
+/// Radius of the ball on the ground, metres, and its least, pixels; larger than life.
 const RADIUS_M: f32 = 0.44;
 const RADIUS_LEAST: f32 = 3.6;
-/// How far up the picture a metre of height lifts it, metres.
+/// How far a metre of height lifts it up the picture, metres.
 const LIFT: f32 = 0.8;
-/// How much larger a metre of height makes it.
+/// How much a metre of height enlarges it.
 const GROWTH: f32 = 0.055;
-/// Above this height it is said, metres.
+/// Above this height the height is written, metres.
 const TOLD_M: f32 = 0.5;
 
-/// Draws the ball of the last scene and the way that led there.
+/// Draws the ball of the last scene and its trail.
 pub fn draw(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene]) {
     let Some(now) = scenes.last() else { return };
     let radius = view.length(RADIUS_M).max(RADIUS_LEAST);
@@ -40,7 +40,7 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene]) {
     }
 }
 
-/// How high it is above where it lies on the ground, metres.
+/// The height above its place at rest, metres.
 fn height_m(scene: &Scene) -> f32 {
     (scene.ball[2] - BALL_RADIUS_M as f32).max(0.0)
 }
@@ -51,7 +51,7 @@ fn lifted(view: &View, scene: &Scene) -> Point {
     at(middle.x, middle.y.max(view.length(1.0)))
 }
 
-/// The way through the air, and in the grass its shadow.
+/// The path through the air, and its shadow on the grass.
 fn trail(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene], radius: f32) {
     if scenes.iter().any(|scene| height_m(scene) > TOLD_M) {
         let ground: Vec<Point> = scenes.iter().map(|scene| view.point(scene.ball[0], scene.ball[1])).collect();
@@ -61,7 +61,7 @@ fn trail(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene], radius: f32) {
     canvas.tail(&air, radius * 1.3, faded(BALL, 0.9));
 }
 
-/// What makes a white disc a football.
+/// The spots that make a white disc a football.
 fn spots(canvas: &mut Canvas<'_>, middle: Point, size: f32) {
     if size < 6.0 {
         return;

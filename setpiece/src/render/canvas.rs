@@ -1,6 +1,6 @@
-//! A picture that shapes are drawn on, pixels from the upper left corner.
+//! A picture to draw shapes on, in pixels from the upper left corner.
 //!
-//! A shape that can't be drawn (of no size, beyond all numbers) is left out.
+//! A shape that can't be drawn (empty, or with non-finite coordinates) is left out.
 
 use super::colours::{Colour, faded};
 use tiny_skia::{
@@ -8,7 +8,7 @@ use tiny_skia::{
     SpreadMode, Stroke, Transform,
 };
 
-/// The magic number by which four cubic curves make a circle.
+/// The constant with which four cubic curves approximate a circle.
 const ROUND: f32 = 0.552_284_8;
 
 /// A picture to draw on.
@@ -48,7 +48,7 @@ impl Canvas<'_> {
         }
     }
 
-    /// A filled ellipse with level axes.
+    /// A filled ellipse with horizontal and vertical axes.
     pub fn ellipse(&mut self, at: Point, half_width: f32, half_height: f32, colour: Colour) {
         let corners = Rect::from_ltrb(at.x - half_width, at.y - half_height, at.x + half_width, at.y + half_height);
         if let Some(path) = corners.and_then(PathBuilder::from_oval) {
@@ -70,7 +70,7 @@ impl Canvas<'_> {
         }
     }
 
-    /// A way through points that grows out of nothing towards its end.
+    /// A trail through points that widens from nothing towards its end.
     pub fn tail(&mut self, points: &[Point], width: f32, colour: Colour) {
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
         let stops = [(0.0, 0.0), (1.0, 1.0)]
@@ -112,7 +112,7 @@ fn paint(colour: Colour) -> Paint<'static> {
     paint
 }
 
-/// The outline of a way that is pointed at its beginning and so wide at its end.
+/// The outline of a trail: pointed at its beginning and this wide at its end.
 fn ribbon(points: &[Point], width: f32) -> Option<Path> {
     let last = points.len().checked_sub(1)?;
     let sides = |index: usize| {

@@ -1,4 +1,4 @@
-//! What stands under a frame: the clock, who has the ball, the score, what happened.
+//! The caption under a frame: the clock, who has the ball, the score, what happened.
 
 use super::canvas::{Canvas, at};
 use super::colours::{FAINT, GOAL, INK, shirt};
@@ -13,14 +13,14 @@ use crate::scenario::Team;
 use crate::scenario::pitch::STEPS_PER_S;
 use tiny_skia::Point;
 
-/// Lines of events under a frame, at most.
+/// The most lines of events under a frame.
 const LINES_MAX: usize = 3;
-/// Height of a line over the text's size.
+/// Line height relative to the text's size.
 const LEADING: f32 = 1.5;
-/// The least weight of an event that is told in full ink.
+/// Events of at least this weight are written in full ink.
 const NOTABLE: u32 = 30;
 
-/// What is said of a moment.
+/// The caption of a moment.
 pub struct Caption<'a> {
     film: &'a Film,
     scene: &'a Scene,
@@ -31,11 +31,11 @@ pub struct Caption<'a> {
 }
 
 impl<'a> Caption<'a> {
-    /// Finds words for a moment.
+    /// Writes the caption of a moment.
     ///
-    /// - `size`, `room`: of the text and of the place for it, pixels; what there is no room for is counted only, what
-    ///   matters least first.
-    /// - `events`: what happened since the frame before.
+    /// - `size`, `room`: of the text and of its place, pixels. What doesn't fit is only counted,
+    ///   starting with the least important.
+    /// - `events`: what happened since the last frame.
     pub fn new(film: &'a Film, scene: &'a Scene, size: f32, room: f32, events: &[Event]) -> Caption<'a> {
         let mut caption = Caption { film, scene, size, room, sentences: words::tell(events), dropped: 0 };
         while caption.lines() > LINES_MAX {
@@ -47,7 +47,7 @@ impl<'a> Caption<'a> {
         caption
     }
 
-    /// How many lines of events it has.
+    /// The number of lines of events.
     pub fn lines(&self) -> usize {
         let (mut lines, mut x) = (1, 0.0);
         for sentence in &self.sentences {
@@ -58,12 +58,12 @@ impl<'a> Caption<'a> {
             }
             x += width + self.gap();
         }
-        // Room for how many are left out.
+        // Reserves space for the count of omitted events.
         let more = self.dropped > 0 && x + 2.0 * self.size > self.inner();
         if self.sentences.is_empty() && self.dropped == 0 { 0 } else { lines + usize::from(more) }
     }
 
-    /// Writes it below a frame.
+    /// Draws it below a frame.
     pub fn draw(&self, canvas: &mut Canvas<'_>, corner: Point) {
         let size = self.size;
         let (left, right) = (corner.x + self.pad(), corner.x + self.room - self.pad());
@@ -87,7 +87,7 @@ impl<'a> Caption<'a> {
     }
 }
 
-/// How high a caption with so many lines of events is, pixels.
+/// The height of a caption with this many lines of events, pixels.
 pub fn height(size: f32, lines: usize) -> f32 {
     size * (LEADING * (lines as f32 + 1.0) + 0.9)
 }
@@ -113,7 +113,7 @@ pub fn score(canvas: &mut Canvas<'_>, end: Point, size: f32, score: [u16; 2]) {
     }
 }
 
-/// Who has the ball, or who takes what.
+/// Who has the ball, or who takes which set piece.
 fn ball_of(scene: &Scene) -> Vec<Piece> {
     match (waiting(scene.mode), scene.owner, scene.possession) {
         (Some(what), Some(taker), _) => vec![Piece::Text(what), Piece::Player(taker)],
@@ -126,13 +126,13 @@ fn ball_of(scene: &Scene) -> Vec<Piece> {
 }
 
 impl Caption<'_> {
-    /// What a player is called, as far as there is room.
+    /// A player's name, as far as it fits.
     fn name(&self, id: PlayerId) -> String {
         let name = self.film.names.get(id.index()).map_or("", String::as_str);
         fitted(name, Style::plain(self.size, INK), self.size * 9.0)
     }
 
-    /// How wide a piece is.
+    /// The width of a piece.
     fn width(&self, piece: &Piece, style: Style) -> f32 {
         match piece {
             Piece::Text(text) => width(text, style),
@@ -141,7 +141,7 @@ impl Caption<'_> {
         }
     }
 
-    /// Writes a piece and says how wide it is.
+    /// Writes a piece and returns its width.
     fn piece(&self, canvas: &mut Canvas<'_>, piece: &Piece, start: Point, style: Style) -> f32 {
         let size = self.size;
         match piece {
@@ -203,7 +203,7 @@ impl Caption<'_> {
     }
 }
 
-/// How often something happened, where it was more than once.
+/// The count of a repeated event.
 fn times(sentence: &Sentence) -> Option<String> {
     (sentence.times > 1).then(|| format!("×{}", sentence.times))
 }

@@ -1,4 +1,4 @@
-//! The colours: teams told apart with every kind of colour vision, light on a dark page.
+//! The colours: teams are distinguishable with every kind of colour vision, light on a dark page.
 
 use crate::scenario::Team;
 
@@ -11,7 +11,7 @@ pub const PAGE: Colour = [17, 22, 28, 255];
 pub const CARD: Colour = [30, 37, 46, 255];
 /// Text.
 pub const INK: Colour = [238, 242, 245, 255];
-/// Text that says less.
+/// Less important text.
 pub const FAINT: Colour = [158, 170, 182, 255];
 /// The two greens of the lawn.
 pub const GRASS: [Colour; 2] = [[53, 116, 66, 255], [60, 125, 73, 255]];
@@ -21,13 +21,13 @@ pub const VERGE: Colour = [44, 100, 57, 255];
 pub const LINE: Colour = [236, 243, 236, 205];
 /// Woodwork.
 pub const WOOD: Colour = [255, 255, 255, 255];
-/// What lies on the grass in the sun.
+/// Shadows on the grass.
 pub const SHADOW: Colour = [8, 22, 12, 110];
 /// The ball.
 pub const BALL: Colour = [255, 255, 255, 255];
 /// Outlines on grass, and the ball's seams.
 pub const DARK: Colour = [16, 20, 24, 255];
-/// The ring of a player whom an agent plays.
+/// The ring of a player controlled by an agent.
 pub const AGENT: Colour = [255, 255, 255, 255];
 /// A yellow card.
 pub const CARD_YELLOW: Colour = [255, 225, 40, 255];
@@ -36,18 +36,19 @@ pub const GOAL: Colour = [255, 214, 102, 255];
 /// An ending that is a success, and one that is a failure.
 pub const VERDICTS: [Colour; 2] = [[126, 211, 133, 255], [255, 130, 120, 255]];
 
-/// What a shirt is drawn with.
+/// The colours of a shirt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shirt {
     /// The shirt.
     pub cloth: Colour,
-    /// Its outline and what shows the way he faces.
+    /// Its outline and the mark for the player's direction.
     pub edge: Colour,
     /// The number.
     pub number: Colour,
 }
 
-/// The shirt of a team's outfield player or keeper: the left team wears warm colours, the right cool ones.
+/// The shirt of a team's outfield player or keeper: the left team wears warm colours, the right
+/// cool ones.
 pub const fn shirt(team: Team, keeper: bool) -> Shirt {
     const BLACK: Colour = [30, 18, 0, 255];
     const WHITE: Colour = [255, 255, 255, 255];

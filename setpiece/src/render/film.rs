@@ -1,4 +1,4 @@
-//! An episode, played and kept.
+//! A played episode, kept scene by scene.
 
 use super::scene::Scene;
 use crate::Error;
@@ -19,32 +19,34 @@ use std::sync::Arc;
 pub struct FilmOptions {
     /// The seed.
     pub seed: u64,
-    /// Which episode of the seed.
+    /// The episode's index under the seed.
     pub episode: u64,
-    /// Who plays for every agent.
+    /// The agent that plays every slot.
     pub agent: Agent,
     /// Parameters and physics.
     pub environment: EnvironmentOptions,
-    /// Stop after so many steps, whether or not the episode ends.
+    /// Stop after this many steps, whether or not the episode ends.
     pub until_step: Option<u32>,
 }
 
-/// An episode as it is drawn.
+/// An episode to draw.
 #[derive(Clone, Debug)]
 pub struct Film {
     /// The scenario's name.
     pub name: String,
     /// The first line of its documentation.
     pub title: String,
-    /// The seed, the episode's index, who played, and the parameters that are not their defaults.
+    /// The seed, the episode's index, the agent, and the parameters that differ from their
+    /// defaults.
     pub origin: String,
-    /// The start and what every step led to; a step in which play was stopped has two: the stop, and the restart.
+    /// The start and the result of every step. A step in which play was stopped has two scenes: the
+    /// stop, and the restart.
     pub scenes: Vec<Scene>,
-    /// What happened, each with the scene that shows it best.
+    /// The events, each with the scene that shows it best.
     pub events: Vec<(usize, Event)>,
-    /// What everybody is called, by [`PlayerId::index`]: his name, else his role.
+    /// Everybody's label, by [`PlayerId::index`]: their name, else their role.
     pub names: [String; PLAYERS_MAX],
-    /// Who keeps goal, by [`PlayerId::index`].
+    /// Whether each player keeps goal, by [`PlayerId::index`].
     pub keepers: [bool; PLAYERS_MAX],
     /// How the episode ended, if it did.
     pub outcome: Option<Outcome>,
@@ -61,7 +63,7 @@ impl Film {
         self.keepers.get(id.index()).copied().unwrap_or_default()
     }
 
-    /// The place among the scenes of what a step led to: where play was stopped in it, of the stop.
+    /// The index of the scene that a step led to. If play was stopped in it, that is the stop.
     pub fn moment_of(&self, step: u32) -> Option<usize> {
         self.scenes.iter().position(|scene| scene.step == step)
     }
@@ -70,8 +72,8 @@ impl Film {
 /// Plays an episode and keeps every moment.
 ///
 /// # Errors
-/// [`Error::Environment`] where the options don't fit the scenario, [`Error::Episode`] where it has no start, a script
-/// fails, or nothing ends it.
+/// [`Error::Environment`] if the options don't fit the scenario; [`Error::Episode`] if it has no
+/// start, a script fails, or nothing ends it.
 pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Error> {
     let fault = |why| Error::Episode(Box::new(why));
     if options.until_step.is_none() && scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
@@ -102,7 +104,7 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
 /// Plays a recorded episode again and keeps every moment.
 ///
 /// # Errors
-/// [`Error::Replay`] if it can't be played here, or comes to another end than it did.
+/// [`Error::Replay`] if it can't be played here, or diverges from the recording.
 pub fn replayed(replay: &Replay) -> Result<Film, Error> {
     let mut film: Option<Film> = None;
     let environment = replay.play(|environment, _| match &mut film {
@@ -130,13 +132,13 @@ impl Film {
         }
     }
 
-    /// Keeps what a step led to.
+    /// Keeps the result of a step.
     fn take(&mut self, environment: &Environment) {
         let (judged, now) = (environment.judged_state(), environment.state());
         let stop = self.scenes.len();
         let stopped = !std::ptr::eq::<Match>(judged, now);
         self.scenes.push(Scene::of(judged, false));
-        // What a restart after the end would look like belongs to nothing.
+        // A restart after the end isn't part of the episode.
         let goes_on = stopped && environment.is_running();
         if goes_on {
             self.scenes.push(Scene::of(now, true));
@@ -148,13 +150,14 @@ impl Film {
     }
 }
 
-/// Whether the event is shown by how everybody stands at the restart.
+/// Whether the event is best shown by everyone's places at the restart.
 fn is_award(kind: EventKind) -> bool {
     use EventKind::{Corner, FreeKick, GoalKick, Kickoff, Penalty, ThrowIn};
     matches!(kind, Kickoff | ThrowIn | Corner | GoalKick | FreeKick | Penalty)
 }
 
-/// The seed, the episode's index, which agent played for all, if one did, and the parameters that aren't their defaults.
+/// The seed, the episode's index, the agent that played every slot, if one did, and the parameters
+/// that differ from their defaults.
 fn origin(environment: &Environment, agent: Option<Agent>) -> String {
     let mut origin = format!("seed {}", environment.seed());
     if environment.index() > 0 {
@@ -240,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn everybody_is_called_what_the_author_calls_him() {
+    fn players_are_labelled_as_the_author_names_them() {
         let film = played(ROLLS_OUT.replace("END", "").as_str(), Some(3)).unwrap();
         assert_eq!((film.names[0].as_str(), film.names[11].as_str()), ("anna", "GK"));
         assert!(film.is_keeper(PlayerId(11)) && !film.is_keeper(PlayerId(0)));

@@ -1,4 +1,4 @@
-//! The head of a page: what it is a film of, what came of it, and what the signs mean.
+//! The header of a page: the episode, its result, and a legend.
 
 use super::canvas::{Canvas, at};
 use super::caption;
@@ -12,12 +12,12 @@ use tiny_skia::Point;
 /// Its height, pixels.
 pub const HEIGHT: u32 = 108;
 
-/// Draws it over the whole width of a page but for a margin.
+/// Draws it over the whole width of a page, except a margin.
 pub fn draw(canvas: &mut Canvas<'_>, film: &Film, margin: f32) {
     let (left, right) = (margin, canvas.size().0 - margin);
     let (first, second) = (36.0, 78.0);
     let length = film.length();
-    let told = format!("{length} steps, {:.1} s", f64::from(length) / STEPS_PER_S);
+    let length = format!("{length} steps, {:.1} s", f64::from(length) / STEPS_PER_S);
     let mut end = right;
     if let Some(last) = film.scenes.last() {
         caption::score(canvas, at(end, first), 30.0, last.score);
@@ -27,7 +27,7 @@ pub fn draw(canvas: &mut Canvas<'_>, film: &Film, margin: f32) {
         canvas.write_before(text, at(end, first), style);
         end -= width(text, style) + 24.0;
     };
-    before(&told, Style::plain(24.0, INK));
+    before(&length, Style::plain(24.0, INK));
     if let Some(outcome) = &film.outcome {
         let colour = match outcome.verdict {
             Some(Verdict::Success) => VERDICTS[0],
@@ -49,7 +49,7 @@ pub fn draw(canvas: &mut Canvas<'_>, film: &Film, margin: f32) {
 /// Draws a sign around a point.
 type Sign<'a> = &'a dyn Fn(&mut Canvas<'_>, Point);
 
-/// What the signs mean, before a point; says where it begins.
+/// Draws the legend, ending at a point; returns where it begins.
 fn legend(canvas: &mut Canvas<'_>, right: f32, y: f32) -> f32 {
     use crate::scenario::Team::{Left, Right};
     let agent = |canvas: &mut Canvas<'_>, middle| {

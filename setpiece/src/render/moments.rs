@@ -1,31 +1,32 @@
-//! Which moments of an episode are worth a frame: its start and end, what happened, and enough between.
+//! Chooses the moments of an episode worth a frame: its start and end, what happened, and enough in
+//! between.
 
-/// Frames of a sheet: at most, and at least where the episode is long enough.
+/// The most frames of a sheet, and the least if the episode is long enough.
 pub const FRAMES_MAX: usize = 24;
 const FRAMES_LEAST: usize = 12;
-/// What happens within so many moments shares a frame…
+/// Events within this many moments share a frame…
 const CLOSE: usize = 3;
 /// … up to this many in all.
 const LONG: usize = 9;
 
-/// What happened at a moment.
+/// An event at a moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Happening {
-    /// Which moment.
+    /// The moment.
     pub at: usize,
-    /// How much it matters; nothing of weight 0 earns a frame.
+    /// Its importance; events of weight 0 get no frame.
     pub weight: u32,
 }
 
-/// Chooses among so many moments, in order: the first, the last, what matters most, then evenly between until the last row
-/// of so many columns is full.
+/// Chooses among this many moments, in order: the first, the last, the most important ones, then
+/// evenly in between until the last row of columns is full.
 pub fn choose(moments: usize, happenings: &[Happening], columns: usize) -> Vec<usize> {
     let Some(last) = moments.checked_sub(1) else { return Vec::new() };
     let mut chosen = vec![0, last];
     chosen.dedup();
     let mut groups = grouped(happenings);
     while chosen.len() < FRAMES_MAX {
-        // Of those that matter as much, the one farthest from what is shown already.
+        // Among equals, the one farthest from the moments already chosen.
         let far = |group: &Happening| chosen.iter().map(|at| at.abs_diff(group.at)).min().unwrap_or_default();
         groups.retain(|group| far(group) >= CLOSE);
         let Some(best) = groups.iter().max_by_key(|group| (group.weight, far(group))).copied() else { break };
@@ -36,7 +37,8 @@ pub fn choose(moments: usize, happenings: &[Happening], columns: usize) -> Vec<u
     chosen
 }
 
-/// Puts together what is close in time; a group is shown where it matters most, and last among equals.
+/// Groups events that are close in time. A group is shown at its most important moment, the last
+/// among equals.
 fn grouped(happenings: &[Happening]) -> Vec<Happening> {
     let mut groups: Vec<(usize, usize, Happening)> = Vec::new();
     for happening in happenings.iter().filter(|happening| happening.weight > 0) {
@@ -58,7 +60,7 @@ fn fill(chosen: &mut Vec<usize>, columns: usize) {
     let wanted = chosen.len().max(FRAMES_LEAST).next_multiple_of(columns.max(1));
     while chosen.len() < wanted {
         let widest = chosen.windows(2).enumerate().map(|(index, pair)| (pair[1] - pair[0], index));
-        // The first of equals, so that ties are settled from the start.
+        // The first of equals, so that ties are resolved from the start.
         let Some((gap, index)) = widest.max_by_key(|&(gap, index)| (gap, usize::MAX - index)) else { break };
         if gap < 2 {
             break;

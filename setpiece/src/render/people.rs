@@ -1,6 +1,6 @@
-//! The players: discs in their team's colours with a number, the way they face, what their bodies do.
+//! The players: discs in their team's colours with a number, their direction, and their pose.
 //!
-//! A player is drawn larger than life, so that his number can be read.
+//! Players are drawn larger than life, so that their numbers can be read.
 
 use super::canvas::{Canvas, at};
 use super::colours::{AGENT, CARD_YELLOW, Colour, DARK, SHADOW, faded, shirt};
@@ -15,7 +15,7 @@ use tiny_skia::Point;
 const RADIUS_M: f32 = 0.98;
 const RADIUS_LEAST: f32 = 8.5;
 
-/// Draws everyone on the pitch; who has the ball is drawn last.
+/// Draws everyone on the pitch, the owner of the ball last.
 pub fn draw(canvas: &mut Canvas<'_>, view: &View, scene: &Scene) {
     let mut people: Vec<&Person> = scene.people.iter().collect();
     people.sort_by_key(|person| (person.pose == Pose::Up, scene.owner == Some(person.id)));
@@ -24,7 +24,7 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View, scene: &Scene) {
     }
 }
 
-/// Draws the ways that led everyone to where he is in the last scene.
+/// Draws everyone's trail to their place in the last scene.
 pub fn draw_trails(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene]) {
     let Some(now) = scenes.last() else { return };
     for person in &now.people {
@@ -39,7 +39,7 @@ pub fn radius(view: &View) -> f32 {
     view.length(RADIUS_M).max(RADIUS_LEAST)
 }
 
-/// A player's number in his shirt, as words name him.
+/// A player's number in their shirt, as captions show it.
 pub fn badge(canvas: &mut Canvas<'_>, middle: Point, radius: f32, id: PlayerId, keeper: bool) {
     let shirt = shirt(id.team(), keeper);
     canvas.disc(middle, radius, shirt.cloth);
@@ -107,7 +107,7 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &Scene) 
     }
 }
 
-/// Where a number stands: in the middle, or a little aside where the ball would hide it.
+/// The place of a number: in the middle, or a little aside if the ball would hide it.
 fn beside_ball(middle: Point, radius: f32, view: &View, scene: &Scene) -> Point {
     let ball = view.point(scene.ball[0], scene.ball[1]);
     let (x, y) = (middle.x - ball.x, middle.y - ball.y);

@@ -9,13 +9,13 @@ use crate::scenario::pitch::{
 };
 use tiny_skia::Point;
 
-/// Stripes of the lawn; even, so that both halves look alike.
+/// Stripes of the lawn. The number is even, so that both halves look alike.
 const STRIPES: u32 = 20;
-/// How wide a line is drawn, metres; wider than life, so that it is seen.
+/// Width of a line, metres; larger than life, so that it is visible.
 const LINE_M: f32 = 0.16;
-/// Distance of a net's threads, metres.
+/// Distance between a net's threads, metres.
 const MESH_M: f32 = 0.62;
-/// Pieces of a circle.
+/// Number of segments of a circle.
 const PIECES: u32 = 72;
 
 /// Draws the empty pitch over the whole picture.
@@ -65,7 +65,7 @@ fn lawn(canvas: &mut Canvas<'_>, view: &View) {
     let stripe = 2.0 * half_x / STRIPES as f32;
     for index in 0..STRIPES {
         let left = index as f32 * stripe - half_x;
-        // Whole pixels: no seam shines through.
+        // Whole pixels, so that no seam is visible.
         let (from, to) = (view.point(left, -half_y), view.point(left + stripe, half_y));
         let (from, to) = (at(from.x.round(), from.y.round()), at(to.x.round(), to.y.round()));
         let corners = [from, at(to.x, from.y), to, at(from.x, to.y)];

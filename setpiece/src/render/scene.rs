@@ -1,4 +1,4 @@
-//! What is drawn of a moment: copied from the match, so that moments can be kept and laid over each other.
+//! The drawable data of a moment, copied from the match so that moments can be kept and overlaid.
 
 use crate::engine::state::player::Pose;
 use crate::engine::state::{Match, Player, PlayerId};
@@ -14,7 +14,7 @@ pub struct Scene {
     pub clock_steps: u32,
     /// Goals, left and right.
     pub score: [u16; 2],
-    /// Open play, or which set piece waits to be taken.
+    /// Open play, or the pending set piece.
     pub mode: GameMode,
     /// Who has the ball.
     pub owner: Option<PlayerId>,
@@ -24,33 +24,33 @@ pub struct Scene {
     pub ball: [f32; 3],
     /// Everyone on the pitch.
     pub people: Vec<Person>,
-    /// Ball and players were placed anew: nothing leads here from the moment before.
+    /// Whether the ball and the players were placed, so that no trail leads here.
     pub placed: bool,
 }
 
-/// A player as he is drawn.
+/// A player to draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Person {
-    /// Who he is.
+    /// The player's id.
     pub id: PlayerId,
-    /// Whether he keeps goal.
+    /// Whether they keep goal.
     pub keeper: bool,
-    /// Whether an agent plays him.
+    /// Whether an agent controls them.
     pub agent: bool,
     /// Yellow cards so far.
     pub yellow_cards: u8,
     /// World metres.
     pub pos: [f32; 2],
-    /// The way he faces, a unit vector.
+    /// The direction they face, a unit vector.
     pub facing: [f32; 2],
     /// m/s.
     pub vel: [f32; 2],
-    /// What his body does.
+    /// Their pose.
     pub pose: Pose,
 }
 
 impl Scene {
-    /// A match as it stands.
+    /// Copies a match's current state.
     pub fn of(game: &Match, placed: bool) -> Scene {
         let everyone = Team::ALL.iter().flat_map(|team| game.team(*team));
         Scene {
@@ -66,7 +66,7 @@ impl Scene {
         }
     }
 
-    /// A player, if he is on the pitch.
+    /// A player, if on the pitch.
     pub fn person(&self, id: PlayerId) -> Option<&Person> {
         self.people.iter().find(|person| person.id == id)
     }

@@ -1,4 +1,4 @@
-//! Whole pictures: an episode as a sheet of frames, and one moment large.
+//! Complete pictures: an episode as a sheet of frames, and one moment large.
 
 use super::canvas::{Canvas, at};
 use super::caption::{self, Caption};
@@ -21,16 +21,17 @@ const GAP: u32 = 20;
 /// Size of a caption's text in a sheet and under one large frame, pixels.
 const TEXT: f32 = 16.0;
 const LARGE_TEXT: f32 = 24.0;
-/// Grass around the ball's way, metres.
+/// Grass around the ball's path, metres.
 const AROUND_BALL_M: f32 = 10.0;
-/// Who comes as near to the ball as this is shown whole, with so much grass around him, metres.
+/// Players who come this near to the ball are shown completely, with this much grass around them,
+/// metres.
 const NEAR_M: f32 = 18.0;
 const AROUND_PERSON_M: f32 = 3.5;
-/// The same of a goal.
+/// The same for a goal.
 const NEAR_GOAL_M: f32 = 40.0;
 const AROUND_GOAL_M: f32 = 10.0;
 
-/// Draws an episode as a sheet of frames; none where a picture of its size can't be had.
+/// Draws an episode as a sheet of frames. None if a picture of its size can't be allocated.
 pub fn sheet(film: &Film) -> Option<Pixmap> {
     let happenings: Vec<Happening> =
         film.events.iter().map(|(at, event)| Happening { at: *at, weight: words::weight(event) }).collect();
@@ -58,7 +59,8 @@ pub fn sheet(film: &Film) -> Option<Pixmap> {
     Some(page)
 }
 
-/// Draws one moment of a film large, with what happened on the way; none where there is no such moment.
+/// Draws one moment of a film large, with what happened before it. None if the moment doesn't
+/// exist.
 pub fn frame(film: &Film, moment: usize) -> Option<Pixmap> {
     let frame = Frame::new(film, moment.checked_sub(TRAIL_STEPS), moment, Region::WHOLE, (LARGE, LARGE_TEXT))?;
     let height = frame.picture.height() + caption::height(LARGE_TEXT, frame.caption.lines()).ceil() as u32;
@@ -69,7 +71,7 @@ pub fn frame(film: &Film, moment: usize) -> Option<Pixmap> {
     Some(page)
 }
 
-/// What of the pitch an episode needs: the ball's way, those who come near it, a goal that is not far.
+/// The part of the pitch that an episode needs: the ball's path, players near it, a goal nearby.
 fn region(film: &Film) -> Region {
     let goal = [HALF_LENGTH_M as f32, 0.0];
     Region::around(film.scenes.iter().flat_map(|scene| {
@@ -83,7 +85,7 @@ fn region(film: &Film) -> Region {
     }))
 }
 
-/// A page without anything on it.
+/// An empty page.
 fn blank(page: &mut Pixmap) -> Canvas<'_> {
     let [red, green, blue, opacity] = PAGE;
     page.fill(tiny_skia::Color::from_rgba8(red, green, blue, opacity));
@@ -97,7 +99,7 @@ struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    /// Draws a moment, and finds words for what happened since the one before.
+    /// Draws a moment, and writes what happened since the last one.
     fn new(
         film: &'a Film,
         before: Option<usize>,
@@ -114,7 +116,7 @@ impl<'a> Frame<'a> {
         Some(Frame { picture, caption })
     }
 
-    /// Lays it on a page.
+    /// Places it on a page.
     fn draw(&self, canvas: &mut Canvas<'_>, (left, top): (u32, u32), height: u32) {
         let corner = at(left as f32, top as f32);
         canvas.card(corner, self.picture.width() as f32, height as f32, 8.0, CARD);

@@ -1,4 +1,4 @@
-//! A scene in a picture: the pitch, where everyone came from, everyone, the ball.
+//! A scene in a picture: the pitch, trails, players, the ball.
 
 use super::canvas::Canvas;
 use super::scene::Scene;
@@ -6,13 +6,14 @@ use super::view::{Region, View};
 use super::{ball, people, pitch};
 use tiny_skia::PixmapMut;
 
-/// How many steps a trail goes back.
+/// Number of steps in a trail.
 pub const TRAIL_STEPS: usize = 12;
 
-/// Draws the last of some moments, and the way there, over a whole buffer of RGBA pixels.
+/// Draws the last of some moments, with trails, over a whole buffer of RGBA pixels.
 ///
-/// - `moments`: in order, at most one step apart; trails go back to the last that was placed anew.
-/// - `region`: what is shown, over the whole width; the picture should have its [`aspect`](Region::aspect).
+/// - `moments`: in order, at most one step apart. Trails begin at the last placement.
+/// - `region`: what is shown, over the whole width; the picture should have its
+///   [`aspect`](Region::aspect).
 pub fn draw(pixels: PixmapMut<'_>, moments: &[Scene], region: Region) {
     let Some(now) = moments.last() else { return };
     let view = View::new(region, pixels.width());

@@ -5,10 +5,10 @@ use super::colours::Colour;
 use tiny_skia::{Path, PathBuilder, Point};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// The font `DejaVu Sans Condensed`, the letters of Europe; see `fonts/LICENSE`.
+/// The font `DejaVu Sans Condensed`, with the letters of Europe; see `fonts/LICENSE`.
 const REGULAR: &[u8] = include_bytes!("../../fonts/DejaVuSansCondensed.ttf");
 const BOLD: &[u8] = include_bytes!("../../fonts/DejaVuSansCondensed-Bold.ttf");
-/// Height of a capital letter over the font's size.
+/// Height of a capital letter relative to the font's size.
 const CAPITAL: f32 = 0.729;
 
 /// How text looks.
@@ -34,12 +34,12 @@ impl Style {
     }
 }
 
-/// How wide a text is, pixels.
+/// The width of a text, pixels.
 pub fn width(text: &str, style: Style) -> f32 {
     face(style).map_or(0.0, |face| glyphs(&face, text, style).map(|(_, advance)| advance).sum())
 }
 
-/// The text, or its beginning with `…` where it is wider than `room`.
+/// The text, or its beginning with `…` if it is wider than `room`.
 pub fn fitted(text: &str, style: Style, room: f32) -> String {
     if width(text, style) <= room {
         return text.to_owned();
@@ -58,7 +58,7 @@ pub fn fitted(text: &str, style: Style, room: f32) -> String {
 }
 
 impl Canvas<'_> {
-    /// Writes a text whose middle line begins at a point, and says how wide it is.
+    /// Writes a text whose middle line begins at a point, and returns its width.
     pub fn write(&mut self, text: &str, start: Point, style: Style) -> f32 {
         let Some(face) = face(style) else { return 0.0 };
         let scale = scale(&face, style);
@@ -94,7 +94,7 @@ fn scale(face: &Face<'_>, style: Style) -> f32 {
     style.size / f32::from(face.units_per_em())
 }
 
-/// The glyphs of a text and how far each moves the pen; a letter that the font lacks is its empty box.
+/// The glyphs of a text and their advances. A letter that the font lacks becomes its empty box.
 fn glyphs(face: &Face<'_>, text: &str, style: Style) -> impl Iterator<Item = (GlyphId, f32)> {
     let scale = scale(face, style);
     text.chars().filter(|letter| !letter.is_control()).map(move |letter| {

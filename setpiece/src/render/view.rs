@@ -1,13 +1,13 @@
-//! How the world lies in a picture.
+//! How the world is mapped to a picture.
 
 use crate::scenario::pitch::{RIM_X_M, RIM_Y_M};
 use tiny_skia::Point;
 
-/// A region is no smaller than this, metres.
+/// Least size of a region, metres.
 const LEAST_M: [f32; 2] = [46.0, 40.0];
 /// The narrowest and the widest region: its width over its height.
 const ASPECTS: [f32; 2] = [0.8, (RIM_X_M / RIM_Y_M) as f32];
-/// Beyond this share of the pitch's length or width all of it is shown.
+/// A region with more than this share of the pitch's length or width shows all of it.
 const NEARLY_ALL: f32 = 0.8;
 
 /// The part of the world that a picture shows, world metres.
@@ -29,7 +29,7 @@ impl Region {
         self.size_m[0] / self.size_m[1]
     }
 
-    /// The smallest region that shows these points, each with some metres of grass around it.
+    /// The smallest region that shows these points, each with this much grass around it, metres.
     pub fn around(points: impl Iterator<Item = ([f32; 2], f32)>) -> Region {
         let (mut low, mut high) = ([f32::MAX; 2], [f32::MIN; 2]);
         for (point, margin_m) in points {
@@ -38,7 +38,7 @@ impl Region {
                 high[axis] = high[axis].max(point[axis] + margin_m);
             }
         }
-        // Where there was no point at all, low is above high.
+        // Without any point, low is above high.
         if low[0] > high[0] {
             return Region::WHOLE;
         }
@@ -48,7 +48,7 @@ impl Region {
             if span > NEARLY_ALL * most[axis] { most[axis] } else { span }
         };
         let width = span(0).max(span(1) * ASPECTS[0]);
-        // A width of all the pitch has its height too.
+        // A region as wide as the pitch is also as high.
         let size_m = [width, span(1).max(width / ASPECTS[1])];
         let corner = |axis: usize| {
             let (size, least) = (size_m[axis], Region::WHOLE.corner_m[axis]);
@@ -71,7 +71,7 @@ impl View {
         View { region, scale: width as f32 / region.size_m[0] }
     }
 
-    /// Where a point of the world lies, pixels.
+    /// The pixel of a point in the world.
     pub fn point(&self, x_m: f32, y_m: f32) -> Point {
         let [left, top] = self.region.corner_m;
         Point { x: (x_m - left) * self.scale, y: (y_m - top) * self.scale }

@@ -1,4 +1,4 @@
-//! Events in words, and how much each is worth telling.
+//! Events in words, and how important each is.
 
 use crate::engine::state::PlayerId;
 use crate::engine::state::event::Event;
@@ -10,7 +10,7 @@ use crate::scenario::vocabulary::{EventKind, GameMode, Qualifier};
 pub enum Piece {
     /// Words.
     Text(&'static str),
-    /// A player: his shirt and what he is called.
+    /// A player: their shirt and label.
     Player(PlayerId),
     /// A team: its colour and its name.
     Team(Team),
@@ -19,18 +19,18 @@ pub enum Piece {
 /// What happened, in a few words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sentence {
-    /// Its parts, a blank between each.
+    /// Its parts, separated by blanks.
     pub pieces: Vec<Piece>,
-    /// How much it matters.
+    /// Its importance.
     pub weight: u32,
     /// How often it happened.
     pub times: u32,
 }
 
-/// The weight of what decides matches.
+/// The weight of events that decide matches.
 pub const DECISIVE: u32 = 90;
 
-/// How much an event matters: 0 is never told, a goal 100.
+/// The importance of an event: 0 is never reported, a goal is 100.
 pub fn weight(event: &Event) -> u32 {
     use EventKind as E;
     match (event.kind, event.qualifier) {
@@ -67,7 +67,8 @@ pub fn weight(event: &Event) -> u32 {
     }
 }
 
-/// Events in words, in order; what another one says too is left out, what happened again is counted.
+/// Describes events in words, in order. An event that another one includes is left out, and
+/// repeated ones are counted.
 pub fn tell(events: &[Event]) -> Vec<Sentence> {
     let mut sentences: Vec<Sentence> = Vec::new();
     for (index, event) in events.iter().enumerate() {
@@ -76,7 +77,7 @@ pub fn tell(events: &[Event]) -> Vec<Sentence> {
             continue;
         }
         let pieces = sentence(event);
-        // Told where it happened last.
+        // Listed where it last happened.
         let before = sentences.iter().position(|sentence| sentence.pieces == pieces);
         let times = 1 + before.map_or(0, |before| sentences.remove(before).times);
         sentences.push(Sentence { pieces, weight: weight(event), times });
@@ -84,7 +85,7 @@ pub fn tell(events: &[Event]) -> Vec<Sentence> {
     sentences
 }
 
-/// Whether another event tells what became of this one in as many words.
+/// Whether another event describes the result of this one equally well.
 fn is_said_again(event: &Event, all: &[Event], later: &[Event]) -> bool {
     use EventKind as E;
     let any = |events: &[Event], kind: E, by: Option<PlayerId>| {
@@ -111,7 +112,7 @@ fn sentence(event: &Event) -> Vec<Piece> {
     pieces
 }
 
-/// Whether whom it reached or hurt is part of the sentence.
+/// Whether the receiver or victim is part of the sentence.
 fn takes_another(kind: EventKind) -> bool {
     matches!(kind, EventKind::Pass | EventKind::Foul | EventKind::Tackle | EventKind::Advantage)
 }
@@ -164,7 +165,7 @@ fn verb(event: &Event) -> &'static str {
     }
 }
 
-/// A set piece that waits, in words; none in open play.
+/// A pending set piece in words; none in open play.
 pub const fn waiting(mode: GameMode) -> Option<&'static str> {
     match mode {
         GameMode::Normal => None,
@@ -187,7 +188,7 @@ mod tests {
         Event { tick: 0, kind, qualifier, team, by, to, at: [0.0; 3].into(), length_m: 0.0, speed_mps: 0.0 }
     }
 
-    fn told(events: &[Event]) -> Vec<String> {
+    fn described(events: &[Event]) -> Vec<String> {
         let word = |piece: &Piece| match piece {
             Piece::Text(text) => (*text).to_owned(),
             Piece::Player(id) => format!("{}", id.0),
@@ -201,21 +202,24 @@ mod tests {
     }
 
     #[test]
-    fn a_pass_is_told_once() {
+    fn a_pass_is_reported_once() {
         let struck = event(EventKind::Pass, Some(Qualifier::Attempted), 3, Some(4));
         let arrived = event(EventKind::Pass, Some(Qualifier::Completed), 3, Some(4));
         let cut_out = event(EventKind::Pass, Some(Qualifier::Intercepted), 3, Some(14));
-        assert_eq!(told(&[struck]), ["pass 3 → 4 ×1"]);
-        assert_eq!(told(&[struck, arrived]), ["pass completed 3 → 4 ×1"]);
-        assert_eq!(told(&[struck, cut_out, event(EventKind::Interception, None, 14, Some(3))]), ["interception 14 ×1"]);
+        assert_eq!(described(&[struck]), ["pass 3 → 4 ×1"]);
+        assert_eq!(described(&[struck, arrived]), ["pass completed 3 → 4 ×1"]);
+        assert_eq!(
+            described(&[struck, cut_out, event(EventKind::Interception, None, 14, Some(3))]),
+            ["interception 14 ×1"]
+        );
     }
 
     #[test]
     fn a_goal_says_all_of_its_shot() {
         let shot = event(EventKind::Shot, None, 9, None);
         let on_target = event(EventKind::Shot, Some(Qualifier::OnTarget), 9, None);
-        assert_eq!(told(&[shot, on_target, event(EventKind::Goal, None, 9, None)]), ["GOAL 9 ×1"]);
-        assert_eq!(told(&[shot, event(EventKind::Save, None, 11, None), on_target]), ["shot 9 ×1", "save 11 ×1"]);
+        assert_eq!(described(&[shot, on_target, event(EventKind::Goal, None, 9, None)]), ["GOAL 9 ×1"]);
+        assert_eq!(described(&[shot, event(EventKind::Save, None, 11, None), on_target]), ["shot 9 ×1", "save 11 ×1"]);
     }
 
     #[test]
@@ -223,6 +227,6 @@ mod tests {
         let tackle = event(EventKind::Tackle, None, 3, Some(14));
         let touch = event(EventKind::Touch, None, 3, None);
         let slide = event(EventKind::Slide, None, 4, None);
-        assert_eq!(told(&[tackle, touch, slide, tackle]), ["slide 4 ×1", "tackle 3 on 14 ×2"]);
+        assert_eq!(described(&[tackle, touch, slide, tackle]), ["slide 4 ×1", "tackle 3 on 14 ×2"]);
     }
 }

@@ -1,7 +1,7 @@
 //! The system's events on the folders of watched files: they end a wait early.
 //!
-//! An event only says that it is time to look. A folder that can't be watched (it is missing, or a
-//! limit of the system is reached) costs nothing but the early end of a wait.
+//! An event only means that it is time to check. For a folder that can't be watched (it is missing,
+//! or a limit of the system is reached), waits just don't end early.
 
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
@@ -11,20 +11,21 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, sync_channel};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-/// Longest chain of links that is followed from a file: Linux follows as many.
+/// The longest chain of links that is followed from a file; Linux has the same limit.
 const LINKS_MAX: usize = 40;
-/// Longest wait for the thread of the events to end: it does nothing but close its descriptors.
+/// The longest wait for the events' thread to end. It only closes its descriptors.
 const END_MAX: Duration = Duration::from_secs(1);
 
 /// Listens to the events of some folders.
 #[derive(Debug)]
 pub(super) struct Events {
-    /// The source of events; none where the system grants none.
+    /// The source of events; none if the system grants none.
     watcher: Option<RecommendedWatcher>,
-    /// Receives at most one message for any number of events; disconnected once the thread has ended.
+    /// Receives at most one message for any number of events; disconnected once the thread has
+    /// ended.
     heard: Receiver<()>,
     folders: BTreeMap<PathBuf, Folder>,
-    /// The process that has the thread: a forked one has a copy of this value alone.
+    /// The process that has the thread. A forked process has only a copy of this value.
     process: u32,
 }
 
@@ -35,7 +36,7 @@ struct Folder {
     is_watched: bool,
 }
 
-/// Tells a folder from another one of the same name: device, file, and when it was made.
+/// Distinguishes a folder from another one of the same name: device, file, and creation time.
 type Identity = (u64, u64, Option<SystemTime>);
 
 impl Events {
@@ -43,7 +44,7 @@ impl Events {
         let (sender, heard) = sync_channel(1);
         let watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
             if event.map_or(true, |event| is_change(event.kind)) {
-                // A full channel has said it already.
+                // A full channel already has the message.
                 let _ = sender.try_send(());
             }
         });
@@ -51,8 +52,8 @@ impl Events {
         Events { watcher: watcher.ok(), heard, folders: BTreeMap::new(), process }
     }
 
-    /// Watches the folders of these files and of what their links lead to, and no others. Returns
-    /// whether all of them are watched.
+    /// Watches exactly the folders of these files and of their links' targets. Returns whether all
+    /// of them are watched.
     pub(super) fn follow<'a>(&mut self, files: impl Iterator<Item = &'a Path>) -> bool {
         if !self.is_alive() {
             return false;
@@ -69,7 +70,7 @@ impl Events {
         self.folders.retain(|path, folder| {
             let keep = wanted.get(path) == Some(&folder.identity);
             if !keep && folder.is_watched {
-                // A deleted folder has lost its watch already.
+                // A deleted folder has already lost its watch.
                 let _ = watcher.unwatch(path);
             }
             keep
@@ -91,14 +92,14 @@ impl Events {
         }
     }
 
-    /// Whether the thread runs that `notify` expects: it panics without.
+    /// Whether the thread that `notify` needs is running; it panics otherwise.
     fn is_alive(&self) -> bool {
-        // A message that is taken here is no loss: a look follows.
+        // Receiving a message here loses nothing, because a check follows.
         self.process == std::process::id() && self.heard.try_recv() != Err(TryRecvError::Disconnected)
     }
 }
 
-/// Waits for the thread: afterwards its descriptors are closed.
+/// Waits for the thread; afterwards its descriptors are closed.
 impl Drop for Events {
     fn drop(&mut self) {
         let is_alive = self.is_alive();
@@ -108,12 +109,12 @@ impl Drop for Events {
             return;
         }
         drop(watcher);
-        // One message at most stands before the end.
+        // At most one message comes before the end.
         while self.heard.recv_timeout(END_MAX).is_ok() {}
     }
 }
 
-/// Whether an event may have changed a file: to read one makes events too.
+/// Whether an event may have changed a file; reading causes events too.
 fn is_change(kind: EventKind) -> bool {
     match kind {
         EventKind::Access(access) => access == AccessKind::Close(AccessMode::Write),
@@ -121,7 +122,7 @@ fn is_change(kind: EventKind) -> bool {
     }
 }
 
-/// The folders of a file and of everything on the way of its links.
+/// The folders of a file and of all links on its path.
 fn folders_of(file: &Path) -> Vec<PathBuf> {
     let mut folders = Vec::new();
     let mut at = file.to_owned();
@@ -168,7 +169,7 @@ mod tests {
         begun.elapsed() < timeout
     }
 
-    /// Takes what is still on its way.
+    /// Drops pending events.
     fn settle(events: &Events) {
         while ends_early(events, QUIET) {}
     }

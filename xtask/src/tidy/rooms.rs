@@ -1,9 +1,10 @@
-//! Which folder of `engine/src` may use which: whoever reads one need not know those that stand on it.
+//! Which folder of `engine/src` may use which, so that reading one doesn't require knowing those
+//! above it.
 
 use super::{read, rust_files};
 use std::path::Path;
 
-/// The rooms from the ground up, and what each may use: rooms that are named before it.
+/// The rooms from the ground up, and what each may use: only earlier rooms.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("floats", &[]),
     ("in_place", &[]),
@@ -45,13 +46,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("batch", &["control", "draw", "environment", "judge", "random", "statistics"]),
 ];
 
-/// Files that may use one more room all the same, and why.
+/// Files that may use one more room, and why.
 const MAY_ALSO: &[(&str, &str)] = &[
-    // What scripts have kept is written while everything else is.
+    // What scripts have kept is written together with everything else.
     ("snapshot/archive.rs", "judge"),
 ];
 
-/// Names every use of a room that must not be used, of all files under `engine/src`.
+/// Reports every forbidden use of a room in files under `engine/src`.
 pub(super) fn check(source: &Path, breaches: &mut Vec<String>) -> Result<(), String> {
     for file in rust_files(source) {
         let path = file.strip_prefix(source).map_err(|why| why.to_string())?.to_string_lossy().replace('\\', "/");
@@ -60,10 +61,10 @@ pub(super) fn check(source: &Path, breaches: &mut Vec<String>) -> Result<(), Str
     Ok(())
 }
 
-/// The same of one file; `path`: its own, below `engine/src`.
+/// The same for one file; `path` is relative to `engine/src`.
 fn check_file(path: &str, text: &str, breaches: &mut Vec<String>) {
     let room = path.split('/').next().unwrap_or_default().trim_end_matches(".rs");
-    // The crate's root uses nothing, and tests may use what they like.
+    // The crate's root uses nothing, and tests may use anything.
     if room == "lib" || room == "testing" || path.ends_with("/tests.rs") || path.contains("/tests/") {
         return;
     }
@@ -84,7 +85,8 @@ fn check_file(path: &str, text: &str, breaches: &mut Vec<String>) {
     }
 }
 
-/// The rooms that a file's paths lead to, each with its line; `depth`: how many modules the file is below the root.
+/// The rooms that a file's paths lead to, each with its line; `depth` is the number of modules from
+/// the root.
 fn uses(code: &str, depth: usize) -> Vec<(&str, usize)> {
     let root = "super::".repeat(depth);
     let mut found = Vec::new();
@@ -111,7 +113,7 @@ fn word(text: &str) -> Option<&str> {
     (end > 0).then(|| &text[..end])
 }
 
-/// The members of a group of paths, from behind its brace on: each with all that follows it.
+/// The members of a group of paths after its brace, each with everything that follows it.
 fn members(group: &str) -> impl Iterator<Item = &str> {
     let mut depth = 0_usize;
     let mut starts = vec![0];
@@ -161,7 +163,7 @@ mod tests {
             found,
             ["engine/src/state/play.rs:3: state → football: `state` may not use `football`, which stands on it"]
         );
-        // However it is written.
+        // In every notation.
         for text in [
             "fn f() { crate::football::tick::advance() }",
             "use crate::{random, football::{kick, tick}};",

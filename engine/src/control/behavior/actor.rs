@@ -1,4 +1,4 @@
-//! One player's way through his behaviour's nodes.
+//! One player's progress through the nodes of their behaviour.
 
 use super::perform::{Step, Wish, perform};
 use crate::in_place::clone_in_place;
@@ -13,19 +13,20 @@ use setpiece_scenario::vocabulary::Action;
 use setpiece_scenario::{Act, Behavior, Do, Node, Reg, Then, Watch};
 use std::sync::Arc;
 
-/// Most nodes gone through in one step: more than any that ends can need, so that a damaged file costs little.
+/// The most nodes in one step: more than any terminating behaviour needs, so that a damaged file
+/// costs little.
 const NODES_PER_STEP: u32 = 100_000;
 
-/// A scripted player and what he remembers.
+/// A scripted player and their memory.
 #[derive(Debug)]
 pub struct Actor {
-    /// Who.
+    /// The player.
     pub player: PlayerId,
-    /// His behaviour, by its place in the scenario's.
+    /// Their behaviour, by its index in the scenario.
     pub plan: usize,
     /// The memory of the behaviour's program.
     pub cells: Vec<[f64; 1]>,
-    /// Where he is in it.
+    /// Where they are in it.
     pub thread: Thread,
 }
 
@@ -33,7 +34,7 @@ clone_in_place! {
     Actor { player, plan, cells, thread }
 }
 
-/// Where a player is in his behaviour.
+/// A player's place in their behaviour.
 #[derive(Debug)]
 pub struct Thread {
     player: PlayerId,
@@ -42,9 +43,9 @@ pub struct Thread {
     interrupted: Vec<Frame>,
     /// Steps so far.
     steps: u32,
-    /// The last step in which each watch turned him away: once a step at most.
+    /// The last step in which each watch redirected the player; at most once per step.
     turned: Vec<u32>,
-    /// Of each script, by its node.
+    /// One per script, by its node.
     memories: Vec<(u32, Memory)>,
 }
 
@@ -59,7 +60,7 @@ pub struct Frame {
     pub node: u32,
     /// Steps spent on it.
     pub steps: u32,
-    /// Whether its kick or slide has been called for.
+    /// Whether its kick or slide has been requested.
     pub pressed: bool,
 }
 
@@ -70,7 +71,7 @@ impl Frame {
 }
 
 impl Actor {
-    /// A player before his first episode.
+    /// Creates a player before their first episode.
     pub fn new(player: PlayerId, plan: usize, behavior: &Behavior) -> Actor {
         let scripts = behavior.nodes.iter().enumerate().filter_map(|(at, node)| match node {
             Node::Do(Do { act: Act::Script { .. }, .. }) => Some((at as u32, Memory::default())),
@@ -92,7 +93,7 @@ impl Actor {
         self.cells.fill([0.0]);
         for node in &behavior.nodes {
             if let Node::Let(pairs) = node {
-                // What is read before it is frozen is nothing.
+                // Values read before they are frozen are empty.
                 for (cell, _) in pairs {
                     self.cells[*cell as usize] = [f64::NAN];
                 }
@@ -105,22 +106,22 @@ impl Actor {
         self.thread.memories.iter_mut().for_each(|(_, memory)| *memory = Memory::default());
     }
 
-    /// Writes or reads what he remembers.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads their memory.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         let Thread { player: _, at, interrupted, steps, turned, memories } = &mut self.thread;
         archive.slots("cells", &mut self.cells)?;
         archive.value("at", at)?;
         archive.value("interrupted", interrupted)?;
         archive.value("steps", steps)?;
         archive.slots("turned", turned)?;
-        memories.iter_mut().try_for_each(|(_, memory)| memory.pass("this", archive))
+        memories.iter_mut().try_for_each(|(_, memory)| memory.archive("this", archive))
     }
 }
 
 /// The values that a behaviour sees in a step.
 pub struct Mind<'a> {
     machine: Machine<'a>,
-    /// A cell was written since the registers were computed.
+    /// Whether a cell was written since the registers were computed.
     stale: bool,
     seed: u64,
     index: u64,
@@ -128,7 +129,7 @@ pub struct Mind<'a> {
 }
 
 impl<'a> Mind<'a> {
-    /// The mind of a player; see [`Self::see`].
+    /// Creates the values of a player; see [`Self::see`].
     pub fn new(machine: Machine<'a>, seed: u64, index: u64, player: PlayerId) -> Mind<'a> {
         Mind { machine, stale: false, seed, index, player }
     }
@@ -158,7 +159,7 @@ impl<'a> Mind<'a> {
         player_index(self.value(reg)).map(|index| PlayerId(index as u8))
     }
 
-    /// Writes cells, all at once; `stopped`: impossible values are not written.
+    /// Writes cells, all at once. `stopped`: impossible values are dropped.
     fn write(&mut self, pairs: &[(u32, Reg)], stopped: bool) {
         if let Some((_, first)) = pairs.first() {
             self.value(*first);
@@ -181,7 +182,7 @@ impl<'a> Mind<'a> {
         }
         let [drawn] = self.machine.cells[*count as usize];
         self.machine.cells[*count as usize] = [drawn + 1.0];
-        // Players of one behaviour draw apart.
+        // Players of one behaviour draw independently.
         let own = key.wrapping_add((u64::from(self.player.0) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         self.machine.draws = Some(DrawKey { seed: self.seed, index: self.index, attempt: drawn as u32 });
         self.machine.cells[*cell as usize] = [self.machine.draw(own, from)];
@@ -209,7 +210,7 @@ impl Thread {
         if first {
             self.begin(plan, mind);
         }
-        // What turns him away is looked at before whatever he would do.
+        // Watches are checked before anything the player would do.
         self.look_out(plan, mind);
         for _ in 0..NODES_PER_STEP {
             let Some(node) = plan.nodes.get(self.at.node as usize) else { return Ok(Action::BuiltinAi) };
@@ -261,7 +262,7 @@ impl Thread {
         self.at = Frame::at(self.at.node + 1);
     }
 
-    /// Sets the states before anything looks at them.
+    /// Sets the states before anything reads them.
     fn begin(&mut self, plan: &Behavior, mind: &mut Mind<'_>) {
         while let Some(node) = plan.nodes.get(self.at.node as usize) {
             match node {
@@ -273,7 +274,8 @@ impl Thread {
         }
     }
 
-    /// Lets the first watch that holds turn him away, each once a step; whether one did.
+    /// Lets the first watch that holds redirect the player, each at most once per step. Returns
+    /// whether one did.
     fn look_out(&mut self, plan: &Behavior, mind: &mut Mind<'_>) -> bool {
         let (here, now) = (self.at.node, self.steps);
         let mut open = plan.watches.iter().zip(&mut self.turned);
@@ -293,7 +295,7 @@ impl Thread {
         true
     }
 
-    /// Goes on behind a part of the behaviour, with whatever was interrupted in it.
+    /// Continues after a part of the behaviour, with whatever was interrupted in it.
     fn leave(&mut self, from: u32, to: u32) {
         while self.interrupted.last().is_some_and(|frame| (from..to).contains(&frame.node)) {
             self.interrupted.pop();
@@ -301,7 +303,7 @@ impl Thread {
         self.at = Frame::at(to);
     }
 
-    /// An action of a `do`; `None` once it has ended.
+    /// Runs an action of a `do`; `None` once it has ended.
     fn act(
         &mut self,
         doing: &Do,
@@ -313,7 +315,7 @@ impl Thread {
             return Ok(None);
         }
         if let Some(seconds) = doing.seconds {
-            // The cast saturates; what is impossible is no time at all.
+            // The cast saturates; an impossible value is no time at all.
             let steps = libm::round(mind.value(seconds) * STEPS_PER_S) as u32;
             if self.at.steps >= steps {
                 return Ok(None);

@@ -11,43 +11,43 @@ use glam::Vec2;
 use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::Action;
 
-/// A way ends this near, metres.
+/// A player has arrived within this distance, metres.
 const THERE_M: f32 = 1.0;
-/// How far from his man a marker stands, metres.
+/// A marker stands this far from their opponent, metres.
 const MARK_M: f32 = 1.0;
-/// A marker looks so far ahead, seconds.
+/// A marker predicts this far ahead, seconds.
 const MARK_AHEAD_S: f32 = 0.25;
-/// Who chases the ball looks so far ahead, seconds.
+/// A chaser of the ball predicts this far ahead, seconds.
 const CHASE_AHEAD_S: f32 = 0.3;
-/// Further away than this he sprints unasked to his man or the ball, metres.
+/// Players sprint to their opponent or the ball if it is further away than this, metres.
 const HURRY_M: f32 = 1.5;
-/// A ball that he will reach first counts as his when it is this near, metres.
+/// A ball that a player will reach first counts as theirs within this distance, metres.
 const NEAR_M: f32 = 3.0;
-/// A marker this near to where he should be is there, metres.
-const AT_HIM_M: f32 = 0.7;
-/// A man slower than this stands, m/s.
+/// A marker this near to where they should be has arrived, metres.
+const AT_MARK_M: f32 = 0.7;
+/// A slower opponent counts as standing, m/s.
 const STROLL_MPS: f32 = 1.5;
-/// A tackle is given up after so many steps.
+/// A tackle is given up after this many steps.
 const TACKLE_STEPS: u32 = 10;
 
 /// What a player wants to do; world metres and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wish {
-    /// Be there.
+    /// Go to a place.
     MoveTo(Vec2),
-    /// Run that way.
+    /// Run in a direction.
     Run(f32),
-    /// Take the ball there.
+    /// Take the ball to a place.
     DribbleTo(Vec2),
-    /// Kick the ball to a mate.
+    /// Kick the ball to a teammate.
     Pass(Action, Option<PlayerId>),
-    /// Shoot, at a point if one is meant.
+    /// Shoot, at a point if one is given.
     Shoot(Option<Vec2>),
     /// Challenge for the ball.
     Tackle,
     /// Slide once.
     Slide,
-    /// Stay between him and the own goal.
+    /// Stay between an opponent and the own goal.
     Mark(Option<PlayerId>),
     /// Go for the ball.
     Press,
@@ -57,14 +57,14 @@ pub enum Wish {
     Bot,
 }
 
-/// What comes of a wish in a step.
+/// The result of a wish in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// He presses this.
+    /// The player presses this.
     Act(Action),
     /// It is done, or can't be done.
     Ended,
-    /// It makes no sense: a place that can't be computed.
+    /// It is impossible: a place that can't be computed.
     Impossible,
 }
 
@@ -75,7 +75,7 @@ pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut
         Wish::MoveTo(to) => body.to(to, Gait::Run),
         Wish::Run(angle) if angle.is_nan() => Step::Impossible,
         Wish::Run(angle) => Step::Act(body.along(Vec2::new(libm::cosf(angle), libm::sinf(angle)) * 100.0, Gait::Run)),
-        Wish::DribbleTo(_) if !his(game, id) => Step::Ended,
+        Wish::DribbleTo(_) if !has_claim(game, id) => Step::Ended,
         Wish::DribbleTo(to) => body.to(to, Gait::Dribble),
         Wish::Pass(kick, mate) => body.pass(kick, mate, frame),
         Wish::Shoot(at) => body.shoot(at, frame),
@@ -88,14 +88,15 @@ pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut
     }
 }
 
-/// Whether the ball is his: he has it, dribbles it, is to take it, or is about to reach it first.
-fn his(game: &Match, id: PlayerId) -> bool {
+/// Whether the ball is the player's: they have it, dribble it, are about to take it, or will reach
+/// it first.
+fn has_claim(game: &Match, id: PlayerId) -> bool {
     let near = game.player(id).pos.distance(game.ball.pos.truncate()) < NEAR_M;
     let taker = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
     game.controller() == Some(id) || ((near || taker || game.owner == Some(id)) && may_play(game, id))
 }
 
-/// A player and what he holds.
+/// A player and what they hold.
 struct Legs<'a> {
     game: &'a Match,
     id: PlayerId,
@@ -108,7 +109,7 @@ impl Legs<'_> {
         self.game.player(self.id).pos
     }
 
-    /// The press along a world way.
+    /// The press that runs along a world direction.
     fn along(&self, way: Vec2, gait: Gait) -> Action {
         let gait = if self.sprint { Gait::Sprint } else { gait };
         towards(self.held, way * self.id.team().side() as f32, gait)
@@ -125,13 +126,13 @@ impl Legs<'_> {
         }
     }
 
-    /// Once a kick is called for, it is waited for.
+    /// After a kick has been requested, waits for it.
     fn swinging(&self, frame: &Frame) -> Option<Step> {
         let waits = self.game.player(self.id).body.kick.is_some();
         match (frame.pressed, waits) {
             (true, true) => Some(Step::Act(Action::Idle)),
             (true, false) => Some(Step::Ended),
-            (false, _) => (!his(self.game, self.id)).then_some(Step::Ended),
+            (false, _) => (!has_claim(self.game, self.id)).then_some(Step::Ended),
         }
     }
 
@@ -168,7 +169,7 @@ impl Legs<'_> {
         }
         let off = |dir: Option<Vec2>| shot::aim_of(from, side, dir.map(|dir| dir * side)).distance(meant);
         let held = sticky::direction(self.held);
-        // Without a point whatever goes between the posts will do.
+        // Without a point, anything between the posts will do.
         if at.is_none() && off(held) < GOAL_HALF_WIDTH_M as f32 {
             frame.pressed = true;
             return Step::Act(Action::Shot);
@@ -183,7 +184,7 @@ impl Legs<'_> {
             }
         }
         match best {
-            // Nothing held means the middle of the goal.
+            // Holding nothing means the middle of the goal.
             Some((least, _)) if off(None) <= least => {
                 if held.is_some() {
                     return Step::Act(Action::ReleaseDirection);
@@ -196,7 +197,7 @@ impl Legs<'_> {
         }
     }
 
-    /// Whoever has the ball or dribbles it.
+    /// The player who has the ball or dribbles it.
     fn owner(&self) -> Option<PlayerId> {
         self.game.on_ball()
     }
@@ -217,7 +218,7 @@ impl Legs<'_> {
         match (frame.pressed, up) {
             (true, true) => Step::Ended,
             (_, false) => Step::Act(Action::Idle),
-            (false, true) if his(self.game, self.id) => Step::Ended,
+            (false, true) if has_claim(self.game, self.id) => Step::Ended,
             (false, true) => {
                 frame.pressed = true;
                 Step::Act(Action::Sliding)
@@ -234,18 +235,18 @@ impl Legs<'_> {
 
     fn mark(&self, who: Option<PlayerId>) -> Step {
         let Some(who) = who.filter(|who| *who != self.id && self.game.player(*who).active) else { return Step::Ended };
-        let man = self.game.player(who);
+        let rival = self.game.player(who);
         let goal = Vec2::new(-(HALF_LENGTH_M as f32) * self.id.team().side() as f32, 0.0);
-        let ahead = man.pos + man.vel * MARK_AHEAD_S;
+        let ahead = rival.pos + rival.vel * MARK_AHEAD_S;
         let spot = ahead + (goal - ahead).clamp_length_max(MARK_M);
         let way = spot - self.pos();
-        let (distance, speed) = (way.length(), man.vel.length());
+        let (distance, speed) = (way.length(), rival.vel.length());
         let gait = if distance > HURRY_M || speed > RUN_MPS { Gait::Sprint } else { Gait::Run };
-        Step::Act(if distance > AT_HIM_M {
+        Step::Act(if distance > AT_MARK_M {
             self.along(way, gait)
         } else if speed > STROLL_MPS {
-            // In his place: he goes where his man goes.
-            self.along(man.vel.normalize_or_zero() * 10.0, gait)
+            // In place: moves as the marked opponent does.
+            self.along(rival.vel.normalize_or_zero() * 10.0, gait)
         } else {
             rest(self.held)
         })

@@ -1,10 +1,11 @@
-//! Steering by an agent's means: one of eight directions, sprint and dribble held until released, one press a step.
+//! Steering with an agent's keys: one of eight directions, sprint and dribble held until released,
+//! one press per step.
 
 use crate::control::{agents, sticky};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Action;
 
-/// How he runs.
+/// How the player runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gait {
     /// Without anything held.
@@ -15,12 +16,13 @@ pub enum Gait {
     Dribble,
 }
 
-/// A held direction is kept while it is off by less than this, cos 30°: the border between two directions is 22.5°.
+/// A held direction is kept while it is off by less than this, cos 30°. The border between two
+/// directions is at 22.5°.
 const KEEP_COS: f32 = 0.866;
-/// Nearer than this to the goal of the way the best direction is taken at once, metres.
+/// Nearer than this to the target, the best direction is taken at once, metres.
 const FINE_M: f32 = 3.0;
 
-/// The press that brings him on his way; own frame, metres.
+/// The press that brings the player towards a target; own frame, metres.
 pub fn towards(held: u16, way: Vec2, gait: Gait) -> Action {
     let near = way.length() < FINE_M;
     let kept = sticky::direction(held).is_some_and(|dir| dir.dot(way.normalize_or_zero()) > KEEP_COS);
@@ -31,7 +33,7 @@ pub fn towards(held: u16, way: Vec2, gait: Gait) -> Action {
     if sticky::holds(held, best) { pace(held, gait) } else { best }
 }
 
-/// The press that changes his gait, if one does.
+/// The press that changes the gait, if one does.
 fn pace(held: u16, gait: Gait) -> Action {
     match (sticky::sprints(held), sticky::dribbles(held), gait) {
         (true, _, Gait::Run | Gait::Dribble) => Action::ReleaseSprint,
@@ -42,7 +44,7 @@ fn pace(held: u16, gait: Gait) -> Action {
     }
 }
 
-/// The press that brings him to a stand.
+/// The press that stops the player.
 pub fn rest(held: u16) -> Action {
     if sticky::direction(held).is_some() { Action::ReleaseDirection } else { pace(held, Gait::Run) }
 }
@@ -51,7 +53,7 @@ pub fn rest(held: u16) -> Action {
 mod tests {
     use super::*;
 
-    /// Presses until nothing changes: what is held then, and how often was pressed.
+    /// Presses until nothing changes. Returns what is held then, and the number of presses.
     fn settled(mut held: u16, way: Vec2, gait: Gait) -> (u16, u32) {
         for presses in 0..10 {
             let action = towards(held, way, gait);
@@ -79,7 +81,7 @@ mod tests {
         let at = |degrees: f32| Vec2::new(libm::cosf(degrees.to_radians()), libm::sinf(degrees.to_radians()));
         assert_eq!(towards(held, at(26.0) * 20.0, Gait::Run), Action::Idle);
         assert_eq!(towards(held, at(32.0) * 20.0, Gait::Run), Action::BottomRight);
-        // The last metres are taken exactly.
+        // The last metres are steered exactly.
         assert_eq!(towards(held, at(26.0) * 2.0, Gait::Run), Action::BottomRight);
     }
 

@@ -1,25 +1,25 @@
-//! Where everyone stands while the bots decide, in columns: what nearness is asked of.
+//! Everyone's place while the bots decide, in columns, for queries of the nearest player.
 
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::Team;
 
-/// Places of a column: as many as whole vectors hold.
+/// Length of a column: a whole number of vectors.
 const COLUMN: usize = TEAM_MAX.next_multiple_of(4);
-/// What stands for a distance that is none: it is above every other.
+/// Stands for "no distance": larger than every other value.
 const NONE: u64 = u64::MAX;
 
-/// Where everyone stands, world metres, by team and number. Nobody moves while the bots decide.
+/// Everyone's place, world metres, by team and number. Nobody moves while the bots decide.
 #[derive(Clone, Copy, Debug)]
 pub struct Board {
-    /// Infinite where nobody is on the pitch.
+    /// Infinite for players off the pitch.
     x: [[f32; COLUMN]; 2],
     y: [[f32; COLUMN]; 2],
 }
 
 impl Board {
-    /// Where everyone stands now.
+    /// Copies everyone's current place.
     pub fn of(game: &Match) -> Board {
         let mut board = Board { x: [[f32::INFINITY; COLUMN]; 2], y: [[0.0; COLUMN]; 2] };
         game.squad.ids().filter(|id| game.player(*id).active).for_each(|id| {
@@ -29,7 +29,7 @@ impl Board {
         board
     }
 
-    /// The players of a team who are nearest to a place, world, the nearest first.
+    /// The players of a team nearest to a world place, nearest first.
     pub fn nearest<const N: usize>(
         &self,
         team: Team,
@@ -41,8 +41,9 @@ impl Board {
             let (dx, dy) = (x[i] - to.x, y[i] - to.y);
             dx * dx + dy * dy
         });
-        // A distance and whose it is in one number: bits of floats that aren't negative lie as the floats do, and of equals
-        // the first comes first. Without a branch, as nobody can foretell who is near.
+        // Packs a distance and its player into one number: bits of non-negative floats sort like
+        // the floats, and of equals the first wins. There is no branch, because nobody can predict
+        // who is near.
         let mut best = [NONE; N];
         for (number, squared) in squared.into_iter().enumerate().take(TEAM_MAX) {
             let id = PlayerId::new(team, number);

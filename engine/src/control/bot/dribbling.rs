@@ -1,4 +1,5 @@
-//! Where a player runs with the ball: opponents and lines push, the goal draws. (GRF's figures.)
+//! Where a player runs with the ball: opponents and lines repel, the goal attracts. (GRF's
+//! figures.)
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::off_ball;
@@ -9,21 +10,22 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 
-/// How far ahead everyone is reckoned to be, seconds.
+/// Positions are predicted this far ahead, seconds.
 const AHEAD_S: f32 = 0.25;
-/// How many opponents push, how strongly, and from how far, metres.
+/// How many opponents repel, how strongly, and from how far, metres.
 const RIVALS: usize = 5;
 const RIVAL: (f32, f32) = (2.0, 10.0);
-/// How strongly lines push, from how far, how far out they are reckoned, metres, and how that fades, eighths.
+/// How strongly lines repel and from how far, how far outside they count as lying, metres, and how
+/// that fades, eighths.
 const LINE: (f32, f32) = (4.0, 20.0);
 const LINE_OUT_M: f32 = 5.0;
 const LINE_FADES: u32 = 6;
-/// How much of the player's place across the pitch the goal's has.
+/// The goal's y as a share of the player's, so that it attracts only partly towards the middle.
 const TO_MIDDLE: f32 = 0.28;
-/// How fast a player runs for a force of one, m/s.
+/// Running speed for a force of one, m/s.
 const FORCE_MPS: f32 = 20.8;
 
-/// The velocity that somebody with the ball wants, world m/s; `shy`: how much opponents count.
+/// The velocity that a player wants with the ball, world m/s. `shy`: how much opponents count.
 pub fn way(game: &Match, view: &View, id: PlayerId, shy: f32) -> Vec2 {
     let player = game.player(id);
     let own = player.pos * view.side;

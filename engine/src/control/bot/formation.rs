@@ -1,7 +1,8 @@
-//! The team's block in open play: where everyone's place is, given the ball and who is nearer to it.
+//! The team's block in open play: everyone's place, given the ball and which team is nearer to it.
 //!
-//! Every number has a slot in one formation ([`SLOTS`](crate::football::lineup::SLOTS)); its role says how its place
-//! follows the ball. Players swap slots where that brings the team to its places sooner. (All figures are GRF's.)
+//! Every number has a slot in one formation ([`SLOTS`](crate::football::lineup::SLOTS)). Its role
+//! decides how its place follows the ball. Players swap slots if that brings the team to its places
+//! sooner. (All figures are GRF's.)
 
 use crate::control::bot::View;
 use crate::control::bot::matching::matching;
@@ -15,10 +16,10 @@ use setpiece_scenario::vocabulary::Role;
 /// The whole block's depth and width, shares of the pitch.
 const DEPTH: f32 = 0.45;
 const WIDTH: f32 = 0.95;
-/// How far ahead a player is reckoned to be when slots are given, seconds.
+/// Players' positions are predicted this far ahead when slots are assigned, seconds.
 const SWAP_AHEAD_S: f32 = 0.5;
 
-/// What a team wants of its block, with and without the ball.
+/// How a team wants its block, with and without the ball.
 #[derive(Clone, Copy)]
 struct Wish {
     /// Shares of the block's depth and width.
@@ -28,9 +29,9 @@ struct Wish {
     back: f32,
     /// Where midfielders stand between the rearmost (0) and the foremost (1).
     midfield: f32,
-    /// How much the block goes by who has the ball lately instead of by the ball's place.
+    /// How much the block follows who has had the ball recently, instead of the ball's place.
     by_side: f32,
-    /// How strongly players are drawn to what happens.
+    /// How strongly players are drawn to the action.
     drawn: f32,
 }
 
@@ -50,7 +51,7 @@ pub fn mindset(role: Role) -> f32 {
     }
 }
 
-/// What a role wants, with the ball and without.
+/// A role's wishes, with the ball and without.
 fn wishes(role: Role) -> [Wish; 2] {
     let (mut attack, mut defence) = (ATTACK, DEFENCE);
     match role {
@@ -68,7 +69,7 @@ fn wishes(role: Role) -> [Wish; 2] {
     [attack, defence]
 }
 
-/// Gives the slots out again, so that everyone's way to theirs is short. (GRF's.)
+/// Assigns the slots again, so that everyone's way to theirs is short. (GRF's.)
 pub fn swap_slots(game: &mut Match, view: &View) {
     let mut field = [PlayerId(0); TEAM_MAX];
     let mut ways = [[0i32; TEAM_MAX]; TEAM_MAX];
@@ -99,27 +100,28 @@ pub fn swap_slots(game: &mut Match, view: &View) {
 
 /// What a player's place in the block depends on, whatever slot they fill; own frame, metres.
 pub struct Outlook {
-    /// Where the ball was lately: the nearer the player to what happens, the more lately.
+    /// Where the ball was recently. For players nearer to the action, more recent places count.
     ball: Vec2,
     /// How much the team attacks, 0..1.
     attacks: f32,
-    /// The x of the block that goes by who has the ball lately.
+    /// The x of the block, by who has had the ball recently.
     side_x: f32,
-    /// What happens.
+    /// Where the action is.
     focus: Vec2,
-    /// How much it draws players, 0..1.
+    /// How strongly the action draws players, 0..1.
     draws: f32,
 }
 
 impl Outlook {
-    /// How a player sees the game.
+    /// Computes how a player sees the game.
     pub fn of(game: &Match, view: &View, id: PlayerId) -> Outlook {
         let action = view.action_at(game);
         let urgent = 1.0 - share(action.distance(game.player(id).pos * view.side), 2.0, 30.0);
         let mean = |seconds: f32| view.means.over(seconds) * view.side;
         let ball_x = mean(3.5 * (1.0 - 0.7 * urgent)).x;
         let ball_y = mean(4.0 * (1.0 - 0.5 * urgent)).y;
-        // How much the team attacks: by its nearness to the ball, and by the ball's place where that is unclear.
+        // How much the team attacks: by its nearness to the ball, and by the ball's place if that
+        // is unclear.
         let near = share(view.nearness - 0.5, 0.3, 0.7);
         let unclear = 0.6 * (1.0 - (2.0 * near - 1.0).abs());
         let up = share(ball_x / HALF.x, -0.7, 0.7);
@@ -131,7 +133,7 @@ impl Outlook {
         Outlook { ball: Vec2::new(ball_x, ball_y), attacks, side_x, focus, draws }
     }
 
-    /// The player's place in the block in the slot and role of somebody.
+    /// The player's place in the block if they fill the slot and role of `fills`.
     pub fn place(&self, game: &Match, view: &View, fills: PlayerId) -> Vec2 {
         let Outlook { ball, attacks, side_x, focus, draws } = *self;
         let filled = game.player(fills);
@@ -145,7 +147,7 @@ impl Outlook {
         let middle_x = middle_x * (0.95 * (1.0 - depth) + 0.05);
         let middle_y = ball.y.clamp(-HALF.y, HALF.y) * (0.9 * (1.0 - width) + 0.1);
         let (back, front) = ((middle_x - depth * HALF.x).max(view.trap_x), middle_x + depth * HALF.x);
-        // What happens, for those who attack and for those who defend.
+        // The action, as attackers and as defenders see it.
         let ahead = Vec2::new((focus.x + 1.0).min(HALF.x), 0.9 * focus.y);
         let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
         let follows = share(ball.x / HALF.x, -0.8, 0.8);

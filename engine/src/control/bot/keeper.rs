@@ -1,4 +1,5 @@
-//! The keeper's feet: where they stand, when they come out. (Their hands are `football::keeper`'s.)
+//! The keeper's feet: where they stand, and when they come out. (Their hands are in
+//! `football::keeper`.)
 
 use crate::control::bot::{GOAL, View, on_ball, press, send};
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
@@ -9,35 +10,39 @@ use glam::Vec2;
 use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
 use setpiece_scenario::vocabulary::Stat;
 
-/// Further up than this, own frame x, metres, a keeper without mates plays as the only player they are; chosen.
+/// Beyond this own frame x, metres, a keeper without teammates plays as the only player; chosen.
 const STRAYED_M: f32 = -15.0;
-/// Further up than this, own frame x, metres, a keeper goes for a ball that is as good as theirs alone; chosen.
+/// Beyond this own frame x, metres, a keeper goes only for a ball that no opponent can contest;
+/// chosen.
 const FAR_OUT_M: f32 = -30.0;
-/// How far ahead a keeper reckons with the ball, ticks. (GRF's.)
+/// How far ahead a keeper predicts the ball, ticks. (GRF's.)
 const LOOK_TICKS: u32 = 60;
-/// How far ahead a keeper reckons with opponents, seconds. (GRF's.)
+/// How far ahead a keeper predicts opponents, seconds. (GRF's.)
 const MEET_S: f32 = 0.32;
-/// How far before the goal line a keeper waits: with the ball in the other half, and at least, metres. (GRF's.)
+/// How far in front of the goal line a keeper waits, metres: with the ball in the other half, and
+/// at least. (GRF's.)
 const WAIT_M: f32 = 10.0;
 const LINE_M: f32 = 0.7;
-/// How far up towards the ball a keeper waits whose team has it, a share of the way. (GRF's.)
+/// How far towards the ball a keeper waits whose team has it, a share of the distance. (GRF's.)
 const UP_SHARE: f32 = 0.3;
 /// From how far the opponent on the ball and a second one shoot, metres. (GRF's.)
 const RIVAL_SHOOTS_M: f32 = 20.0;
 const SECOND_SHOOTS_M: f32 = 24.0;
-/// Over how many ticks the course of a ball is read, within how many it must be over the line to be bound for goal, from how
-/// far that worries a keeper, and how far before the line they meet it, metres. (GRF's.)
+/// Balls bound for goal. (GRF's.) The course is read over `COURSE_TICKS`. The other values: the
+/// ticks within which the ball must cross the line, the distance from which it worries a keeper,
+/// and how far in front of the line the keeper meets it, metres.
 const COURSE_TICKS: u32 = 80;
 const BOUND_TICKS: u32 = 400;
 const BOUND_M: f32 = 32.0;
 const BEFORE_LINE_M: f32 = 0.4;
-/// How fast a keeper who keeps facing the ball sets off, and how much faster they get in a step, m/s. Measured.
+/// The starting speed of a keeper who keeps facing the ball, m/s, and what they gain per step.
+/// Measured.
 const SIDLES_MPS: f32 = 3.5;
 const GAINS_MPS: f32 = 0.5;
-/// Seconds by which it must be theirs there; chosen.
+/// The lead that the keeper needs there, seconds; chosen.
 const FAR_LEAD_S: f32 = 3.0;
 
-/// Decides for a keeper without the ball; false if they should go for it like anyone else.
+/// Decides for a keeper without the ball. False if they should go for it like anyone else.
 pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     let player = *game.player(id);
     if player.body.pose == Pose::Diving {
@@ -63,10 +68,11 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
     true
 }
 
-/// Where a keeper waits, own frame, and how fast they go there.
+/// Where a keeper waits, own frame, and how fast they go there. (GRF's.)
 ///
-/// On the line that halves the goal as the ball sees it: just before the goal line; further up while the own team has the
-/// ball; all the way out to an opponent that no mate can stop any more, unless a second one waits for that. (GRF's.)
+/// The keeper stands on the line that halves the goal as seen from the ball: just in front of the
+/// goal line, or further up while the own team has the ball. They come all the way out to an
+/// opponent that no teammate can stop any more, unless a second opponent waits for that.
 fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
     let keeper = game.player(id).pos * view.side;
     if let Some(spot) = in_the_way(game, view, id) {
@@ -97,14 +103,14 @@ fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
     let out = ((way.length() - 0.5).max(0.0) * share).max(LINE_M);
     let mut spot = foot + way.normalize_or_zero() * out;
     spot.x = spot.x.max(0.2 - GOAL.x);
-    // Going back on the line between ball and goal the keeper keeps facing the ball.
+    // A keeper who goes back on the line between ball and goal keeps facing the ball.
     let on_line = way.normalize_or_zero().perp_dot(keeper - foot).abs() < 1.0;
     let back = spot.distance(-GOAL) < keeper.distance(-GOAL);
     (spot, if back && on_line { RUN_MPS } else { SPRINT_MPS })
 }
 
-/// The nearest point of the way of a ball that is bound for goal, own frame; none for any other ball. A ball that somebody
-/// dribbles towards the goal counts too. (GRF's.)
+/// The nearest point on the path of a ball bound for goal, own frame; none for any other ball. A
+/// ball dribbled towards the goal counts too. (GRF's.)
 fn in_the_way(game: &Match, view: &View, id: PlayerId) -> Option<Vec2> {
     let player = game.player(id);
     let at = |ticks: u32| game.play.forecast.at(game.tick + ticks).truncate() * view.side;
@@ -128,7 +134,8 @@ fn in_the_way(game: &Match, view: &View, id: PlayerId) -> Option<Vec2> {
     Some(Vec2::new(spot.x.max(0.2 - GOAL.x), spot.y))
 }
 
-/// Where the line from a place that halves the view of the goal meets the goal line, own frame y, metres.
+/// The own frame y, metres, at which the bisector of the view of the goal from a place meets the
+/// goal line.
 fn middle_of_goal(from: Vec2) -> f32 {
     let post = |y: f32| (Vec2::new(-GOAL.x, y) - from).normalize_or(Vec2::NEG_X);
     let half = GOAL_HALF_WIDTH_M as f32;
@@ -137,13 +144,14 @@ fn middle_of_goal(from: Vec2) -> f32 {
     (from.y + way.y * along).clamp(-half, half)
 }
 
-/// How far a place is from where a shot pays, the nearer to goal the nearer that is, metres.
+/// How far a place is from where a shot pays, metres; nearer to goal, a shot pays from further out.
 fn shooting_m(place: Vec2, from_m: f32) -> f32 {
     let away = place.distance(-GOAL);
     (away - from_m * (away / (2.0 * from_m)).min(1.0)).max(0.0)
 }
 
-/// How far the nearest mate in the field is from the point at which an opponent could shoot, metres.
+/// The distance of the nearest outfield teammate from the point at which an opponent could shoot,
+/// metres.
 fn nearest_mate_m(game: &Match, view: &View, id: PlayerId, place: Vec2, left_m: f32) -> f32 {
     let point = place + (-GOAL - place).normalize_or_zero() * left_m;
     let mates = game.team(view.team).filter(|(mate, _)| *mate != id);
@@ -164,8 +172,9 @@ fn second_danger(game: &Match, view: &View, id: PlayerId, rival: PlayerId, left_
     open * nearer * 0.7
 }
 
-/// Whether a free ball is the keeper's: passed to them, or they are surely there before the others. How surely depends on
-/// where it is: out of the box hands are no help, and the goal is empty; who has no mates has nobody else.
+/// Whether a free ball is the keeper's: it was passed to them, or they surely reach it before the
+/// others. The required lead depends on where the ball is: out of the box hands don't help and the
+/// goal is empty. A keeper without teammates has nobody else.
 fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
     if game.controller().is_some() {
         return false;

@@ -1,5 +1,5 @@
-//! Defending without the ball: the most dangerous opponents are marked, and the back line keeps to its line. (All
-//! figures are GRF's.)
+//! Defending without the ball: the most dangerous opponents are marked, and the back line keeps its
+//! line. (All figures are GRF's.)
 
 use crate::control::bot::{GOAL, View};
 use crate::math::share;
@@ -9,28 +9,31 @@ use setpiece_scenario::vocabulary::Role;
 
 /// How many opponents are marked.
 const MARKED: usize = 3;
-/// From how far the opponent who has the ball, and another, could shoot, metres.
+/// From how far the opponent with the ball, and another one, could shoot, metres.
 const CARRIER_SHOOTS_M: f32 = 24.0;
 const OTHER_SHOOTS_M: f32 = 8.0;
-/// How far ahead an opponent is reckoned to be, and the marker, seconds.
+/// How far ahead the positions of an opponent and of the marker are predicted, seconds.
 const RIVAL_AHEAD_S: f32 = 0.5;
 const OWN_AHEAD_S: f32 = 0.14;
-/// How near before an opponent a marker stands at least, and how much nearer than them to where they shoot, metres.
+/// A marker stands at least this far in front of an opponent, and this much nearer to where the
+/// opponent shoots, metres.
 const CLOSE_M: f32 = 0.4;
 const NEARER_M: f32 = 4.0;
-/// A marker who is late runs towards the goal by this share of what they lack.
+/// A late marker runs towards the goal by this share of their delay.
 const LATE: f32 = 0.7;
-/// Where the line is that nobody falls back behind: so far from the goal, the further the more a team dares; metres.
+/// Distance from the goal of the line behind which nobody falls back; a more daring team keeps it
+/// further out, metres.
 const LINE_M: f32 = 30.0;
 const LINE_DARING_M: f32 = 20.0;
-/// The nearest to the goal that a line holds, metres.
+/// The line's least distance from the goal, metres.
 const LAST_LINE_M: f32 = 6.0;
-/// A line keeps this far from an opponent on the ball, and does not wait for a mate this far behind it, metres.
+/// The line keeps this far from an opponent on the ball, and doesn't wait for a teammate this far
+/// behind it, metres.
 const CAUTION_M: f32 = 4.0;
-/// Half the depth in which places are drawn up to the line, metres.
+/// Half the depth of the zone in which places are moved onto the line, metres.
 const LINE_ZONE_M: f32 = 2.0;
 
-/// Gives the most dangerous opponents a marker each, the one with the ball too.
+/// Assigns a marker to each of the most dangerous opponents, including the one with the ball.
 pub fn assign(game: &mut Match, view: &View) {
     game.each(game.squad.of(view.team), |player| player.body.mind.mark = None);
     let carrier = view.rival(game);
@@ -52,13 +55,14 @@ pub fn assign(game: &mut Match, view: &View) {
     }
 }
 
-/// The first of those who come to the most.
+/// The first of those with the highest value.
 fn best(of: impl Iterator<Item = PlayerId>, worth: impl Fn(PlayerId) -> f32) -> Option<PlayerId> {
     let rated = of.map(|id| (worth(id), id));
     rated.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|(_, id)| id)
 }
 
-/// How well a player would mark an opponent, 0..1: best those who have them before them, not far to the side.
+/// How well a player would mark an opponent, 0..1: best if the opponent is in front of them, not
+/// far to the side.
 fn worth(game: &Match, view: &View, id: PlayerId, rival: PlayerId) -> f32 {
     let soon = |id: PlayerId| {
         let player = game.player(id);
@@ -79,7 +83,8 @@ fn worth(game: &Match, view: &View, id: PlayerId, rival: PlayerId) -> f32 {
     worth * 0.8 + 0.2 * (1.0 - share(own.distance(other), 0.0, 2.0 * GOAL.x))
 }
 
-/// Where a player with a place to be at, own frame, goes to mark their opponent instead.
+/// Where a player goes to mark their opponent, given the place, own frame, where they would be
+/// otherwise.
 pub fn post(game: &Match, view: &View, id: PlayerId, place: Vec2) -> Vec2 {
     let player = game.player(id);
     let Some(rival) = player.body.mind.mark else { return place };
@@ -105,8 +110,8 @@ pub fn post(game: &Match, view: &View, id: PlayerId, place: Vec2) -> Vec2 {
     post
 }
 
-/// The line, own frame x, metres, behind which nobody falls back for opponents to be offside: it goes back with the
-/// ball, the opponent on it and the mates behind it.
+/// The line, own frame x, metres, behind which nobody falls back, so that opponents are offside. It
+/// retreats with the ball, the opponent on it and the teammates behind it.
 pub fn trap_x(game: &Match, view: &View) -> f32 {
     let side = view.side;
     let from_m = LINE_M + LINE_DARING_M * view.daring;
@@ -134,7 +139,7 @@ pub fn trap_x(game: &Match, view: &View) -> f32 {
     -depth.max(second.max(ball).clamp(0.0, GOAL.x) - CAUTION_M)
 }
 
-/// Draws a place up to the line.
+/// Moves a place onto the line.
 pub fn hold_line(view: &View, place: Vec2) -> Vec2 {
     let zone = view.trap_x + LINE_ZONE_M;
     if place.x >= zone {

@@ -1,19 +1,20 @@
-//! Who goes to which place: a matching of players to places in which the longest way is short, and of those one with
-//! the least ways together. (GRF's.)
+//! Matches players to places so that the longest way is short, and among such matchings the total
+//! of the ways is least. (GRF's.)
 
 use setpiece_scenario::pitch::TEAM_MAX;
 
-/// Ways in decimetres: from each player (row) to each place.
+/// Distances in decimetres, from each player (row) to each place.
 pub(super) type Ways = [[i32; TEAM_MAX]; TEAM_MAX];
 /// The place of each player.
 pub(super) type Places = [usize; TEAM_MAX];
 
-/// A way that is too long to count.
+/// A distance too long to count.
 const TOO_LONG: i32 = 1 << 20;
-/// How many ways longer the longest may be than it must: it is looked for in leaps. (GRF's.)
+/// The search for the longest way goes in leaps of this many distances, so the result may exceed
+/// the minimum by that many. (GRF's.)
 const LEAP: usize = 5;
 
-/// The matching for the first `count` players and places.
+/// Computes the matching of the first `count` players and places.
 pub(super) fn matching(ways: &Ways, count: usize) -> Places {
     let limit = limit(ways, count);
     let mut allowed = *ways;
@@ -25,7 +26,7 @@ pub(super) fn matching(ways: &Ways, count: usize) -> Places {
     shortest(&allowed, count)
 }
 
-/// The way below which all ways of a matching can lie, looked for in leaps.
+/// The distance below which all ways of a matching can lie, searched in leaps.
 fn limit(ways: &Ways, count: usize) -> i32 {
     let mut sorted = [0i32; TEAM_MAX * TEAM_MAX];
     let all = count * count;
@@ -56,7 +57,7 @@ fn is_possible(ways: &Ways, count: usize, limit: i32) -> bool {
     (0..count).all(|player| finds_place(&near, &mut whose, player, &mut 0))
 }
 
-/// Whether a player finds a place, others moving on where they can.
+/// Whether a player finds a place, if others move on where they can.
 fn finds_place(near: &[u32; TEAM_MAX], whose: &mut [usize; TEAM_MAX], player: usize, seen: &mut u32) -> bool {
     loop {
         let open = near[player] & !*seen;
@@ -72,14 +73,15 @@ fn finds_place(near: &[u32; TEAM_MAX], whose: &mut [usize; TEAM_MAX], player: us
     }
 }
 
-/// The matching with the least ways together: the Hungarian method, a shortest path of moves for each player.
+/// The matching with the least total distance: the Hungarian method, one shortest augmenting path
+/// per player.
 fn shortest(ways: &Ways, count: usize) -> Places {
     const NOBODY: usize = TEAM_MAX;
     let mut price = [0i32; TEAM_MAX + 1];
     let mut gain = [0i32; TEAM_MAX + 1];
     let mut whose = [NOBODY; TEAM_MAX + 1];
     for player in 0..count {
-        // The place beyond the last stands for the player who has none yet.
+        // The place beyond the last represents the player who has none yet.
         let mut at = TEAM_MAX;
         whose[at] = player;
         let mut least = [i32::MAX; TEAM_MAX];
@@ -159,7 +161,7 @@ mod tests {
     fn two_short_ways_are_taken_before_a_long_and_none() {
         let mut ways = [[0; TEAM_MAX]; TEAM_MAX];
         (ways[0][0], ways[0][1], ways[1][0], ways[1][1]) = (0, 50, 50, 120);
-        // Together 120 by one long way, or 100 by two of 50.
+        // A total of 120 with one long way, or 100 with two of 50.
         assert_eq!(matching(&ways, 2)[..2], [1, 0]);
     }
 }

@@ -1,4 +1,4 @@
-//! How likely a ball comes to where it is played. (GRF's figures.)
+//! How likely a ball reaches the place that it is played to. (GRF's figures.)
 
 use crate::control::bot::View;
 use crate::football::pace::SPRINT_MPS;
@@ -7,22 +7,23 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Team};
 
-/// A lofted ball to anybody nearer can't be played, metres.
+/// A lofted ball needs at least this distance, metres.
 const LOFTED_M: f32 = 10.0;
-/// How much further than the mate a ball into space goes, a share of the way.
+/// How much further than the receiver a ball into space goes, a share of the way.
 const INTO_SPACE: f32 = 0.2;
-/// Between these shares of its way nobody reaches a lofted ball; from half of it on it takes longer to take down, seconds.
+/// Between these shares of its way nobody reaches a lofted ball. From half of it on, taking it down
+/// needs more time, seconds.
 const OVERHEAD: std::ops::Range<f32> = 0.2..0.65;
 const TAKES_DOWN_S: f32 = 2.5;
-/// What a lofted ball's danger is increased by.
+/// The extra danger of a lofted ball.
 const LOFTED: f32 = 0.4;
-/// Within how many metres opponents take space away, and how many take all of it.
+/// Opponents within this distance take space away, metres, and this many take all of it.
 const SAFE_M: f32 = 5.0;
 const CROWD: f32 = 2.5;
-/// What a distance is off by at most, generously, metres.
+/// A generous bound on the error of a distance, metres.
 const ROUNDING_M: f32 = 0.01;
 
-/// How much room a team has at a world point in so many seconds, 0..1.
+/// How much room a team has at a world point after this many seconds, 0..1.
 pub fn free_space(game: &Match, team: Team, point: Vec2, seconds: f32) -> f32 {
     let runs_m = SPRINT_MPS * (seconds - 0.2).max(0.0);
     let rivals = game.team(team.other()).filter(|(_, rival)| rival.role != Role::GK);
@@ -35,7 +36,7 @@ pub fn free_space(game: &Match, team: Team, point: Vec2, seconds: f32) -> f32 {
     1.0 - (crowd / CROWD).min(1.0)
 }
 
-/// How likely a pass reaches a mate, 0..1.
+/// How likely a pass reaches a teammate, 0..1.
 pub fn of_pass(game: &Match, view: &View, id: PlayerId, mate: PlayerId, kind: KickKind) -> f32 {
     let (player, other) = (game.player(id), game.player(mate));
     let distance = other.pos.distance(player.pos);
@@ -49,7 +50,8 @@ pub fn of_pass(game: &Match, view: &View, id: PlayerId, mate: PlayerId, kind: Ki
     of_way(game, view, id, to, kind, 1.0)
 }
 
-/// How likely a ball that is played to a point of the own frame gets there, 0..1; `speed`: how much faster than a pass.
+/// How likely a ball to a point of the own frame gets there, 0..1. `speed`: how much faster it is
+/// than a pass.
 pub fn of_way(game: &Match, view: &View, id: PlayerId, to: Vec2, kind: KickKind, speed: f32) -> f32 {
     let player = game.player(id);
     let from = (player.pos + player.vel * 0.12) * view.side;

@@ -1,5 +1,5 @@
-//! Playing without the ball: a place in the block, drawn to where it helps and to the opponent it marks. (GRF's
-//! figures.)
+//! Playing without the ball: a place in the block, shifted to where the player supports and towards
+//! the opponent that they mark. (GRF's figures.)
 
 use crate::control::bot::formation::{Outlook, mindset};
 use crate::control::bot::{View, mark, send, support};
@@ -9,18 +9,18 @@ use crate::state::player::Intent;
 use crate::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Role, Stat};
 
-/// How fast a player goes to a place that is so far away, 1/s.
+/// Speed (m/s) per metre of distance to a place.
 const HASTE: f32 = 2.6;
-/// The speeds at which players run, and up to where each is taken, m/s.
+/// The speeds at which players run, each with the wanted speed from which it is taken, m/s.
 const PACES: [(f32, f32); 3] = [(1.8, 0.0), (4.2, 3.5), (6.0, 5.0)];
 
 /// How a role plays without the ball.
 struct Manner {
     /// How firmly it keeps to its own slot far from the ball, 0..1.
     own_slot: f32,
-    /// Between which nearness of its team to the ball it comes to help.
+    /// Between these values of its team's nearness to the ball, it comes to support.
     helps: (f32, f32),
-    /// Down to which nearness it marks.
+    /// It marks down to this nearness.
     marks: f32,
     /// Whether it keeps to the line.
     holds_line: bool,
@@ -64,19 +64,20 @@ pub fn place(game: &mut Match, view: &View, id: PlayerId) {
     }
     let pace = pace(lazily(game, view, id, own.distance(to) * HASTE));
     send(game, view, id, to, pace);
-    // In the thick of it nobody slows down before they are there.
+    // Close to the action nobody slows down before they arrive.
     if far < 1.0 {
         let way = (to - own).normalize_or_zero() * view.side;
         game.players[id.index()].body.intent = Intent::Run(way * pace);
     }
 }
 
-/// The speed at which somebody runs who wants to run so fast.
+/// The running speed for a wanted speed.
 pub fn pace(wanted_mps: f32) -> f32 {
     PACES.into_iter().find(|(below, _)| wanted_mps < *below).map_or(SPRINT_MPS, |(_, pace)| pace)
 }
 
-/// How fast a player runs who is far from what happens, m/s: slower the less it concerns them, and when tired.
+/// The speed of a player far from the action, m/s: slower the less it concerns them, and when
+/// tired.
 fn lazily(game: &Match, view: &View, id: PlayerId, wanted_mps: f32) -> f32 {
     let player = game.player(id);
     let fresh = 1.0 - player.fatigue;

@@ -1,4 +1,4 @@
-//! With the ball: pass, shoot, clear or run on. (Its figures are GRF's but where they say otherwise.)
+//! With the ball: pass, shoot, clear or run on. (The figures are GRF's unless they say otherwise.)
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, dribbling, odds};
@@ -19,38 +19,40 @@ enum Act {
     Clear,
 }
 
-/// How far beside the middle of the goal a shot is aimed, metres; chosen.
+/// How far from the middle of the goal a shot is aimed, metres; chosen.
 const PLACED_M: f32 = 2.9;
-/// From where shots pay best, metres before the goal, and how far from there they are tried.
+/// The distance from the goal at which shots pay best, metres, and how far from there they are
+/// tried.
 const SHOOTS_FROM_M: f32 = 7.0;
 const SHOOTS_WITHIN_M: f32 = 16.0;
-/// How much faster a shot is reckoned than a pass.
+/// How much faster than a pass a shot is assumed to be.
 const SHOT_SPEED: f32 = 3.0;
-/// What counts for a player with the ball, and for a mate who could get it: free space ahead, space around, and how near
-/// the goal is, the more the more a role attacks.
+/// The weights in rating a player with the ball, or a teammate who could get it: free space ahead,
+/// free space around, and nearness to the goal, which counts more for attacking roles.
 const SPACE_AHEAD: f32 = 0.4;
 const SPACE_AROUND: f32 = 0.3;
 const NEARNESS: [f32; 2] = [2.0, 6.0];
-/// A pass back to the keeper is worth so much of what it would be.
+/// Factor on the value of a pass back to the keeper.
 const TO_KEEPER: f32 = 0.7;
-/// What a pass must be worth at least.
+/// The least value of a pass.
 const PASS_LEAST: f32 = 0.1;
-/// After how many seconds with the ball a pass is worth least.
+/// After this many seconds with the ball, the least value of a pass is lowest.
 const LONG_S: f32 = 5.0;
-/// How much less they mind opponents then, so that nobody waits for the other for ever; chosen.
+/// Such a player minds opponents less by this factor, so that two players don't wait for each other
+/// forever; chosen.
 const DARES: f32 = 0.6;
-/// After how many seconds with the ball they pass to whomever it is best; chosen.
+/// After this many seconds with the ball, they pass to the best receiver; chosen.
 const MUST_S: f32 = 8.0;
-/// How near to goal defenders are in a hurry to clear, metres.
+/// Within these distances of the goal, defenders hurry to clear, metres.
 const PANIC_M: std::ops::Range<f32> = 2.0..16.0;
-/// A keeper clears a ball that a rival is less than this many times as far from, in time.
+/// A keeper clears the ball if a rival's time to it is less than this many times their own.
 const KEEPER_CALM: f32 = 3.0;
-/// From how many seconds before the ball comes a player thinks of what to do with it.
+/// A player decides what to do with the ball this many seconds before it arrives.
 const AHEAD_S: f32 = 1.0;
-/// How far off in time a rival must be for a clearance to come off, seconds; chosen.
+/// A rival must be at least this far off in time for a clearance to succeed, seconds; chosen.
 const SWING_S: f32 = 0.1;
-/// Ticks from a touch of a dribble, and from taking the ball down, until a player can begin something else. (Measured of
-/// GRF's motions.)
+/// Ticks after a touch of a dribble, and after taking the ball down, until a player can begin
+/// something else. (Measured of GRF's motions.)
 const REST_TICKS: [i32; 2] = [20, 26];
 /// How fast a player wants to set off who stands at the ball of a start, m/s. Measured.
 const SETS_OFF_MPS: f32 = 2.8;
@@ -102,8 +104,8 @@ pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
     }
 }
 
-/// What to do other than run on: defenders in a hurry clear, then whoever has a better placed mate passes, then whoever
-/// is near shoots.
+/// Chooses what to do instead of running on: defenders in a hurry clear, then a player with a
+/// better placed teammate passes, then a player near the goal shoots.
 fn choose(game: &mut Match, view: &View, id: PlayerId) -> Option<Act> {
     let pass = best_pass(game, view, id);
     if must_clear(game, view, id, pass.map_or(0.0, |(odds, ..)| odds)) {
@@ -115,7 +117,7 @@ fn choose(game: &mut Match, view: &View, id: PlayerId) -> Option<Act> {
     shot(game, view, id).map(Act::Shoot)
 }
 
-/// How well a player is placed for the ball, for one who weighs the goal's nearness so much.
+/// How well a player is placed for the ball, with this weight on nearness to the goal.
 fn placed(game: &Match, view: &View, id: PlayerId, nearness: f32) -> f32 {
     let player = game.player(id);
     let ahead = player.pos + Vec2::new(0.5 * SPRINT_MPS * view.side, 0.0);
@@ -127,7 +129,7 @@ fn placed(game: &Match, view: &View, id: PlayerId, nearness: f32) -> f32 {
     sum / (SPACE_AHEAD + SPACE_AROUND + nearness)
 }
 
-/// How long a player has had the ball, 0..1: 1 from [`LONG_S`] on.
+/// How long a player has had the ball, 0..1; 1 from [`LONG_S`] on.
 fn long(game: &Match, id: PlayerId) -> f32 {
     let long = (had_s(game, id) / LONG_S).min(1.0);
     long * long
@@ -139,7 +141,7 @@ fn had_s(game: &Match, id: PlayerId) -> f32 {
     ticks as f32 * 0.01
 }
 
-/// The best pass: its odds, the mate, its kind; none if running on is better.
+/// The best pass: its odds, receiver and kind. None if running on is better.
 fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, KickKind)> {
     let player = game.player(id);
     let mind = mindset(game.player(player.body.mind.fills).role);
@@ -149,7 +151,7 @@ fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, 
     let tactics = 1.0 + 10.0 * mind * mind;
     let apart = (game.ball.vel.truncate() - player.vel).length();
     let hard = (apart / 10.0).min(1.0) * (1.0 - 0.8 * player.skill(Stat::ShortPass));
-    // Whoever has had it for long lets it go for less.
+    // A player who has had the ball for long accepts a worse pass.
     let long = long(game, id);
     let must = had_s(game, id) > MUST_S;
     let mut best = None;
@@ -179,8 +181,8 @@ fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, 
     best
 }
 
-/// Whether a defender had better kick the ball away, whose best pass comes off so surely: a rival will have it as soon,
-/// the nearer to goal the less soon suffices.
+/// Whether a defender should clear the ball, given the odds of their best pass: a rival reaches it
+/// about as soon as they do. Nearer to the goal, a later rival is enough.
 fn must_clear(game: &Match, view: &View, id: PlayerId, pass: f32) -> bool {
     let player = game.player(id);
     let filled = game.player(player.body.mind.fills);
@@ -198,7 +200,7 @@ fn must_clear(game: &Match, view: &View, id: PlayerId, pass: f32) -> bool {
     rival_s > SWING_S && (pass == 0.0 || pass < close) && ahead < 0.9 + 0.8 * close
 }
 
-/// Where to shoot at, own frame; none from where nobody would.
+/// Where to shoot at, own frame. None from places where nobody would shoot.
 fn shot(game: &mut Match, view: &View, id: PlayerId) -> Option<Vec2> {
     let player = *game.player(id);
     let own = player.pos * view.side;
@@ -211,11 +213,11 @@ fn shot(game: &mut Match, view: &View, id: PlayerId) -> Option<Vec2> {
     let middle = (chance(0.0), 0.0);
     let best = [(chance(-3.6), -PLACED_M), (chance(3.6), PLACED_M)];
     let (odds, y) = best.into_iter().fold(middle, |best, next| if next.0 > best.0 { next } else { best });
-    let luck = noise::whim(game);
+    let luck = noise::bot_roll(game);
     if odds.sqrt() + 0.5 * luck <= 0.5 {
         return None;
     }
-    let stray = (noise::whim(game) * 2.0 - 1.0) * (1.0 - player.skill(Stat::Shot));
+    let stray = (noise::bot_roll(game) * 2.0 - 1.0) * (1.0 - player.skill(Stat::Shot));
     Some(at(y + stray))
 }
 
@@ -239,7 +241,7 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
         Act::Shoot(point) => {
             let far = share((GOAL - body.meet * view.side).length(), 0.0, 32.0);
             let most = 0.6 + 0.4 * far;
-            let luck = noise::whim(game);
+            let luck = noise::bot_roll(game);
             let plan = KickPlan { point: Some(point * view.side), power: (0.7 + 0.3 * luck) * most, ..shot };
             game.players[id.index()].body.kick = Some(plan);
         }
@@ -256,7 +258,8 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
     }
 }
 
-/// Ticks until whoever has just touched the ball can do something else: longer where they have taken it down.
+/// Ticks until a player who has just touched the ball can do something else; longer after taking it
+/// down.
 fn rest_ticks(game: &Match, id: PlayerId) -> u32 {
     let body = &game.player(id).body;
     let taken = game.owner == Some(id) && (game.play.owned_since as i32 - body.touched_at).abs() < 5;
@@ -264,7 +267,7 @@ fn rest_ticks(game: &Match, id: PlayerId) -> u32 {
     (rests - ticks_since(game.tick, body.touched_at)).max(0) as u32
 }
 
-/// The keeper lets the ball go: soon if a mate is free, in any case after four seconds.
+/// Lets the keeper release the ball: soon if a teammate is free, at the latest after four seconds.
 fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     game.players[id.index()].body.intent = Intent::Stand;
     let held_ticks = game.tick.saturating_sub(since);
@@ -289,7 +292,7 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     let choice = match best {
         Some((worth, mate)) if worth > 0.45 => KickPlan { mate: Some(mate), ..kick::planned(KickKind::Short, tick) },
         _ if held_ticks > 250 => {
-            let y = (noise::whim(game) * 2.0 - 1.0) * 20.0;
+            let y = (noise::bot_roll(game) * 2.0 - 1.0) * 20.0;
             let point = Vec2::new(2.0, y) * view.side;
             KickPlan { point: Some(point), ..kick::planned(KickKind::High, tick) }
         }
@@ -298,7 +301,7 @@ fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
     game.players[id.index()].body.kick = Some(choice);
 }
 
-/// Distance of the nearest opponent of a player from a world point, metres.
+/// The distance of the nearest opponent of a player from a world point, metres.
 pub fn nearest_rival(game: &Match, id: PlayerId, point: Vec2) -> f32 {
     let least =
         game.team(id.team().other()).fold(f32::MAX, |least, (_, rival)| least.min(rival.pos.distance_squared(point)));

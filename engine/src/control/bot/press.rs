@@ -1,4 +1,4 @@
-//! Going for the ball: a free one, or one that an opponent has.
+//! Going for the ball, free or an opponent's.
 
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{GOAL, View, off_ball, on_ball};
@@ -10,47 +10,53 @@ use setpiece_scenario::vocabulary::{Role, Stat};
 
 /// A carrier slower than this stands, m/s.
 const STANDS_MPS: f32 = 1.0;
-/// A player is behind the carrier if their direction and the ball's, seen from there, have a smaller cosine.
+/// A player is behind the carrier if the cosine between the player's direction and the ball's, seen
+/// from the carrier, is smaller than this.
 const BEHIND: f32 = -0.2;
-/// How far ahead a carrier is reckoned to be, seconds, and how far from them hunters meet them, metres. (GRF's.)
+/// A carrier's position is predicted this far ahead, seconds; hunters meet them this far away,
+/// metres. (GRF's.)
 const AHEAD_S: f32 = 0.14;
 const AHEAD_M: f32 = 0.1 * SPRINT_MPS;
-/// A hunter who has the carrier straight before them, and at least so far, waits: metres, and the slope that counts as
-/// straight. (GRF's.)
+/// A hunter waits if the carrier is straight ahead, within this slope, and at least this far away,
+/// metres. (GRF's.)
 const WAITS_M: f32 = 0.5;
 const STRAIGHT: f32 = 0.8;
-/// A ball is met that comes so near in so many ticks, metres, where the player is so many seconds from now, if the carrier
-/// does not stand between: a smaller cosine than this. Measured: defenders begin about that long before.
+/// A ball is met if it comes this near, metres, within these ticks, to where the player is after
+/// these seconds. The carrier must not stand between: the cosine must not be smaller than this.
+/// Measured: defenders begin about that long before.
 const MEETS_M: f32 = 1.0;
 const MEETS_TICKS: u32 = 25;
 const MEETS_AHEAD_S: f32 = 0.1;
 const OPEN_TO: f32 = 0.6;
-/// From how near a hunter goes for the ball itself, metres; chosen.
+/// Within this distance a hunter goes for the ball itself, metres; chosen.
 const CHALLENGE_M: f32 = 2.0;
-/// How far beside a carrier a defender runs past them, and how far ahead of them they are beside the ball, metres; chosen.
+/// How far to the side of a carrier a defender runs past them, and how far ahead of the carrier
+/// they count as beside the ball, metres; chosen.
 const SHOULDER_M: f32 = 0.85;
 const BESIDE_M: f32 = 0.2;
-/// To how far past them they run, so that they don't slow down beside them, metres; chosen.
+/// The target lies this far past the carrier, metres, so that defenders don't slow down beside
+/// them; chosen.
 const PAST_M: f32 = 5.0;
-/// By what share of the other's time to the ball somebody must be there sooner. (GRF's.)
+/// A player must reach the ball within this share of the other's time. (GRF's.)
 const SOONER: f32 = 0.85;
 /// From which chance of the ball on whoever is first of their team goes on for it. (GRF's.)
 const KEEPS_ON: f32 = 0.8;
 /// How far from a carrier's middle a player goes round them, metres.
 const ROUND_M: f32 = 0.9;
 
-/// Whether somebody goes for the ball.
+/// Whether and how a player goes for the ball.
 pub enum Pursuit {
-    /// Not they.
+    /// Doesn't go for it.
     None,
-    /// For one that is the team's to have.
+    /// Fetches a ball that is the team's to have.
     Fetch,
-    /// For one that an opponent has.
+    /// Hunts an opponent's ball.
     Hunt(PlayerId),
 }
 
-/// Whether a player goes for the ball: the first of their team for one that is the team's to have; for an opponent's, the
-/// two who are nearest, if they are near enough and mark nobody. (GRF's.)
+/// Decides whether a player goes for the ball. (GRF's.) If the ball is the team's to have, its
+/// first player goes. For an opponent's ball it is the nearest two, if they are near enough and
+/// mark nobody.
 pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
     if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
         return Pursuit::Fetch;
@@ -109,14 +115,15 @@ pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
     on_ball::before_touch(game, view, id);
 }
 
-/// Goes for the ball of an opponent: who has them straight before them waits in their place instead. (GRF's.)
+/// Goes for an opponent's ball. A player straight in front of the opponent waits in their place
+/// instead. (GRF's.)
 pub fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
     let carrier = *game.player(rival);
     let own = game.player(id).pos * view.side;
     let place = carrier.pos * view.side;
     let between = place - own;
     let way = -GOAL - place;
-    // The point of the carrier's way that is as near to both.
+    // The point of the carrier's path that is equally near to both.
     let share = (0.5 * between.length_squared() / between.dot(-way).max(1e-3)).clamp(0.0, 1.0);
     let point = place + way * share + way.normalize_or_zero() * AHEAD_M + carrier.vel * view.side * AHEAD_S;
     let deep = (point.x - own.x).max(0.0) - WAITS_M;
@@ -134,7 +141,7 @@ pub fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
     };
 }
 
-/// Whether the ball that an opponent has is about to come to a player.
+/// Whether the ball of an opponent is about to come to a player.
 pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
     let Some(rival) = view.owner.filter(|owner| owner.team() != view.team) else { return false };
     let (player, carrier) = (game.player(id), game.player(rival));
@@ -159,13 +166,13 @@ pub fn meet(game: &mut Match, view: &View, id: PlayerId) {
 /// From how far a player hunts a carrier, metres. (GRF's.)
 fn hunt_m(game: &Match, player: &Player) -> f32 {
     let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.body.mean_mps / 8.0).min(1.0));
-    // Who works hard hunts from further away: chosen, as much as GRF's for the average.
+    // Players with a high work rate hunt from further away: chosen; the average is GRF's.
     let works = 0.7 + 0.4 * player.body.stats[Stat::Workrate.index()];
     (10.0 + 10.0 * (1.0 - mindset(game.player(player.body.mind.fills).role))) * rested * works * player.body.level
 }
 
-/// Where a defender runs who has a running carrier's back before them, in their own frame: past the carrier's shoulder;
-/// none where they are beside the carrier.
+/// Where a defender runs who sees a running carrier's back, own frame: past the carrier's shoulder.
+/// None if they are beside the carrier.
 fn alongside(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let place = carrier.pos * view.side;
     let way = (-GOAL - place).normalize_or(Vec2::NEG_X);
@@ -182,7 +189,8 @@ fn stands(carrier: &Player) -> bool {
     carrier.vel.length() < STANDS_MPS
 }
 
-/// Where a player runs who has a standing carrier between themselves and the ball, in their own frame: round them.
+/// Where a player runs if a standing carrier is between them and the ball, own frame: round the
+/// carrier.
 fn around(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let middle = carrier.pos * view.side;
     let from = own - middle;

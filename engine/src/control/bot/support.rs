@@ -1,5 +1,5 @@
-//! Helping whoever has the ball: forces draw a player to their place and to the ball, and push them off opponents and
-//! mates. (GRF's figures.)
+//! Supporting the player on the ball: forces draw a player to their place and to the ball, and push
+//! them away from opponents and teammates. (GRF's figures.)
 
 use crate::control::bot::View;
 use crate::control::bot::formation::mindset;
@@ -10,19 +10,19 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{Role, Stat};
 
-/// How far ahead everyone is reckoned to be, seconds.
+/// Positions are predicted this far ahead, seconds.
 const AHEAD_S: f32 = 0.1;
-/// Nearer than this to what draws a player it draws less, metres.
+/// Within this distance a point of attraction draws less, metres.
 const DAMPED_M: f32 = 7.0;
-/// How far short of the offside line they stay, metres.
+/// Players stay this far short of the offside line, metres.
 const ONSIDE_M: f32 = 0.08;
-/// How many opponents and mates push.
+/// How many opponents and teammates push.
 const RIVALS: usize = 3;
 const MATES: usize = 6;
-/// A team nearer to the ball than this spreads, and leaves the ball's way.
+/// A team nearer to the ball than this spreads out and leaves the ball's path free.
 const SPREADS: f32 = 1.02;
 const MAKES_WAY: f32 = 1.06;
-/// A run forward lasts this many steps, and is thought of every so many.
+/// Steps that a run forward lasts, and steps between two attempts at one.
 const RUN_STEPS: u32 = 40;
 const RUN_EVERY: u32 = 5;
 /// In which step first: in the one before, a start may have given an agent whoever will run.
@@ -30,13 +30,13 @@ const RUN_AT: u32 = 1;
 /// How good a chance of a run must be, and how much less good for whoever reads the game; GRF's .5 for the average.
 const RUNS_FROM: f32 = 0.65;
 const READS: f32 = 0.2;
-/// How often the helper of whoever has the ball is chosen, steps.
+/// Steps between two choices of a supporter for the player on the ball.
 const HELPER_EVERY: u32 = 15;
 
-/// So many times the square of a distance is surely further, however roots are rounded.
+/// A squared distance larger by this factor is surely further, however roots are rounded.
 const SURELY: f32 = 1.001;
 
-/// Forces on a point: their sum, and how strong they are together.
+/// Forces on a point: their sum and their total strength.
 pub struct Forces {
     at: Vec2,
     sum: Vec2,
@@ -44,17 +44,17 @@ pub struct Forces {
 }
 
 impl Forces {
-    /// No force yet.
+    /// Starts without any force.
     pub fn at(at: Vec2) -> Forces {
         Forces { at, sum: Vec2::ZERO, strength: 0.0 }
     }
 
-    /// What they come to, no longer than 1.
+    /// The resulting force, no longer than 1.
     pub fn mean(&self) -> Vec2 {
         self.sum / self.strength.max(1e-3)
     }
 
-    /// A point draws, everywhere as strongly; nearer than `damped` metres less.
+    /// Adds an attracting point, equally strong everywhere, but weaker within `damped` metres.
     pub fn draw(&mut self, to: Vec2, power: f32, damped: f32) {
         let way = to - self.at;
         let length = way.length();
@@ -62,12 +62,13 @@ impl Forces {
         self.strength += power;
     }
 
-    /// A point draws, the more the nearer it is; not at all from `scale` metres on.
+    /// Adds an attracting point, stronger nearby and without effect from `scale` metres on.
     fn draw_near(&mut self, to: Vec2, power: f32, scale: f32) {
         self.draw(to, power * (1.0 - to.distance(self.at) / scale).max(0.0), DAMPED_M);
     }
 
-    /// A point pushes, the more the nearer it is, by a power of so many eighths; not at all from `scale` metres on.
+    /// Adds a repelling point, stronger nearby (to the power of EIGHTHS/8) and without effect from
+    /// `scale` metres on.
     pub fn push<const EIGHTHS: u32>(&mut self, from: Vec2, power: f32, scale: f32) {
         let way = self.at - from;
         if way.length_squared() > SURELY * scale * scale {
@@ -82,7 +83,7 @@ impl Forces {
     }
 }
 
-/// Where a player helps, own frame, given their place in the block.
+/// Where a player supports, own frame, given their place in the block.
 pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     let player = game.player(id);
     let role = game.player(player.body.mind.fills).role;
@@ -101,7 +102,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     if game.play.recent.helper[view.team.index()] == Some(id) {
         base.x += 12.0 * (0.3 + 0.7 * mind);
     } else {
-        // On the wing that the ball is not on somebody goes forward.
+        // A player on the far wing goes forward.
         let lane_y = if main.y < 0.0 { 8.0 } else { -8.0 };
         let in_lane = ease(1.0 - share((lane_y - at.y).abs(), 0.0, 30.0));
         base.x += 22.0 * in_lane * mind * mind.sqrt();
@@ -119,7 +120,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     };
     let (power, scale) = if runs { (0.15 * caution, 2.0) } else { (0.3 * caution, 5.0) };
     for rival in view.board.nearest::<RIVALS>(view.team.other(), (at * 0.7 + main * 0.3) * view.side, None) {
-        // Pushed off a point behind the opponent, so that the ball's way is free.
+        // Repelled by a point behind the opponent, so that the ball's path is free.
         let place = soon(rival);
         forces.push::<6>(place + (place - main).normalize_or_zero() * 2.0, power, scale);
     }
@@ -145,7 +146,7 @@ pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
     to.clamp(-HALF, HALF)
 }
 
-/// Whether a role runs forward when its team is so near to the ball.
+/// Whether a role runs forward at this nearness of its team to the ball.
 fn may_run(role: Role, nearness: f32) -> bool {
     match role {
         Role::CF => share(nearness - 0.5, 0.1, 0.6) > 0.7,
@@ -154,7 +155,8 @@ fn may_run(role: Role, nearness: f32) -> bool {
     }
 }
 
-/// Chooses who helps whoever has the ball, and who runs forward: one of a team with at most one agent.
+/// Chooses who supports the player on the ball. In a team with at most one agent it also chooses
+/// who runs forward.
 pub fn assign(game: &mut Match, view: &View) {
     let Some(main) = game.play.chaser[view.team.index()] else { return };
     let place = game.player(main).pos;

@@ -14,10 +14,11 @@ use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{GameMode, Rule};
 
-/// Steps that a team of the lazy waits; chosen, so that it is over before an agent would have had to kick.
+/// Steps that a team of lazy players waits; chosen, so that it ends before an agent would have to
+/// kick.
 const LAZY_WAIT_STEPS: u16 = 14;
 
-/// Everyone stands; a bot that is to take it plans its kick.
+/// Lets everyone stand; a bot that is the taker plans its kick.
 pub fn think(game: &mut Match) {
     let Some(set_piece) = game.play.set_piece else { return };
     for i in 0..PLAYERS_MAX {
@@ -27,7 +28,7 @@ pub fn think(game: &mut Match) {
     }
     let taker = set_piece.taker;
     let driven = game.is_driven(taker);
-    // Who is lazy takes it only where he would hold up the game.
+    // A lazy taker acts only if they would otherwise hold up the game.
     let late = set_piece.waited_steps >= LAZY_WAIT_STEPS && game.rule(Rule::AntiStalling);
     let lazy = game.player(taker).ai == Ai::Lazy && !late;
     if driven || lazy {
@@ -43,12 +44,12 @@ pub fn think(game: &mut Match) {
     body.intent = Intent::Ball(SPRINT_MPS);
 }
 
-/// What the taker plays.
+/// Chooses what the taker plays.
 fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let side = set_piece.team.side() as f32;
     let own = set_piece.spot * side;
-    let luck = noise::whim(game);
-    let spread = noise::whim(game) * 2.0 - 1.0;
+    let luck = noise::bot_roll(game);
+    let spread = noise::bot_roll(game) * 2.0 - 1.0;
     let [short, high, shot] =
         [KickKind::Short, KickKind::High, KickKind::Shot].map(|kind| kick::taken(kind, set_piece.mode, game.tick));
     let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);
@@ -74,7 +75,7 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     }
 }
 
-/// The mate nearest to a world point, the taker left out, and who would be offside.
+/// The teammate nearest to a world point, without the taker and players in an offside position.
 fn nearest(game: &Match, taker: PlayerId, point: Vec2) -> Option<PlayerId> {
     let knows_offside = game.play.set_piece.is_some_and(|it| !offside::exempt(it.mode));
     let offside = if knows_offside { offside::positions(game, taker) } else { 0 };

@@ -9,9 +9,9 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Team;
 
-/// How far ahead the offside line is reckoned, seconds. (GRF's.)
+/// The offside line is predicted this far ahead, seconds. (GRF's.)
 const LINE_AHEAD_S: f32 = 0.24;
-/// The moments of the ball's way that mates keep out of, ticks from now. (GRF's.)
+/// Teammates keep out of the ball's path at these ticks from now. (GRF's.)
 const WAY_TICKS: [u32; 4] = [20, 35, 50, 65];
 /// Steps of a match of 90 minutes.
 const WHOLE_MATCH_STEPS: f32 = 3000.0;
@@ -19,44 +19,44 @@ const WHOLE_MATCH_STEPS: f32 = 3000.0;
 /// What a team's bots know of the game in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// Whose.
+    /// The team.
     pub team: Team,
     /// +1 if the team attacks towards +x.
     pub side: f32,
     /// The ball, own frame, metres.
     pub ball: Vec2,
-    /// Whoever has the ball or dribbles it.
+    /// The player who has the ball or dribbles it.
     pub owner: Option<PlayerId>,
-    /// Whoever has the ball, or will have it first.
+    /// The player who has the ball, or will have it first.
     pub action: Option<PlayerId>,
-    /// Whether the team is sooner at the ball than the other.
+    /// Whether the team reaches the ball sooner than the other.
     pub best: bool,
-    /// How near the team was to the ball lately, compared with the other: 0.5 far to 1.5 near.
+    /// How near the team was to the ball recently, relative to the other: 0.5 far to 1.5 near.
     pub nearness: f32,
-    /// Which way the block is drawn by the last six seconds, -1..1: forward by a team that had the ball.
+    /// How the last six seconds shift the block, -1..1: forward for a team that had the ball.
     pub lately: f32,
-    /// How much the team dares, 0..1: more when behind, late, and with the ball.
+    /// How much the team dares, 0..1: more when behind, late in the match, and with the ball.
     pub daring: f32,
-    /// The line that the team does not fall back behind, own frame x, metres.
+    /// The line behind which the team doesn't fall back, own frame x, metres.
     pub trap_x: f32,
     /// The offside line for us a moment from now, own frame x, metres.
     pub line_x: f32,
-    /// Where the ball will be on its way, own frame, metres.
+    /// Future places of the ball, own frame, metres.
     pub ways: [Vec2; 4],
-    /// Where the ball was lately.
+    /// Recent places of the ball.
     pub means: BallMeans,
     /// Where everyone stands.
     pub board: Board,
 }
 
 impl View {
-    /// What both teams know now.
+    /// Computes what both teams know now.
     pub fn of_both(game: &Match) -> [View; 2] {
         let (board, means) = (Board::of(game), game.play.recent.ball_means(game.ball.pos.truncate()));
         [Team::Left, Team::Right].map(|team| View::of(game, team, board, means))
     }
 
-    /// What a team knows now.
+    /// Computes what a team knows now.
     fn of(game: &Match, team: Team, board: Board, means: BallMeans) -> View {
         let side = team.side() as f32;
         let owner = game.on_ball();
@@ -84,23 +84,23 @@ impl View {
         view
     }
 
-    /// In how many seconds a team is at the ball.
+    /// Seconds until a team reaches the ball.
     pub(super) fn soonest(game: &Match, team: Team) -> f32 {
         game.play.chaser[team.index()].map_or(f32::MAX, |id| game.player(id).body.meet_s)
     }
 
-    /// Where it happens, own frame: the place of whoever has the ball or will have it.
+    /// Where the action is, own frame: the place of the player who has the ball or will have it.
     pub fn action_at(&self, game: &Match) -> Vec2 {
         self.action.map_or(self.ball, |id| game.player(id).pos * self.side)
     }
 
-    /// The opponent who has the ball, or would have it first of theirs.
+    /// The opponent who has the ball, or would be the first of their team to have it.
     pub fn rival(&self, game: &Match) -> Option<PlayerId> {
         self.owner.filter(|id| id.team() != self.team).or(game.play.chaser[self.team.other().index()])
     }
 
-    /// How near the team was to the ball lately, for a player: to who goes for the ball, what is counts more the nearer
-    /// the ball is. (GRF's.)
+    /// How near the team was to the ball recently, as seen by a player. For one who goes for the
+    /// ball, the present counts more the nearer the ball is. (GRF's.)
     pub fn nearness_of(&self, game: &Match, id: PlayerId) -> f32 {
         if game.play.chaser[self.team.index()] != Some(id) {
             return self.nearness;
@@ -122,14 +122,15 @@ impl View {
         }
         match game.possession {
             Some(team) => team == self.team,
-            // Nobody has had it yet: whoever will be there first.
+            // Nobody has had it yet: the team that will be there first.
             None => View::soonest(game, self.team) <= View::soonest(game, self.team.other()),
         }
     }
 }
 
-/// Which way the block is drawn by the last six seconds, -1..1. (GRF's right team, against which agents play, reckons with
-/// the wrong sign: its line comes forward when its opponents have the ball. So does a team without agents here.)
+/// How the last six seconds shift the block, -1..1. (GRF's right team, against which agents play,
+/// has the wrong sign here: its line comes forward when its opponents have the ball. So does a team
+/// without agents here.)
 fn lately(game: &Match, team: Team) -> f32 {
     let lately = game.play.recent.side_of(team);
     let is_wrong = !game.has_agents(team) && game.has_agents(team.other());

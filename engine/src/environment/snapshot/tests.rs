@@ -7,7 +7,7 @@ use setpiece_scenario::vocabulary::{Action, Role, Team};
 use setpiece_scenario::{Endings, Program, Reward, RewardBody, RewardHook, Scenario, Script, SideAgents};
 use std::sync::Arc;
 
-/// One on one before a keeper.
+/// One on one, with a keeper behind.
 fn duel() -> Scenario {
     let mut scenario = scenario(&[
         (Team::Left, Role::CF, -1.0, 0.0),
@@ -38,7 +38,7 @@ fn play(environment: &mut Environment, steps: u32) {
     }
 }
 
-/// The snapshot of an environment whose match was tampered with.
+/// The snapshot of an environment whose match was changed.
 fn tampered(tamper: impl FnOnce(&mut Environment)) -> Vec<u8> {
     let mut environment = underway(duel(), 10);
     tamper(&mut environment);
@@ -92,7 +92,7 @@ fn before_the_first_episode_and_after_the_last_step_there_is_something_to_take()
 }
 
 #[test]
-fn impossible_numbers_are_told_with_their_place() {
+fn impossible_numbers_are_reported_with_their_place() {
     for (bytes, words) in [
         (tampered(|e| e.game.players[11].pos.x = f32::NAN), "`match.players[11].pos[0]` is NaN"),
         (tampered(|e| e.game.ball.vel.z = 1.0e9), "`match.ball.vel[2]` is 1000000000"),
@@ -115,24 +115,24 @@ fn impossible_numbers_are_told_with_their_place() {
 }
 
 #[test]
-fn what_is_no_snapshot_of_this_version_is_told() {
+fn bytes_that_are_no_snapshot_of_this_version_are_reported() {
     let snapshot = underway(duel(), 1).snapshot().unwrap();
     let mut newer = snapshot.clone();
     newer[8] = 99;
     let mut changed = snapshot.clone();
     changed[40] ^= 1;
     for (bytes, words) in [
-        (b"{}".as_slice(), "not a snapshot: it doesn't begin as one"),
+        (b"{}".as_slice(), "not a snapshot: its header isn't recognised"),
         (&newer, &format!("the snapshot has version 99; this build reads version {SNAPSHOT_VERSION}: take it again")),
         (&changed, "the snapshot was changed after it was taken: its checksum differs"),
-        (&snapshot[..100], "the snapshot is cut off: its end is missing"),
+        (&snapshot[..100], "the snapshot is truncated: its end is missing"),
     ] {
         assert_eq!(refused(bytes), words);
     }
 }
 
 #[test]
-fn a_snapshot_of_something_else_is_told() {
+fn a_snapshot_of_something_else_is_reported() {
     let with = |change: fn(&mut Scenario)| {
         let mut scenario = duel();
         change(&mut scenario);
@@ -160,14 +160,14 @@ fn an_episode_begins_where_another_stood() {
     let game = environment.state();
     assert_eq!((game.ball, game.score, game.tick), (stood.ball, stood.score, stood.tick));
     assert!(game.players.iter().zip(&stood.players).all(|(now, then)| now.pos == then.pos && now.vel == then.vel));
-    assert_eq!((game.step, game.elapsed_at_start), (0, 20), "steps are counted anew, the clock goes on");
+    assert_eq!((game.step, game.elapsed_at_start), (0, 20), "steps start at 0, the clock continues");
     assert_eq!((environment.seed(), environment.index()), (7, 4));
     assert!(environment.is_running() && environment.events().is_empty());
     play(&mut environment, 50);
     assert!(!environment.is_running(), "the limit counts from the new start");
 }
 
-/// Whatever is under way is timed as it was: nothing is forgotten in the new count of steps.
+/// Everything under way keeps its timing, although steps are counted from 0 again.
 #[test]
 fn what_was_under_way_goes_on() {
     // A multiple of the bots' own rhythm.
@@ -190,7 +190,7 @@ fn noise_is_the_new_seeds() {
     let ball = |seed| {
         let mut environment = of(duel());
         environment.reset_from(&snapshot, Some(seed), None).unwrap();
-        // Chance has its part in a kick.
+        // A kick involves chance.
         for _ in 0..12 {
             environment.step(&[Action::Shot], &mut Scratch::default()).unwrap();
         }
@@ -214,7 +214,7 @@ fn the_scenario_may_be_another_but_not_who_takes_part() {
     let mut longer = of(longer);
     longer.reset_from(&snapshot, None, None).unwrap();
     assert_eq!(longer.limit_steps(), None);
-    assert_eq!(longer.state().players[0].role, Role::CM, "who plays whom is the new scenario's");
+    assert_eq!(longer.state().players[0].role, Role::CM, "control is the new scenario's");
     assert_eq!(longer.agents()[0].sticky, 0, "a new episode begins with nothing held");
     play(&mut longer, 100);
 
@@ -269,7 +269,7 @@ fn a_function_in_a_scripts_memory_can_not_be_kept() {
 
 #[test]
 fn what_a_script_was_shown_is_one_and_the_same_afterwards() {
-    // Both names lead to one scene: what one draws the other has drawn.
+    // Both names refer to one scene: what one draws, the other has drawn too.
     let source = "fn reward(ctx, now, prev, events) {
         if this.a == () { this.a = ctx; this.b = ctx; }
         this.sum = this.a.random() + 10.0 * this.b.random();

@@ -1,10 +1,10 @@
-//! How the values of a loop become one, lane by lane.
+//! Reduces the values of a loop to one, lane by lane.
 
 use super::truth;
 use setpiece_scenario::FoldKind;
 use std::array;
 
-/// A fold under way.
+/// A fold in progress.
 pub(super) struct Folding<const N: usize> {
     kind: FoldKind,
     n: [u32; N],
@@ -23,7 +23,7 @@ impl<const N: usize> Folding<N> {
         Folding { kind, n: [0; N], value: [value; N], element: [-1.0; N] }
     }
 
-    /// Takes an element and its values, in the lanes that count it.
+    /// Adds an element and its values, in the lanes that count it.
     #[inline]
     pub(super) fn add(&mut self, element: f64, counts: [bool; N], values: [f64; N]) {
         for (n, counts) in self.n.iter_mut().zip(counts) {
@@ -53,8 +53,8 @@ impl<const N: usize> Folding<N> {
         });
     }
 
-    /// Takes the element where its value is better. An impossible value compares false, so it is never the least or
-    /// greatest; an infinite one is still somebody's.
+    /// Takes the element if its value is better. An impossible value compares false, so it is never
+    /// the least or greatest; an infinite one can be.
     #[inline]
     fn choose(&mut self, element: f64, counts: [bool; N], values: [f64; N], better: impl Fn(f64, f64) -> bool) {
         for lane in 0..N {
@@ -65,7 +65,7 @@ impl<const N: usize> Folding<N> {
         }
     }
 
-    /// What came of it.
+    /// The result.
     pub(super) fn result(&self) -> [f64; N] {
         array::from_fn(|lane| match self.kind {
             FoldKind::Nothing => 0.0,

@@ -1,21 +1,21 @@
-//! A program made ready to run: what must run how often, and for whom.
+//! A program prepared to run: what must run how often, and in which lanes.
 
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Fold, Instr, Over, Program, Reg, UnaryOp, When};
 
-/// A program as a [`Machine`](super::Machine) runs it.
+/// A program in the form that a [`Machine`](super::Machine) runs.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    /// What depends on parameters and `let`s alone: runs once per episode.
+    /// Instructions that depend only on parameters and `let`s: run once per episode.
     pub(super) once: Vec<Step>,
-    /// The rest: runs at every step.
+    /// The others: run in every step.
     pub(super) each_step: Vec<Step>,
-    /// The instructions that have no [`Op`] of their own.
+    /// The instructions without an [`Op`] of their own.
     pub(super) rare: Vec<Instr>,
     pub(super) loops: Vec<Loop>,
 }
 
-/// An instruction, small and flat: one jump leads to its work.
+/// An instruction, small and flat, so that one jump reaches its code.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     pub(super) op: Op,
@@ -29,7 +29,7 @@ pub(super) struct Step {
     pub(super) c: u32,
 }
 
-/// What a step does: the frequent instructions each by a name of their own.
+/// The operation of a step; every frequent instruction has its own.
 ///
 /// Operands are registers, in the order of the instruction's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,15 +65,15 @@ pub(super) enum Op {
     Give,
     /// `a`: the cell; `b`: the value; `c`: the guard, or [`ALWAYS`].
     Assign,
-    /// `a`: the place in [`Plan::rare`].
+    /// `a`: the index in [`Plan::rare`].
     Rare,
-    /// The same, of an instruction that happens once a step and remembers it.
+    /// The same, for an instruction that runs once per step and remembers that.
     Temporal,
-    /// `a`: the place in [`Plan::loops`].
+    /// `a`: the index in [`Plan::loops`].
     Loop,
 }
 
-/// In place of a guard: none.
+/// Replaces the guard if there is none.
 pub(super) const ALWAYS: u32 = u32::MAX;
 
 /// A loop and its body.
@@ -85,7 +85,7 @@ pub(super) struct Loop {
 }
 
 impl Plan {
-    /// Makes a verified program ready.
+    /// Prepares a verified program.
     pub fn of(program: &Program) -> Plan {
         let mut reader = Reader {
             code: &program.code,
@@ -105,17 +105,17 @@ impl Plan {
     }
 }
 
-/// Goes through a program, loops within loops.
+/// Reads a program, including nested loops.
 struct Reader<'a> {
     code: &'a [Instr],
     uniform: Vec<bool>,
-    /// The loops around the present place.
+    /// The loops around the current instruction.
     open: Vec<usize>,
     plan: Plan,
 }
 
 impl Reader<'_> {
-    /// The step of an instruction, and where the next one stands.
+    /// The step of an instruction, and the index of the next one.
     fn step(&mut self, at: usize) -> (Step, usize) {
         let instr = &self.code[at];
         let Instr::Each(each) = instr else {
@@ -143,7 +143,7 @@ impl Reader<'_> {
         (step, end)
     }
 
-    /// The step of anything but a loop.
+    /// The step of an instruction that isn't a loop.
     fn simple(&mut self, instr: &Instr, at: usize) -> Step {
         let guard = |guard: &Option<Reg>| guard.map_or(ALWAYS, |guard| guard.0);
         let (op, a, b, c) = match instr {
@@ -178,19 +178,20 @@ impl Reader<'_> {
     }
 
     fn is_uniform(&self, instr: &Instr) -> bool {
-        // A cell may have been written for one lane alone, and an effect looks at every lane's guard.
+        // A cell may have been written in one lane only, and an effect reads every lane's guard.
         let mut uniform = !matches!(instr, Instr::Me | Instr::Cell(_) | Instr::Give { .. } | Instr::Assign { .. });
         instr.operands(&mut |reg| uniform &= self.is_the_same(reg));
         uniform
     }
 
-    /// Whether a register is the same in every lane; that of a loop is its element while its body runs.
+    /// Whether a register is the same in every lane. A loop's register is its element while its
+    /// body runs.
     fn is_the_same(&self, reg: Reg) -> bool {
         self.open.contains(&reg.index()) || self.uniform.get(reg.index()).copied().unwrap_or_default()
     }
 }
 
-/// The frequent operators of two operands.
+/// The frequent binary operators.
 fn two(op: BinaryOp) -> Option<Op> {
     Some(match op {
         BinaryOp::Add => Op::Add,

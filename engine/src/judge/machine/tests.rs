@@ -105,7 +105,8 @@ fn effects_of_nan_do_nothing_and_are_counted() {
     assert_eq!((silent.terms[1], silent.faults, cells[0]), (0.0, 0, 5.0));
 }
 
-/// The values of a temporal instruction over a series; the first entry is the silent run on the start state.
+/// The values of a temporal instruction over a series; the first entry is the silent run on the
+/// start state.
 fn series(conditions: &[[bool; 2]], build: impl FnOnce(&mut Code, Reg, Reg) -> Reg) -> Vec<f64> {
     let mut code = Code::default();
     // The conditions are read from the ball's height and its vertical speed.
@@ -241,7 +242,7 @@ fn loops_nest() {
 
 fn counted(filter: EventFilter, events: &[crate::state::event::Event]) -> f64 {
     let mut code = Code::default();
-    // Registers 0 and 1 are what filters of the tests read.
+    // The filters of the tests read registers 0 and 1.
     code.number(0.0);
     code.number(1.0);
     let fold = Fold { kind: FoldKind::Count, value: None, guard: None };
@@ -255,7 +256,7 @@ fn events_are_filtered() {
     let filter = |kind, qualifier, by| EventFilter { kind, qualifier, by, to: None };
     let goals = [event(EventKind::Goal, left, Some(1)), event(EventKind::Goal, left, Some(12))];
     assert_eq!(counted(filter(EventKind::Goal, None, Some(Who::Team(Reg(0)))), &goals), 2.0);
-    // The second is an own goal: a goal of the team's, but of no player's.
+    // The second is an own goal: a goal for the team, but not of any player.
     assert_eq!(counted(filter(EventKind::Goal, None, Some(Who::Player(Reg(1)))), &goals), 1.0);
     let taken =
         crate::state::event::Event { qualifier: Some(Qualifier::Taken), ..event(EventKind::Corner, left, None) };

@@ -1,4 +1,4 @@
-//! One reward of one team: its agents are judged at once, each in a lane.
+//! One reward for one team: its agents are judged together, each in a lane.
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers};
@@ -8,25 +8,25 @@ use crate::state::PlayerId;
 use setpiece_scenario::{Program, Reg};
 use std::array;
 
-/// Which program of a reward is run.
+/// The program of a reward to run.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Pass {
-    /// Its first values.
+pub(super) enum Stage {
+    /// The initial values.
     Init,
-    /// The start state, for what looks back later: nothing is paid.
+    /// The start state, for instructions that look back later. Nothing is paid.
     Silent,
     /// A step.
     Step,
 }
 
-/// A reward's memory for a team: as wide as its agents need.
+/// A reward's memory for a team, as wide as its agents need.
 #[derive(Debug)]
 pub(super) enum Lanes {
     /// For one agent.
     One(Box<Memory<1>>),
     /// For up to four.
     Four(Box<Memory<4>>),
-    /// For up to a whole team, and an even number of lanes.
+    /// For up to a whole team; the number of lanes is even.
     Twelve(Box<Memory<12>>),
 }
 
@@ -63,7 +63,7 @@ clone_in_place! {
 }
 
 impl Lanes {
-    /// Memory for so many agents.
+    /// Creates memory for this many agents.
     pub(super) fn new(init: &Program, step: &Program, n_terms: usize, n_agents: usize) -> Lanes {
         match n_agents {
             0..=1 => Lanes::One(Box::new(Memory::new(init, step, n_terms))),
@@ -72,7 +72,7 @@ impl Lanes {
         }
     }
 
-    /// Whether it is as wide as so many agents need.
+    /// Whether it has the width for this many agents.
     pub(super) fn seats(&self, n_agents: usize) -> bool {
         match self {
             Lanes::One(_) => n_agents <= 1,
@@ -81,7 +81,7 @@ impl Lanes {
         }
     }
 
-    /// Forgets everything.
+    /// Clears all memory.
     pub(super) fn clear(&mut self) {
         match self {
             Lanes::One(memory) => memory.cells.fill([0.0; 1]),
@@ -90,8 +90,8 @@ impl Lanes {
         }
     }
 
-    /// Writes or reads what is remembered.
-    pub(super) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads the memory.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         match self {
             Lanes::One(memory) => archive.slots("cells", &mut memory.cells),
             Lanes::Four(memory) => archive.slots("cells", &mut memory.cells),
@@ -100,15 +100,15 @@ impl Lanes {
     }
 
     /// Runs a program of the reward for the agents' players.
-    pub(super) fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, pass: Pass, faults: &mut u32) {
+    pub(super) fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: Stage, faults: &mut u32) {
         match self {
-            Lanes::One(memory) => memory.run(players, input, pass, faults),
-            Lanes::Four(memory) => memory.run(players, input, pass, faults),
-            Lanes::Twelve(memory) => memory.run(players, input, pass, faults),
+            Lanes::One(memory) => memory.run(players, input, stage, faults),
+            Lanes::Four(memory) => memory.run(players, input, stage, faults),
+            Lanes::Twelve(memory) => memory.run(players, input, stage, faults),
         }
     }
 
-    /// A value that is the same for all and for the whole episode.
+    /// A value that is the same for all agents and the whole episode.
     pub(super) fn fixed(&self, reg: Reg) -> f64 {
         match self {
             Lanes::One(memory) => memory.step.value(reg),
@@ -126,7 +126,7 @@ impl Lanes {
         }
     }
 
-    /// Writes what an agent's terms were paid in the last run.
+    /// Writes the payments of an agent's terms in the last run.
     pub(super) fn paid(&self, lane: usize, out: &mut [f64]) {
         match self {
             Lanes::One(memory) => memory.paid(lane, out),
@@ -146,11 +146,11 @@ impl<const W: usize> Memory<W> {
         }
     }
 
-    fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, pass: Pass, faults: &mut u32) {
+    fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: Stage, faults: &mut u32) {
         self.terms.fill([0.0; W]);
-        let (plan, regs) = if pass == Pass::Init { &mut self.init } else { &mut self.step }.parts();
+        let (plan, regs) = if stage == Stage::Init { &mut self.init } else { &mut self.step }.parts();
         let mut machine = Machine {
-            input: Input { silent: pass == Pass::Silent, ..*input },
+            input: Input { silent: stage == Stage::Silent, ..*input },
             crew: Crew {
                 players: array::from_fn(|lane| player_number(players.get(lane).copied().flatten())),
                 seated: array::from_fn(|lane| lane < players.len()),
@@ -162,7 +162,7 @@ impl<const W: usize> Memory<W> {
             faults,
             draws: None,
         };
-        if pass != Pass::Step {
+        if stage != Stage::Step {
             machine.begin();
         }
         machine.run();

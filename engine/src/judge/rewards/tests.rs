@@ -5,7 +5,7 @@ use crate::state::event::Event;
 use crate::testing::{checkpoints, event, scenario, scoring};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 
-/// A judge with some rewards over two left players and one right; both left ones are agents.
+/// A judge with some rewards, two left players who are agents, and a right player.
 struct Bench {
     judge: RewardJudge,
     game: Match,
@@ -35,7 +35,7 @@ impl Bench {
         bench
     }
 
-    /// A step with the ball at a normalised place, owned by a player or nobody.
+    /// Plays a step with the ball at a normalised place, owned by a player or nobody.
     fn step(&mut self, ball: (f64, f64), owner: Option<u8>, events: &[Event]) -> Vec<f32> {
         let (x, y) = setpiece_scenario::pitch::to_metres(ball.0, ball.1);
         self.game.ball.pos = glam::Vec3::new(x as f32, y as f32, 0.11);
@@ -69,19 +69,19 @@ fn checkpoints_pay_a_tenth_per_region_and_the_rest_on_the_first_goal() {
     // Thresholds of GRF: 0.99 - (0.8 / 9) c from (1, 0).
     let thresholds: Vec<f64> = (0..10).map(|c| 0.99 - 0.8 / 9.0 * f64::from(c)).collect();
     assert_eq!(bench.step((1.0 - thresholds[0] - 0.001, 0.0), Some(0), &[]), [0.0, 0.0, 0.0]);
-    // The agent who has the ball is paid, and he alone.
+    // The agent who has the ball is paid, and no other.
     let paid = bench.step((1.0 - thresholds[0] + 0.001, 0.0), Some(0), &[]);
     assert!((paid[0] - 0.1).abs() < 1e-6 && paid[1] == 0.0, "{paid:?}");
     assert_eq!(bench.step((1.0 - thresholds[0] + 0.001, 0.0), Some(0), &[])[0], 0.0);
     // Three further regions in one stride.
     let paid = bench.step((1.0 - thresholds[3] + 0.001, 0.0), Some(0), &[]);
     assert!((paid[0] - 0.3).abs() < 1e-6, "{paid:?}");
-    // Nobody's ball pays nothing.
+    // A ball without an owner pays nothing.
     assert_eq!(bench.step((0.95, 0.0), None, &[]), [0.0, 0.0, 0.0]);
     let goal = event(EventKind::Goal, Some(Team::Left), Some(0));
     let paid = bench.step((1.02, 0.0), None, &[goal]);
     assert!((paid[0] - 0.6).abs() < 1e-6 && (paid[1] - 1.0).abs() < 1e-6 && paid[2] == 0.0, "{paid:?}");
-    // All is used up.
+    // Everything has been paid already.
     assert_eq!(bench.step((1.02, 0.0), Some(0), &[goal]), [0.0, 0.0, 0.0]);
     for agent in 0..2 {
         let total: f64 = bench.judge.sums(agent).iter().sum();

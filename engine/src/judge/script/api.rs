@@ -1,7 +1,8 @@
-//! What a hook can read: the language's properties, by the language's names, in the frame of the side judged.
+//! What a hook can read: the language's properties, by the language's names, in the frame of the
+//! judged side.
 //!
-//! The tables of this file and `vocabulary::PROPERTIES` together are the whole interface: the getters are registered
-//! from them, and the check of a script's names reads them.
+//! The tables of this file and `vocabulary::PROPERTIES` are the whole interface. The getters are
+//! registered from them, and a script's names are checked against them.
 
 mod functions;
 mod getters;
@@ -25,7 +26,7 @@ use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{Team, Type};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What the hooks of one step share.
+/// The data that the hooks of one step share.
 #[derive(Debug)]
 pub struct Scene {
     now: View,
@@ -45,20 +46,20 @@ impl Scene {
         Scene { now, prev, events: events.to_vec(), params, random: Mutex::new(random), seed: key.0, index: key.1 }
     }
 
-    /// Turns to another step.
+    /// Switches to another step.
     pub fn show(&mut self, now: View, prev: &View, events: &[Event]) {
         (self.now, self.prev) = (now, *prev);
         self.events.clear();
         self.events.extend_from_slice(events);
     }
 
-    /// A scene of another step, which goes on with the random numbers of this one.
+    /// Creates a scene of another step that continues this one's random numbers.
     #[must_use]
     pub fn followed_by(&self, now: View, prev: &View, events: &[Event]) -> Scene {
         Scene::new(now, *prev, events, self.params.clone(), self.random(), (self.seed, self.index))
     }
 
-    /// The same scene with a behaviour's arguments among `ctx.params`.
+    /// The same scene with a behaviour's arguments in `ctx.params`.
     #[must_use]
     pub fn with_arguments(self: &Arc<Scene>, perspective: Perspective, arguments: &[Argument<'_>]) -> Scene {
         let sight = Sight::now(self, perspective);
@@ -71,12 +72,12 @@ impl Scene {
         }
     }
 
-    /// Goes on with the random numbers of another scene.
+    /// Continues the random numbers of another scene.
     pub fn take_random(&self, from: &Scene) {
         *self.random.lock().unwrap_or_else(PoisonError::into_inner) = from.random();
     }
 
-    /// The stream of random numbers as the hooks left it.
+    /// The random stream as the hooks left it.
     pub fn random(&self) -> Stream {
         self.random.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -94,18 +95,18 @@ pub struct Argument<'a> {
     pub name: &'a str,
     /// Its type.
     pub ty: Type,
-    /// Its value as programs write it; a point takes two.
+    /// Its value as programs write it; a point needs two numbers.
     pub values: [f64; 2],
 }
 
-/// Whom a hook is called for.
+/// The perspective of a hook's call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Perspective {
     /// The side judged.
     pub us: Team,
-    /// The agent's player, if he is on the pitch.
+    /// The agent's player, if on the pitch.
     pub me: Option<PlayerId>,
-    /// The agent's place among the agents.
+    /// The agent's index.
     pub agent: usize,
 }
 
@@ -204,7 +205,7 @@ impl Sight {
         Point { metres: [side * x * X_SCALE_M, side * y * Y_SCALE_M], side }
     }
 
-    /// A team as seen from the side judged.
+    /// A team as seen from the judged side.
     fn team_word(&self, team: Option<Team>) -> Dynamic {
         match team {
             None => "none".into(),
@@ -254,7 +255,7 @@ pub(super) fn register(engine: &mut Engine) {
     functions::register(engine);
 }
 
-/// Whether a name of the tables has its getter.
+/// Whether every name of the tables has its getter.
 #[cfg(test)]
 pub(super) fn getters_complete(member: &Member) -> bool {
     getters::is_registered(member.of, member.name)

@@ -1,9 +1,10 @@
-//! What one call of a hook may use.
+//! Limits what one call of a hook may use.
 //!
-//! Rhai counts what its interpreter does, whatever the size of the values: one operation may copy a list of thousands.
-//! Here the bytes that are copied, read and made are counted as well, [`BYTES_PER_OPERATION`] to an operation, so that
-//! one number bounds both the time of a call and the memory of its values. Copies are counted where the text makes
-//! them ([`count_copies`]), the work of Rhai's own functions where they are registered (`natives`).
+//! Rhai counts what its interpreter does, whatever the size of the values: one operation may copy a
+//! list of thousands. Here the bytes that are copied, read and created are counted as well,
+//! [`BYTES_PER_OPERATION`] per operation. So one number bounds both the time of a call and the
+//! memory of its values. Copies are counted where the text makes them ([`count_copies`]), and the
+//! work of Rhai's own functions where they are registered (`natives`).
 
 mod class;
 mod copies;
@@ -19,20 +20,21 @@ use super::host;
 use rhai::{Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext, Position};
 use std::cell::{Cell, RefCell};
 
-/// Most operations of one call of a hook, a few milliseconds.
+/// The most operations of one call of a hook: a few milliseconds.
 pub(super) const OPERATIONS_MAX: u64 = 200_000;
 
-/// Bytes that count as one operation. Copying as much takes about as long as an operation, and a call whose every
-/// operation is spent on values has made 200,000 × 256 B = 49 MiB of them: less than the 64 MiB that the documentation
-/// promises, the rest being for what is too small to be counted.
+/// Bytes that count as one operation. Copying them takes about as long as an operation. A call that
+/// spends every operation on values creates 200,000 × 256 B = 49 MiB. That is less than the 64 MiB
+/// that the documentation promises; the rest is for what is too small to count.
 pub(super) const BYTES_PER_OPERATION: usize = 256;
 
-/// Operations that a caught error counts for. What fails has done work that nothing else counts.
+/// Operations that a caught error counts as. Failed code has done work that nothing else counts.
 const CAUGHT_OPERATIONS: i64 = 1_000;
-/// The same in a script with closures, where Rhai waits for 50 ms before it says that two of them are at one variable.
+/// The same in a script with closures, where Rhai waits for 50 ms before it reports that two of
+/// them use one variable.
 const CAUGHT_WAITING_OPERATIONS: i64 = 40_000;
 
-/// The functions that [`count_copies`] writes into a text; no script can name them.
+/// The functions that [`count_copies`] inserts; scripts can't name them.
 pub(super) const COUNTED: &str = "setpiece_counted";
 const WORKED: &str = "setpiece_worked";
 pub(super) const RESERVED: &[&str] = &[COUNTED, WORKED];
@@ -40,9 +42,9 @@ pub(super) const RESERVED: &[&str] = &[COUNTED, WORKED];
 type Failable<T> = Result<T, Box<EvalAltResult>>;
 
 thread_local! {
-    /// Operations that the present call may still use.
+    /// Operations that the current call may still use.
     static LEFT: Cell<u64> = const { Cell::new(0) };
-    /// Variables of the present call that closures share.
+    /// Variables of the current call that closures share.
     static SHARED: RefCell<Vec<Dynamic>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -51,7 +53,7 @@ pub(super) fn begin() {
     LEFT.with(|left| left.set(OPERATIONS_MAX + 1));
 }
 
-/// Counts operations of the present call; `false` where it has none left.
+/// Counts operations of the current call; `false` if none are left.
 pub(super) fn count_operations(n: u64) -> bool {
     LEFT.with(|left| {
         left.set(left.get().saturating_sub(n));
@@ -59,25 +61,25 @@ pub(super) fn count_operations(n: u64) -> bool {
     })
 }
 
-/// Counts work on so many bytes, done at a place.
+/// Counts work on this many bytes, done at a place.
 ///
 /// # Errors
-/// The call is over where it has no operations left; a script can't catch that.
+/// The call ends if no operations are left; a script can't catch that.
 pub(super) fn count_bytes(bytes: usize, at: Position) -> Failable<()> {
     let operations = bytes / BYTES_PER_OPERATION;
     if operations == 0 || count_operations(operations as u64) { Ok(()) } else { over(Why::Size, at) }
 }
 
-/// Why a call is over, whatever the script does to catch it.
+/// Why a call ends, even if the script tries to catch the error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Why {
-    /// Its operations are spent on the size of values, not on their number.
+    /// Its operations were spent on the size of values, not on their number.
     Size,
-    /// A value is used that is being changed.
+    /// It uses a value that is being changed.
     Changing,
 }
 
-/// What ends a call, and where: Rhai itself forgets the place.
+/// What ends a call, and where. (Rhai itself loses the place.)
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Over {
     pub(super) why: Why,
@@ -89,10 +91,10 @@ fn over(why: Why, at: Position) -> Failable<()> {
     Err(EvalAltResult::ErrorTerminated(Dynamic::from(over), at).into())
 }
 
-/// Registers what [`count_copies`] writes into a text.
+/// Registers the functions that [`count_copies`] inserts.
 pub(super) fn register(engine: &mut Engine) {
     engine.register_fn(COUNTED, |context: NativeCallContext, value: Dynamic| -> Failable<Dynamic> {
-        // Most of what could be large is not.
+        // Most of the values that could be large aren't.
         if value.is_int() || value.is_float() || value.is_bool() || value.is_unit() {
             return Ok(value);
         }
@@ -110,7 +112,8 @@ pub(super) fn register(engine: &mut Engine) {
     });
 }
 
-/// Notes the variables that a closure shares: one that holds the closure itself would never be freed.
+/// Records the variables that a closure shares. One that holds the closure itself would never be
+/// freed.
 fn keep_shared(value: &Dynamic) {
     if !value.is_fnptr() {
         return;
@@ -120,10 +123,10 @@ fn keep_shared(value: &Dynamic) {
     SHARED.with(|list| list.borrow_mut().extend(shared));
 }
 
-/// Ends a call: nothing outlives it but `this`, and that shares nothing with anybody.
+/// Ends a call. Only `this` outlives it, and it shares nothing with other values.
 ///
 /// # Errors
-/// What `this` can't keep.
+/// `this` holds something that can't be kept.
 pub(super) fn end(this: &mut Dynamic) -> Result<(), String> {
     let shared = SHARED.with(RefCell::take);
     if shared.is_empty() {

@@ -1,32 +1,35 @@
-//! Calls a script's functions: as Rhai's bytecode where all of it can be lowered, else by Rhai's tree walker.
+//! Calls a script's functions: as Rhai's bytecode if all of it can be lowered, else with Rhai's
+//! tree walker.
 
 use super::{budget, host};
 use rhai::grain::{Compiler, Program, Vm};
 use rhai::{AST, CallFnOptions, Dynamic, EvalAltResult, FuncArgs, Scope};
 use std::cell::RefCell;
 
-/// A script, ready to be called.
+/// A callable script.
 #[derive(Debug)]
 pub(super) struct Code {
     ast: AST,
-    /// Its bytecode; none where some of it must be walked.
+    /// Its bytecode; none if a part needs the tree walker.
     program: Option<Program<'static>>,
 }
 
 thread_local! {
-    /// A machine keeps what it found about the engine's functions; scripts' own functions are not in it.
+    /// A machine caches what it found about the engine's functions, but not about scripts' own
+    /// functions.
     static MACHINE: RefCell<Option<Vm<'static>>> = const { RefCell::new(None) };
 }
 
 impl Code {
     pub(super) fn of(ast: AST) -> Code {
         let program = Compiler::new().compile(&ast);
-        // A closure outlives its machine's frame, and what is not lowered is found by name: both are the walker's.
+        // A closure outlives its machine's frame, and parts that aren't lowered are found by name.
+        // Both need the tree walker.
         let whole = program.residual_count() == 0 && !program.makes_fn_pointers();
         Code { ast, program: whole.then_some(program) }
     }
 
-    /// Leaves it to the tree walker.
+    /// Forces the tree walker.
     #[cfg(test)]
     pub(super) fn walk(&mut self) {
         self.program = None;
@@ -53,7 +56,7 @@ impl Code {
         let kept = MACHINE.with(|machine| machine.borrow_mut().take());
         let mut machine = kept.unwrap_or_else(|| Vm::new(host::engine()));
         let value = machine.call_fn_with_options(options, scope, program, name, arguments);
-        // One that failed is not trusted with another call.
+        // A machine that failed isn't reused.
         if value.is_ok() {
             MACHINE.with(|kept| *kept.borrow_mut() = Some(machine));
         }

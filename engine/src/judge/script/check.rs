@@ -1,4 +1,4 @@
-//! What can be told of a script before it runs: its grammar, its hook, the [`names`] it uses.
+//! Checks a script before it runs: its grammar, its hook, the [`names`] it uses.
 
 mod names;
 
@@ -12,23 +12,23 @@ use std::ops::Range;
 /// Least similarity of a suggestion.
 const SIMILAR: f64 = 0.6;
 
-/// What kind of fault a script has.
+/// The kind of a script's problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScriptFaultKind {
-    /// The text is not Rhai.
+    /// The text isn't valid Rhai.
     Syntax,
     /// The hook is missing, or takes other arguments.
     Hook,
-    /// A property, function or variable that nothing has.
+    /// An unknown property, function or variable.
     Name,
 }
 
-/// A fault of a script.
+/// A problem in a script.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScriptFault {
     /// What kind.
     pub kind: ScriptFaultKind,
-    /// Where, in bytes of the script.
+    /// The place, in bytes of the script.
     pub range: Range<usize>,
     /// What is wrong, in one clause.
     pub message: String,
@@ -36,7 +36,7 @@ pub struct ScriptFault {
     pub help: Option<String>,
 }
 
-/// The arguments of a hook; `None` for no hook.
+/// The arguments of a hook; `None` if it isn't a hook.
 pub(super) fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subject)]> {
     const STEP: &[(&str, Subject)] =
         &[("ctx", Subject::Ctx), ("now", Subject::State), ("prev", Subject::State), ("events", Subject::Events)];
@@ -48,13 +48,14 @@ pub(super) fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subj
     }
 }
 
-/// Names of a script that are reported at most: each is looked for from the script's beginning.
+/// The most problems reported per script, because finding the place of each scans the script from
+/// its beginning.
 const FAULTS_MAX: usize = 100;
 
-/// Finds what is wrong with a script that is to serve as `hook` (`reward`, `done`, `act` or `reset`) and finds these names
+/// Checks a script that is used as `hook` (`reward`, `done`, `act` or `reset`) and has these names
 /// in `ctx.params`.
 ///
-/// Faults are in the order of the text; a script that is not Rhai has one.
+/// Problems are in text order. A script that isn't valid Rhai has only one.
 pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFault> {
     let ast = match host::read(source) {
         Ok(ast) => ast,
@@ -85,14 +86,14 @@ pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFaul
     faults
 }
 
-/// Whether a script asks about the agent's own player.
+/// Whether a script reads the agent's own player.
 pub(super) fn mentions_me(ast: &AST) -> bool {
     !ast.walk(&mut |path: &[ASTNode]| {
         !matches!(path.last(), Some(ASTNode::Expr(Expr::Property(property, _))) if matches!(&*property.2, "me" | "agent"))
     })
 }
 
-/// Whether a script looks at the events that its hook is given.
+/// Whether a script reads the events that its hook gets.
 pub(super) fn mentions_events(ast: &AST, hook: &str) -> bool {
     let arguments = hook_arguments(hook).unwrap_or_default();
     let Some(place) = arguments.iter().position(|(_, subject)| *subject == Subject::Events) else { return false };
@@ -128,12 +129,12 @@ fn check_hook(source: &str, hook: &str, ast: &AST) -> Option<ScriptFault> {
     })
 }
 
-/// A script may have a `reset` beside its hook; with other arguments it would never be called.
+/// Checks the optional `reset` hook; with other arguments it would never be called.
 fn check_reset(source: &str, ast: &AST) -> Option<ScriptFault> {
     ast.iter_functions().any(|f| f.name == "reset").then(|| check_hook(source, "reset", ast)).flatten()
 }
 
-/// Nothing runs a script's statements outside its functions.
+/// Reports statements outside functions, because nothing runs them.
 fn check_top_level(source: &str, ast: &AST) -> Option<ScriptFault> {
     let statement = ast.statements().iter().find(|statement| !matches!(statement, Stmt::Noop(_)))?;
     Some(ScriptFault {

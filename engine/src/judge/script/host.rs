@@ -1,4 +1,4 @@
-//! The one Rhai engine of the process: what a script may use, and how much.
+//! The process's one Rhai engine: what a script may use, and how much.
 
 use super::budget::{BYTES_PER_OPERATION, OPERATIONS_MAX, Over, Why};
 use super::{api, budget};
@@ -17,17 +17,18 @@ pub(super) const EXPRESSION_DEPTH_MAX: usize = 48;
 const STRING_MAX: usize = 4_096;
 pub(super) const ARRAY_MAX: usize = 4_096;
 pub(super) const MAP_MAX: usize = 512;
-/// Bytes of the steps that the memories of an episode's scripts remember, of the 64 MiB that the documentation promises.
+/// Bytes for the steps that the memories of an episode's scripts may keep, out of the 64 MiB that
+/// the documentation promises.
 pub(super) const MEMORIES_BYTES_MAX: usize = 12 << 20;
-/// Steps that each may remember, however many scripts there are.
+/// Number of steps that each script may keep, however many scripts there are.
 const SCENES_LEAST: usize = 8;
 const VARIABLES_MAX: usize = 256;
 const FUNCTIONS_MAX: usize = 256;
 
-/// Words of the language that would open a door.
+/// Keywords that would give access to the outside, or to more than the limits allow.
 const DISABLED: &[&str] = &["eval", "import", "export", "print", "debug", "**", "**="];
 
-/// The engine that runs scripts; built at the first use.
+/// The engine that runs scripts; built at its first use.
 pub(super) fn engine() -> &'static Engine {
     static ENGINE: OnceLock<Engine> = OnceLock::new();
     ENGINE.get_or_init(|| {
@@ -38,7 +39,7 @@ pub(super) fn engine() -> &'static Engine {
     })
 }
 
-/// The engine that reads what authors write: nothing is left out of its trees.
+/// The engine that parses authors' scripts; its trees are complete.
 fn reader() -> &'static Engine {
     static READER: OnceLock<Engine> = OnceLock::new();
     READER.get_or_init(|| {
@@ -48,24 +49,24 @@ fn reader() -> &'static Engine {
     })
 }
 
-/// An engine with what scripts have of Rhai itself, as Rhai has it.
+/// An engine with those parts of Rhai that scripts may use, unchanged.
 pub(super) fn plain_engine() -> Engine {
     let mut engine = Engine::new_raw();
     Basics::new().register_into_engine(&mut engine);
     engine
 }
 
-/// Reads a script.
+/// Parses a script.
 pub(super) fn read(source: &str) -> Result<AST, ParseError> {
     let ast = reader().compile(source)?;
-    // A function of such a name would be called instead of the one that counts.
+    // A function with a reserved name would be called instead of the one that counts.
     let reserved = ast.iter_fn_def().find(|own| budget::RESERVED.contains(&own.name.as_str()));
     let refused = reserved.map(|own| (ParseErrorType::Reserved(own.name.to_string()), own.body.start_position()));
     refused.map_or(Ok(ast), |(why, position)| Err(ParseError(Box::new(why), position)))
 }
 
 rhai::def_package! {
-    /// What scripts have of Rhai itself, as one module: a function is found by one look.
+    /// The parts of Rhai that scripts may use, as one module, so that one lookup finds a function.
     Basics(module) : ArithmeticPackage, LogicPackage, BasicMathPackage, BasicStringPackage, MoreStringPackage,
         BasicIteratorPackage, BasicArrayPackage, BasicMapPackage {}
 }
@@ -80,7 +81,7 @@ fn build() -> Engine {
     engine.set_strict_variables(true);
     // Never higher: the optimiser would fold a call of `ctx.random()`.
     engine.set_optimization_level(OptimizationLevel::Simple);
-    // Not Rhai's own limit: a machine that is used again goes on counting, and a closure counts from 0.
+    // Not Rhai's own limit: a reused machine continues its count, and a closure counts from 0.
     engine.on_progress(|_| (!budget::count_operations(1)).then_some(Dynamic::UNIT));
     engine.set_max_call_levels(CALL_LEVELS_MAX);
     engine.set_max_expr_depths(EXPRESSION_DEPTH_MAX, EXPRESSION_DEPTH_MAX);
@@ -93,7 +94,7 @@ fn build() -> Engine {
     engine
 }
 
-/// Puts libm's functions in place of the platform's, whose last bits differ.
+/// Replaces the platform's functions by libm's; their last bits differ.
 fn register_maths(engine: &mut Engine) {
     engine.register_fn("sin", libm::sin).register_fn("cos", libm::cos).register_fn("tan", libm::tan);
     engine.register_fn("asin", libm::asin).register_fn("acos", libm::acos).register_fn("atan", libm::atan);
@@ -107,7 +108,7 @@ fn register_maths(engine: &mut Engine) {
     engine.register_fn("pow", |x: i64, y: i64| libm::pow(x as f64, y as f64));
     engine.register_fn("pow", |x: i64, y: f64| libm::pow(x as f64, y));
     engine.register_fn("exp", |x: i64| libm::exp(x as f64)).register_fn("sqrt", |x: i64| libm::sqrt(x as f64));
-    // Whole numbers serve as well; Rhai asks the general form last.
+    // Integers are accepted too; Rhai tries the general form last.
     engine.register_fn("clamp", clamp);
     engine.register_fn("clamp", |x: Dynamic, low: Dynamic, high: Dynamic| -> Result<f64, Box<EvalAltResult>> {
         Ok(clamp(to_number(&x)?, to_number(&low)?, to_number(&high)?))
@@ -139,7 +140,7 @@ fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A number, whole or not.
+/// Converts an integer or float to a float.
 pub(super) fn to_number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
     match (value.as_float(), value.as_int()) {
         (Ok(number), _) => Ok(number),
@@ -148,7 +149,7 @@ pub(super) fn to_number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
     }
 }
 
-/// What a script's memory holds, all in all.
+/// The total content of a script's memory.
 #[derive(Default)]
 struct Held {
     elements: usize,
@@ -159,7 +160,7 @@ struct Held {
 }
 
 impl Held {
-    /// Adds a value; stops where it is too much already.
+    /// Adds a value; stops if the total is too large.
     fn add(&mut self, value: &Dynamic, level: usize) -> Result<(), String> {
         self.levels = self.levels.max(level);
         if let Some(map) = value.read_lock::<Map>() {
@@ -197,7 +198,7 @@ impl Held {
         Ok(())
     }
 
-    /// Whether the steps that it remembers are not too many.
+    /// Checks that the steps in memory aren't too many.
     fn scenes_within(mut self, bytes: usize) -> Result<(), String> {
         self.scenes.sort_unstable();
         self.scenes.dedup();
@@ -211,8 +212,9 @@ impl Held {
     }
 }
 
-/// Whether a script's memory is within the bounds of any value: Rhai looks only at what is handed on, not at what grows
-/// where it lies. What it was shown keeps the step that it was shown in, which takes its share of so many bytes.
+/// Checks that a script's memory is within the bounds of any value. Rhai checks only values that
+/// are passed on, not those that grow in place. A value that was shown to the script keeps its
+/// whole step, which counts towards these bytes.
 pub(super) fn check_size(memory: &Dynamic, bytes: usize) -> Result<(), String> {
     let mut held = Held::default();
     held.add(memory, 0)?;
@@ -248,10 +250,10 @@ pub(super) fn explain(error: Box<EvalAltResult>) -> (Option<(usize, usize)>, Str
     }
 }
 
-/// Two of a script's functions are at one variable.
+/// Two of a script's functions use one variable at once.
 const RACE: &str = "a closure reads the variable that its chain begins with: put one of both into a `let` before";
 
-/// Rhai says what is too large, we what of it is.
+/// Rhai reports what is too large; this adds which limit it is.
 fn words_of_size(words: &str) -> String {
     if words.starts_with("a value") { words.to_owned() } else { format!("{words} too large") }
 }
@@ -283,7 +285,7 @@ fn runtime_message(error: EvalAltResult) -> String {
     }
 }
 
-/// What a script's text has wrong, in one clause.
+/// What is wrong with a script's text, in one clause.
 pub(super) fn parse_message(error: &ParseError) -> String {
     match error.err_type() {
         ParseErrorType::VariableUndefined(name) => format!("unknown variable `{name}`"),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// The byte at a line and column, both from 1; the end of the text where there is none.
+/// The byte at a line and column, both from 1; the end of the text if there is none.
 pub(super) fn offset(source: &str, line: usize, column: usize) -> usize {
     let mut start = 0;
     for _ in 1..line {
@@ -26,7 +26,7 @@ pub(super) fn word_at(source: &str, start: usize) -> Range<usize> {
     start..start + length
 }
 
-/// Where a function's name stands, if it is defined in the text.
+/// The place of a function's name, if the text defines it.
 pub(super) fn definition(source: &str, name: &str) -> Option<Range<usize>> {
     let mut from = 0;
     while let Some(found) = source.get(from..).and_then(|rest| rest.find("fn ")) {
@@ -42,7 +42,7 @@ pub(super) fn definition(source: &str, name: &str) -> Option<Range<usize>> {
     None
 }
 
-/// Line and column, from 1, of a hook's definition; the beginning where it has none.
+/// Line and column, from 1, of a hook's definition; the beginning if it has none.
 pub(super) fn hook_position(source: &str, hook: &str) -> (usize, usize) {
     let start = definition(source, hook).map_or(0, |range| range.start);
     let before = source.get(..start).unwrap_or_default();

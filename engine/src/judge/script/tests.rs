@@ -194,7 +194,8 @@ fn failures_name_their_place() {
     assert!(fail("let a = [1]; a[5]").line == 2);
 }
 
-/// Whatever a script does, its bytecode and Rhai's tree walker agree: values, memory, messages and places.
+/// For every script, its bytecode and Rhai's tree walker agree: values, memory, messages and
+/// places.
 #[test]
 fn bytecode_and_walker_agree() {
     let events = [event(EventKind::Shot, Some(Team::Left), Some(1)), event(EventKind::Corner, Some(Team::Right), None)];
@@ -284,8 +285,9 @@ fn memory_is_bounded_and_a_failure_names_the_files_line() {
         let (mut memory, scene) = (Memory::default(), scene(&[]));
         let failed = (0..60).find_map(|_| scripts.reward(0, &scene, perspective, &[], &mut memory).err());
         let failed = failed.unwrap_or_else(|| panic!("{grow}: never too much"));
-        let told = failed.message == format!("`this` holds more than {held}") || failed.message.contains("too large");
-        assert!(told, "{grow}: {failed}");
+        let expected =
+            failed.message == format!("`this` holds more than {held}") || failed.message.contains("too large");
+        assert!(expected, "{grow}: {failed}");
     }
     let mut scenario = scenario(&[]);
     let source = "fn reward(ctx, now, prev, events) { throw 1 }\nfn f() { 1 }".to_owned();
@@ -295,7 +297,7 @@ fn memory_is_bounded_and_a_failure_names_the_files_line() {
     assert_eq!((failed.line, failed.column), (9, 21 + 37));
 }
 
-/// A hook that doesn't look at the events is not handed any; one that does gets them wherever it looks.
+/// A hook that doesn't read the events gets none. One that does gets them wherever it reads them.
 #[test]
 fn events_are_there_for_who_looks() {
     let events = [event(EventKind::Goal, Some(Team::Left), Some(1))];
@@ -352,7 +354,7 @@ fn wrong_names_are_found_with_their_place() {
     assert_eq!(faults("let p = ctx.params; p.width")[0].1, "width");
     let several = faults("now.ball.heigth + prev.me.sped\n+ distnce(1, 2)");
     assert_eq!(several.len(), 3);
-    // A player's property is none of the ball's.
+    // The ball doesn't have a player's property.
     assert_eq!(faults("now.ball.fatigue")[0].1, "fatigue");
 }
 

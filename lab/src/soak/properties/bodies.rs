@@ -1,4 +1,4 @@
-//! Every number is one, everybody and the ball is where somebody or a ball can be.
+//! All numbers are finite, and players and ball are where they can be.
 
 use super::must;
 use crate::pitch::Failure;
@@ -7,12 +7,12 @@ use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
 use setpiece::scenario::vocabulary::Role;
 
-/// The fastest that a ball ever is, m/s.
+/// The fastest possible ball, m/s.
 const BALL_MPS: f32 = 60.0;
-/// The fastest that a player ever is, m/s.
+/// The fastest possible player, m/s.
 const PLAYER_MPS: f32 = 12.0;
 
-/// What any state is.
+/// Checks any single state.
 pub(super) fn sound(game: &Match) -> Result<(), Failure> {
     ball(game)?;
     for i in (0..PLAYERS_MAX).filter(|&i| game.players[i].active) {
@@ -51,7 +51,7 @@ fn player(game: &Match, i: usize) -> Result<(), Failure> {
     must(unit, || format!("player {i} faces nowhere: {:?}", player.body.facing))
 }
 
-/// Every agent has a player of his team, no two the same one; nobody only where there is nobody left.
+/// Every agent has a player of its team, each a different one. It has none only if nobody is left.
 fn agents(game: &Match) -> Result<(), Failure> {
     let mut taken = 0u32;
     for (slot, agent) in game.agents.iter().enumerate() {
@@ -64,7 +64,7 @@ fn agents(game: &Match) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Nobody appears; nobody's team changes; agents stay who they are.
+/// Nobody appears, nobody changes teams, and agents stay the same.
 pub(super) fn hold(before: &Match, judged: &Match) -> Result<(), Failure> {
     for i in 0..PLAYERS_MAX {
         let (was, is) = (&before.players[i], &judged.players[i]);
@@ -79,7 +79,7 @@ pub(super) fn hold(before: &Match, judged: &Match) -> Result<(), Failure> {
             .team(is.team)
             .any(|(id, player)| player.controllable && !judged.agents.iter().any(|agent| agent.player == Some(id)));
         let there = is.player.is_some_and(|id: PlayerId| judged.player(id).active);
-        // Who is sent off in a step leaves his agent at the beginning of the next.
+        // An agent loses a player sent off in a step at the beginning of the next.
         let left = was.player.is_some_and(|id| before.player(id).active && !judged.player(id).active);
         must(there || is.fixed || !waits || left, || format!("agent {slot} has nobody: {is:?}"))?;
     }

@@ -1,4 +1,4 @@
-//! A step again, tick by tick: nothing passes through anything, nothing jumps.
+//! Checks a step tick by tick: nothing passes through anything, nothing jumps.
 
 use super::{Step, must};
 use crate::pitch::Failure;
@@ -21,31 +21,34 @@ const REAR_X: f32 = (HALF_LENGTH_M + GOAL_DEPTH_M) as f32;
 const POST_Y: f32 = GOAL_HALF_WIDTH_M as f32;
 const BAR_Z: f32 = GOAL_HEIGHT_M as f32;
 
-// The figures are what was measured over some million steps, and a little.
+// These limits are the largest values measured over some million steps, plus a little.
 
-/// What contacts give way, metres: a ball that a foot holds against a post.
+/// How far contacts yield, metres: a ball that a foot holds against a post.
 const GIVE_M: f32 = 0.03;
-/// The most that a ball is moved in a tick beside its velocity: lifted for a kick, pushed by a body, metres.
+/// The most that a tick moves the ball in addition to its velocity: lifted for a kick, pushed by a
+/// body, metres.
 const LIFT_M: f32 = 0.05;
 /// The fastest kick, m/s.
 const KICK_MPS: f32 = 36.0;
 /// The most that a player moves in a tick, metres.
 const STRIDE_M: f32 = 0.24;
-/// How near a player's middle comes to a net or post, metres.
+/// Least distance of a player's middle from a net or post, metres.
 const NET_M: f32 = 0.2;
 
-/// What is remembered from tick to tick: who has stood apart from whom since they were placed, a bit each.
+/// The memory from tick to tick: which players have been apart since they were placed, one bit
+/// each.
 #[derive(Debug, Default)]
 pub(super) struct Film {
     apart: [u32; PLAYERS_MAX],
 }
 
 impl Film {
-    /// Plays a step anew and looks at each of its ticks; it must come to the same end.
+    /// Plays a step again and checks each of its ticks. The result must be the same.
     pub(super) fn watch(&mut self, before: &Match, step: &Step, scratch: &mut Scratch) -> Result<(), Failure> {
         let mut game = before.clone();
         let mut events = Events::new();
-        // Whom a switch has left is the bot's for this step, whatever he is scripted to do.
+        // A player that an agent has switched away from is the bot's for this step, even if
+        // scripted.
         let switched = before.agents.iter().zip(step.actions).filter(|(_, action)| **action == Action::Switch);
         let left: Vec<PlayerId> = switched.filter_map(|(slot, _)| slot.player).collect();
         for (i, (acting, done)) in game.play.acting.iter_mut().zip(&step.judged.play.acting).enumerate() {
@@ -75,8 +78,8 @@ impl Film {
         circle(now)
     }
 
-    /// Two men on their feet don't run through each other: however far a crowd presses them into each other, they never
-    /// change sides.
+    /// Two players on their feet don't run through each other: however far a crowd presses them
+    /// together, they never swap sides.
     pub(super) fn pair(&mut self, was: &Match, now: &Match, i: usize, j: usize) -> Result<(), Failure> {
         let between = |game: &Match| game.players[j].pos - game.players[i].pos;
         let (from, to) = (between(was), between(now));
@@ -92,7 +95,7 @@ impl Film {
     }
 }
 
-/// Whether a step played again has come to the same end.
+/// Whether a step played again has the same result.
 fn same(again: &Match, judged: &Match) -> Result<(), Failure> {
     must(again.ball == judged.ball && again.score == judged.score, || "the ball went another way".to_owned())?;
     for (i, (a, b)) in again.players.iter().zip(&judged.players).enumerate() {
@@ -101,7 +104,8 @@ fn same(again: &Match, judged: &Match) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A ball that nobody holds flies; it meets frame and nets from outside, and is in the goal by its mouth alone.
+/// A free ball flies. It may meet frame and nets from outside, and enters the goal only through its
+/// mouth.
 fn ball(was: &Match, now: &Match) -> Result<(), Failure> {
     let (from, to) = (was.ball.pos, now.ball.pos);
     let held = |game: &Match| game.play.hands.is_some() || game.play.set_piece.is_some();
@@ -111,7 +115,7 @@ fn ball(was: &Match, now: &Match) -> Result<(), Failure> {
         return Ok(());
     }
     let way = from.distance(to);
-    // A ball struck at a body right before it flies at a speed that neither end of the tick shows.
+    // A ball struck at a body right in front of it has a speed that neither end of the tick shows.
     let struck = now.players.iter().any(|player| player.body.touched_at >= was.tick as i32);
     let struck_mps = if struck { KICK_MPS } else { 0.0 };
     let most = was.ball.vel.length().max(now.ball.vel.length()).max(struck_mps) * TICK_S + LIFT_M;
@@ -130,7 +134,7 @@ fn ball(was: &Match, now: &Match) -> Result<(), Failure> {
     must(scored || !in_goal(to), || format!("the ball is in the goal at {to} and nobody has scored"))
 }
 
-/// As it would be at the right goal, if `end` is at the left one.
+/// Mirrors a point to the right goal, if `end` is at the left one.
 fn at_right(point: Vec3, end: Vec3) -> Vec3 {
     if end.x < 0.0 { Vec3::new(-point.x, -point.y, point.z) } else { point }
 }
@@ -142,7 +146,8 @@ const FRAME: [[Vec3; 2]; 3] = [
     [Vec3::new(GOAL_X, -POST_Y, BAR_Z), Vec3::new(GOAL_X, POST_Y, BAR_Z)],
 ];
 
-/// How far a point is from the sides and the top of the right goal's net; its rear is out of reach within a tick.
+/// The distance of a point from the sides and the top of the right goal's net; its rear can't be
+/// reached within a tick.
 fn nets(at: Vec3) -> f32 {
     let x = (GOAL_X - at.x).max(at.x - REAR_X).max(0.0);
     let beyond = |past: f32| past.max(0.0);
@@ -156,7 +161,7 @@ fn in_goal(at: Vec3) -> bool {
     at.x > OUT_X && at.x < REAR_X && at.y.abs() < POST_Y && at.z < BAR_Z
 }
 
-/// Whether a ball came over a goal line with room on every side for all of it.
+/// Whether a ball crossed a goal line with its whole size inside the mouth.
 fn through_mouth(from: Vec3, to: Vec3) -> bool {
     let room = BALL_RADIUS + NET_HALF - GIVE_M;
     let share = (OUT_X - from.x.abs()) / (to.x.abs() - from.x.abs());
@@ -176,7 +181,7 @@ fn between(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f32 {
     (a + along * on_way).distance(c + post * on_post)
 }
 
-/// A player runs, he never jumps, and not through nets.
+/// A player runs; they never jump, and never pass through nets.
 fn player(i: usize, from: Vec2, to: Vec2) -> Result<(), Failure> {
     let way = from.distance(to);
     must(way <= STRIDE_M, || format!("player {i} has jumped {way} m: {from} to {to}"))?;

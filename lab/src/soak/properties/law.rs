@@ -1,4 +1,4 @@
-//! The clock, the score, cards, and which event goes with which restart.
+//! The clock, the score, cards, and which event belongs to which restart.
 
 use super::{Step, must};
 use crate::pitch::Failure;
@@ -8,7 +8,7 @@ use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::pitch::PLAYERS_MAX;
 use setpiece::scenario::vocabulary::{EventKind, GameMode, Qualifier, Rule, Team};
 
-/// What a rule switched off leaves out.
+/// The events that each rule, if switched off, removes.
 const RULED_OUT: [(Rule, &[EventKind]); 6] = [
     (Rule::Offside, &[EventKind::Offside]),
     (Rule::Fouls, &[EventKind::Foul, EventKind::Advantage]),
@@ -18,7 +18,7 @@ const RULED_OUT: [(Rule, &[EventKind]); 6] = [
     (Rule::HalfTime, &[EventKind::HalfTime]),
 ];
 
-/// What any step keeps.
+/// Checks any single step.
 pub(super) fn hold(before: &Match, step: &Step) -> Result<(), Failure> {
     clock(before, step)?;
     score(before, step)?;
@@ -39,7 +39,8 @@ fn count(events: &[Event], which: impl Fn(&Event) -> bool) -> usize {
     events.iter().filter(|event| which(event)).count()
 }
 
-/// A step is one step, of ten ticks if play is not stopped; half-time comes once and in time, full time at the limit.
+/// A step counts as one, with ten ticks if play isn't stopped. Half-time comes once and in time,
+/// full time at the limit.
 fn clock(before: &Match, step: &Step) -> Result<(), Failure> {
     let Step { judged, after, events, .. } = step;
     must(judged.step == before.step + 1, || format!("step {} follows {}", judged.step, before.step))?;
@@ -67,7 +68,7 @@ fn clock(before: &Match, step: &Step) -> Result<(), Failure> {
     must(whistle == usize::from(full), || format!("full time {whistle} times in step {}", judged.step))
 }
 
-/// The score rises by a goal event of the team, by at most one a step, and by nothing else.
+/// The score only rises with a goal event of the team, by at most one per step.
 fn score(before: &Match, step: &Step) -> Result<(), Failure> {
     let Step { judged, after, events, .. } = step;
     for team in [Team::Left, Team::Right] {
@@ -84,8 +85,8 @@ fn score(before: &Match, step: &Step) -> Result<(), Failure> {
     must(own == usize::from(into_his_own), || format!("{own} own goals beside {goal:?}"))
 }
 
-/// Cards are never taken back and rise by their event; the second yellow is red; red takes a player off, for ever, unless
-/// he is the last.
+/// Cards are never taken back and only rise with their event. The second yellow is red. Red removes
+/// a player for good, unless they are the last.
 fn cards(before: &Match, step: &Step) -> Result<(), Failure> {
     let Step { judged, after, events, .. } = step;
     must(judged.squad == after.squad, || "a restart changed who takes part".to_owned())?;
@@ -107,7 +108,7 @@ fn cards(before: &Match, step: &Step) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Nobody grows fresher but at half-time, nobody tires where that is off.
+/// Nobody recovers except at half-time, and nobody tires if fatigue is off.
 fn tiredness(before: &Match, step: &Step) -> Result<(), Failure> {
     let renewed = step.judged.play.second_half && !before.play.second_half;
     for (i, (was, is)) in before.players.iter().zip(&step.judged.players).enumerate() {
@@ -128,7 +129,7 @@ fn is_restart(kind: EventKind) -> bool {
     matches!(kind, Corner | FreeKick | GoalKick | Kickoff | Penalty | ThrowIn)
 }
 
-/// Play is stopped by what is worth a restart, once a step, and by nothing else.
+/// Play is only stopped by something that leads to a restart, at most once per step.
 fn stop(before: &Match, step: &Step) -> Result<(), Failure> {
     use EventKind::{Corner, Foul, FreeKick, Goal, GoalKick, HalfTime, Handball, Kickoff, Offside, OutOfPlay, Penalty};
     let Step { judged, events, .. } = step;
@@ -138,7 +139,7 @@ fn stop(before: &Match, step: &Step) -> Result<(), Failure> {
     let seen = |kinds: &[EventKind]| events.iter().any(|event| kinds.contains(&event.kind));
     let due = match award.kind {
         Kickoff => seen(&[Goal]) != seen(&[HalfTime]),
-        // The last: six seconds.
+        // The last condition: six seconds.
         FreeKick => seen(&[Foul, Handball, Offside]) || before.play.advantage.is_some() || before.play.hands.is_some(),
         Penalty => seen(&[Foul, Handball]),
         Corner | GoalKick | EventKind::ThrowIn => seen(&[OutOfPlay]) && !seen(&[Goal]),
@@ -149,12 +150,13 @@ fn stop(before: &Match, step: &Step) -> Result<(), Failure> {
     must(pending == Some((award.kind, award.team)), || format!("{pending:?} waits after {award:?}"))
 }
 
-/// Who plays what a team is awarded: the others, where it has nobody.
+/// The team that plays what a team is awarded: the other one, if it has no players.
 fn given_to(game: &Match, team: Team) -> Team {
     if game.team(team).next().is_none() { team.other() } else { team }
 }
 
-/// After a stop the ball lies where it was awarded and the team that has it waits to play it; without one nothing changes.
+/// After a stop the ball lies where it was awarded, and the team that has it waits to play it.
+/// Without a stop nothing changes.
 fn restart(step: &Step) -> Result<(), Failure> {
     let Step { judged, after, events, .. } = step;
     must(!after.dead && after.play.pending.is_none(), || "a restart is left over".to_owned())?;
@@ -178,7 +180,7 @@ fn restart(step: &Step) -> Result<(), Failure> {
     must(after.play.kick_off == kicks_off, || format!("{:?} kicks off after {award:?}", after.play.kick_off))
 }
 
-/// A set piece is taken by its taker, once, and goes away by nothing else.
+/// A set piece is taken by its taker, once; nothing else ends it.
 fn taken(before: &Match, step: &Step) -> Result<(), Failure> {
     let Step { judged, events, .. } = step;
     let of = |event: &&Event| event.qualifier == Some(Qualifier::Taken);

@@ -1,4 +1,4 @@
-//! Every property can fail: a step that holds, spoilt in one way after the other.
+//! Every property can fail: takes a valid step and spoils it in one way after the other.
 
 use super::*;
 use crate::pitch::text;
@@ -18,7 +18,7 @@ const MATCH: &str = "scenario held {
     end limit 1000 steps
 }";
 
-/// A step on record, with the state before it.
+/// A recorded step, with the state before it.
 #[derive(Clone)]
 struct Taken {
     before: Match,
@@ -35,7 +35,7 @@ impl Taken {
         witness.see(&step, &mut Scratch::default()).map(|_| ())
     }
 
-    /// Both what was judged and what is after it.
+    /// The judged state and the state after it.
     fn states(&mut self) -> [&mut Match; 2] {
         [&mut self.judged, &mut self.after]
     }
@@ -57,9 +57,9 @@ fn steps(episode: u64) -> Vec<Taken> {
     steps
 }
 
-/// A step of open play, in which nothing has happened.
+/// A step of open play without events.
 fn open(steps: &[Taken]) -> Taken {
-    // The wrong value is the third player's, and no agent may have that player.
+    // The wrong value is the third player's, and no agent may control that player.
     let quiet = |step: &&Taken| {
         let free = step.after.agents.iter().all(|agent| agent.player != Some(PlayerId(3)));
         step.events.is_empty() && step.after.play.set_piece.is_none() && !step.judged.dead && free
@@ -73,13 +73,13 @@ fn stopped(steps: &[Taken], kind: EventKind) -> Taken {
     steps.iter().find(stops).unwrap_or_else(|| panic!("no {kind:?}")).clone()
 }
 
-/// Spoils a step in one way; what is seen must be told in these words.
+/// Spoils a step in one way; the report must contain these words.
 fn spoilt(step: &Taken, words: &str, spoil: impl FnOnce(&mut Taken)) {
     step.hold().unwrap();
     let mut step = step.clone();
     spoil(&mut step);
     let why = step.hold().err().unwrap_or_else(|| panic!("nothing is said of what is `{words}`"));
-    assert!(why.contains(words), "`{words}` is told as: {why}");
+    assert!(why.contains(words), "`{words}` is missing in: {why}");
 }
 
 #[test]

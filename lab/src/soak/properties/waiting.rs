@@ -1,4 +1,4 @@
-//! Nothing waits for longer than it may.
+//! Nothing waits for longer than allowed.
 
 use super::{Step, must};
 use crate::pitch::Failure;
@@ -7,31 +7,33 @@ use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::Ai;
 use setpiece::scenario::vocabulary::Rule;
 
-/// Steps that a set piece may wait: 20 until it is taken for the agent, and what the kick takes.
+/// Steps that a set piece may wait: 20 until it is taken for the agent, plus the kick.
 const WAIT_STEPS: u32 = 27;
-/// Steps that a kick-off keeps the others out of the circle.
+/// Steps for which opponents keep out of the circle at a kick-off.
 const KICK_OFF_STEPS: u32 = 21;
 /// Steps that a keeper may hold the ball: six seconds, and a step.
 const HOLD_STEPS: u32 = 61;
 
-/// Steps that the ball may lie about where everybody is a bot: as long as a run over the whole pitch, and a little.
+/// Steps for which the ball may lie if everybody is a bot: a run over the whole pitch, plus a
+/// little.
 const LYING_STEPS: u32 = 180;
-/// A ball that stays within so many metres lies.
+/// A ball that stays within this distance lies, metres.
 const LIES_M: f32 = 1.0;
 
-/// How long the game has waited, steps; what an agent alone may delay counts only while none does.
+/// How long the game has waited, steps. Delays that only an agent can cause count only while no
+/// agent does.
 #[derive(Debug, Default)]
 pub(super) struct Waiting {
     set_piece: u32,
     kick_off: u32,
     hands: u32,
     lying: u32,
-    /// Where the ball lay when that began.
+    /// Where the ball lay at that time.
     spot: Vec2,
 }
 
 impl Waiting {
-    /// Looks at a step.
+    /// Checks a step.
     pub(super) fn hold(&mut self, step: &Step) -> Result<(), Failure> {
         let game = step.judged;
         if game.dead {
@@ -52,7 +54,7 @@ impl Waiting {
         must(self.lying <= LYING_STEPS, || format!("nobody goes for the ball at {}", self.spot))
     }
 
-    /// Counts the steps in which the ball lies about though there are bots, and nobody but bots.
+    /// Counts the steps in which the ball lies although there are bots, and only bots.
     fn lie(&mut self, game: &Match) {
         let ball = game.ball.pos.truncate();
         let waits = game.play.set_piece.is_some() || game.play.hands.is_some() || game.play.led != [false; 2];
@@ -65,8 +67,8 @@ impl Waiting {
     }
 }
 
-/// Counts a step in which somebody could have gone on: where the rule does not hurry him, one in which no agent and no
-/// behaviour led him and he isn't lazy.
+/// Counts a step in which a player could have continued. Without the rule that hurries them, it
+/// counts only if no agent and no behaviour controlled them and they aren't lazy.
 fn count(steps: &mut u32, game: &Match, who: Option<PlayerId>, hurried: bool) {
     let free = |id: PlayerId| !game.is_driven(id) && game.player(id).ai != Ai::Lazy;
     let could = who.is_some_and(|id| hurried || free(id));

@@ -1,4 +1,5 @@
-//! Behaviours made up at random: acts one after the other, ended by time and by conditions, chosen, repeated, interrupted.
+//! Random behaviours: acts in sequence, ended by time and by conditions, chosen, repeated,
+//! interrupted.
 
 use super::{one_in, spread};
 use setpiece::engine::random::Stream;
@@ -23,9 +24,9 @@ const ACTS: [&str; 16] = [
     "wait for 0.5s",
     "bot",
 ];
-/// Acts that may be sprinted.
+/// Acts that may be done sprinting.
 const RUNS: [&str; 5] = ["move_to", "dribble_to", "tackle", "mark", "press"];
-/// When something ends, or comes between.
+/// Conditions that end or interrupt something.
 const CONDITIONS: [&str; 5] = [
     "possession == them",
     "possession == us",
@@ -60,7 +61,7 @@ pub(super) fn behaviors(text: &mut String, random: &mut Stream) {
     }
 }
 
-/// A call of one of them for a player, of one of the men named.
+/// A call of one of them for a player, with one of the named players.
 pub(super) fn call<'a>(random: &mut Stream, men: impl Iterator<Item = &'a str>) -> String {
     let men: Vec<&str> = men.collect();
     format!("act{}({})", random.below(BEHAVIORS), men[random.below(men.len() as u32) as usize])

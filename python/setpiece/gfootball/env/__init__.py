@@ -57,23 +57,26 @@ def create_environment(
     ),
     other_config_options: Mapping[str, Any] | None = None,
 ) -> Any:
-    """Makes an environment with the interface of old Gym: `reset()` and a `step` that returns four things.
+    """Makes an environment with the interface of old Gym: `step` returns four values.
 
-    - `env_name`: a level of the library, a module or file with a `build_scenario`, or the path of a `.pitch` file.
+    - `env_name`: a level of the library, a module or file with a `build_scenario`, or the path of a
+      `.pitch` file.
     - `stacked`: whether the last four observations are shown, on the last axis; not for `raw`.
-    - `representation`: `"extracted"` (uint8 `(72, 96, 4)`), `"simple115v2"` and `"simple115"` (float32 `(115,)`), or
-      `"raw"` (a list of dicts). With n > 1 players of the agent an array gains a leading axis n, and the reward is
-      float32 `(n,)`.
+    - `representation`: `"extracted"` (uint8 `(72, 96, 4)`), `"simple115v2"` and `"simple115"`
+      (float32 `(115,)`), or `"raw"` (a list of dicts). If the agent has n > 1 players, an array
+      gains a leading axis n, and the reward is float32 `(n,)`.
     - `rewards`: `"scoring"` or `"scoring,checkpoints"`.
-    - `write_goal_dumps`, `write_full_episode_dumps`, `dump_frequency`, `logdir`: what is dumped, how often and where.
-    - `extra_players`: definitions of further players, as `"bot:right_players=1"`.
-    - `number_of_left_players_agent_controls`, `number_of_right_players_agent_controls`: how many the agent plays.
+    - `write_goal_dumps`, `write_full_episode_dumps`, `dump_frequency`, `logdir`: what is dumped,
+      how often and where.
+    - `extra_players`: definitions of further players, such as `"bot:right_players=1"`.
+    - `number_of_left_players_agent_controls`, `number_of_right_players_agent_controls`: how many
+      the agent plays.
     - `channel_dimensions`: width and height of `extracted`.
     - `other_config_options`: further settings of `Config`.
 
-    Raises `ParameterError` (a `ValueError`) for a value that can't be, `UnknownScenarioError`, `FileError` or
-    `CompileError` for the scenario, and `UnavailableError` for `render`, `write_video` and the pixels: there are no
-    pictures in this version.
+    Raises `ParameterError` (a `ValueError`) for an impossible value, `UnknownScenarioError`,
+    `FileError` or `CompileError` for the scenario, and `UnavailableError` for `render`,
+    `write_video` and the pixels: pictures aren't supported in this version.
     """
     if not isinstance(env_name, str) or not env_name:
         raise ParameterError(
@@ -120,7 +123,7 @@ def create_environment(
 
 
 def _shown(env: Env, agents: int, representation: str, channel_dimensions: tuple[int, int], stacked: bool) -> Env:
-    """Wraps an environment so that it shows a representation; without an agent the whole match is shown as it is."""
+    """Wraps an environment to show a representation; without an agent, the whole match."""
     if agents == 0:
         if stacked:
             raise ParameterError("there is no agent whose observations could be stacked", name="stacked")
@@ -137,7 +140,7 @@ def _shown(env: Env, agents: int, representation: str, channel_dimensions: tuple
 
 
 def _slots(env_name: str, left: int, right: int) -> tuple[int, int]:
-    """How many players the agent plays inside: all of a team whose scenario asks for that."""
+    """How many players the agent controls inside: all of a team if the scenario requires that."""
     scenario = Config({"level": env_name}).ScenarioConfig()
     if not scenario.control_all_players or left not in (0, 1) or right not in (0, 1) or left + right == 0:
         return left, right
@@ -186,6 +189,6 @@ def create_remote_environment(
     channel_dimensions: tuple[int, int] = (96, 72),
     include_rendering: bool = False,
 ) -> Any:
-    """Raises `UnavailableError`: the service that GRF's clients played on exists no longer."""
+    """Raises `UnavailableError`: the service that GRF's clients used no longer exists."""
     del username, token, model_name, track, stacked, representation, rewards, channel_dimensions, include_rendering
     raise unavailable("create_remote_environment", "play against a server", "`create_environment` plays here")

@@ -1,4 +1,7 @@
-"""The interface of Gym before 0.26, on Gymnasium's classes: `reset` returns an observation, `step` four things."""
+"""The interface of Gym before 0.26 on Gymnasium's classes.
+
+`reset` returns an observation, `step` four values.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ Stepped = tuple[Any, Any, bool, dict[str, Any]]
 
 
 def refuse_seed(seed: int | None, options: Mapping[str, Any] | None) -> None:
-    """Raises `ParameterError` where `reset` gets what only Gymnasium's has; wrappers pass None."""
+    """Raises `ParameterError` for arguments that only Gymnasium's `reset` has; wrappers pass None."""
     if seed is not None or options is not None:
         raise ParameterError(
             "`reset` takes neither a seed nor options here",
@@ -24,7 +27,7 @@ def refuse_seed(seed: int | None, options: Mapping[str, Any] | None) -> None:
 
 
 class Wrapper(gymnasium.Wrapper[Any, Any, Any, Any]):
-    """A wrapper whose `reset` returns an observation, and that has whatever its environment has."""
+    """A wrapper whose `reset` returns an observation, with all attributes of its environment."""
 
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> Any:
         """Begins an episode and returns its observation."""
@@ -46,12 +49,12 @@ class Wrapper(gymnasium.Wrapper[Any, Any, Any, Any]):
         return observation, reward, bool(done), info
 
     def get_state(self, to_pickle: dict[str, Any] | None = None) -> bytes:
-        """Returns the whole state, with what `to_pickle` holds of the wrappers outside this one."""
+        """Returns the whole state, with the content of `to_pickle` from the wrappers outside this one."""
         state: bytes = self.env.get_state({} if to_pickle is None else to_pickle)  # type: ignore[attr-defined]
         return state
 
     def set_state(self, state: bytes) -> dict[str, Any]:
-        """Goes on in a state of `get_state` and returns what the wrappers had put into it."""
+        """Continues from a state of `get_state` and returns what the wrappers had put into it."""
         kept: dict[str, Any] = self.env.set_state(state)  # type: ignore[attr-defined]
         return kept
 
@@ -62,10 +65,10 @@ class Wrapper(gymnasium.Wrapper[Any, Any, Any, Any]):
 
 
 class ObservationWrapper(Wrapper):
-    """A wrapper that shows something else of the same match."""
+    """A wrapper that shows another observation of the same match."""
 
     def observation(self, observation: Any) -> Any:
-        """Returns what is shown in place of an observation."""
+        """Returns what is shown instead of an observation."""
         raise NotImplementedError
 
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> Any:
@@ -79,10 +82,10 @@ class ObservationWrapper(Wrapper):
 
 
 class RewardWrapper(Wrapper):
-    """A wrapper that pays otherwise for the same match."""
+    """A wrapper that changes the rewards of the same match."""
 
     def reward(self, reward: Any) -> Any:
-        """Returns what is paid in place of a reward."""
+        """Returns what is paid instead of a reward."""
         raise NotImplementedError
 
     def step(self, action: Any) -> Any:

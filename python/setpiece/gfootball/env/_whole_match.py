@@ -1,4 +1,4 @@
-"""What a played slot sees, and the whole match put together of it, as Google Research Football tells them."""
+"""A slot's observation, and the whole match combined from these, in GRF's conventions."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config
 
 KICK_OFF = 1
-"""The `game_mode` of a kick-off that waits."""
+"""The `game_mode` of a pending kick-off."""
 OWNERLESS = (1, 2, 3, 4, 6)
-"""The values of `game_mode` in which GRF shows a ball without an owner: all set pieces except the throw-in."""
+"""The `game_mode`s in which GRF shows no owner of the ball: all set pieces but the throw-in."""
 
 
 def slot_view(native: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:

@@ -18,11 +18,11 @@ from setpiece.gfootball.env.scenario_builder import Scenario
 from setpiece.gfootball.env.scenario_config import ScenarioConfig
 
 SEED_MAX = 2_000_000_000
-"""Greatest seed that is drawn for an episode."""
+"""The largest seed drawn for an episode."""
 BUGS = ("first_active", "kick_off_mode", "sent_off")
-"""What `grf_bugs` can restore; see docs/gfootball.md."""
+"""The bugs that `grf_bugs` can restore; see docs/gfootball.md."""
 WHOLE = ("episode_number", "render_resolution_x", "render_resolution_y")
-"""Settings that are any whole number."""
+"""Settings that accept any integer."""
 OPTIONAL = ("game_engine_random_seed", "reverse_team_processing", "episode_number", "grf_bugs")
 """Settings without a default."""
 
@@ -45,10 +45,10 @@ def parse_player_definition(definition: str) -> PlayerDefinition:
         key, equals, value = part.partition("=")
         if not equals:
             raise ParameterError(
-                f"`{part}` in `{definition}` is no setting", name="players", help="write `agent:left_players=1`"
+                f"`{part}` in `{definition}` is not a setting", name="players", help="write `agent:left_players=1`"
             )
         settings[key] = value
-    # GRF compares with the number 0: a zero that is written counts as given.
+    # GRF compares with the number 0, so an explicit zero counts as given.
     if settings["left_players"] == 0 and settings["right_players"] == 0:
         settings["left_players"] = 1
     for key in ("left_players", "right_players"):
@@ -101,17 +101,18 @@ def defaults() -> dict[str, Any]:
 
 
 class Config:
-    """The settings by name, `config["level"]`, with GRF's defaults, and the scenario of the current episode.
+    """The settings by name, with GRF's defaults, and the scenario of the current episode.
 
-    Settings beside GRF's: `grf_bugs`, True or a list of names out of `BUGS`. Raises `ParameterError` for a setting that
-    is not there or a value that it can't have, `UnavailableError` for one that this version can't follow.
+    Use `config["level"]`. In addition to GRF's settings there is `grf_bugs`: True or a list of
+    names in `BUGS`. Raises `ParameterError` for an unknown setting or an impossible value,
+    `UnavailableError` for one that this version doesn't support.
     """
 
     def __init__(self, values: dict[str, Any] | None = None) -> None:
         self._values = defaults()
         self._scenario_values: dict[str, Any] = {}
         self._scenario: Scenario
-        # Where the seeds of episodes come from; `FootballEnv.seed` gives it a stream of its own.
+        # The source of the episodes' seeds; `FootballEnv.seed` replaces it by its own stream.
         self.draw: Callable[[int, int], int] = random.randint
         values = dict(values or {})
         if "render_resolution_x" in values and "render_resolution_y" not in values:
@@ -146,28 +147,28 @@ class Config:
         return dict(self._values)
 
     def get(self, key: str, default: Any = None) -> Any:
-        """Returns a setting, or `default` where it has no value."""
+        """Returns a setting, or `default` if it has no value."""
         return self.get_dictionary().get(key, default)
 
     def get_dictionary(self) -> dict[str, Any]:
-        """Returns all settings, as they are in this episode."""
+        """Returns all settings, with their values in this episode."""
         return {**self._values, **self._scenario_values}
 
     def update(self, values: dict[str, Any]) -> None:
-        """Takes over settings."""
+        """Sets several settings."""
         for key, value in values.items():
             self[key] = value
 
     def set_scenario_value(self, key: str, value: Any) -> None:
-        """Sets a value for this episode alone."""
+        """Sets a value for this episode only."""
         self._scenario_values[key] = value
 
     def number_of_left_players(self) -> int:
-        """Returns how many players of the left team are played by somebody."""
+        """Returns how many players of the left team are controlled."""
         return sum(count_left_players(each) for each in self["players"])
 
     def number_of_right_players(self) -> int:
-        """Returns how many players of the right team are played by somebody."""
+        """Returns how many players of the right team are controlled."""
         return sum(count_right_players(each) for each in self["players"])
 
     def number_of_players_agent_controls(self) -> int:
@@ -175,7 +176,7 @@ class Config:
         return get_agent_number_of_players(self["players"])
 
     def has_bug(self, name: str) -> bool:
-        """Whether a bug of GRF is wished back."""
+        """Whether a bug of GRF is restored."""
         return has_bug(self, name)
 
     def Scenario(self) -> Scenario:  # noqa: N802  # GRF's names
@@ -206,7 +207,10 @@ class Config:
 
 
 def has_bug(config: object, name: str) -> bool:
-    """Whether a bug of GRF is wished back: by a `Config`, or a dict of its settings; anything else wishes none."""
+    """Whether a `Config`, or a dict of its settings, restores a bug of GRF.
+
+    Anything else restores none.
+    """
     bugs = config["grf_bugs"] if isinstance(config, (Config, Mapping)) and "grf_bugs" in config else False
     if isinstance(bugs, str):
         return bugs == name
@@ -214,9 +218,9 @@ def has_bug(config: object, name: str) -> bool:
 
 
 def _checked(key: str, value: Any) -> Any:
-    """Returns a setting's value; raises where one is not there, can't have it, or asks for what this version has not.
+    """Returns a setting's value; raises for an unknown, impossible or unsupported one.
 
-    Whole numbers come back as Python's own, paths as text: dumps hold them.
+    Integers are returned as Python's own, paths as text, because dumps hold them.
     """
     known = (*defaults(), *OPTIONAL)
     if key not in known:
@@ -237,7 +241,7 @@ def _checked(key: str, value: Any) -> Any:
     elif key == "write_video" and value:
         raise no_pictures(key)
     elif key == "reverse_team_processing":
-        # No effect on the match: the engine treats both teams alike, in whichever order.
+        # No effect on the match: the engine treats both teams alike, in either order.
         return ScenarioConfig(reverse_team_processing=value).reverse_team_processing
     elif key == "video_format":
         check_word(key, value, ("avi", "webm"))
@@ -253,7 +257,7 @@ def _checked(key: str, value: Any) -> Any:
 
 
 def check_whole(name: str, value: object, least: int | None = None) -> int:
-    """Returns a whole number, of Python or NumPy, as Python's; `ParameterError` for anything else."""
+    """Returns an integer, of Python or NumPy, as Python's; else raises `ParameterError`."""
     try:
         if isinstance(value, bool):
             raise TypeError
@@ -267,7 +271,7 @@ def check_whole(name: str, value: object, least: int | None = None) -> int:
 
 
 def check_folder(name: str, value: object) -> str:
-    """Returns a folder's path as text; `ParameterError` for anything that is no path."""
+    """Returns a folder's path as text; raises `ParameterError` for anything else."""
     if isinstance(value, (str, PathLike)):
         path = fspath(value)
         if isinstance(path, str):
@@ -283,5 +287,5 @@ def _check_players(definitions: Any) -> None:
 
 
 def no_pictures(name: str) -> Exception:
-    """Returns the error of everything that needs a picture of the pitch."""
+    """Returns the error for everything that needs a picture of the pitch."""
     return unavailable(name, "a picture of the pitch", "`setpiece render` draws an episode of a scenario from above")

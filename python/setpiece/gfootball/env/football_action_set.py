@@ -1,7 +1,7 @@
 """The actions of Google Research Football, as objects, and the three sets of them.
 
-`action_set_dict` has the sets by name: `default` (19), `v2` (20, with `builtin_ai`) and `full` (33). An action's place
-in its set is the number that agents send.
+`action_set_dict` has the sets by name: `default` (19), `v2` (20, with `builtin_ai`) and `full`
+(33). An action's place in its set is the number that agents send.
 """
 
 from __future__ import annotations
@@ -32,7 +32,8 @@ HELD = ("sprint", "dribble", "keeper_rush", "pressure", "team_pressure")
 class CoreAction:
     """An action: its name, its number in GRF's engine, and whether it stays pressed.
 
-    Two are equal when their names are. `step` takes any of them, also those outside the configured set.
+    Two are equal when their names are. `step` takes any of them, also those outside the configured
+    set.
     """
 
     def __init__(self, backend_action: int, name: str, sticky: bool = False, directional: bool = False) -> None:
@@ -134,7 +135,7 @@ action_set_full = full_action_set
 action_set_dict = {"default": action_set_v1, "v2": action_set_v2, "full": full_action_set}
 
 NUMBERS = {name: number for number, name in enumerate(action.name for action in full_action_set)}
-"""Every action's number in the `full` set, and so in each smaller one that has it."""
+"""Every action's number in the `full` set, which is the same in the smaller sets."""
 
 
 _RELEASES = {
@@ -147,8 +148,9 @@ _COUNTERPARTS = {**_RELEASES, **{release: name for name, release in _RELEASES.it
 def disable_action(action: CoreAction) -> CoreAction:
     """Returns the action that ends another one.
 
-    Every direction, and `release_direction` itself, gives `release_direction`. A button gives its release, and a
-    release gives its button. Raises `ActionError` for `idle` and `builtin_ai`, which nothing ends, and for a number.
+    Every direction, and `release_direction` itself, gives `release_direction`. A button gives its
+    release, and a release gives its button. Raises `ActionError` for `idle` and `builtin_ai`, which
+    have no end, and for a number.
 
     >>> disable_action(action_sprint)
     CoreAction(release_sprint)
@@ -165,26 +167,29 @@ def disable_action(action: CoreAction) -> CoreAction:
 
 
 def get_action_set(config: Config | dict[str, Any]) -> list[CoreAction]:
-    """Returns the actions of `config["action_set"]`, in order; `ParameterError` for a set that is not there."""
+    """Returns the actions of `config["action_set"]`, in order; `ParameterError` if it is unknown."""
     name = config["action_set"]
     check_word("action_set", name, tuple(action_set_dict))
     return action_set_dict[name]
 
 
 def get_sticky_actions(config: Config | dict[str, Any]) -> list[CoreAction]:
-    """Returns the actions that `sticky_actions` tells of, in order: 10, or 13 in the full set."""
+    """Returns the actions that `sticky_actions` shows, in order: 10, or 13 in the full set."""
     return [action for action in get_action_set(config) if action.sticky]
 
 
 def held_by(action: object) -> object:
-    """Returns what a NumPy array or number holds, anything else as it is; `ValueError` for an array of several."""
+    """Returns the content of a NumPy array or number, anything else unchanged.
+
+    Raises `ValueError` for an array of several.
+    """
     return action.item() if hasattr(action, "item") else action
 
 
 def named_action_from_action_set(action_set: list[CoreAction], action: object) -> CoreAction:
-    """Returns an action of a set by its number; an action object comes back as it is.
+    """Returns an action of a set by its number; an action object is returned unchanged.
 
-    A NumPy array of one of them stands for it. Raises `ActionError` for anything else.
+    A NumPy array with one of them is also accepted. Raises `ActionError` for anything else.
     """
     try:
         held = held_by(action)

@@ -1,4 +1,4 @@
-"""The environment without wrappers: players, their actions and what they see, in the interface of old Gym."""
+"""The environment without wrappers: players, actions and observations, as in old Gym."""
 
 from __future__ import annotations
 
@@ -31,22 +31,24 @@ from setpiece.gfootball.env.players.agent import Player as Agent
 
 PLAYERS = ("agent", "bot", "builtin_ai", "gamepad", "keyboard", "lazy", "ppo2_cnn", "replay")
 MANY = 2**31 - 1
-"""Greatest count that an observation's space tells of."""
+"""The largest count in an observation's space."""
 PLAYER_PACKAGES = ("setpiece.gfootball.env.players", "gfootball.env.players")
 
 
 class FootballEnv(gymnasium.Env[Any, Any]):
     """A match whose players are played as `config["players"]` says.
 
-    - `reset()` returns the raw observations of the agent's players: a list of dicts, the left team's first; without an
-      agent the whole match as one dict.
-    - `step(action)` takes one action, or one for each of the agent's players: numbers of the action set or
-      `CoreAction`s. It returns observation, reward, done and info. The reward is float32 `(n,)`, +1 for a goal of the
-      player's team; without an agent a float, for the left team. `info` has `score_reward`, for the left team, and
-      where dumps were finished `dumps`: a list of `{"name", "dump"}`.
+    - `reset()` returns the raw observations of the agent's players: a list of dicts, the left
+      team's first; without an agent the whole match as one dict.
+    - `step(action)` takes one action, or one for each of the agent's players: numbers of the action
+      set or `CoreAction`s. It returns observation, reward, done and info. The reward is float32
+      `(n,)`, +1 for a goal of the player's team; without an agent a float, for the left team.
+      `info` has `score_reward`, for the left team, and if dumps were completed `dumps`: a list of
+      `{"name", "dump"}`.
 
-    `step` before the first `reset` plays the episode that the constructor begins, as in GRF. Raises `ActionError` for
-    other actions, and `gymnasium.error.ResetNeeded` after the end of an episode and after `close`.
+    `step` before the first `reset` plays the episode that the constructor begins, as in GRF. Raises
+    `ActionError` for other actions, and `gymnasium.error.ResetNeeded` after the end of an episode
+    and after `close`.
     """
 
     metadata = {"render_modes": []}
@@ -94,31 +96,31 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return self.observation(), np.array([reward] * left + [-reward] * right, np.float32), self._core.done, info
 
     def observation(self) -> Any:
-        """Returns what `reset` and `step` show, without playing."""
+        """Returns the current observation, without playing."""
         return self._core.whole if self._agent is None else self._agent_observations()
 
     def seed(self, seed: int | None = None) -> list[int]:
-        """Draws the seeds of the episodes from now on out of a stream of its own; returns the seed of that stream."""
+        """Draws the seeds of future episodes from a separate stream; returns the stream's seed."""
         number = random.randrange(2**31) if seed is None else int(seed)
         self._config.draw = random.Random(number).randint
         return [number]
 
     def write_dump(self, name: str) -> str | None:
-        """Writes the last 100 steps down under a name, once in an episode; returns the path, or None."""
+        """Dumps the last 100 steps under a name, once per episode; returns the path, or None."""
         return self._processor.write_dump(name)
 
     def get_state(self, to_pickle: dict[str, Any] | None = None) -> bytes:
-        """Returns the whole state: the match, and what `to_pickle` holds of wrappers."""
+        """Returns the whole state: the match, and the content of `to_pickle` from wrappers."""
         state = {"level": self._config["level"], "core": self._core.state(), "wrappers": dict(to_pickle or {})}
-        # Twice, so that which objects happen to be one and the same makes no difference to the bytes.
+        # Twice, so that the identity of equal objects doesn't affect the bytes.
         return pickle.dumps(pickle.loads(pickle.dumps(state)))
 
     def set_state(self, state: bytes) -> dict[str, Any]:
-        """Goes on in a state of `get_state` and returns what wrappers had put into it.
+        """Continues from a state of `get_state` and returns what wrappers had put into it.
 
-        Unpickling runs what the bytes say: set states that you trust. Raises `SnapshotError` for anything but a state
-        of the same level and numbers of players, and what compiling does where its source can't be read; nothing has
-        changed then.
+        Unpickling runs code from the bytes: only set states that you trust. Raises `SnapshotError`
+        for anything but a state of the same level and numbers of players, and compile errors if its
+        source can't be read; nothing has changed then.
         """
         try:
             read = pickle.loads(state)
@@ -137,7 +139,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return kept
 
     def render(self, mode: str = "human") -> Any:
-        """Raises `UnavailableError`: there are no pictures in this version."""
+        """Raises `UnavailableError`: pictures aren't supported in this version."""
         del mode
         raise no_pictures("render")
 
@@ -146,15 +148,21 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return True
 
     def tracker_setup(self, start: int, end: int) -> None:
-        """Does nothing: GRF's tracker finds where two runs part; here compare `get_state` of both, step by step."""
+        """No-op.
+
+        GRF's tracker finds where two runs diverge. Here compare `get_state` of both, step by step.
+        """
         del start, end
 
     def close(self) -> None:
-        """Lets go of the match; `reset` begins another."""
+        """Releases the match; `reset` begins another."""
         self._core.done = True
 
     def _make_players(self) -> list[tuple[PlayerBase, list[int], int]]:
-        """Returns each player with his slots, and how many of those are on the left; slots are dealt out in order."""
+        """Returns each player with their slots, and how many of those are on the left.
+
+        Slots are assigned in order.
+        """
         definitions = [parse_player_definition(each) for each in self._config["players"]]
         left, right = 0, self._config.number_of_left_players()
         made: list[tuple[PlayerBase, list[int], int]] = []
@@ -201,7 +209,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
 
 def _player_class(name: str) -> Any:
-    """Returns the class `Player` of a module below `players`; `ParameterError` where there is none."""
+    """Returns the class `Player` of a module below `players`; `ParameterError` if it is unknown."""
     for package in PLAYER_PACKAGES:
         if package.split(".", 1)[0] not in sys.modules:
             continue
@@ -219,7 +227,8 @@ def _player_class(name: str) -> Any:
 def _raw_space(shown: Any) -> spaces.Space[Any]:
     """The space of raw observations, with GRF's infinite bounds.
 
-    A list of dicts, one for each of the agent's players, or without an agent the dict of the whole match.
+    A list of dicts, one for each of the agent's players, or without an agent the dict of the whole
+    match.
     """
     if isinstance(shown, dict):
         return spaces.Dict(

@@ -1,4 +1,4 @@
-"""The match itself: episodes of a config's scenario on the engine, seen as a whole and by each played slot."""
+"""The match itself: episodes of a config's scenario, seen as a whole and by each slot."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ if TYPE_CHECKING:
 
 STEP_S = 0.1
 STALLED = 20
-"""Steps after which a set piece that waits is taken for the agents."""
+"""Steps after which a pending set piece is taken for the agents."""
 TURNING = 30
 """Steps after which its taker is sent the other way."""
 
 Clock = tuple[int | None, int | None]
-"""The steps of an episode and those before its second half, or none."""
+"""The steps of an episode and those before its second half, or None."""
 
 _KINDS = {"snapshot": bytes, "waiting": int, "step_count": int, "cumulative_reward": float, "done": bool}
-"""What parts of a state are that are taken as they are."""
+"""Types of the parts of a state that are stored unchanged."""
 
-# Where GRF thinks that the players of a team stand, by place in the team, when it deals out the slots of the first
-# observation: to whoever is nearest the centre spot.
+# Where GRF assumes that the players of a team stand, by index, when it assigns the slots of the
+# first observation: to the players nearest the centre spot.
 _TEMPLATE = (
     *((-1.0, 0.0), (-0.74, 0.77), (-1.0, 0.25), (-1.0, -0.25), (-0.74, -0.77), (0.05, 0.42)),
     *((-0.23, 0.0), (0.05, -0.42), (0.36, 0.85), (1.0, 0.0), (0.36, -0.85)),
@@ -44,13 +44,16 @@ _CENTRAL = [x * x + y * y for x, y in _TEMPLATE]
 
 
 class AgentCountError(ParameterError, AssertionError):
-    """The scenario has `control_all_players`, and agents play a part of a team; an `AssertionError` in GRF."""
+    """The scenario has `control_all_players`, but agents play only a part of a team.
+
+    It is an `AssertionError` in GRF.
+    """
 
 
 class FootballEnvCore:
     """A match with a slot for each played player, the left team's first.
 
-    Slots beyond the players whom agents may play stay without one: they see the match with `active` -1.
+    Slots in excess of the controllable players have none: they see the match with `active` -1.
     """
 
     def __init__(self, config: Config) -> None:
@@ -73,7 +76,7 @@ class FootballEnvCore:
         self._next_frame = 0.0
 
     def reset(self, inc: int = 1) -> None:
-        """Begins the next episode, or with `inc=0` the same one anew."""
+        """Begins the next episode, or with `inc=0` the same one again."""
         config = self._config
         config.NewScenario(inc)
         recorded = config.ScenarioConfig()
@@ -91,7 +94,10 @@ class FootballEnvCore:
             self._first_active(recorded)
 
     def step(self, chosen: Sequence[CoreAction]) -> float:
-        """Plays 100 ms with an action for each slot, as on the pitch; returns how the left team's lead has changed."""
+        """Plays 100 ms with an action for each slot; returns the change of the left team's lead.
+
+        Actions are in the frame of the pitch.
+        """
         if self.done or self._env is None:
             raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
         numbers = self._numbers(self._hurried(chosen))
@@ -108,7 +114,7 @@ class FootballEnvCore:
         return reward
 
     def state(self) -> dict[str, Any]:
-        """Returns all that the match goes on from."""
+        """Returns everything needed to continue the match."""
         assert self._env is not None
         assert self._source is not None
         source = self._source
@@ -126,9 +132,10 @@ class FootballEnvCore:
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Goes on from a state; `SnapshotError` for one of other slots or another scenario, and nothing has changed.
+        """Continues from a state; raises `SnapshotError` for other slots or another scenario.
 
-        Damage raises it too, or a `TypeError`, `ValueError` or `LookupError`.
+        Nothing has changed then. A damaged state raises it too, or a `TypeError`, `ValueError` or
+        `LookupError`.
         """
         if tuple(state["agents"]) != self._asked:
             raise SnapshotError(f"the state has {state['agents']} played players, this environment {self._asked}")
@@ -151,7 +158,7 @@ class FootballEnvCore:
         self._see(observed, info)
 
     def _enter(self, source: Source, clock: Clock, played: tuple[int, int], swapped: bool) -> None:
-        """Makes the environment of a scenario, unless it is the one that is there.
+        """Makes the environment of a scenario, unless it is the current one.
 
         With `swapped` the left slots play the engine's right team.
         """
@@ -163,7 +170,7 @@ class FootballEnvCore:
             self._source, self._clock, self._played, self._swapped = wanted
 
     def _playable(self, recorded: ScenarioConfig) -> tuple[int, int]:
-        """How many slots the engine has: one is always there, since somebody has to see the match."""
+        """How many slots the engine has: at least one, because somebody must see the match."""
         left = min(self._asked[0], recorded.controllable_left_players)
         right = min(self._asked[1], recorded.controllable_right_players)
         if left + right == 0:
@@ -171,7 +178,7 @@ class FootballEnvCore:
         return left, right
 
     def _see(self, observed: Any, info: dict[str, Any]) -> None:
-        """Takes over what the engine shows."""
+        """Stores what the engine shows."""
         self.score = (info["score"][0], info["score"][1])
         left, right = self._played
         views = [self._view(each) for each in (observed if isinstance(observed, tuple) else (observed,))]
@@ -197,7 +204,7 @@ class FootballEnvCore:
         return slot_view(native, self._config)
 
     def _hurried(self, chosen: Sequence[CoreAction]) -> list[CoreAction]:
-        """The actions, or what takes a set piece that has waited for too long."""
+        """The actions; one that takes a set piece if it has waited for too long."""
         if self.waiting < STALLED:
             return list(chosen)
         if self.waiting == STALLED:
@@ -211,7 +218,7 @@ class FootballEnvCore:
         return hurried
 
     def _numbers(self, chosen: Sequence[CoreAction]) -> list[int]:
-        """The engine's numbers of the actions of those slots that have a player, in their teams' own frames."""
+        """The engine's numbers of the actions of slots with a player, in their own frames."""
         left, right = self._played
         asked_left, asked_right = self._asked
         if asked_left + asked_right == 0 or not self.slots:
@@ -224,7 +231,10 @@ class FootballEnvCore:
         return [NUMBERS[action.name] for action in ordered]
 
     def _first_active(self, recorded: ScenarioConfig) -> None:
-        """Shows in the first observation whom GRF shows: it deals the slots out by a layout that nobody stands in."""
+        """Makes the first observation show GRF's active players.
+
+        GRF assigns the slots by a layout in which nobody actually stands.
+        """
         teams = (recorded.left_team, recorded.right_team)
         slots = [self.slots[: self._asked[0]], self.slots[self._asked[0] :]]
         for side, (entries, views) in enumerate(zip(teams, slots, strict=True)):
@@ -246,7 +256,7 @@ class FootballEnvCore:
 
 
 def _check_agents(recorded: ScenarioConfig) -> None:
-    """Raises `AgentCountError` if agents play a part of a team whose players they all have to play."""
+    """Raises `AgentCountError` if agents play only a part of a team that they must play whole."""
     if not recorded.control_all_players or not recorded.dynamic_player_selection:
         return
     left, right = recorded.controllable_left_players, recorded.controllable_right_players
@@ -263,7 +273,7 @@ def _nothing_held(config: Config) -> Any:
 
 
 def _is_symmetric(recorded: ScenarioConfig) -> bool:
-    """Whether both teams begin alike, so that the order in which GRF goes through them is all that sets them apart."""
+    """Whether both teams start alike, so that only GRF's processing order distinguishes them."""
     left, right = (
         [(entry.position, entry.role, entry.lazy, entry.controllable) for entry in team]
         for team in (recorded.left_team, recorded.right_team)
@@ -273,7 +283,7 @@ def _is_symmetric(recorded: ScenarioConfig) -> bool:
 
 
 def _half_time(recorded: ScenarioConfig) -> int | None:
-    """The steps before half-time, or none: GRF plays one more than it says."""
+    """The steps before half-time, or None: GRF plays one more than it says."""
     return recorded.second_half + 1 if recorded.second_half < min(recorded.game_duration, LIMIT_MAX) else None
 
 

@@ -1,4 +1,4 @@
-"""The minimap: where everybody is, as a small picture."""
+"""The minimap: everybody's place, as a small picture."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _MARKER_VALUE = 255
 
 
 def get_smm_layers(config: Any = None) -> list[str]:  # noqa: ARG001  # GRF's signature
-    """Returns what the four channels show."""
+    """Returns the names of the four channels."""
     return SMM_LAYERS
 
 
@@ -46,8 +46,10 @@ def generate_smm(
 ) -> NDArray[np.uint8]:
     """Returns the minimaps of n raw observations: uint8 `(n, height, width, 4)`, 0 or 255.
 
-    - `observation`: with arrays or lists; what one lacks is a blank channel, and without `*_active` everybody plays.
-    - `config`: GRF marks players who were sent off too; with `grf_bugs` in a config they are here as well.
+    - `observation`: with arrays or lists; a missing part is a blank channel, and without `*_active`
+      everybody plays.
+    - `config`: GRF also marks players who were sent off; with `grf_bugs` in a config they are
+      marked here too.
     - `channel_dimensions`: width and height.
     """
     keep = has_bug(config, "sent_off")
@@ -62,7 +64,7 @@ def generate_smm(
 
 
 def _points(seen: dict[str, Any], layer: str, keep: bool) -> Any:
-    """Where somebody stands whom a channel shows; those who were sent off only with `keep`."""
+    """The places that a channel shows; players who were sent off only with `keep`."""
     if layer == "ball":
         return seen["ball"][:2]
     if layer == "active":
@@ -72,6 +74,6 @@ def _points(seen: dict[str, Any], layer: str, keep: bool) -> Any:
 
 
 def playing(seen: dict[str, Any], team: str) -> NDArray[np.bool_]:
-    """Returns who of a team, `left_team` or `right_team`, is on the pitch: everybody where it isn't told."""
-    told = seen.get(f"{team}_active")
-    return np.ones(len(seen[team]), np.bool_) if told is None else np.asarray(told, np.bool_)
+    """Returns who of a team (`left_team`, `right_team`) is on the pitch: everybody by default."""
+    active = seen.get(f"{team}_active")
+    return np.ones(len(seen[team]), np.bool_) if active is None else np.asarray(active, np.bool_)

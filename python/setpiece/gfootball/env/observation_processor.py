@@ -1,7 +1,8 @@
-"""Dumps: what happened in an episode, written down as pickled dicts, one behind the other.
+"""Dumps: an episode as consecutive pickled dicts.
 
-A record has `debug` (`action`: what was played, in the frame of the pitch; `frame_cnt`, `reward`, `time`; the first
-record also `config`), `observation` (of the whole match), `reward` and `cumulative_reward`.
+A record has `debug` (`action`: the actions, in the frame of the pitch; `frame_cnt`, `reward`,
+`time`; the first record also `config`), `observation` (of the whole match), `reward` and
+`cumulative_reward`.
 """
 
 from __future__ import annotations
@@ -26,14 +27,14 @@ if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config
 
 LAST = 100
-"""Steps before the moment that a dump shows."""
+"""Steps in a dump before the moment that it shows."""
 EPISODE_MAX = 10_000
-"""Steps of a whole episode that are kept."""
+"""The most steps kept of an episode."""
 SCORE_PAUSE_S = 600.0
 """Seconds between two dumps of goals of the same kind."""
 
 PROTOCOL = 4
-"""The pickle protocol of dumps: the newest that every Python which GRF runs on can load."""
+"""The pickle protocol of dumps: the newest that every Python for GRF can load."""
 ACTIONS = "gfootball.env.football_action_set"
 """GRF's module of actions."""
 
@@ -41,14 +42,14 @@ Trace = dict[str, Any]
 
 
 class _Actions:
-    """Stands for GRF's module of actions in a pickle."""
+    """Represents GRF's module of actions in a pickle."""
 
 
 _ACTIONS = _Actions()
 
 
 class _Writer(pickle.Pickler):
-    """Pickles records that GRF can load: they name no module of this package and no internals of NumPy."""
+    """Pickles records that GRF can load, without names of this package or internals of NumPy."""
 
     def reducer_override(self, value: object) -> Any:
         """Returns how to rebuild an action or an array; anything else is pickled as usual."""
@@ -57,16 +58,16 @@ class _Writer(pickle.Pickler):
         if value is _ACTIONS:
             return import_module, (ACTIONS,)
         if isinstance(value, np.ndarray) and value.size:
-            # The pickles of NumPy 2 can't be loaded by the versions that most installations of GRF have.
+            # Pickles of NumPy 2 can't be loaded by the versions in most installations of GRF.
             return np.array, (value.tolist(), value.dtype.str)
         return NotImplemented
 
 
 class _Reader(pickle.Unpickler):
-    """Loads records of this package and of GRF, whether or not a package `gfootball` is there."""
+    """Loads records of this package and of GRF, with or without a package `gfootball`."""
 
     def find_class(self, module: str, name: str) -> Any:
-        """Returns what a pickle names; GRF's own names are this package's."""
+        """Returns the object that a pickle names; GRF's own names map to this package's."""
         if module == "importlib" and name == "import_module":
             return lambda called: import_module(_own(called))
         if name == "e_BackendAction":
@@ -79,7 +80,7 @@ def _own(module: str) -> str:
 
 
 class ObservationProcessor:
-    """Keeps the last steps of an episode and writes the dumps that the settings ask for."""
+    """Keeps the last steps of an episode and writes the requested dumps."""
 
     def __init__(self, config: Config) -> None:
         self._config = config
@@ -89,7 +90,7 @@ class ObservationProcessor:
         self._written: dict[str, float] = {}
 
     def add(self, trace: Trace, reward: float, done: bool) -> list[dict[str, str]]:
-        """Takes a step down; returns the dumps that it completed."""
+        """Records a step; returns the dumps that it completed."""
         finished = []
         self._last.append(trace)
         if self._config["dump_full_episodes"]:
@@ -108,7 +109,10 @@ class ObservationProcessor:
         return finished
 
     def write_dump(self, name: str) -> str | None:
-        """Writes the last steps under a name and returns the path; None where that was done or nothing was played."""
+        """Writes the last steps under a name; returns the path, or None.
+
+        None if that was done before or nothing was played.
+        """
         if name in self._written or not self._last:
             return None
         self._written[name] = time.monotonic()
@@ -136,7 +140,7 @@ def trace_of(
     time_s: float,
     whole: dict[str, Any],
 ) -> Trace:
-    """Returns the record of a step: every slot's action, in the frame of the pitch, and the match as it then was."""
+    """Returns the record of a step: every slot's action, in the pitch's frame, and the match."""
     return {
         "debug": {"action": chosen, "frame_cnt": step, "reward": reward, "time": time_s},
         "observation": whole,
@@ -146,7 +150,7 @@ def trace_of(
 
 
 def write_dump(path: Path, config: dict[str, Any], traces: Iterable[Trace]) -> None:
-    """Writes records, and the settings into the first; `FileError` where the file can't be written."""
+    """Writes records, and the settings into the first; raises `FileError` if it can't."""
     records = BytesIO()
     for number, trace in enumerate(traces):
         debug = {**trace["debug"], "config": config} if number == 0 else trace["debug"]
@@ -155,9 +159,10 @@ def write_dump(path: Path, config: dict[str, Any], traces: Iterable[Trace]) -> N
 
 
 def read_dump(path: str) -> list[Trace]:
-    """Returns the records of a dump. Unpickling runs what a file says: read dumps that you trust.
+    """Returns the records of a dump.
 
-    Raises `FileError` where the file can't be read, `FormatError` where it is no dump.
+    Unpickling runs code from the file: only read dumps that you trust. Raises `FileError` if the
+    file can't be read, `FormatError` if it isn't a dump.
     """
     records = []
     if Path(path).exists() and not Path(path).is_file():
@@ -169,7 +174,7 @@ def read_dump(path: str) -> list[Trace]:
     except OSError as error:
         raise FileError(f"`{path}` can't be read: {error.strerror}", path=path) from error
     except Exception as error:
-        raise FormatError(f"`{path}` is no dump, or cut off") from error
+        raise FormatError(f"`{path}` is not a dump, or truncated") from error
     if not records or not all(isinstance(each, dict) and "debug" in each for each in records):
-        raise FormatError(f"`{path}` is no dump, or cut off")
+        raise FormatError(f"`{path}` is not a dump, or truncated")
     return records

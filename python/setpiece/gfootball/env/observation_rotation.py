@@ -1,4 +1,4 @@
-"""Turns observations and actions by 180°: every agent believes that it attacks from left to right."""
+"""Turns observations and actions by 180°: every agent sees itself attacking to the right."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _STICKY = "_agent_sticky_actions"
 def flip_team_observation(
     observation: dict[str, Any], result: dict[str, Any], config: Config | dict[str, Any], from_team: str, to_team: str
 ) -> None:
-    """Writes a team of an observation into another one, turned, as the other team: `left` or `right`."""
+    """Writes a team of an observation into another one, turned, as team `left` or `right`."""
     for key in _TURNED:
         result[to_team + key] = rotate_points(observation[from_team + key])
     for key in _KEPT:
@@ -47,10 +47,10 @@ def flip_team_observation(
 
 
 def flip_observation(observation: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:
-    """Returns an observation as the other side sees it: that of the whole match, or an agent's own.
+    """Returns an observation as the other side sees it: of the whole match, or an agent's own.
 
-    Turned points are arrays, also where the observation has lists. Arrays keep their dtypes, and flipping twice
-    returns the same values.
+    Turned points are arrays, even if the observation has lists. Arrays keep their dtypes, and
+    flipping twice returns the same values.
     """
     result = dict(observation)
     flip_team_observation(observation, result, config, "left", "right")
@@ -66,19 +66,20 @@ def flip_observation(observation: dict[str, Any], config: Config | dict[str, Any
 
 
 def rotate_3d_point(point: Any) -> NDArray[Any]:
-    """Returns a point `(3,)` turned round the centre spot, with the dtype that it had."""
+    """Returns a point `(3,)` turned about the centre spot, with the same dtype."""
     return np.array([-point[0], -point[1], point[2]])
 
 
 def rotate_points(points: Any) -> NDArray[Any]:
-    """Returns points turned round the centre spot, with the shape and dtype that they had."""
+    """Returns points turned about the centre spot, with the same shape and dtype."""
     return -np.asarray(points)
 
 
 def rotate_sticky_actions(sticky_actions_state: Any, config: Config | dict[str, Any]) -> Any:
-    """Returns what is held, 10 or 13 values, with the direction turned round.
+    """Returns the held actions, 10 or 13 values, with the direction turned.
 
-    An array gives an array of its dtype, a list gives a list of the same values, and an empty state stays empty.
+    An array gives an array of its dtype, a list gives a list of the same values, and an empty state
+    stays empty.
     """
     state = sticky_actions_state
     if not len(state):
@@ -89,7 +90,7 @@ def rotate_sticky_actions(sticky_actions_state: Any, config: Config | dict[str, 
 
 
 def flip_single_action(action: Any, config: Config | dict[str, Any]) -> Any:
-    """Returns an action turned round: only the eight directions change; a number gives a number."""
+    """Returns an action turned by 180°: only directions change; a number gives a number."""
     actions = get_action_set(config)
     named = named_action_from_action_set(actions, action)
     turned = _ACTIONS[_OPPOSITE.get(named.name, named.name)]
@@ -97,7 +98,7 @@ def flip_single_action(action: Any, config: Config | dict[str, Any]) -> Any:
 
 
 def flip_action(action: Any, config: Config | dict[str, Any]) -> Any:
-    """Returns an action turned round, or the list of them for a list or an array of actions."""
+    """Returns an action turned by 180°, or a list of them for a list or an array of actions."""
     if isinstance(action, list) or (isinstance(action, np.ndarray) and action.ndim):
         return [flip_single_action(each, config) for each in action]
     return flip_single_action(action, config)

@@ -1,4 +1,4 @@
-"""Who plays some of the players: the contract of everything in `players`."""
+"""The base class of everything in `players`: it plays some of the players."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import Any
 class PlayerBase:
     """Plays as many players as its definition says.
 
-    - `player_config`: the definition's settings: `left_players`, `right_players`, `index`, the first of its slots,
-      `player_NAME` among those of its name, and whatever else the definition says.
+    - `player_config`: the definition's settings: `left_players`, `right_players`, `index`, the
+      first of its slots, `player_NAME`, its number among those of its name, and all other settings
+      of the definition.
     """
 
     def __init__(self, player_config: dict[str, Any] | None = None) -> None:
@@ -33,11 +34,11 @@ class PlayerBase:
         return self.num_controlled_left_players() + self.num_controlled_right_players()
 
     def can_play_right(self) -> bool:
-        """Whether it sees the right team on the right, and sends directions as they are on the pitch."""
+        """Whether it sees the right team on the right, and sends directions in the pitch's frame."""
         return self._can_play_right
 
     def take_action(self, observations: list[dict[str, Any]]) -> Any:
-        """Returns an action for each of its players, of whom it sees one observation each, the left team's first."""
+        """Returns an action for each of its players, from one observation each, left team first."""
         raise NotImplementedError
 
     def reset(self) -> None:

@@ -1,4 +1,4 @@
-"""Finds a scenario by its level's name and runs its script, if it is one in Google Research Football's form."""
+"""Finds a scenario by its level's name, and runs its script if it is one of GRF's form."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ if TYPE_CHECKING:
 
 PACKAGES = ("setpiece.gfootball.scenarios", "gfootball.scenarios")
 TESTS = "tests."
-"""What GRF writes before the names of the scenarios of its own tests."""
+"""GRF's prefix of the names of its own tests' scenarios."""
 STEPS_PER_S = 10
 SECOND_HALF = "second_half"
-"""The parameter by which a scenario that is no script says after how many steps its second half begins."""
+"""The parameter with the step at which the second half begins, for scenarios without a script."""
 Script = Callable[["Recorder"], object]
 
 
@@ -45,7 +45,7 @@ def all_scenarios() -> list[str]:
 
 @dataclass
 class Recorder:
-    """The `builder` of a script: it takes down what the script says.
+    """The `builder` of a script: it records what the script sets.
 
     >>> recorder = Recorder(episode_number=2)
     >>> recorder.SetTeam(Team.e_Right)
@@ -63,11 +63,11 @@ class Recorder:
         return self.recorded
 
     def ScenarioConfig(self) -> ScenarioConfig:  # noqa: N802  # GRF's names
-        """Returns what `config` returns."""
+        """Returns the same as `config`."""
         return self.recorded
 
     def SetTeam(self, team: Team) -> None:  # noqa: N802
-        """Says whose players are added from now on."""
+        """Sets the team of the players added from now on."""
         try:
             self.team = Team(team)
         except ValueError:
@@ -78,24 +78,24 @@ class Recorder:
     def AddPlayer(  # noqa: N802
         self, x: float, y: float, role: PlayerRole, lazy: bool = False, controllable: bool = True
     ) -> None:
-        """Adds a player, in his team's own frame: his own goal is at x = -1."""
+        """Adds a player, in their team's own frame: their own goal is at x = -1."""
         try:
             entry = FormationEntry(_place(x, y), PlayerRole(role), bool(lazy), bool(controllable))
         except (TypeError, ValueError):
             raise ParameterError(
-                f"AddPlayer({x!r}, {y!r}, {role!r}) is no player",
+                f"AddPlayer({x!r}, {y!r}, {role!r}) is not a player",
                 name="AddPlayer",
                 help="write two numbers and a role such as `e_PlayerRole_CM`",
             ) from None
         (self.recorded.left_team if self.team == Team.e_Left else self.recorded.right_team).append(entry)
 
     def SetBallPosition(self, x: float, y: float) -> None:  # noqa: N802
-        """Lays the ball down, in the left team's frame."""
+        """Places the ball, in the left team's frame."""
         try:
             self.recorded.ball_position[:2] = _place(x, y)
         except (TypeError, ValueError):
             raise ParameterError(
-                f"SetBallPosition({x!r}, {y!r}) is no place", name="SetBallPosition", help="write two numbers"
+                f"SetBallPosition({x!r}, {y!r}) is not a place", name="SetBallPosition", help="write two numbers"
             ) from None
 
     def EpisodeNumber(self) -> int:  # noqa: N802
@@ -104,7 +104,7 @@ class Recorder:
 
 
 def _place(x: float, y: float) -> tuple[float, float]:
-    """Two finite numbers; raises `TypeError` or `ValueError` for anything else."""
+    """Returns two finite numbers; raises `TypeError` or `ValueError` for anything else."""
     place = float(x), float(y)
     if not all(map(isfinite, place)):
         raise ValueError("not finite")
@@ -112,9 +112,10 @@ def _place(x: float, y: float) -> tuple[float, float]:
 
 
 def record(script: Script, episode_number: int) -> ScenarioConfig:
-    """Runs a script for one episode and returns what it set; a team without players gets a lazy keeper, as in GRF.
+    """Runs a script for one episode and returns what it set.
 
-    Raises `GrfScriptError` where the script fails, `ParameterError` for a value that a scenario can't have.
+    A team without players gets a lazy keeper, as in GRF. Raises `GrfScriptError` if the script
+    fails, `ParameterError` for an impossible value.
     """
     recorder = Recorder(episode_number)
     with _running(getattr(getattr(script, "__code__", None), "co_filename", repr(script))):
@@ -128,23 +129,24 @@ def record(script: Script, episode_number: int) -> ScenarioConfig:
 
 @dataclass(frozen=True)
 class Source:
-    """A scenario as text: `text` makes `name` known to whoever extends it; `folder` is where imports are read from."""
+    """A scenario as text: `text` defines `name`; imports are read from `folder`."""
 
     name: str
     text: str = ""
     folder: str = ""
 
     def compiled(self, left: str, right: str, steps: int | None, half_time: int | None = None) -> setpiece.Scenario:
-        """Returns the scenario with so many agents a side (`all` for everybody), steps, and steps before half-time.
+        """Returns the scenario with these agents, steps, and steps before half-time.
 
-        GRF hurries agents, and never a player who is lazy: so the environment does it, and not the engine.
+        A count of agents is a number, or `all`. GRF hurries agents but never lazy players, so the
+        environment does it instead of the engine.
         """
         half = "" if half_time is None else f", half_time: {half_time} steps"
         limit = "" if steps is None else f" end limit {steps} steps"
         return _compiled(self, f"rules {{ anti_stalling: off{half} }} agents {{ left: {left}, right: {right} }}{limit}")
 
     def agents_on_the_left(self) -> int:
-        """Returns how many agents the scenario itself asks for."""
+        """Returns how many agents the scenario itself requests."""
         env = setpiece.FootballEnv(_compiled(self, ""), rewards=[])
         return sum(agent.team == 0 for agent in env.slots)
 
@@ -158,7 +160,7 @@ def _compiled(source: Source, said: str) -> setpiece.Scenario:
 
 @lru_cache(maxsize=256)
 def _measured(source: Source) -> ScenarioConfig:
-    """Returns of a scenario that is no script what can be seen from outside: players, agents and length."""
+    """Returns the visible facts of a scenario without a script: players, agents and length."""
     scenario = source.compiled("all", "all", None)
     env = setpiece.FootballEnv(scenario, observation="raw", rewards=[])
     observed, _ = env.reset(seed=0)
@@ -189,7 +191,7 @@ def _measured(source: Source) -> ScenarioConfig:
 
 
 class Scenario:
-    """The scenario of one episode: what its script says for it, or what the library says."""
+    """The scenario of one episode, from its script or from the library."""
 
     source: Source
     """The text that is played."""
@@ -207,18 +209,20 @@ class Scenario:
             self.source = Source(name, to_pitch(self._recorded, name))
 
     def config(self) -> ScenarioConfig:
-        """Returns what is known of the scenario."""
+        """Returns the known settings of the scenario."""
         return self._recorded
 
     ScenarioConfig = config
 
 
 def find(level: object) -> Source | Script:
-    """Returns the scenario of a level's name: the text of one of the library or of a `.pitch` file, or a script.
+    """Returns the scenario of a level's name: a text of the library or a file, or a script.
 
-    Scenarios of the library also go by GRF's names for those of its tests: `tests.penalty` is `penalty`.
+    Scenarios of the library can also be named by GRF's names of its tests' scenarios:
+    `tests.penalty` is `penalty`.
 
-    Raises `UnknownScenarioError`, `FileError` for a path that can't be read, `GrfScriptError` for a module that fails.
+    Raises `UnknownScenarioError`, `FileError` for a path that can't be read, `GrfScriptError` for a
+    module that fails.
     """
     if not isinstance(level, str) or not level:
         raise ParameterError("the level needs a name", name="level", help="for example `academy_3_vs_1_with_keeper`")
@@ -228,7 +232,7 @@ def find(level: object) -> Source | Script:
         path = Path(level).resolve()
         return Source(setpiece.load(path).name, f'import "{path.name}"\n', str(path.parent))
     names = [f"{package}.{level}" for package in PACKAGES if package in sys.modules]
-    # What begins with a dot is a path, and no module's name.
+    # A name that begins with a dot is a path, not a module.
     for name in [*names, level] if "." in level and level[0] != "." else names:
         module = _imported(name)
         if module is not None and (hasattr(module, "build_scenario") or name != level):
@@ -244,9 +248,10 @@ def find(level: object) -> Source | Script:
 
 
 def load_script(path: str) -> ModuleType:
-    """Runs the file of a script as a module of the package of scenarios, so that `from . import *` works in it.
+    """Runs a script's file as a module of the scenarios' package.
 
-    Raises `FileError` where there is no such file, `GrfScriptError` where it fails.
+    So `from . import *` works in it. Raises `FileError` if there is no such file, `GrfScriptError`
+    if it fails.
     """
     file = Path(path)
     if not file.is_file():
@@ -256,7 +261,7 @@ def load_script(path: str) -> ModuleType:
 
 @contextmanager
 def _running(path: str) -> Iterator[None]:
-    """Whatever a user's script raises, an exit too, is told with its name and the line."""
+    """Reports whatever a user's script raises, including an exit, with its name and line."""
     try:
         yield
     except ParameterError as error:
@@ -275,11 +280,11 @@ def _at(line: int | None) -> str:
 
 
 def _failed_at(error: BaseException) -> tuple[str, int] | None:
-    """Returns the file of the script that failed, and the line that it was at; None where none of its lines ran."""
+    """Returns the file and line at which the script failed; None if none of its lines ran."""
     if isinstance(error, SyntaxError) and error.filename is not None and error.lineno is not None:
         return error.filename, error.lineno
     ran = [(frame.f_code.co_filename, line) for frame, line in walk_tb(error.__traceback__)]
-    # Before the script come the frames that load it, and what is checked behind its end has no line of it.
+    # Frames that load the script come before it, and checks after its end have no line of it.
     loading = {__file__, scenario_config.__file__, importlib.__file__}
     file = next((file for file, _ in ran if file not in loading and not file.startswith("<frozen ")), None)
     return None if file is None else (file, [line for each, line in ran if each == file][-1])
@@ -298,7 +303,7 @@ def _load_script(path: str, _changed: int) -> ModuleType:
 
 
 def _imported(name: str) -> ModuleType | None:
-    """Returns a module, or None where there is none of this name; `GrfScriptError` where it fails."""
+    """Returns a module, or None if there is none of this name; `GrfScriptError` if it fails."""
     with _running(name):
         try:
             return importlib.import_module(name)
@@ -309,7 +314,7 @@ def _imported(name: str) -> ModuleType | None:
 
 
 def script_of(module: ModuleType, name: str) -> Script:
-    """Returns a module's `build_scenario`; `SetpieceError` where it has none."""
+    """Returns a module's `build_scenario`; raises `SetpieceError` if it has none."""
     script: Any = getattr(module, "build_scenario", None)
     if not callable(script):
         raise SetpieceError(

@@ -1,4 +1,4 @@
-"""What a scenario in Google Research Football's form can set."""
+"""The settings of a scenario in Google Research Football's form."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ FIXED_SEED = 42
 
 @dataclass
 class FormationEntry:
-    """A player: his place in his team's own frame, who plays him and whether agents may.
+    """A player: the place in the team's own frame, who plays them and whether agents may.
 
-    Place and role can only be read, as in GRF: setting them anew raises `ParameterError`.
+    Place and role are read-only, as in GRF: setting them raises `ParameterError`.
     """
 
     position: tuple[float, float]
@@ -40,9 +40,10 @@ class FormationEntry:
 
 @dataclass
 class ScenarioConfig:
-    """All that a script can set, with GRF's defaults; another name or kind of value raises `ParameterError`.
+    """All settings of a script, with GRF's defaults.
 
-    Players are in their team's own frame, the ball is in the left team's.
+    Another name or kind of value raises `ParameterError`. Players are in their team's own frame,
+    the ball is in the left team's.
     """
 
     ball_position: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
@@ -72,29 +73,29 @@ class ScenarioConfig:
         super().__setattr__(name, _checked(name, value, str(kinds[name])))
 
     def check(self) -> None:
-        """Raises `ParameterError` where a list was filled with what it can't hold."""
+        """Raises `ParameterError` if a list contains what it can't hold."""
         for each in fields(self):
             _checked(each.name, getattr(self, each.name), str(each.type))
 
     @property
     def controllable_left_players(self) -> int:
-        """How many of the left team agents may play."""
+        """How many players of the left team agents may control."""
         return sum(entry.controllable for entry in self.left_team)
 
     @property
     def controllable_right_players(self) -> int:
-        """How many of the right team agents may play."""
+        """How many players of the right team agents may control."""
         return sum(entry.controllable for entry in self.right_team)
 
     @property
     def dynamic_player_selection(self) -> bool:
-        """Whether an agent changes players: it does where a team has fewer agents than players for them."""
+        """Whether an agent switches players, because a team has fewer agents than players for them."""
         left, right = self.controllable_left_players, self.controllable_right_players
         return self.left_agents not in (0, left) or self.right_agents not in (0, right)
 
 
 def _checked(name: str, value: Any, kind: str) -> Any:
-    """Returns a value as the plain kind that a setting has, or raises `ParameterError`."""
+    """Returns a value as the plain type of a setting, or raises `ParameterError`."""
     try:
         return _KINDS[kind][0](value)
     except (TypeError, ValueError, OverflowError):
@@ -102,7 +103,7 @@ def _checked(name: str, value: Any, kind: str) -> Any:
 
 
 def _flag(value: Any) -> bool:
-    # 0 and 1 are flags, too.
+    # 0 and 1 are accepted as flags too.
     return bool(value) if isinstance(value, np.bool_) else bool(index(value))
 
 
@@ -128,7 +129,7 @@ def _team(value: Any) -> list[FormationEntry]:
     return list(value)
 
 
-# By the types of the fields, as they are written there.
+# By the types of the fields, as written there.
 _KINDS: dict[str, tuple[Callable[[Any], Any], str]] = {
     "bool": (_flag, "True or False"),
     "int": (_integer, "an integer"),

@@ -1,4 +1,4 @@
-"""Reads dumps: as records, as text, and as matches played again."""
+"""Reads dumps: as records, as text, and as matches to play again."""
 
 from __future__ import annotations
 
@@ -17,16 +17,19 @@ FPS = 10
 
 
 class ScriptHelpers:
-    """What GRF's scripts for dumps do, as methods."""
+    """The functions of GRF's scripts for dumps, as methods."""
 
     def load_dump(self, dump_file: str) -> list[dict[str, Any]]:
-        """Returns the records of a dump; unpickling runs what a file says, so read dumps that you trust."""
+        """Returns the records of a dump.
+
+        Unpickling runs code from the file, so only read dumps that you trust.
+        """
         return read_dump(dump_file)
 
     def dump_to_txt(self, dump_file: str, output: str, include_debug: bool = True) -> None:
         """Writes the records of a dump as text.
 
-        - `include_debug`: whether what only helps to find errors, such as actions and times, is written too.
+        - `include_debug`: whether debugging data, such as actions and times, is written too.
         """
         records = read_dump(dump_file)
         if not include_debug:
@@ -35,7 +38,10 @@ class ScriptHelpers:
         _native.write(check_path("output", output), text.encode())
 
     def build_players(self, dump_file: str, spec: list[str] | None = None) -> list[str]:
-        """Returns a definition for each player whose actions a dump has: `replay`, or in order what `spec` says."""
+        """Returns a definition for each player with actions in a dump.
+
+        The definitions are `replay`, or those of `spec` in order.
+        """
         config = _config_of(dump_file)
         left, right = config.number_of_left_players(), config.number_of_right_players()
         sides = ["left_players"] * left + ["right_players"] * right
@@ -52,7 +58,7 @@ class ScriptHelpers:
         directory: str | None = None,
         render: bool = True,
     ) -> list[dict[str, Any]]:
-        """Plays the match of a whole episode's dump again, action by action; returns its info of every step.
+        """Plays the match of a whole episode's dump again; returns its info of every step.
 
         - `config_update`: settings that differ from the dump's.
         - `directory`: where dumps of the repetition go.
@@ -79,13 +85,13 @@ class ScriptHelpers:
         return infos
 
     def dump_to_video(self, dump_file: str) -> None:
-        """Raises `UnavailableError`: there are no pictures in this version."""
+        """Raises `UnavailableError`: pictures aren't supported in this version."""
         del dump_file
         raise no_pictures("dump_to_video")
 
 
 def _config_of(dump_file: str) -> Config:
-    """Returns the settings with which an episode was dumped, so that the next `reset` begins that episode."""
+    """Returns the settings of a dumped episode, so that the next `reset` begins that episode."""
     debug = read_dump(dump_file)[0]["debug"]
     if "config" not in debug:
         raise FormatError(f"`{dump_file}` has no settings in its first record")

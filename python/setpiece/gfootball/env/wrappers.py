@@ -1,4 +1,4 @@
-"""The wrappers by their names: what is shown, what is paid and what is written down of a match."""
+"""The wrappers by name: they change what a match shows, pays and dumps."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from setpiece.gfootball.env.config import no_pictures
 
 Env = gymnasium.Env[Any, Any]
 BLOCK = 22
-"""Numbers of a block of simple115: x and y of eleven players."""
+"""Values in a block of simple115: x and y of eleven players."""
 BLOCKS = ("left_team", "left_team_direction", "right_team", "right_team_direction")
 SIMPLE = 115
 
@@ -31,11 +31,11 @@ def agents_of(env: Env) -> int:
 
 
 class GetStateWrapper(Wrapper):
-    """Shows `get_state` and `set_state` of everything inside: the outermost wrapper."""
+    """The outermost wrapper: provides `get_state` and `set_state` of everything inside."""
 
 
 class PeriodicDumpWriter(Wrapper):
-    """Lets only every k-th episode be dumped, the first one among them."""
+    """Lets only every k-th episode be dumped, starting with the first."""
 
     def __init__(self, env: Env, dump_frequency: int, render: bool = False) -> None:
         super().__init__(env)
@@ -58,9 +58,10 @@ class PeriodicDumpWriter(Wrapper):
 
 
 class CheckpointRewardWrapper(Wrapper):
-    """Pays an agent's player 0.1 for each of ten regions into which he carries the ball, once in an episode.
+    """Pays an agent's player 0.1 for each of ten regions, once per episode.
 
-    The first begins 0.99 from the point (1, 0), the last one 0.19. A goal pays what is left.
+    A region pays when the player carries the ball into it. The first begins 0.99 from the point (1,
+    0), the last one 0.19. A goal pays what is left.
     """
 
     NUMBER = 10
@@ -103,7 +104,7 @@ class CheckpointRewardWrapper(Wrapper):
         return super().get_state({**(to_pickle or {}), "CheckpointRewardWrapper": dict(self._collected_checkpoints)})
 
     def set_state(self, state: bytes) -> dict[str, Any]:
-        """Goes on in a state of `get_state`."""
+        """Continues from a state of `get_state`."""
         kept = super().set_state(state)
         self._collected_checkpoints = dict(kept.get("CheckpointRewardWrapper", {}))
         return kept
@@ -112,8 +113,8 @@ class CheckpointRewardWrapper(Wrapper):
 class Simple115StateWrapper(ObservationWrapper):
     """Shows each raw observation as 115 numbers: float32 `(n, 115)`.
 
-    - `fixed_positions`: True for `simple115v2`; False is the older `simple115`, in which the blocks of a team with
-      fewer than eleven players move together, and what is left of the 88 numbers is -1.
+    - `fixed_positions`: True for `simple115v2`; False for the older `simple115`, in which the
+      blocks of a team with fewer than eleven players move up, and the rest of the 88 numbers is -1.
     """
 
     def __init__(self, env: Env, fixed_positions: bool = False) -> None:
@@ -132,9 +133,10 @@ class Simple115StateWrapper(ObservationWrapper):
     ) -> NDArray[np.float32]:
         """Returns the numbers of raw observations: float32 `(n, 115)`.
 
-        - `observation`: with arrays or lists. Without `*_team_active` everybody plays, without `active` nobody is shown
-          as active.
-        - `sent_off_stay`: whether players who were sent off keep their last numbers, as in GRF, or have -1.
+        - `observation`: with arrays or lists. Without `*_team_active` everybody plays, without
+          `active` nobody is shown as active.
+        - `sent_off_stay`: whether players who were sent off keep their last numbers, as in GRF, or
+          have -1.
         """
         result = np.zeros((len(observation), SIMPLE), np.float32)
         for row, seen in zip(result, observation, strict=True):
@@ -185,7 +187,7 @@ class SMMWrapper(ObservationWrapper):
 
 
 class PixelsStateWrapper(ObservationWrapper):
-    """Raises `UnavailableError`: there are no pictures in this version."""
+    """Raises `UnavailableError`: pictures aren't supported in this version."""
 
     def __init__(self, env: Env, grayscale: bool = True, channel_dimensions: tuple[int, int] = (96, 72)) -> None:
         del env, grayscale, channel_dimensions
@@ -193,7 +195,7 @@ class PixelsStateWrapper(ObservationWrapper):
 
 
 class SingleAgentObservationWrapper(ObservationWrapper):
-    """Takes away the axis of agents."""
+    """Removes the axis of agents."""
 
     def __init__(self, env: Env) -> None:
         super().__init__(env)
@@ -208,7 +210,7 @@ class SingleAgentObservationWrapper(ObservationWrapper):
 
 
 class SingleAgentRewardWrapper(RewardWrapper):
-    """Pays one agent a number in place of an array."""
+    """Pays one agent a number instead of an array."""
 
     def reward(self, reward: Any) -> Any:
         """Returns the first agent's part."""
@@ -216,7 +218,7 @@ class SingleAgentRewardWrapper(RewardWrapper):
 
 
 class FrameStack(Wrapper):
-    """Shows the last observations, the oldest first, on the last axis; the first one stands for those before it."""
+    """Shows the last observations, oldest first, on the last axis; the first one fills the stack."""
 
     def __init__(self, env: Env, stack: int = 4) -> None:
         super().__init__(env)
@@ -245,7 +247,7 @@ class FrameStack(Wrapper):
         return super().get_state({**(to_pickle or {}), "FrameStack": list(self._seen)})
 
     def set_state(self, state: bytes) -> dict[str, Any]:
-        """Goes on in a state of `get_state`."""
+        """Continues from a state of `get_state`."""
         kept = super().set_state(state)
         self._seen.extend(kept.get("FrameStack", []))
         return kept
@@ -255,7 +257,9 @@ class FrameStack(Wrapper):
 
 
 class MultiAgentToSingleAgent(Wrapper):
-    """Makes one agent per side of one that plays all: he plays the designated player, the engine's bot the others.
+    """Turns an agent that plays all players into one per side.
+
+    It plays the designated player, and the engine's bot plays the others.
 
     - `left_players`, `right_players`: how many the agent inside plays on each side.
 
@@ -298,13 +302,13 @@ class MultiAgentToSingleAgent(Wrapper):
         return self._of(observation), paid, done, info
 
     def set_state(self, state: bytes) -> dict[str, Any]:
-        """Goes on in a state of `get_state`."""
+        """Continues from a state of `get_state`."""
         kept = super().set_state(state)
         self._of(self.env.unwrapped.observation())  # type: ignore[attr-defined]
         return kept
 
     def _of(self, observation: list[dict[str, Any]]) -> list[dict[str, Any]]:
-        """The designated players' observations; a team's first stands in where nobody is."""
+        """The designated players' observations; a team's first if there is none."""
         self._chosen = [
             next((slot for slot in side if observation[slot]["active"] == observation[slot]["designated"]), side[0])
             for side in self._sides
@@ -313,7 +317,10 @@ class MultiAgentToSingleAgent(Wrapper):
 
 
 def check_dimensions(dimensions: Any) -> tuple[int, int]:
-    """Returns the width and height of a minimap; `ParameterError` for anything but two whole numbers from 1 on."""
+    """Returns the width and height of a minimap.
+
+    Raises `ParameterError` for anything but two integers from 1 on.
+    """
     try:
         width, height = (index(each) for each in dimensions)
         if width < 1 or height < 1:

@@ -1,4 +1,4 @@
-//! The functions of the interface, and every other function that a script can call.
+//! The functions of the interface, and all other functions that scripts can call.
 
 use super::super::budget::count_bytes;
 use super::super::host::to_number;
@@ -17,7 +17,7 @@ pub(crate) struct Function {
     pub(crate) name: &'static str,
     /// How many arguments it takes.
     pub(crate) takes: &'static [usize],
-    /// How it is called, and what it gives.
+    /// How to call it, and what it returns.
     pub(crate) about: &'static str,
 }
 
@@ -27,15 +27,15 @@ const OWN: &[Function] = &[
     own("grf_distance", &[2], "grf_distance(a, b): in normalised units"),
     own("angle", &[2], "angle(a, b): the heading from a to b in the reader's frame, radians"),
     own("nearest", &[2], "nearest(players, to): the player nearest to a place, or ()"),
-    own("pressed", &[2], "pressed(player, within): an opponent is nearer than so many metres"),
+    own("pressed", &[2], "pressed(player, within): whether an opponent is within this many metres"),
     own("speed", &[1], "speed(x): of a player or the ball, m/s"),
     own("point", &[3], "now.point(x, y): a place from normalised coordinates of the reader's frame"),
     own(
         "count",
         &[2, 3],
-        "count(events, kind), count(events, kind, team): how many, \"shot\" or \"pass completed\"; team is \"us\" or \"them\"",
+        "count(events, kind), count(events, kind, team): the number of events of a kind, \"shot\" or \"pass completed\"; team is \"us\" or \"them\"",
     ),
-    own("clamp", &[3], "clamp(x, low, high): x held between low and high"),
+    own("clamp", &[3], "clamp(x, low, high): x limited to low..high"),
     own("smoothstep", &[3], "smoothstep(low, high, x): 0 below low, 1 above high, smooth between"),
     own("pow", &[2], "pow(x, y): x to the power y"),
 ];
@@ -49,7 +49,7 @@ pub(crate) fn function(name: &str) -> Option<&'static Function> {
     OWN.iter().find(|function| function.name == name)
 }
 
-/// What Rhai itself brings, of the packages that scripts have.
+/// Rhai's own functions, from the packages that scripts have.
 const RHAI: &[&str] = &[
     "E",
     "PI",
@@ -182,7 +182,7 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
     OWN.iter().map(|function| function.name).chain(RHAI.iter().copied())
 }
 
-/// Bytes that a look at an element of a list counts for.
+/// Bytes that reading one element of a list counts as.
 const ELEMENT_BYTES: usize = 64;
 
 type Failable<T> = Result<T, Box<EvalAltResult>>;
@@ -235,11 +235,11 @@ fn between(engine: &mut Engine, name: &str, f: fn(Point, Point) -> f64) {
     from::<Player>(engine, name, f);
     from::<Ball>(engine, name, f);
     from::<Happening>(engine, name, f);
-    // What else comes gets an error that says what was expected. Rhai asks this one last.
+    // Anything else gets an error about what was expected. Rhai tries this form last.
     engine.register_fn(name, move |a: Dynamic, b: Dynamic| -> Failable<f64> { Ok(f(place(&a)?, place(&b)?)) });
 }
 
-/// Things are equal when they are the same thing, whenever they were looked at.
+/// Values are equal if they are the same thing, whenever they were read.
 fn register_equality(engine: &mut Engine) {
     engine.register_fn("==", |a: Player, b: Player| a.1 == b.1);
     engine.register_fn("!=", |a: Player, b: Player| a.1 != b.1);
@@ -287,7 +287,7 @@ fn apart_m(a: Point, b: Point) -> f64 {
     libm::hypot(a.metres[0] - b.metres[0], a.metres[1] - b.metres[1])
 }
 
-/// What has a place.
+/// Values that have a place.
 trait Placed: Clone + Send + Sync + 'static {
     fn place(&self) -> Point;
 }
@@ -332,7 +332,7 @@ fn place(of: &Dynamic) -> Failable<Point> {
         })
 }
 
-/// Counts a look at each of a list.
+/// Counts reading each element of a list.
 fn look_at_each(context: &NativeCallContext, list: &Array) -> Failable<()> {
     count_bytes(ELEMENT_BYTES * list.len(), context.call_position())
 }
@@ -353,7 +353,8 @@ fn nearest(context: NativeCallContext, players: &mut Array, to: Dynamic) -> Fail
     Ok(best.map_or(Dynamic::UNIT, |(_, player)| player.clone()))
 }
 
-/// How many events match: `words` are a kind and, perhaps, a qualifier; a kind alone means what it means in the language.
+/// Counts matching events. `words` are a kind and optionally a qualifier; a kind alone means the
+/// same as in the language.
 fn count(context: &NativeCallContext, events: &Array, words: &str, team: Option<&str>) -> Failable<i64> {
     look_at_each(context, events)?;
     let (kind, qualifier) = words.split_once(' ').map_or((words, None), |(kind, word)| (kind, Some(word)));

@@ -34,7 +34,7 @@ fn add<T: Clone + Send + Sync + 'static>(engine: &mut Engine, name: &str, getter
     }
 }
 
-/// Whether every name of the tables has its getter; the tests ask.
+/// Whether every name of the tables has its getter; used by the tests.
 #[cfg(test)]
 pub(super) fn is_registered(of: Subject, name: &str) -> bool {
     match of {

@@ -1,8 +1,9 @@
-//! What a script keeps in its memory, as plain data: a snapshot of it.
+//! Encodes what a script keeps in its memory as plain data, for snapshots.
 //!
-//! A value becomes a flat list of nodes, parts before wholes, so that no list however wild is read by recursion. What a
-//! hook was shown (`this.last = now`) leads to its scene; scenes stand on a [`Shelf`] of their own, each once, so that
-//! what was one is one again.
+//! A value becomes a flat list of nodes, parts before wholes, so reading needs no recursion,
+//! however deeply nested the value is. A value that was shown to a hook (`this.last = now`) refers
+//! to its scene. Scenes are stored once each on a separate [`Shelf`], so that values that shared a
+//! scene share it again.
 
 use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
 use super::{Perspective, Scene};
@@ -19,16 +20,16 @@ use setpiece_scenario::vocabulary::Team;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
-/// The scenes that memories lead to, each behind those that its own parameters lead to.
+/// The scenes that memories refer to, each after those that its own parameters refer to.
 #[derive(Debug, Default)]
 pub(crate) struct Shelf {
     scenes: Vec<Arc<Scene>>,
     kept: Vec<KeptScene>,
-    /// How many values were read, those of all memories together.
+    /// The number of values read, over all memories.
     n_read: usize,
 }
 
-/// Most values that a snapshot holds of scripts' memories.
+/// The most values of scripts' memories in a snapshot.
 const NODES_MAX: usize = 1 << 20;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -44,7 +45,7 @@ struct KeptScene {
     index: u64,
 }
 
-/// A value, or a whole of the values before it.
+/// A value, or a collection of the values before it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 enum Node {
     Nothing,
@@ -53,9 +54,9 @@ enum Node {
     Number(f64),
     Letter(char),
     Text(String),
-    /// Of so many values.
+    /// A list of this many values.
     List(u32),
-    /// Of as many values as it has names.
+    /// A map with as many values as it has names.
     Table(#[serde(deserialize_with = "bounded::<_, _, { host::MAP_MAX }>")] Vec<String>),
     Range(i64, i64),
     RangeThrough(i64, i64),
@@ -69,7 +70,7 @@ enum Node {
 #[serde(transparent)]
 struct Nodes(#[serde(deserialize_with = "bounded::<_, _, NODES_MAX>")] Vec<Node>);
 
-/// What a hook is shown.
+/// A value that is shown to a hook.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 enum Shown {
     State,
@@ -81,7 +82,7 @@ enum Shown {
     Event(Event),
 }
 
-/// Through whose eyes, and in which scene.
+/// The perspective and the scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Eye {
     scene: u32,
@@ -91,7 +92,7 @@ struct Eye {
     past: bool,
 }
 
-/// What can't be kept.
+/// A value that can't be kept.
 struct Unkept {
     place: String,
     what: String,
@@ -99,7 +100,7 @@ struct Unkept {
 
 impl Memory {
     /// Writes or reads a script's memory.
-    pub(crate) fn pass(&mut self, name: &str, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    pub(crate) fn archive(&mut self, name: &str, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         let mut nodes = Nodes::default();
         if !archive.is_reading() {
             archive.shelf.write(&self.this, &mut nodes.0).map_err(Unkept::within_this)?;
@@ -115,8 +116,8 @@ impl Memory {
 }
 
 impl Shelf {
-    /// Writes or reads where a scene stands.
-    pub(crate) fn pass(
+    /// Writes or reads a reference to a scene.
+    pub(crate) fn archive(
         name: &str,
         scene: &mut Option<Arc<Scene>>,
         archive: &mut Archive<'_>,
@@ -131,8 +132,8 @@ impl Shelf {
         Ok(())
     }
 
-    /// Writes the scenes themselves, or reads them: before the memories that lead to them.
-    pub(crate) fn pass_scenes(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads the scenes themselves. They come before the memories that refer to them.
+    pub(crate) fn archive_scenes(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         archive.value("scenes", &mut self.kept)?;
         if archive.is_reading() {
             for (at, kept) in std::mem::take(&mut self.kept).into_iter().enumerate() {
@@ -149,7 +150,7 @@ impl Shelf {
         Ok(Scene::new(kept.now, kept.prev, &kept.events, Arc::new(params), kept.random, key))
     }
 
-    /// Where a scene stands, once it does.
+    /// The index of a scene, which is added if it is new.
     fn place(&mut self, scene: &Arc<Scene>) -> Result<u32, Unkept> {
         if let Some(at) = self.scenes.iter().position(|known| Arc::ptr_eq(known, scene)) {
             return Ok(at as u32);
@@ -173,7 +174,7 @@ impl Shelf {
         self.scenes.get(at as usize).cloned().ok_or_else(|| format!("leads to scene {at}, which is not there"))
     }
 
-    /// A value as nodes.
+    /// Appends a value as nodes.
     fn write(&mut self, value: &Dynamic, nodes: &mut Vec<Node>) -> Result<(), Unkept> {
         if nodes.len() >= NODES_MAX {
             return Err(Unkept { place: String::new(), what: format!("more than {NODES_MAX} values") });
@@ -201,7 +202,7 @@ impl Shelf {
         Ok(())
     }
 
-    /// What a hook was shown.
+    /// Encodes a value that was shown to a hook.
     fn shown(&mut self, value: &Dynamic) -> Result<Node, Unkept> {
         let Some((shown, sight)) = shown(value) else {
             let function = value.is::<FnPtr>();
@@ -213,13 +214,13 @@ impl Shelf {
         Ok(Node::Shown(shown, Eye { scene, us, me, agent: agent as u32, past: sight.past }))
     }
 
-    /// The value of some nodes.
+    /// Decodes a value from nodes.
     fn read(&mut self, nodes: Vec<Node>) -> Result<Dynamic, String> {
         self.n_read += nodes.len();
         if self.n_read > NODES_MAX {
             return Err(format!("makes more than {NODES_MAX} values of all memories"));
         }
-        // Every value with how deep it goes.
+        // Every value with its depth.
         let mut open: Vec<(Dynamic, usize)> = Vec::new();
         for node in nodes {
             let n_parts = match &node {
@@ -285,7 +286,7 @@ impl Unkept {
     }
 }
 
-/// What a hook was shown, and in which scene.
+/// A value that was shown to a hook, and its scene.
 fn shown(value: &Dynamic) -> Option<(Shown, Sight)> {
     Some(if let Some(sight) = value.read_lock::<Sight>() {
         (Shown::State, sight.clone())
@@ -306,12 +307,12 @@ fn shown(value: &Dynamic) -> Option<(Shown, Sight)> {
     })
 }
 
-/// Which scene a value keeps.
+/// The scene that a value keeps.
 pub(in super::super) fn scene_of(value: &Dynamic) -> Option<*const Scene> {
     shown(value).map(|(_, sight)| Arc::as_ptr(&sight.scene))
 }
 
-/// A value that stands for itself.
+/// The node of a self-contained value.
 fn plain(value: &Dynamic) -> Option<Node> {
     if value.is_unit() {
         return Some(Node::Nothing);

@@ -1,8 +1,8 @@
-//! The names that scripts can read, by what they belong to.
+//! The names that scripts can read, by the subject they belong to.
 
 use setpiece_scenario::vocabulary::{Owner, PROPERTIES, Type};
 
-/// What a name belongs to, and what kind of thing it gives.
+/// What a name belongs to, and the kind of value it gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// `ctx`.
@@ -27,9 +27,9 @@ pub enum Subject {
     Players,
     /// An array of events.
     Events,
-    /// The scenario's parameters, by their names.
+    /// The scenario's parameters, by name.
     Params,
-    /// What a script remembers, under names of its own.
+    /// A script's memory, with the script's own names.
     Memory,
     /// A number, word or truth value.
     Plain,
@@ -64,7 +64,7 @@ pub struct Member {
     pub of: Subject,
     /// The name after the dot.
     pub name: &'static str,
-    /// What it gives.
+    /// The kind of its value.
     pub gives: Subject,
     /// One line of documentation.
     pub doc: &'static str,
@@ -74,24 +74,24 @@ const fn row(of: Subject, name: &'static str, gives: Subject, doc: &'static str)
     Member { of, name, gives, doc }
 }
 
-/// What scripts need beside the language's properties.
+/// Names for scripts, in addition to the language's properties.
 const EXTRA: &[Member] = &[
     row(Subject::Ctx, "params", Subject::Params, "the scenario's parameters, SI units"),
-    row(Subject::Ctx, "side", Subject::Plain, "the side judged: left or right"),
-    row(Subject::Ctx, "agent", Subject::Plain, "the agent's place among the agents, from 0"),
+    row(Subject::Ctx, "side", Subject::Plain, "the judged side: left or right"),
+    row(Subject::Ctx, "agent", Subject::Plain, "the agent's index, from 0"),
     row(Subject::Ctx, "index", Subject::Plain, "the episode's index"),
     row(Subject::Ctx, "step", Subject::Plain, "steps since the episode's start"),
     row(Subject::State, "ball", Subject::Ball, "the ball"),
-    row(Subject::State, "us", Subject::Team, "the side judged"),
+    row(Subject::State, "us", Subject::Team, "the judged side"),
     row(Subject::State, "them", Subject::Team, "its opponents"),
-    row(Subject::State, "me", Subject::Player, "the agent's player, or () while he is off the pitch"),
+    row(Subject::State, "me", Subject::Player, "the agent's player, or () while off the pitch"),
     row(Subject::State, "players", Subject::Players, "the players on the pitch of both teams"),
     row(Subject::State, "score", Subject::Score, "the goals"),
     row(Subject::Score, "us", Subject::Plain, "our goals"),
     row(Subject::Score, "them", Subject::Plain, "their goals"),
-    row(Subject::Ball, "at", Subject::Point, "where it is"),
-    row(Subject::Player, "at", Subject::Point, "where he is"),
-    row(Subject::Player, "has_ball", Subject::Plain, "he has the ball now"),
+    row(Subject::Ball, "at", Subject::Point, "the ball's place"),
+    row(Subject::Player, "at", Subject::Point, "the player's place"),
+    row(Subject::Player, "has_ball", Subject::Plain, "the player has the ball now"),
     row(Subject::Team, "players", Subject::Players, "the team's players on the pitch"),
     row(Subject::Team, "goal", Subject::Point, "the middle of the team's own goal"),
     row(Subject::Team, "score", Subject::Plain, "the team's goals"),
@@ -99,10 +99,10 @@ const EXTRA: &[Member] = &[
     row(Subject::Team, "offside_line", Subject::Plain, "normalised x of the line beyond which its players are offside"),
     row(Subject::Event, "kind", Subject::Plain, "the event's name"),
     row(Subject::Event, "qualifier", Subject::Plain, "completed, taken, …; empty without one"),
-    row(Subject::Event, "team", Subject::Plain, "us, them or none: whose it is"),
-    row(Subject::Event, "by", Subject::Player, "who did it, or ()"),
-    row(Subject::Event, "to", Subject::Player, "whom it reached or hurt, or ()"),
-    row(Subject::Event, "at", Subject::Point, "where"),
+    row(Subject::Event, "team", Subject::Plain, "the event's team: us, them or none"),
+    row(Subject::Event, "by", Subject::Player, "the player who did it, or ()"),
+    row(Subject::Event, "to", Subject::Player, "the player it reached or hurt, or ()"),
+    row(Subject::Event, "at", Subject::Point, "the event's place"),
     row(Subject::Event, "length", Subject::Plain, "how far the ball travelled, metres"),
     row(Subject::Event, "speed", Subject::Plain, "the ball's speed, m/s"),
     row(Subject::Point, "x", Subject::Plain, "normalised x"),

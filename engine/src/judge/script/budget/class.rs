@@ -1,6 +1,7 @@
-//! How large the values of a script's expressions can be, as far as its text tells.
+//! Estimates how large the values of a script's expressions can be, from its text.
 //!
-//! It tells enough for most hooks: numbers, players, the ball. Whatever isn't plain from the text is treated as large.
+//! The text is enough for most hooks: numbers, players, the ball. Anything that isn't clear from
+//! the text is treated as large.
 
 use super::super::api::{Subject, members};
 use super::super::check::hook_arguments;
@@ -12,18 +13,18 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) enum Class {
     /// A number, truth value, short word, or thing of the match.
     Short,
-    /// Perhaps a text.
+    /// Possibly a string.
     Text,
     /// A list of players or events.
     Squad,
-    /// Perhaps a list, map or function.
+    /// Possibly a list, map or function.
     Any,
 }
 
-/// Operators whose value is a number or a truth value.
+/// Operators that return a number or a bool.
 const NUMERIC: &[&str] = &["==", "!=", "<", "<=", ">", ">=", "!", "contains", "..", "..="];
 
-/// Functions whose value is a number, truth value or thing of the match.
+/// Functions that return a number, a bool or a thing of the match.
 const SHORT: &[&str] = &[
     "abs",
     "acos",
@@ -82,10 +83,10 @@ const SHORT: &[&str] = &[
     "to_radians",
 ];
 
-/// Functions whose value is a text or a number.
+/// Functions that return a string or a number.
 const TEXT: &[&str] = &["max", "min", "to_string", "type_of"];
 
-/// Methods that leave their list as it is.
+/// Methods that don't change their list.
 const READING: &[&str] = &[
     "all",
     "contains",
@@ -104,7 +105,7 @@ const READING: &[&str] = &[
     "some",
 ];
 
-/// Methods of a list that call a closure with its elements.
+/// List methods that call a closure with each element.
 const EACH: &[&str] = &["all", "filter", "find", "find_map", "for_each", "map", "some"];
 
 /// A function of a script, with its statements.
@@ -114,22 +115,22 @@ pub(super) struct Function {
     pub(super) body: Vec<Stmt>,
 }
 
-/// What is known of a script's variables and functions.
+/// What is known about a script's variables and functions.
 pub(super) struct Classes<'a> {
     functions: &'a [Function],
     /// The classes of the variables of each function.
     variables: Vec<BTreeMap<String, Class>>,
-    /// The class of what each function gives.
+    /// The class of each function's result.
     gives: Vec<Class>,
-    /// A script with functions as values calls them where the text doesn't tell.
+    /// Whether functions are used as values, so that the text doesn't show where they are called.
     has_closures: bool,
     /// Functions that the script itself calls.
     called: BTreeSet<usize>,
-    /// Functions are called by their names.
+    /// Whether functions are called by name.
     by_name: bool,
-    /// Variables that are changed where they lie.
+    /// Variables that are changed in place.
     changed: BTreeSet<String>,
-    /// Variables that a closure assigns to, wherever they are seen.
+    /// Variables that a closure assigns to, in any scope.
     escaped: BTreeSet<String>,
     moved: bool,
 }
@@ -137,16 +138,16 @@ pub(super) struct Classes<'a> {
 /// How a script uses functions as values.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pointers {
-    /// It has closures, or functions called by their names in a text.
+    /// Whether it has closures, or functions called by name from a string.
     pub(super) any: bool,
-    /// Functions are called by their names in a text.
+    /// Whether functions are called by name from a string.
     pub(super) by_name: bool,
 }
 
-/// Rounds after which what is still believed of variables is dropped.
+/// After this many rounds, remaining assumptions about variables are dropped.
 const ROUNDS_MAX: usize = 8;
 
-/// How Rhai calls the functions that closures are.
+/// Rhai's prefix for the names of closures' functions.
 pub(super) const ANONYMOUS: &str = "anon$";
 
 impl<'a> Classes<'a> {
@@ -168,14 +169,15 @@ impl<'a> Classes<'a> {
                 let class = match subjects.get(place) {
                     Some((_, Subject::Events)) if subjects.len() == function.params.len() => Class::Squad,
                     Some(_) if subjects.len() == function.params.len() => Class::Short,
-                    // Hooks are called from outside, a function of the script's own by its own calls only.
+                    // Hooks are called from outside, but a script's own functions only by its own
+                    // calls.
                     _ if subjects.is_empty() && !pointers.by_name => Class::Short,
                     _ => Class::Any,
                 };
                 classes.variables[at].insert(param.clone(), class);
             }
         }
-        // What is believed at first is corrected until nothing contradicts it.
+        // Starts from optimistic assumptions and corrects them until nothing contradicts them.
         for _ in 0..ROUNDS_MAX {
             if !std::mem::take(&mut classes.moved) {
                 return classes;
@@ -190,12 +192,12 @@ impl<'a> Classes<'a> {
         classes
     }
 
-    /// Whether a script's own function is called.
+    /// The script's own function that a call refers to.
     pub(super) fn own(&self, name: &str, n_arguments: usize) -> Option<usize> {
         self.functions.iter().position(|own| own.name == name && own.params.len() == n_arguments)
     }
 
-    /// Whether the script calls a function itself.
+    /// Whether the script itself calls a function.
     pub(super) fn is_called(&self, function: usize) -> bool {
         let is_closure = self.functions[function].name.starts_with(ANONYMOUS);
         !is_closure && (self.by_name || self.called.contains(&function))
@@ -222,7 +224,7 @@ impl<'a> Classes<'a> {
         }
     }
 
-    /// Looks through statements, and gives the class of the last.
+    /// Analyses statements, and returns the class of the last.
     fn statements(&mut self, at: usize, statements: &[Stmt]) -> Class {
         statements.iter().fold(Class::Short, |_, statement| self.statement(at, statement))
     }
@@ -274,7 +276,7 @@ impl<'a> Classes<'a> {
                 let class = self.look(at, &assignment.1.rhs);
                 let lhs = &assignment.1.lhs;
                 match lhs {
-                    // What is added to a number, text or list leaves it one.
+                    // Adding to a number, string or list doesn't change its type.
                     Expr::Variable(variable, ..) if self.functions[at].name.starts_with(ANONYMOUS) => {
                         self.moved |= self.escaped.insert(variable.1.to_string());
                     }
@@ -305,7 +307,7 @@ impl<'a> Classes<'a> {
         }
     }
 
-    /// Looks through an expression, and gives its class.
+    /// Analyses an expression, and returns its class.
     fn look(&mut self, at: usize, expr: &Expr) -> Class {
         if closure(expr).is_some() {
             self.closure(at, expr, Class::Any);
@@ -347,7 +349,8 @@ impl<'a> Classes<'a> {
         self.class(at, expr)
     }
 
-    /// A closure's variables are its function's first parameters; the others are given by whoever calls it.
+    /// A closure's captured variables are its function's first parameters; the caller provides the
+    /// others.
     fn closure(&mut self, at: usize, expr: &Expr, given: Class) {
         let Some((name, captured)) = closure(expr) else { return };
         let Some(own) = self.functions.iter().position(|own| own.name == name) else { return };
@@ -373,12 +376,12 @@ impl<'a> Classes<'a> {
         self.call_class(at, call)
     }
 
-    /// Looks through an argument; a closure's caller says what it is given.
+    /// Analyses an argument. A closure's caller decides what the closure receives.
     fn argument(&mut self, at: usize, expr: &Expr) -> Class {
         if closure(expr).is_some() { Class::Any } else { self.look(at, expr) }
     }
 
-    /// What a script's own function is given, its parameters hold.
+    /// Binds the arguments of a call of the script's own function to its parameters.
     fn arguments(&mut self, at: usize, call: &FnCallExpr) {
         let classes: Vec<Class> = call.args.iter().map(|argument| self.argument(at, argument)).collect();
         if call.op_token.is_some() {
@@ -440,7 +443,7 @@ impl<'a> Classes<'a> {
         }
     }
 
-    /// The class of a step of a chain.
+    /// The class of a link of a chain.
     pub(super) fn step(&self, of: Class, link: &Link<'_>) -> Class {
         match link {
             Link::Property(name) => match (of, gives(name)) {
@@ -482,7 +485,7 @@ impl<'a> Classes<'a> {
         let operands = call.args.iter().map(|operand| self.class(at, operand));
         match (name, operands.clone().min(), operands.max()) {
             (_, _, Some(Class::Short)) => Class::Short,
-            // Lists and maps are joined to lists and maps only.
+            // Lists and maps can only be added to lists and maps.
             ("+", Some(Class::Squad | Class::Any), _) => Class::Any,
             _ => Class::Text,
         }
@@ -507,20 +510,20 @@ pub(super) fn closure(expr: &Expr) -> Option<(String, &[Expr])> {
     }
 }
 
-/// What a property of the match is.
+/// The subject of a property of the match.
 fn gives(name: &str) -> Option<Subject> {
     members().find(|member| member.name == name).map(|member| member.gives)
 }
 
-/// A step of a chain.
+/// A link of a chain.
 pub(super) enum Link<'a> {
     Property(&'a str),
     Method(&'a FnCallExpr),
-    /// With the place of its bracket.
+    /// With the position of its bracket.
     Index(&'a Expr, Position),
 }
 
-/// Where a chain begins, and its steps.
+/// The root of a chain, and its links.
 pub(super) fn links(expr: &Expr) -> (&Expr, Vec<Link<'_>>) {
     let mut links = Vec::new();
     let mut root = expr;

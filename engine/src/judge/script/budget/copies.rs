@@ -1,12 +1,13 @@
 //! Counts the copies that a script makes.
 //!
-//! Rhai copies a value wherever a variable is read as a whole, and has no callback for it. A script is compiled with a
-//! call of [`COUNTED`] around whatever may be large ([`Class`]): variables and chains that are read as a whole, and what
-//! is put into a list or map. Long bodies and caught errors are counted by a call of their own. Ordinary hooks hold
-//! numbers and players: their text stays as it is.
+//! Rhai copies a value wherever a variable is read as a whole, and has no callback for it. So
+//! scripts are compiled with a call of [`COUNTED`] around whatever may be large ([`Class`]):
+//! variables and chains read as a whole, and values put into a list or map. Long bodies and caught
+//! errors are counted by separate calls. Ordinary hooks hold numbers and players; their text stays
+//! unchanged.
 //!
-//! Rhai's syntax tree can be read but not written, so the calls are written into the text; [`Edits`] leads places in it
-//! back to the author's text.
+//! Rhai's syntax tree can be read but not written, so the calls are inserted into the text.
+//! [`Edits`] maps places in it back to the author's text.
 
 use super::super::host;
 use super::class::{ANONYMOUS, Class, Classes, Function, Link, Pointers, closure, links};
@@ -15,26 +16,28 @@ use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS, COUNTED, WORKED};
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
 use std::collections::BTreeSet;
 
-/// Nodes of a body that count as one operation: Rhai's bytecode counts loops and calls alone.
+/// Nodes of a body that count as one operation, because Rhai's bytecode counts only loops and
+/// calls.
 const NODES_PER_OPERATION: usize = 4;
-/// Nodes of a body that pass with the operation of its loop.
+/// Nodes of a body that are covered by the operation of its loop.
 const NODES_FREE: usize = 32;
-/// Nodes that a place in a text counts for: its characters are counted through.
+/// Nodes that indexing a string counts as: its characters are scanned.
 const INDEX_NODES: usize = 16;
-/// Nodes that a search in a text counts for.
+/// Nodes that searching a string counts as.
 const SEARCH_NODES: usize = 64;
-/// Nodes that a text put together counts for.
+/// Nodes that building a string counts as.
 const TEXT_NODES: usize = 32;
-/// Nodes that an assignment into a list or map counts for where the tree is walked, which looks at all it holds.
+/// Nodes that an assignment into a list or map counts as in the tree walker, which checks the whole
+/// content.
 const STORE_NODES: usize = 128;
 
-/// Operators that have no value where one side is a number and the other a list or map.
+/// Operators that fail for a number and a list or map.
 const ARITHMETIC: &[&str] = &["+", "-", "*", "/", "%", "**"];
 
-/// Functions that copy what they are given and that Rhai itself has no function for.
+/// Functions that copy their arguments and that Rhai implements without a native function.
 const COPYING: &[&str] = &["call", "curry", "Fn", "is_shared", "type_of"];
 
-/// Where a text differs from its author's.
+/// Where a text differs from the author's.
 #[derive(Debug, Default)]
 pub(in super::super) struct Edits {
     /// Line, column in the new text, and characters; in order.
@@ -42,7 +45,7 @@ pub(in super::super) struct Edits {
 }
 
 impl Edits {
-    /// The author's place of a place in the text.
+    /// Maps a place in the text to the author's text.
     pub(in super::super) fn original(&self, (line, column): (usize, usize)) -> (usize, usize) {
         let first = self.written.partition_point(|written| written.0 < line);
         let before = self.written[first..].iter().take_while(|written| written.0 == line && written.1 < column);
@@ -51,10 +54,11 @@ impl Edits {
     }
 }
 
-/// Returns a script's text with its copies counted.
+/// Inserts counting calls into a script's text.
 ///
 /// # Errors
-/// A place that Rhai finds elsewhere: it counts lines and columns in two bytes, and has line ends of its own.
+/// A place that Rhai finds elsewhere: it stores lines and columns in two bytes, and has its own
+/// line ends.
 pub(in super::super) fn count_copies(source: &str, ast: &AST) -> Result<(String, Edits), (usize, usize)> {
     let functions = functions(ast);
     let pointers = pointers(ast, &functions);
@@ -78,7 +82,8 @@ pub(in super::super) fn count_copies(source: &str, ast: &AST) -> Result<(String,
     }
 }
 
-/// The functions of a script, in the order of its text; those that differ in the type of `this` alone are one.
+/// The functions of a script, in text order. Functions that differ only in the type of `this` are
+/// one.
 fn functions(ast: &AST) -> Vec<Function> {
     let mut list: Vec<(Position, Function)> = Vec::new();
     for found in ast.iter_fn_def() {
@@ -104,7 +109,7 @@ fn functions(ast: &AST) -> Vec<Function> {
     list.into_iter().map(|(_, function)| function).collect()
 }
 
-/// Where the bodies of a function begin.
+/// The starts of a function's bodies.
 fn bodies<'a>(ast: &'a AST, function: &'a Function) -> impl Iterator<Item = Position> + 'a {
     let same = |name: &str, n_params: usize| name == function.name && n_params == function.params.len();
     ast.iter_fn_def()
@@ -129,14 +134,14 @@ fn pointers(ast: &AST, functions: &[Function]) -> Pointers {
 
 struct Writer<'a> {
     source: &'a str,
-    /// Where its lines begin.
+    /// The starts of its lines.
     lines: Vec<usize>,
     classes: Classes<'a>,
-    /// Whether its tree is walked.
+    /// Whether the tree walker runs it.
     walked: bool,
-    /// The function it is in.
+    /// The current function.
     function: usize,
-    /// Where, how long what is called with it goes on, and what is written.
+    /// Start, end of the enclosed text, and the inserted text.
     insertions: Vec<(usize, usize, String)>,
     /// A place that isn't where Rhai says.
     lost: Option<(usize, usize)>,
@@ -154,7 +159,7 @@ impl Writer<'_> {
         found
     }
 
-    /// The byte of a position, at which the text must go on like this.
+    /// The byte of a position, if the text continues there as expected.
     fn offset_of(&mut self, position: Position, expected: &str) -> Option<usize> {
         let at = self.offset(position)?;
         if self.source.get(at..).is_some_and(|rest| rest.starts_with(expected)) {
@@ -172,7 +177,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes a call behind the `{` of a block.
+    /// Inserts a call after the `{` of a block.
     fn call_first(&mut self, block: Position, call: String) {
         if let Some(at) = self.offset_of(block, "{") {
             self.insertions.push((at + 1, at + 1, call));
@@ -254,7 +259,8 @@ impl Writer<'_> {
         }
     }
 
-    /// What is assigned into a list or map. Of the names that a text spells out there are not many.
+    /// Handles a value assigned into a list or map. A script names only few of them, so these calls
+    /// are few.
     fn stored(&mut self, place: &Expr, operator: Position, value: &Expr) {
         self.value(value);
         let spelled = links(place).1.iter().all(|step| matches!(step, Link::Property(_)));
@@ -270,7 +276,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The target of an assignment: a text that becomes a name of a map is stored.
+    /// Handles the target of an assignment. A string that becomes a key of a map is stored.
     fn place(&mut self, expr: &Expr) {
         let (_, steps) = links(expr);
         for step in steps {
@@ -285,12 +291,12 @@ impl Writer<'_> {
         }
     }
 
-    /// A value that is read as a whole.
+    /// Handles a value that is read as a whole.
     fn value(&mut self, expr: &Expr) {
         self.value_from(expr, Class::Squad);
     }
 
-    /// A value that is counted from a class on.
+    /// Counts a value from a class on.
     fn value_from(&mut self, expr: &Expr, least: Class) {
         if closure(expr).is_some() {
             self.closure(expr);
@@ -308,7 +314,7 @@ impl Writer<'_> {
                         self.count(start, start + "this".len());
                     }
                 }
-                // A list of players is made for who asks.
+                // Reading a list of players creates a new one.
                 Expr::Dot(..) | Expr::Index(..) if self.class(expr) > Class::Squad => self.chain_value(expr),
                 _ => {}
             }
@@ -316,7 +322,8 @@ impl Writer<'_> {
         self.inside(expr);
     }
 
-    /// What is reckoned with a number, or put behind a text: a list or map fails there, and a caught error is counted.
+    /// Handles an operand of a number or a string. A list or map fails there, and a caught error is
+    /// counted.
     fn operand(&mut self, expr: &Expr) {
         match expr {
             Expr::Coalesce(list, _) => list.iter().for_each(|item| self.operand(item)),
@@ -324,7 +331,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A closure that shares variables which may lead back to it.
+    /// Handles a closure that shares variables which may lead back to it.
     fn closure(&mut self, expr: &Expr) {
         let captured = closure(expr).map_or(&[][..], |(_, captured)| captured);
         if captured.iter().all(|variable| self.class(variable) <= Class::Text) {
@@ -342,7 +349,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A chain that ends in a part of a list or map.
+    /// Handles a chain that ends in a part of a list or map.
     fn chain_value(&mut self, expr: &Expr) {
         let (root, _) = links(expr);
         let Some(end) = self.chain_end(expr) else { return };
@@ -350,13 +357,13 @@ impl Writer<'_> {
             Expr::FnCall(call, _) => call.op_token.is_none(),
             _ => matches!(root, Expr::Variable(..) | Expr::ThisPtr(_) | Expr::Array(..) | Expr::Map(..)),
         };
-        // What an operator made is nobody else's.
+        // An operator's result isn't shared.
         if begins && let Some(start) = self.offset(root.position()) {
             self.count(start, end);
         }
     }
 
-    /// The byte behind a chain; none where it ends in a call, whose value is nobody else's.
+    /// The byte after a chain; none if it ends in a call, whose result isn't shared.
     fn chain_end(&mut self, expr: &Expr) -> Option<usize> {
         let (mut last, mut here) = (None, expr);
         while let Expr::Dot(pair, options, position) | Expr::Index(pair, options, position) = here {
@@ -379,14 +386,14 @@ impl Writer<'_> {
         }
     }
 
-    /// What stands between the brackets that open at a place.
+    /// The range between the brackets that open at a place.
     fn brackets(&mut self, position: Position) -> Option<(usize, usize)> {
         let at = self.offset(position)?;
         let open = at + self.source.get(at..)?.find('[')?;
         closing_bracket(self.source, open).map(|close| (open + 1, close))
     }
 
-    /// What an expression is made of.
+    /// Handles the parts of an expression.
     fn inside(&mut self, expr: &Expr) {
         match expr {
             Expr::Array(items, _) => items.iter().for_each(|item| self.value(item)),
@@ -420,14 +427,14 @@ impl Writer<'_> {
             for argument in &call.args {
                 match smallest {
                     Some(Class::Short) => self.operand(argument),
-                    // A text is taken out of another, wherever it stands.
+                    // Removing one string from another is counted wherever it stands.
                     _ => self.value_from(argument, if call.name == "-" { Class::Text } else { Class::Squad }),
                 }
             }
         } else if call.op_token.is_some() || own {
             call.args.iter().for_each(|argument| self.value(argument));
         } else {
-            // Rhai's functions may change their first argument where it lies.
+            // Rhai's functions may change their first argument in place.
             if let Some(first) = call.args.first() {
                 if call.name == "type_of" { self.value(first) } else { self.inside_or_closure(first) }
             }
@@ -435,7 +442,8 @@ impl Writer<'_> {
         }
     }
 
-    /// Arguments from the `first` on. What functions of Rhai are given is counted with their work.
+    /// Handles arguments from `first` on. Arguments of Rhai's functions are counted with their
+    /// work.
     fn arguments(&mut self, call: &FnCallExpr, first: usize) {
         let copied = self.walked || COPYING.contains(&call.name.as_str());
         let copied = copied || self.classes.own(&call.name, call.args.len()).is_some();
@@ -448,7 +456,7 @@ impl Writer<'_> {
         if closure(expr).is_some() { self.closure(expr) } else { self.inside(expr) }
     }
 
-    /// Nodes of a body without those of loops in it, which count for themselves.
+    /// The nodes of a body, without nested loops, which count for themselves.
     fn statements_nodes(&self, statements: &[Stmt]) -> usize {
         statements.iter().map(|statement| self.statement_nodes(statement)).sum()
     }
@@ -512,7 +520,8 @@ impl Writer<'_> {
         }
     }
 
-    /// The text with all that is written into it. Of what begins at one byte the longest comes first.
+    /// Builds the text with all insertions. Of those that begin at the same byte, the longest comes
+    /// first.
     fn written(mut self) -> (String, Edits) {
         self.insertions.sort_by_key(|(at, end, _)| (*at, at != end, usize::MAX - end));
         let mut text = String::with_capacity(self.source.len() + 32 * self.insertions.len());

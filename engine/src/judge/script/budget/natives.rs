@@ -1,6 +1,7 @@
-//! Rhai's own functions on lists, maps and texts, with their work counted.
+//! Rhai's own functions on lists, maps and strings, with their work counted.
 //!
-//! Each function is taken from Rhai unchanged and registered again with a wrapper that counts its arguments and result.
+//! Each function is taken from Rhai unchanged, and registered again with a wrapper that counts its
+//! arguments and result.
 
 use super::super::host::ARRAY_MAX;
 use super::{Failable, bytes_of, count_bytes};
@@ -13,11 +14,11 @@ use std::any::TypeId;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
-/// Parameters of a function, a letter each: a list, map, text, number, character, range (open or closed), function or
-/// anything.
+/// Parameters of a function, one letter each: a list, map, string, number, character, range (open
+/// or closed), function or anything.
 type Letters = &'static str;
 
-/// Functions by their names, with the parameters they come with.
+/// Functions by name, with their signatures.
 const TABLE: &[(&str, &[Letters])] = &[
     ("!=", &["AA", "MM"]),
     ("+", &["AA", "AS", "MM", "MS", "SD", "FS", "CS", "CC"]),
@@ -95,19 +96,19 @@ const TABLE: &[(&str, &[Letters])] = &[
     ("zip", &["AAF"]),
 ];
 
-/// Functions that look at a part of what they are called on.
+/// Functions that read only a part of the value they are called on.
 const LIGHT: &[&str] = &["get", "get$is_empty", "get$len", "is_empty", "len", "pop", "push", "set", "clear"];
-/// How much less they do.
+/// The factor by which their work is smaller.
 const LIGHT_SHARE: usize = 8;
-/// Elements of a list that are looked at one by one.
+/// Lists up to this length are read element by element.
 const SHORT_LIST: usize = 32;
-/// Bytes that such a function counts for on a longer list, whatever is in it.
+/// Bytes that such a function counts as on a longer list, whatever its elements are.
 const LOOK_BYTES: usize = 4_096;
 
-/// Functions that look at each element of a list as often as its length halves.
+/// Functions that read each element about log₂ of the length times.
 const SORTING: &[&str] = &["order", "order_by", "order_desc", "sort", "sort_by", "sort_desc"];
 
-/// Functions that take longer than a copy: they search texts, or write values out.
+/// Functions that take longer than a copy: they search strings, or print values.
 const LONG: &[&str] = &[
     "-",
     "-=",
@@ -124,17 +125,17 @@ const LONG: &[&str] = &[
     "to_json",
     "to_string",
 ];
-/// How much longer.
+/// The factor by which they take longer.
 const LONG_TIMES: usize = 4;
-/// Functions that put a text together from its characters, with how many they are given.
+/// Functions that build a string from single characters, with their number of arguments.
 const BY_LETTER: &[(&str, usize)] = &[("crop", 2), ("crop", 3), ("pop", 2), ("set", 3)];
-/// How much longer than a copy that takes.
+/// The factor by which that takes longer than a copy.
 const BY_LETTER_TIMES: usize = 64;
 
-/// A function as Rhai calls it.
+/// The signature of a function in Rhai.
 type Native = dyn Fn(Option<NativeCallContext>, &mut [&mut Dynamic]) -> RhaiResult + Send + Sync;
 
-/// Registers the functions of the table, as `plain` has them.
+/// Registers the functions of the table, as they are in `plain`.
 pub(in super::super) fn register(engine: &mut Engine, plain: &Engine) {
     let mut module = Module::new();
     for &(name, all) in TABLE {
@@ -148,10 +149,10 @@ pub(in super::super) fn register(engine: &mut Engine, plain: &Engine) {
     engine.register_global_module(module.into());
 }
 
-/// A function of Rhai's, found by calling it with nothing worth mentioning.
+/// Finds a function of Rhai by calling it with trivial arguments.
 fn find(engine: &Engine, name: &str, letters: Letters) -> Option<RhaiFunc> {
     let mut caches = Caches::new();
-    // What is called once isn't kept.
+    // Rhai doesn't cache the first call.
     for _ in 0..2 {
         let mut values: Vec<Dynamic> = letters.bytes().map(sample).collect();
         let mut arguments: Vec<&mut Dynamic> = values.iter_mut().collect();
@@ -190,7 +191,7 @@ fn sample(letter: u8) -> Dynamic {
     }
 }
 
-/// The same function, its work counted.
+/// Wraps a function so that its work is counted.
 fn counted(name: &'static str, function: RhaiFunc) -> RhaiFunc {
     let (is_pure, is_volatile) = (function.is_pure(), function.is_volatile());
     let is_method = function.is_method();
@@ -223,7 +224,7 @@ fn count_given(name: &str, arguments: &[&mut Dynamic], at: Position) -> Failable
     }
     let list = first.read_lock::<Array>();
     bytes += match &list {
-        // What its length costs is the look that Rhai takes at whatever was changed.
+        // Long lists cost time because Rhai checks the size of whatever was changed.
         Some(list) if LIGHT.contains(&name) && list.len() > SHORT_LIST => {
             LOOK_BYTES + size_of::<Dynamic>() * list.len() / LIGHT_SHARE
         }
@@ -239,13 +240,13 @@ fn count_given(name: &str, arguments: &[&mut Dynamic], at: Position) -> Failable
     } else if first.is_string() && BY_LETTER.contains(&(name, arguments.len())) {
         bytes *= BY_LETTER_TIMES;
     }
-    // What is put in over and over is a value of many bytes and few arguments.
+    // A repeated insertion makes a large value from few arguments.
     match (name, &list, rest) {
         ("pad", Some(list), [length, item]) => {
             let length = usize::try_from(length.as_int().unwrap_or_default()).unwrap_or_default();
             bytes += bytes_of(item, at)? * length.min(ARRAY_MAX).saturating_sub(list.len());
         }
-        // The name of a function, looked for at each element.
+        // The function's name is looked up for each element.
         (_, Some(list), [name]) if name.is_string() => {
             bytes += list.len() * name.read_lock::<ImmutableString>().map_or(0, |name| name.len());
         }
@@ -258,7 +259,7 @@ fn count_given(name: &str, arguments: &[&mut Dynamic], at: Position) -> Failable
     count_bytes(bytes, at)
 }
 
-/// Whether a value holds others.
+/// Whether a value contains others.
 fn is_whole(value: &Dynamic) -> bool {
     value.is_array() || value.is_map()
 }

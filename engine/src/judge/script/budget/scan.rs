@@ -1,6 +1,7 @@
-//! Where expressions end in a script's text, which Rhai's syntax tree doesn't tell.
+//! Finds the ends of expressions in a script's text, which Rhai's syntax tree doesn't contain.
 
-/// The byte behind an expression: where a bracket closes that didn't open in it, or a `,` or `;` stands outside any.
+/// The byte after an expression: at a closing bracket that didn't open in it, or at a `,` or `;`
+/// outside any.
 pub(super) fn expression_end(text: &str, start: usize) -> usize {
     end_of(text, start, |byte| matches!(byte, b',' | b';'))
 }
@@ -38,7 +39,7 @@ fn end_of(text: &str, start: usize, stops: impl Fn(u8) -> bool) -> usize {
     bytes.len()
 }
 
-/// Behind a text in quotes.
+/// The byte after a string in quotes.
 fn quote_end(bytes: &[u8], start: usize) -> usize {
     let quote = bytes[start];
     let mut at = start + 1;
@@ -52,7 +53,7 @@ fn quote_end(bytes: &[u8], start: usize) -> usize {
     bytes.len()
 }
 
-/// Behind a text in backticks, whose `${…}` hold expressions.
+/// The byte after a string in backticks, whose `${…}` hold expressions.
 fn interpolated_end(text: &str, start: usize) -> usize {
     let bytes = text.as_bytes();
     let mut at = start + 1;
@@ -66,7 +67,8 @@ fn interpolated_end(text: &str, start: usize) -> usize {
     bytes.len()
 }
 
-/// Behind a text between `#"` and `"#` with as many `#`, or behind a `#` of something else.
+/// The byte after a string between `#"` and `"#` with as many `#`, or after a `#` of something
+/// else.
 fn raw_text_end(text: &str, start: usize) -> usize {
     let rest = &text[start..];
     let hashes = rest.bytes().take_while(|&byte| byte == b'#').count();
@@ -78,7 +80,7 @@ fn raw_text_end(text: &str, start: usize) -> usize {
     text[body..].find(&close).map_or(text.len(), |found| body + found + close.len())
 }
 
-/// Behind a comment, or behind a `/` of something else.
+/// The byte after a comment, or after a `/` of something else.
 fn comment_end(text: &str, start: usize) -> usize {
     let rest = &text[start..];
     if rest.starts_with("//") {

@@ -4,19 +4,19 @@ use super::super::host::EXPRESSION_DEPTH_MAX;
 use super::{Failable, Why, over};
 use rhai::{Array, Dynamic, EvalAltResult, FnPtr, ImmutableString, Map, Position};
 
-/// Bytes of the largest value. The bounds of lists, maps and texts allow less but for functions, whose arguments they
-/// don't see.
+/// Bytes of the largest value. The limits of lists, maps and strings allow less, but they don't see
+/// the arguments of functions.
 const VALUE_BYTES_MAX: usize = 1 << 20;
 
-/// Bytes of a value itself, as it lies in a list.
+/// Bytes of a value itself, in a list.
 const VALUE_BYTES: usize = 16;
-/// Bytes of a list, text, function or thing of the match beside what it holds: what has a place of its own on the heap
-/// takes as long to copy as so many bytes of a list.
+/// Extra bytes of a list, string, function or thing of the match. A separate heap allocation takes
+/// as long to copy as this many bytes of a list.
 const BOX_BYTES: usize = 112;
-/// Bytes of an entry of a map beside its name and value.
+/// Extra bytes of a map's entry, besides its name and value.
 const ENTRY_BYTES: usize = 64;
 
-/// The bytes of a value that is used at a place, all in all.
+/// Computes the total bytes of a value used at a place.
 ///
 /// # Errors
 /// It is larger than [`VALUE_BYTES_MAX`], nested too deeply, or being changed.
@@ -74,7 +74,7 @@ impl Size {
     }
 }
 
-/// A value with copies of its own of whatever it shares; its size has been looked at.
+/// Copies a value together with everything it shares; its size has been checked.
 pub(super) fn unshared(value: &Dynamic) -> Dynamic {
     if let Some(list) = value.read_lock::<Array>() {
         return list.iter().map(unshared).collect::<Array>().into();

@@ -1,8 +1,8 @@
-//! The names a script uses.
+//! Checks the names that a script uses.
 //!
-//! A name is checked against what it belongs to as far as that is plain from the text: chains that begin at a hook's
-//! arguments, at a loop over players or events, or at a `let` of such a chain. Any other name must at least be one that
-//! the interface or the script itself knows.
+//! A name is checked against its subject as far as the text shows it: for chains that begin at a
+//! hook's arguments, at a loop over players or events, or at a `let` of such a chain. Any other
+//! name must at least be known to the interface or to the script itself.
 
 use super::super::DONE;
 use super::super::api::{Subject, function, functions, members};
@@ -12,15 +12,15 @@ use rhai::{AST, ASTFlags, ASTNode, Expr, FnCallExpr, Position, Stmt};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier};
 use std::collections::BTreeMap;
 
-/// The agent's own player, whom only rewards and behaviours have.
+/// The agent's own player, which only rewards and behaviours have.
 const ME: &str = "me";
 
-/// What is known of a script's names.
+/// What is known about a script's names.
 pub(super) struct Names<'a> {
     source: &'a str,
-    /// What variables hold; `None` where the text doesn't tell, or tells twice.
+    /// What variables hold; `None` if the text doesn't show it, or is ambiguous.
     variables: BTreeMap<String, Option<Subject>>,
-    /// Keys of maps and of `this` that the script itself makes.
+    /// Keys of maps and of `this` that the script itself creates.
     keys: Vec<String>,
     /// Names and numbers of arguments.
     own_functions: Vec<(String, usize)>,
@@ -43,7 +43,7 @@ impl<'a> Names<'a> {
         for function in ast.iter_functions() {
             let subjects = if function.name == hook { hook_arguments(hook).unwrap_or_default() } else { &[] };
             for (at, parameter) in function.params.iter().enumerate() {
-                // A helper's parameter with an argument's name holds what the hook's does.
+                // A helper's parameter with the name of a hook's argument holds the same thing.
                 let by_name = hook_arguments(hook).unwrap_or_default().iter().find(|(name, _)| name == parameter);
                 let subject = subjects.get(at).or(by_name).map(|(_, subject)| *subject);
                 names.bind(parameter, subject);
@@ -63,7 +63,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// First pass: what the script itself names.
+    /// The first pass: collects what the script itself names.
     fn learn(&mut self, path: &[ASTNode]) {
         match path.last() {
             Some(ASTNode::Stmt(Stmt::Var(var, ..))) => {
@@ -78,7 +78,7 @@ impl<'a> Names<'a> {
                 }
             }
             Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
-                // An assigned variable may hold anything from here on.
+                // From here on an assigned variable may hold anything.
                 if let Expr::Variable(variable, ..) = &assignment.1.lhs {
                     self.bind(&variable.1, None);
                 }
@@ -109,7 +109,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Second pass: every chain and call, from its beginning.
+    /// The second pass: checks every chain and call, from its beginning.
     pub(super) fn visit(&mut self, path: &[ASTNode]) {
         let Some(ASTNode::Expr(expr)) = path.last() else {
             match path.last() {
@@ -138,7 +138,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// A call by a known name, with as many arguments as it takes.
+    /// Checks the name of a call and its number of arguments.
     fn check_call(&mut self, call: &FnCallExpr, method: bool, position: Position) {
         let name = call.name.as_str();
         let word = name.chars().all(|c| c.is_alphanumeric() || c == '_');
@@ -148,7 +148,7 @@ impl<'a> Names<'a> {
         let mut own: Vec<usize> = self.own_functions.iter().filter(|own| own.0 == name).map(|own| own.1).collect();
         own.sort_unstable();
         if !own.is_empty() {
-            // What stands before the dot is the function's `this`.
+            // The value before the dot is the function's `this`.
             if !own.contains(&call.args.len()) {
                 let help = format!("it is defined with {}", spelled(&own));
                 self.push(position, arity(name, &own, call.args.len()), Some(help));
@@ -173,7 +173,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The words of `count`: an event, a team.
+    /// Checks the words of `count`: an event, a team.
     fn check_words(&mut self, words: &[Expr]) {
         let events: Vec<&str> = EventKind::ALL.iter().map(|kind| kind.name()).collect();
         for (noun, word, known) in [("event", words.first(), &events[..]), ("team", words.get(1), &["us", "them"])] {
@@ -191,7 +191,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The match can be looked at, not changed.
+    /// Reports assignments to the match, which can be read but not changed.
     fn check_assignment(&mut self, assigned: &Expr) {
         let mut root = assigned;
         while let Expr::Dot(pair, ..) | Expr::Index(pair, ..) = root {
@@ -232,7 +232,8 @@ impl<'a> Names<'a> {
         self.faults.push(ScriptFault { kind: ScriptFaultKind::Name, range, message, help });
     }
 
-    /// What an expression gives, as far as the text tells; names it can't have are handed to `unknown`.
+    /// The subject of an expression, as far as the text shows it. Names that it can't have are
+    /// passed to `unknown`.
     fn subject(&self, expr: &Expr, unknown: &mut Unknown<'_>) -> Option<Subject> {
         match expr {
             Expr::Variable(variable, ..) => self.variables.get(variable.1.as_str()).copied().flatten(),
@@ -249,7 +250,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Goes on along a chain: `rhs` is what stands after the dot.
+    /// Continues along a chain; `rhs` is what follows the dot.
     fn chain(&self, of: Option<Subject>, rhs: &Expr, unknown: &mut Unknown<'_>) -> Option<Subject> {
         match rhs {
             Expr::Property(property, position) => self.property(of, &property.2, *position, unknown),
@@ -265,7 +266,8 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Goes on behind an index: without a break, the rest of the chain hangs on the index expression.
+    /// Continues after an index. Unless the chain is broken, the rest of it hangs on the index
+    /// expression.
     fn indexed(&self, of: Option<Subject>, rhs: &Expr, flags: ASTFlags, unknown: &mut Unknown<'_>) -> Option<Subject> {
         let of = element(of);
         match rhs {
@@ -319,7 +321,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// How many arguments a function takes, and how many it was given.
+/// Says how many arguments a function takes, and how many it got.
 fn arity(name: &str, takes: &[usize], found: usize) -> String {
     let noun = if takes == [1] { "argument" } else { "arguments" };
     format!("`{name}` takes {} {noun}, found {found}", spelled(takes))
@@ -329,10 +331,10 @@ fn spelled(numbers: &[usize]) -> String {
     numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ")
 }
 
-/// Takes a name that its subject doesn't have.
+/// Receives a name that its subject doesn't have.
 type Unknown<'a> = dyn FnMut(Option<Subject>, &str, Position) + 'a;
 
-/// What an array's elements are.
+/// The subject of an array's elements.
 fn element(of: Option<Subject>) -> Option<Subject> {
     match of {
         Some(Subject::Players) => Some(Subject::Player),

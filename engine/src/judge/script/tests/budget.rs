@@ -5,7 +5,8 @@ use crate::judge::script::budget::count_copies;
 use cpu_time::ThreadTime;
 use std::time::Duration;
 
-/// Far more than a call takes, far less than it took when only the number of operations was counted.
+/// Much longer than a call takes now, much shorter than when only the number of operations was
+/// counted.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// What `docs/language/script.md` promises.
 const MEMORY_BYTES: u64 = 64 << 20;
@@ -26,7 +27,7 @@ fn call(body: &str, memory: &mut Memory) -> Result<f64, ScriptError> {
     scripts.reward(0, &scene(&[]), perspective, &[], memory)
 }
 
-/// A call that goes on as long as it may.
+/// A call that runs for as long as it may.
 fn endless(body: &str) -> ScriptError {
     let begun = ThreadTime::now();
     let failed = call(body, &mut Memory::default()).expect_err(body);
@@ -106,7 +107,7 @@ fn what_is_spent_on_sizes_has_its_place() {
     let words =
         "more than 200000 operations in one call: work on values counts by their size, 256 bytes to an operation";
     assert_eq!((failed.line, failed.column, failed.message.as_str()), (HELPERS.lines().count() + 4, 13, words));
-    // Nor can it be caught.
+    // Catching doesn't help either.
     endless(&format!("{LIST}loop {{ try {{ loop {{ let b = a; }} }} catch {{ }} }}"));
 }
 
@@ -122,7 +123,7 @@ fn places_are_the_authors() {
     }
 }
 
-/// What a hook makes is bounded, and freed when its call is over.
+/// What a hook creates is bounded, and freed when its call is over.
 #[test]
 fn memory_is_bounded_and_nothing_is_left() {
     for body in [
@@ -150,7 +151,7 @@ fn memory_is_bounded_and_nothing_is_left() {
         "let a = #{}; a.f = || a; a.to_debug()",
         "let a = #{}; a.f = || a; a.to_json()",
     ] {
-        // What Rhai keeps for good, it has.
+        // Lets Rhai allocate first what it keeps forever.
         let _ = call(body, &mut Memory::default());
         let counted = allocation_counter::measure(|| {
             let mut memory = Memory::default();
@@ -166,7 +167,7 @@ fn memory_is_bounded_and_nothing_is_left() {
     }
 }
 
-/// A function that is kept has its own copies of what it shared, so that no two episodes share a variable.
+/// A kept function has its own copies of what it shared, so that no two episodes share a variable.
 #[test]
 fn what_is_kept_shares_nothing() {
     let scripts = scripts(
@@ -199,7 +200,7 @@ fn remembered_steps_are_bounded() {
     assert!(message.starts_with(&format!("`this` holds what was shown in more than {at} steps")), "{message}");
 }
 
-/// What scripts usually do has room: lists of thousands, pairs of players, a race through a text.
+/// Typical scripts have enough budget: lists of thousands, pairs of players, a loop over a string.
 #[test]
 fn ordinary_work_has_room() {
     for body in [
@@ -220,7 +221,7 @@ fn ordinary_work_has_room() {
     }
 }
 
-/// Hooks that hold numbers and players are left as they are.
+/// Hooks that hold only numbers and players are unchanged.
 #[test]
 fn plain_scripts_stay_as_they_are() {
     let counted = |source: &str| count_copies(source, &host::read(source).unwrap()).unwrap().0;

@@ -9,7 +9,7 @@ from setpiece.gfootball.env.player_base import PlayerBase
 
 
 class Player(PlayerBase):
-    """Plays what it was last told to."""
+    """Plays the last action that was set."""
 
     def __init__(self, player_config: dict[str, Any], env_config: Any) -> None:  # noqa: ARG002
         super().__init__(player_config)
@@ -17,12 +17,12 @@ class Player(PlayerBase):
 
     def set_action(self, action: Any) -> None:
         """Takes one action, or a sequence with one for each player."""
-        # A NumPy array of no dimension is one action.
+        # A zero-dimensional NumPy array is one action.
         one = not hasattr(action, "__len__") or getattr(action, "ndim", 1) == 0
         self._action = [action] if one else [*action]
 
     def take_action(self, observations: list[dict[str, Any]]) -> Any:
-        """Returns the actions; `ActionError` where there is not one for each player."""
+        """Returns the actions; raises `ActionError` unless there is one for each player."""
         if len(self._action) != len(observations):
             raise ActionError(f"expected {len(observations)} actions, found {len(self._action)}")
         return self._action

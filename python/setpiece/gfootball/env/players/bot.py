@@ -1,4 +1,4 @@
-"""A simple attacker: runs at the goal, shoots near it, and passes or sidesteps when somebody is in the way."""
+"""A simple attacker: runs at goal, shoots near it, and passes or sidesteps opponents."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from setpiece.gfootball.env.football_action_set import CoreAction
 from setpiece.gfootball.env.player_base import PlayerBase
 
 GOAL = np.array([0.85, 0.0])
-"""Where it runs."""
+"""The point it runs to."""
 SHOOTING = 0.15
 """Distance from there at which it shoots."""
 IN_THE_WAY = 0.08
-"""Distance at which an opponent ahead has to be passed."""
+"""Distance at which it must pass an opponent ahead."""
 MATE = 0.3
 """Reach of its passes."""
 
-# Clockwise as one looks at the picture, from straight ahead: y grows downwards.
+# Clockwise in the picture, from straight ahead: y grows downwards.
 _COMPASS = (
     actions.action_right,
     actions.action_bottom_right,
@@ -60,7 +60,7 @@ class Player(PlayerBase):
         return [self._next(observations[0])]
 
     def _next(self, seen: dict[str, Any]) -> CoreAction:
-        """What to do, in the frame in which its own team attacks towards +x."""
+        """The next action, in the frame in which its own team attacks towards +x."""
         if seen["active"] == -1:
             return actions.action_idle
         if seen["game_mode"] != 0:
@@ -81,13 +81,13 @@ class Player(PlayerBase):
         mate = _best_mate(seen, me)
         if mate is None:
             return _aside(me, ahead)
-        # It looks at him first, and passes in the step after that.
+        # It faces the teammate first, and passes in the next step.
         self._turned = not self._turned
         return _towards(mate - me) if self._turned else actions.action_short_pass
 
 
 def _towards(way: NDArray[np.float64]) -> CoreAction:
-    """The direction, of the eight, that is nearest to a way."""
+    """The one of the eight directions nearest to a vector."""
     return _COMPASS[round(float(np.arctan2(way[1], way[0])) / (np.pi / 4)) % 8]
 
 
@@ -104,7 +104,7 @@ def _nearest_ahead(me: NDArray[np.float64], team: NDArray[np.float64]) -> NDArra
 
 
 def _best_mate(seen: dict[str, Any], me: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """The mate within reach who is freest and nearest to the goal."""
+    """The teammate within reach who is most free and nearest to the goal."""
     best, best_value = None, 0.0
     for number, mate in enumerate(seen["left_team"]):
         if number == seen["active"] or not seen["left_team_active"][number] or np.linalg.norm(mate - me) > MATE:

@@ -1,4 +1,4 @@
-"""Players whom the engine's own bot plays."""
+"""Players controlled by the engine's own bot."""
 
 from __future__ import annotations
 

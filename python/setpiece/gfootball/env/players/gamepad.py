@@ -1,4 +1,4 @@
-"""A person at the gamepad: needs a window, which this version has not."""
+"""A person with a gamepad: needs a window, which isn't supported in this version."""
 
 from __future__ import annotations
 

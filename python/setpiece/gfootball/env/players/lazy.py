@@ -1,4 +1,4 @@
-"""Players who do nothing."""
+"""Players who don't move."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A policy trained by OpenAI's baselines: needs TensorFlow 1, which this version doesn't load."""
+"""A policy trained by OpenAI's baselines: needs TensorFlow 1, which isn't supported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Players who repeat what a dump says."""
+"""Players who repeat the actions of a dump."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from setpiece.gfootball.env.player_base import PlayerBase
 
 
 class Player(PlayerBase):
-    """Repeats the actions of a dump, `path`, from the place on that its first slot, `index`, has in it."""
+    """Repeats the actions of a dump, `path`, starting with those of its first slot, `index`."""
 
     def __init__(self, player_config: dict[str, Any], env_config: Any) -> None:  # noqa: ARG002
         super().__init__(player_config)
@@ -29,11 +29,11 @@ class Player(PlayerBase):
         self._can_play_right = True
 
     def reset(self) -> None:
-        """Begins the dump again."""
+        """Starts the dump again."""
         self._step = 0
 
     def take_action(self, observations: list[dict[str, Any]]) -> Any:
-        """Returns the actions of the next step; `ActionError` behind the dump's end."""
+        """Returns the actions of the next step; raises `ActionError` after the dump's end."""
         if self._step >= len(self._records):
             raise ActionError(f"`{self._path}` ends after {len(self._records)} steps")
         recorded = self._records[self._step]["debug"]["action"]

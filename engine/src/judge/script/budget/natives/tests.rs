@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// All letters.
 const ALL: &str = "AMSICRQFD";
 
-/// Whatever Rhai has for lists, maps and texts is in the table.
+/// Everything that Rhai has for lists, maps and strings is in the table.
 #[test]
 fn no_function_of_rhai_is_uncounted() {
     let plain = host::plain_engine();
@@ -30,7 +30,7 @@ fn no_function_of_rhai_is_uncounted() {
             }
             open = next;
         }
-        // A function that takes anything is found for whatever there is.
+        // A function that takes anything is found for every type.
         let all = known.clone();
         known.retain(|letters| {
             (1..letters.len()).all(|at| {

@@ -1,4 +1,4 @@
-//! What the bot does is told as actions, and who presses them plays about as the bot does.
+//! The bot's play is expressed as actions, and pressing them plays about as well as the bot.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use setpiece::engine::control::sticky;
@@ -36,7 +36,7 @@ fn all(environment: &Environment, action: Action) -> Vec<Action> {
     vec![action; environment.n_agents()]
 }
 
-/// Which share of the episodes succeeds where `act` plays the agents.
+/// The share of successful episodes if `act` plays the agents.
 fn success(name: &str, mut act: impl FnMut(u64, &Environment) -> Vec<Action>) -> f64 {
     let (mut environment, mut scratch) = (environment(name), Scratch::default());
     let mut won = 0;
@@ -51,7 +51,7 @@ fn success(name: &str, mut act: impl FnMut(u64, &Environment) -> Vec<Action>) ->
     f64::from(won) / EPISODES as f64
 }
 
-/// What is told of the bot that plays agent 0, by episode.
+/// The actions of the bot that plays agent 0, by episode.
 fn streams(name: &str) -> Vec<Vec<Action>> {
     let (mut environment, mut scratch) = (environment(name), Scratch::default());
     let mut streams = Vec::new();
@@ -84,10 +84,11 @@ fn what_is_recorded_of_a_bot_scores_as_it_does() {
 fn who_presses_what_the_bot_would_scores_about_as_it_does() {
     for (name, least) in [
         ("academy_empty_goal_close", 0.9),
-        // A shot asked for by key leaves later than a bot's, closer to the line.
+        // A shot requested by a key leaves later than a bot's, closer to the line.
         ("academy_empty_goal", 0.75),
         ("academy_run_to_score", 0.9),
-        // Before a keeper it tells that an agent's shots are softer than the bot's, and its kicks wait for the key.
+        // With a keeper it matters that an agent's shots are softer than the bot's, and that its
+        // kicks wait for the key.
         ("academy_3_vs_1_with_keeper", 0.2),
     ] {
         let bot = success(name, |_, environment| all(environment, Action::BuiltinAi));
@@ -97,26 +98,26 @@ fn who_presses_what_the_bot_would_scores_about_as_it_does() {
 }
 
 #[test]
-fn what_the_bot_would_press_is_what_is_told_when_it_plays() {
+fn what_the_bot_would_press_is_what_is_recorded_when_it_plays() {
     let (mut environment, mut scratch) = (written(THREE), Scratch::default());
     let (mut kicks, mut compared) = (0, 0);
     for index in 0..20 {
         environment.reset(Some(1), Some(index)).unwrap();
         while environment.is_running() {
             let before = environment.digest();
-            let told = environment.bot_actions();
+            let actions = environment.bot_actions();
             assert_eq!(environment.digest(), before, "asking changes nothing");
-            assert_eq!(environment.bot_action(1), Some(told[1]));
+            assert_eq!(environment.bot_action(1), Some(actions[1]));
             assert_eq!(environment.bot_action(3), None);
             let mut handed = environment.clone();
             handed.step(&all(&environment, Action::BuiltinAi), &mut scratch).unwrap();
-            for (slot, action) in handed.agents().iter().zip(&told) {
+            for (slot, action) in handed.agents().iter().zip(&actions) {
                 assert_eq!(handed.action_of(slot.player.unwrap()), Some(*action), "step {}", environment.steps());
                 assert_eq!(slot.sticky, 0, "handing over releases what is held");
                 kicks += u32::from(KICKS.contains(action));
                 compared += 1;
             }
-            environment.step(&told, &mut scratch).unwrap();
+            environment.step(&actions, &mut scratch).unwrap();
         }
     }
     assert!(kicks > 10 && compared > 500, "{kicks} of {compared}");
@@ -136,10 +137,10 @@ fn asking_with_behaviors_leaves_them_where_they_are() {
     asked.reset(Some(2), None).unwrap();
     unasked.reset(Some(2), None).unwrap();
     while asked.is_running() {
-        let told = asked.bot_action(0);
+        let action = asked.bot_action(0);
         asked.step(&[Action::BuiltinAi], &mut scratch).unwrap();
         unasked.step(&[Action::BuiltinAi], &mut scratch).unwrap();
-        assert_eq!((asked.action_of(PlayerId(0)), asked.digest()), (told, unasked.digest()));
+        assert_eq!((asked.action_of(PlayerId(0)), asked.digest()), (action, unasked.digest()));
     }
 }
 
@@ -149,7 +150,7 @@ fn a_bots_presses_are_a_stream() {
     environment.reset(Some(1), None).unwrap();
     let mut held = [0u16; 22];
     let mut kicked_at = [-100i32; 22];
-    let (mut told, mut again) = ([0u32; 20], 0);
+    let (mut actions, mut again) = ([0u32; 20], 0);
     for step in 0..1500i32 {
         environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
         for id in 0..22u8 {
@@ -161,14 +162,21 @@ fn a_bots_presses_are_a_stream() {
                 again += u32::from(step <= kicked_at[i] + 1);
                 kicked_at[i] = step;
             }
-            told[action.index()] += 1;
+            actions[action.index()] += 1;
         }
     }
-    let kicks: u32 = KICKS.iter().map(|kick| told[kick.index()]).sum();
-    // A key asks again at once only where its player has lost the ball and won it back.
+    let kicks: u32 = KICKS.iter().map(|kick| actions[kick.index()]).sum();
+    // A key is pressed again at once only if its player has lost the ball and won it back.
     assert!(again * 20 < kicks, "a kick is reported once: {again} of {kicks} again");
-    assert!(kicks > 20 && told[Action::Sprint.index()] > 50 && told[Action::BuiltinAi.index()] == 0, "{told:?}");
-    assert_eq!(told[Action::Idle.index()..].iter().sum::<u32>(), 22 * 1500, "everyone is told in every step");
+    assert!(
+        kicks > 20 && actions[Action::Sprint.index()] > 50 && actions[Action::BuiltinAi.index()] == 0,
+        "{actions:?}"
+    );
+    assert_eq!(
+        actions[Action::Idle.index()..].iter().sum::<u32>(),
+        22 * 1500,
+        "every player has an action in every step"
+    );
 }
 
 #[test]

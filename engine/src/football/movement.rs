@@ -112,7 +112,7 @@ fn is_at(player: &Player, ball: Vec2) -> bool {
     to_ball.length() < if straight { RIGHT_AT_M } else { AT_M }
 }
 
-/// Puts a player into his lane.
+/// Puts a player into their lane.
 fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool, now: i32) {
     let body = &player.body;
     (four.x[at], four.y[at]) = (player.pos.x, player.pos.y);

@@ -168,7 +168,7 @@ pub fn waits_at_ball(game: &Match, player: &Player) -> bool {
     game.last_touch.is_none() && to_ball.length_squared() < PUSH_OFF_M * PUSH_OFF_M
 }
 
-/// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as his kick.
+/// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as their kick.
 fn heads(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     let deep = player.pos.x * id.team().side() as f32 <= -25.0;

@@ -1,30 +1,34 @@
 //! Snapshots: a whole match as bytes, in the middle of whatever goes on, and back.
 //!
 //! A snapshot holds the match with its streams of random numbers, and what its judge and its scripted players remember:
-//! everything a later step depends on. It begins with a head (version, checksum), says what it is of (the scenario's
+//! everything a later step depends on. It begins with a [head](setpiece_scenario::container), says what it is of (the scenario's
 //! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
 //! last the episode around it, which only the same scenario can go on with.
 //!
 //! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible;
 //!   [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): no list may be endless.
-//! - [`file`]: the head.
 //!
 //! What a snapshot may be asked for stands with [`Environment`](crate::environment::Environment).
 
 mod archive;
 mod bounded;
 mod error;
-mod file;
 mod walk;
 
 pub use error::{SNAPSHOT_VERSION, SnapshotError};
-pub use file::{MAGIC, checksum};
 
 pub(crate) use archive::Archive;
 pub(crate) use bounded::bounded;
 
 use crate::state::Match;
 use serde::{Deserialize, Serialize};
+use setpiece_scenario::container::Container;
+
+/// Snapshots as files.
+pub const CONTAINER: Container = Container { mark: b"\x8bpitchs\n", version: SNAPSHOT_VERSION };
+
+/// Room for a match of eleven a side: bytes that outgrow their place are copied.
+const USUAL_BYTES: usize = 12 * 1024;
 
 /// What a snapshot is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,7 +55,7 @@ pub(crate) fn write(
     game: &Match,
     pass: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
 ) -> Result<Vec<u8>, SnapshotError> {
-    let mut archive = Archive::writing(file::begun());
+    let mut archive = Archive::writing(Container::begin(USUAL_BYTES));
     archive.put("about", about)?;
     archive.put("match", game)?;
     let scenes_at = archive.written();
@@ -64,7 +68,7 @@ pub(crate) fn write(
     shelf.pass_scenes(&mut scenes)?;
     let mut file = archive.into_bytes();
     file.splice(scenes_at..scenes_at, scenes.into_bytes());
-    Ok(file::sealed(file))
+    Ok(CONTAINER.seal(file))
 }
 
 /// A snapshot that is being read: up to its match it has been.
@@ -79,7 +83,7 @@ pub(crate) struct Opened<'a> {
 impl<'a> Opened<'a> {
     /// Reads a snapshot up to its match.
     pub(crate) fn of(bytes: &'a [u8]) -> Result<Opened<'a>, SnapshotError> {
-        let mut archive = Archive::reading(file::unwrap(bytes)?);
+        let mut archive = Archive::reading(CONTAINER.open(bytes)?);
         let (about, game) = (archive.read("about")?, archive.read("match")?);
         Ok(Opened { about, game, archive })
     }

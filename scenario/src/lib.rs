@@ -3,10 +3,11 @@
 //! Plain data. A [`Scenario`] holds everything an episode needs: the roster, the start (a [`Program`] that is run at
 //! every reset), rewards and endings (programs run at every step), scripts, and the parameters, which stay symbolic
 //! until a match binds them. [`vocabulary`] is the one home of every list that the language, the engine, the docs and
-//! Python share. [`file`](mod@file) is the versioned `.pitchc` format.
+//! Python share. [`file`](mod@file) is the versioned `.pitchc` format, [`container`] the head of all binary files.
 
 pub mod behavior;
 pub mod bounds;
+pub mod container;
 pub mod file;
 pub mod operators;
 pub mod params;

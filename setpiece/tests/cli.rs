@@ -162,8 +162,12 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
     let whole = std::fs::read_to_string(&compiled).unwrap();
     let cut = write(folder.path(), "cut.pitchc", &whole[..whole.len() / 2]);
     fails(&["run", &cut], 1, &["SP0007", "cut off"]);
-    let other = write(folder.path(), "other.pitchc", whole.replacen("\"version\":1", "\"version\":99", 1));
-    fails(&["run", &other], 1, &["SP0007", "version 99"]);
+    let written = format!("\"version\":{}", setpiece::scenario::FORMAT_VERSION);
+    for version in ["1", "99"] {
+        let other = whole.replacen(&written, &format!("\"version\":{version}"), 1);
+        let other = write(folder.path(), "other.pitchc", other);
+        fails(&["run", &other], 1, &["SP0007", &format!("version {version};")]);
+    }
     let changed = write(folder.path(), "changed.pitchc", whole.replacen("close", "klose", 1));
     fails(&["run", &changed], 1, &["SP0007", "checksum"]);
 }
@@ -570,7 +574,7 @@ fn imports_and_scripts_stay_below_the_root() {
             [scenario(&format!("import \"{path}\""), ""), scenario("", &format!("reward script \"{path}\" as \"r\""))]
         {
             let root = write(&inner, "root.pitch", text);
-            let said = fails(&["check", &root], 1, &[]) + &text_of(&["check", &root]);
+            let said = fails(&["check", &root], 1, &[]) + text_of(&["check", &root]).as_str();
             assert!(said.contains("lies outside of the scenario's folder"), "{path}: {said}");
             assert!(!said.contains("root:x"), "{path}: {said}");
         }

@@ -29,6 +29,7 @@ pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
 pub use view::{Memory, Sight, View};
 
 use crate::in_place::clone_in_place;
+use crate::judge::script::Shelf;
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
@@ -127,14 +128,14 @@ impl Judge {
     }
 
     /// Writes or reads an episode's memory; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         self.prev.pass("prev", self.memory, archive)?;
         if self.observation.is_some() {
             self.before.pass("before", self.memory, archive)?;
         }
-        self.known.pass(archive)?;
-        archive.part("endings", |archive| self.endings.pass(archive))?;
-        archive.part("rewards", |archive| self.rewards.pass(archive))?;
+        self.known.pass(archive, shelf)?;
+        archive.part("endings", |archive| self.endings.pass(archive, shelf))?;
+        archive.part("rewards", |archive| self.rewards.pass(archive, shelf))?;
         archive.part("records", |archive| self.records.pass(archive))
     }
 

@@ -49,7 +49,7 @@ pub(crate) struct About {
     pub(crate) bindings: Vec<f64>,
 }
 
-/// Writes a snapshot; `pass` hands over the episode around the match.
+/// Writes a snapshot; `pass` hands over the episode around the match, if there is one.
 pub(crate) fn write(
     about: &About,
     game: &Match,
@@ -58,17 +58,10 @@ pub(crate) fn write(
     let mut archive = Archive::writing(Container::begin(USUAL_BYTES));
     archive.put("about", about)?;
     archive.put("match", game)?;
-    let scenes_at = archive.written();
     if about.started {
         pass(&mut archive)?;
     }
-    // What scripts have kept leads to scenes: these come before.
-    let mut shelf = std::mem::take(&mut archive.shelf);
-    let mut scenes = Archive::writing(Vec::new());
-    shelf.pass_scenes(&mut scenes)?;
-    let mut file = archive.into_bytes();
-    file.splice(scenes_at..scenes_at, scenes.into_bytes());
-    Ok(CONTAINER.seal(file))
+    Ok(CONTAINER.seal(archive.into_bytes()))
 }
 
 /// A snapshot that is being read: up to its match it has been.
@@ -93,9 +86,6 @@ impl<'a> Opened<'a> {
         mut self,
         pass: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
     ) -> Result<(), SnapshotError> {
-        let mut shelf = std::mem::take(&mut self.archive.shelf);
-        shelf.pass_scenes(&mut self.archive)?;
-        self.archive.shelf = shelf;
         if self.about.started {
             pass(&mut self.archive)?;
         }

@@ -13,7 +13,7 @@ use crate::draw::Roster;
 use crate::in_place::clone_in_place;
 use crate::judge::known::{Given, Known};
 use crate::judge::machine::{Crew, Input, Machine, Registers};
-use crate::judge::script::{ScriptError, Scripts};
+use crate::judge::script::{ScriptError, Scripts, Shelf};
 use crate::judge::view::{Sight, View};
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
@@ -95,14 +95,14 @@ impl Actors {
     }
 
     /// Writes or reads what they remember; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         if self.list.is_empty() {
             return Ok(());
         }
-        self.known.pass(archive)?;
+        self.known.pass(archive, shelf)?;
         archive.value("prev", &mut self.prev)?;
         archive.value("faults", &mut self.faults)?;
-        self.list.iter_mut().try_for_each(|actor| actor.pass(archive))
+        self.list.iter_mut().try_for_each(|actor| actor.pass(archive, shelf))
     }
 
     /// Chooses every scripted player's action: writes [`Acting::chosen`](crate::state::play::Acting) of the match.

@@ -2,7 +2,7 @@
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
-use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts, Shelf};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 use crate::state::event::{Event, Events};
@@ -71,10 +71,10 @@ impl EndingJudge {
     }
 
     /// Writes or reads what it remembers; on the way in [`Self::reset`] has come before.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         archive.slots("cells", &mut self.cells)?;
         for memory in &mut self.memories {
-            memory.pass("this", archive)?;
+            memory.pass("this", archive, shelf)?;
         }
         archive.value("faults", &mut self.faults)?;
         let mut at_start = self.at_start.map(|which| which as u32);

@@ -63,8 +63,8 @@ impl Known {
     }
 
     /// Writes or reads what scripts are shown; the rest is known since the episode began.
-    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        Shelf::pass("scene", &mut self.scene, archive)?;
+    pub(crate) fn pass(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+        shelf.pass("scene", &mut self.scene, archive)?;
         if self.scene.is_some() == self.scripted {
             return Ok(());
         }

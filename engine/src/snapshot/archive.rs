@@ -5,7 +5,6 @@
 
 use super::error::SnapshotError;
 use super::walk::{Found, walk};
-use crate::judge::script::Shelf;
 use postcard::ser_flavors::Flavor;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -14,8 +13,6 @@ use std::fmt;
 /// Values on their way to bytes or from them.
 pub(crate) struct Archive<'a> {
     way: Way<'a>,
-    /// What scripts were shown and have kept.
-    pub(crate) shelf: Shelf,
 }
 
 enum Way<'a> {
@@ -26,12 +23,12 @@ enum Way<'a> {
 impl<'a> Archive<'a> {
     /// To be written behind some bytes.
     pub(super) fn writing(bytes: Vec<u8>) -> Archive<'a> {
-        Archive { way: Way::Out(bytes), shelf: Shelf::default() }
+        Archive { way: Way::Out(bytes) }
     }
 
     /// To be read.
     pub(super) fn reading(bytes: &'a [u8]) -> Archive<'a> {
-        Archive { way: Way::In(bytes), shelf: Shelf::default() }
+        Archive { way: Way::In(bytes) }
     }
 
     /// Whether it is read.
@@ -39,12 +36,25 @@ impl<'a> Archive<'a> {
         matches!(self.way, Way::In(_))
     }
 
-    /// How many bytes there are so far.
-    pub(super) fn written(&self) -> usize {
-        match &self.way {
-            Way::Out(bytes) => bytes.len(),
-            Way::In(_) => 0,
+    /// Writes two parts in the other order than they are archived in: `first` is called when `second` has been, and
+    /// stands before it. They are read in the order in which they stand.
+    pub(crate) fn in_order<C>(
+        &mut self,
+        context: &mut C,
+        first: impl FnOnce(&mut C, &mut Self) -> Result<(), SnapshotError>,
+        second: impl FnOnce(&mut C, &mut Self) -> Result<(), SnapshotError>,
+    ) -> Result<(), SnapshotError> {
+        if self.is_reading() {
+            first(context, self)?;
+            return second(context, self);
         }
+        let mut behind = Archive::writing(Vec::new());
+        second(context, &mut behind)?;
+        first(context, self)?;
+        if let Way::Out(bytes) = &mut self.way {
+            bytes.extend_from_slice(&behind.into_bytes());
+        }
+        Ok(())
     }
 
     /// The bytes, with those that were there.

@@ -618,3 +618,19 @@ fn what_an_author_writes_does_not_steer_the_terminal() {
     let said = fails(&["check", "no\u{1B}[31msuch.pitch"], 1, &["SP0001"]);
     assert!(!said.contains('\u{1B}'), "{said:?}");
 }
+
+#[test]
+fn names_and_words_of_a_scenario_set_no_colours() {
+    let folder = folder();
+    let text = CLOSE.replace("ball at", "reward r\n    ball at");
+    let text =
+        format!("/// A \u{1b}[7mtitle\u{1b}[0m\n{text}\nreward r {{ give 0.1 as \"\u{1b}[31mred\u{1b}]0;x\u{7}\" }}\n");
+    let file = write(folder.path(), "loud.pitch", text);
+    let output = text_of(&["run", &file, "--color", "always", "--episodes", "2"]);
+    assert!(output.contains("␛[31mred") && output.contains("A ␛[7mtitle"), "{output}");
+    assert!(output.contains("\u{1b}[1mclose"), "the command's own styles are kept: {output}");
+    assert!(
+        !output.contains("\u{1b}[31mred") && !output.contains("\u{1b}[7m") && !output.contains('\u{7}'),
+        "{output}"
+    );
+}

@@ -29,6 +29,7 @@ pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
 pub use view::{Memory, Sight, View};
 
 use crate::in_place::clone_in_place;
+use crate::judge::script::Shelf;
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
@@ -126,15 +127,15 @@ impl Judge {
         self.records.reset(game, &input);
     }
 
-    /// Writes or reads an episode's memory. Before reading, [`Self::reset`] has been called.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads an episode's memory; on the way in [`Self::reset`] has come before.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         self.prev.archive("prev", self.memory, archive)?;
         if self.observation.is_some() {
             self.before.archive("before", self.memory, archive)?;
         }
-        self.known.archive(archive)?;
-        archive.part("endings", |archive| self.endings.archive(archive))?;
-        archive.part("rewards", |archive| self.rewards.archive(archive))?;
+        self.known.archive(archive, shelf)?;
+        archive.part("endings", |archive| self.endings.archive(archive, shelf))?;
+        archive.part("rewards", |archive| self.rewards.archive(archive, shelf))?;
         archive.part("records", |archive| self.records.archive(archive))
     }
 

@@ -1,32 +1,34 @@
 //! Snapshots: a whole match as bytes, at any moment, and back.
 //!
-//! A snapshot holds everything that later steps depend on: the match with its random streams, and
-//! the memory of its judge and of its scripted players. It has four parts. The header has a version
-//! and a checksum. Then comes what it belongs to (the scenario's digest, the rewards). The match
-//! follows; any scenario with the same roster can begin an episode from it. Last comes the episode
-//! around it, which only the same scenario can continue.
+//! A snapshot holds the match with its streams of random numbers, and what its judge and its scripted players remember:
+//! everything a later step depends on. It begins with a [head](setpiece_scenario::container), says what it is of (the scenario's
+//! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
+//! last the episode around it, which only the same scenario can go on with.
 //!
-//! - [`archive`]: writing and reading in one function; [`walk`](mod@walk): rejects impossible
-//!   numbers; [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): limits the
-//!   length of lists.
-//! - [`file`]: the header.
+//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible;
+//!   [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): no list may be endless.
 //!
 //! [`Environment`](crate::environment::Environment) offers what can be done with a snapshot.
 
 mod archive;
 mod bounded;
 mod error;
-mod file;
 mod walk;
 
 pub use error::{SNAPSHOT_VERSION, SnapshotError};
-pub use file::{MAGIC, checksum};
 
 pub(crate) use archive::Archive;
 pub(crate) use bounded::bounded;
 
 use crate::state::Match;
 use serde::{Deserialize, Serialize};
+use setpiece_scenario::container::Container;
+
+/// Snapshots as files.
+pub const CONTAINER: Container = Container { mark: b"\x8bpitchs\n", version: SNAPSHOT_VERSION };
+
+/// Room for a match of eleven a side: bytes that outgrow their place are copied.
+const USUAL_BYTES: usize = 12 * 1024;
 
 /// What a snapshot belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,26 +49,19 @@ pub(crate) struct About {
     pub(crate) bindings: Vec<f64>,
 }
 
-/// Writes a snapshot; `episode` writes the episode around the match.
+/// Writes a snapshot; `pass` hands over the episode around the match, if there is one.
 pub(crate) fn write(
     about: &About,
     game: &Match,
     episode: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
 ) -> Result<Vec<u8>, SnapshotError> {
-    let mut archive = Archive::writing(file::begun());
+    let mut archive = Archive::writing(Container::begin(USUAL_BYTES));
     archive.put("about", about)?;
     archive.put("match", game)?;
-    let scenes_at = archive.written();
     if about.started {
         episode(&mut archive)?;
     }
-    // Values that scripts have kept refer to scenes, so these come first.
-    let mut shelf = std::mem::take(&mut archive.shelf);
-    let mut scenes = Archive::writing(Vec::new());
-    shelf.archive_scenes(&mut scenes)?;
-    let mut file = archive.into_bytes();
-    file.splice(scenes_at..scenes_at, scenes.into_bytes());
-    Ok(file::sealed(file))
+    Ok(CONTAINER.seal(archive.into_bytes()))
 }
 
 /// A snapshot that has been read up to and including its match.
@@ -81,7 +76,7 @@ pub(crate) struct Opened<'a> {
 impl<'a> Opened<'a> {
     /// Reads a snapshot up to and including its match.
     pub(crate) fn of(bytes: &'a [u8]) -> Result<Opened<'a>, SnapshotError> {
-        let mut archive = Archive::reading(file::unwrap(bytes)?);
+        let mut archive = Archive::reading(CONTAINER.open(bytes)?);
         let (about, game) = (archive.read("about")?, archive.read("match")?);
         Ok(Opened { about, game, archive })
     }
@@ -91,9 +86,6 @@ impl<'a> Opened<'a> {
         mut self,
         episode: impl FnOnce(&mut Archive<'_>) -> Result<(), SnapshotError>,
     ) -> Result<(), SnapshotError> {
-        let mut shelf = std::mem::take(&mut self.archive.shelf);
-        shelf.archive_scenes(&mut self.archive)?;
-        self.archive.shelf = shelf;
         if self.about.started {
             episode(&mut self.archive)?;
         }

@@ -2,6 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::{Corpus, fuzz_target};
+use setpiece::scenario::container::checksum;
 use setpiece::scenario::file::{self, FormatError};
 use setpiece_fuzz::choice::Choices;
 use setpiece_fuzz::{edit, game, seed};
@@ -48,9 +49,9 @@ fn begin() {
 fn with_checksum(body: &str) -> Result<setpiece::scenario::Scenario, FormatError> {
     // As the file's reader sees it: without surrounding blanks.
     let body = body.trim_matches([' ', '\t', '\r', '\n']);
-    let checksum = file::fnv1a(body.as_bytes());
+    let checksum = checksum(body.as_bytes());
     file::from_json(&format!(
-        "{{\"format\":\"setpiece scenario\",\"version\":{},\"checksum\":\"{checksum:016x}\",\"scenario\":{body}}}",
+        "{{\"format\":\"setpiece scenario\",\"version\":{},\"checksum\":\"{checksum:08x}\",\"scenario\":{body}}}",
         file::FORMAT_VERSION
     ))
 }

@@ -4,19 +4,29 @@ use crate::figure::{Figure, Section};
 use crate::pitch::Failure;
 use crate::{agents, ball, explained, hands, matches, movement, page};
 
-/// The command's options.
-#[derive(Default)]
-struct Options {
+/// Options of `lab calibrate`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct CalibrateArgs {
+    /// Fail on a figure that is outside its limits and not explained
+    #[arg(long)]
     check: bool,
-    only: Option<u16>,
-    count: Option<u64>,
+    /// Write the measured sections into docs/calibration.md
+    #[arg(long)]
     write: bool,
+    /// Measure one section: movement, ball, matches, agents, keys, the ladder
+    #[arg(long, value_name = "SECTION", value_parser = clap::value_parser!(u16).range(2..=7))]
+    only: Option<u16>,
+    /// Play this many episodes or matches for each figure
+    #[arg(long, value_name = "N")]
+    count: Option<u64>,
 }
 
-/// Runs `calibrate [--check] [--write] [--only SECTION] [--count N]`.
-pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
-    let options = options(args)?;
-    let wanted = |number: u16| options.only.is_none_or(|only| only == number);
+/// Measures, prints the sections and writes the page.
+pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<(), Failure> {
+    let wanted = |number: u16| args.only.is_none_or(|only| only == number);
+    // One has no spread.
+    let count = args.count.map(|count| count.max(2));
+    let whole = args.only.is_none() && args.count.is_none();
     let mut sections = Vec::new();
     for number in [2, 3, 4, 5, 6, 7] {
         if !wanted(number) {
@@ -25,37 +35,19 @@ pub(crate) fn calibrate(args: &[String]) -> Result<(), Failure> {
         let section = match number {
             2 => movement::measure(),
             3 => ball::measure(),
-            4 => matches::measure(options.count),
-            5 => agents::measure(options.count),
-            6 => hands::measure(options.count),
-            _ => matches::ladder(options.count),
+            4 => matches::measure(count),
+            5 => agents::measure(count),
+            6 => hands::measure(count),
+            _ => matches::ladder(count),
         }?;
         print!("{}", section.markdown());
         println!();
         sections.push(section);
     }
-    if options.write {
+    if args.write || whole {
         page::write(&sections)?;
     }
-    let whole = options.only.is_none() && options.count.is_none();
-    verdict(&sections, whole, options.check)
-}
-
-fn options(args: &[String]) -> Result<Options, Failure> {
-    let mut options = Options::default();
-    let mut args = args.iter();
-    while let Some(arg) = args.next() {
-        let mut number = || args.next().and_then(|n| n.parse::<u64>().ok()).ok_or(format!("`{arg}` wants a number"));
-        match arg.as_str() {
-            "--check" => options.check = true,
-            "--write" => options.write = true,
-            "--only" => options.only = Some(number()? as u16),
-            "--count" => options.count = Some(number()?.max(2)),
-            other => return Err(format!("no option `{other}`; there is --check, --write, --only SECTION, --count N")),
-        }
-    }
-    options.write |= options.only.is_none() && options.count.is_none();
-    Ok(options)
+    verdict(&sections, whole, args.check)
 }
 
 /// Rows outside, of all sections.

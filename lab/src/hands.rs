@@ -29,7 +29,7 @@ mod trace;
 mod turns;
 mod winning;
 
-pub(crate) use again::recorded;
+pub(crate) use again::{RecordedArgs, recorded};
 
 use crate::figure::Section;
 use crate::pitch::Failure;

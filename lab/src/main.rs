@@ -1,14 +1,4 @@
-//! The bench that measures the game.
-//!
-//! - `lab calibrate [--check] [--write] [--only SECTION] [--count N]` compares our figures with
-//!   those measured of Google Research Football. With `--write` it writes them to
-//!   `docs/calibration.md`; with sections named, only these.
-//! - `lab recorded FILE TRACES [--write | --add]` computes figures from `lab/record`'s traces of
-//!   that game, to compare with those in `lab/data/FILE`, or to replace them.
-//! - `lab soak [--steps N] [--seed S] [--from SCENARIO]` plays random scenarios and checks what
-//!   must be true of any match. A long run without a breach adds a line to `lab/soak.csv`.
-//!
-//! `cargo xtask calibrate` and `cargo xtask soak` build and call it.
+//! The bench on which the game is measured: `cargo xtask calibrate` and `cargo xtask soak` build and call it.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod agents;
@@ -23,19 +13,33 @@ mod page;
 mod pitch;
 mod soak;
 
+use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
+/// Measures the game.
+#[derive(Debug, Parser)]
+#[command(name = "lab")]
+struct Lab {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What is measured.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compare figures with those measured in Google Research Football; without SECTION or N, write docs/calibration.md
+    Calibrate(calibrate::CalibrateArgs),
+    /// Compare what lab/record saw of that game with a file of lab/data, or write it there
+    Recorded(hands::RecordedArgs),
+    /// Play random scenarios and check properties of every step; a long run adds a line to lab/soak.csv
+    Soak(soak::SoakArgs),
+}
+
 fn main() -> ExitCode {
-    let args: Vec<String> = std::env::args().skip(1).collect();
-    let result = match args.first().map(String::as_str) {
-        Some("calibrate") => calibrate::calibrate(&args[1..]),
-        Some("recorded") => hands::recorded(&args[1..]),
-        Some("soak") => soak::soak(&args[1..]),
-        _ => {
-            Err("lab calibrate [--check] [--write] [--only SECTION] [--count N] | lab recorded FILE TRACES [--write | --add] | \
-                  lab soak [--steps N] [--seed S] [--from SCENARIO]"
-                .to_owned())
-        }
+    let result = match Lab::parse().command {
+        Command::Calibrate(args) => calibrate::calibrate(&args),
+        Command::Recorded(args) => hands::recorded(&args),
+        Command::Soak(args) => soak::soak(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

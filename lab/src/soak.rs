@@ -53,17 +53,23 @@ impl Count {
 /// Breaches: the first case of each kind, and the number of cases.
 type Breaches = BTreeMap<String, (u64, Failure)>;
 
-/// The options of a run.
-struct Options {
+/// Options of `lab soak`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SoakArgs {
+    /// Play this many steps
+    #[arg(long, value_name = "N", default_value_t = STEPS)]
     steps: u64,
+    /// The seed of the scenarios
+    #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
-    /// The scenario to begin with, as named by a breach.
+    /// The scenario to begin with: the one that a breach has named
+    #[arg(long, value_name = "SCENARIO", default_value_t = 0)]
     from: u64,
 }
 
-/// Runs `soak [--steps N] [--seed S] [--from SCENARIO]`.
-pub(crate) fn soak(args: &[String]) -> Result<(), Failure> {
-    let Options { steps, seed, from } = options(args)?;
+/// Plays, and reports what has not held.
+pub(crate) fn soak(args: &SoakArgs) -> Result<(), Failure> {
+    let &SoakArgs { steps, seed, from } = args;
     let next = AtomicU64::new(from);
     let done = AtomicU64::new(0);
     let breaches = Mutex::new(Breaches::new());
@@ -103,22 +109,7 @@ fn kind_of(what: &str) -> String {
     what.chars().filter(|c| !c.is_ascii_digit() && !"-.,".contains(*c)).collect()
 }
 
-fn options(args: &[String]) -> Result<Options, Failure> {
-    let mut options = Options { steps: STEPS, seed: 0, from: 0 };
-    let mut args = args.iter();
-    while let Some(arg) = args.next() {
-        let number = args.next().and_then(|n| n.parse::<u64>().ok()).ok_or(format!("`{arg}` wants a number"));
-        match arg.as_str() {
-            "--steps" => options.steps = number?,
-            "--seed" => options.seed = number?,
-            "--from" => options.from = number?,
-            other => return Err(format!("no option `{other}`; there is --steps N, --seed S, --from SCENARIO")),
-        }
-    }
-    Ok(options)
-}
-
-/// How agents act in an episode.
+/// Who acts in an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Habit {
     /// Idle.

@@ -7,10 +7,11 @@ from contextlib import suppress
 from copy import deepcopy
 from dataclasses import replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import gymnasium
 import numpy as np
+from gymnasium import spaces
 from numpy.typing import NDArray
 
 from setpiece import _native
@@ -29,10 +30,11 @@ from setpiece._options import (
     check_snapshot,
     read_reset_options,
 )
-from setpiece._record import When, read_record, write
+from setpiece._record import Record, When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
 from setpiece._source import Source
-from setpiece._spaces import Layout, check_observation, check_scale, observation_layout
+from setpiece._spaces import Layout, check_observation, check_scale, observation_layout, observation_space
+from setpiece._state import state_space
 from setpiece._turn import Turn, one_thread
 
 if TYPE_CHECKING:
@@ -456,14 +458,6 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             )
         return match
 
-    def _cut(self, label: str, info: dict[str, Any]) -> None:
-        """Ends the episode by a limit of the caller's, and adds the summary to its last `info`."""
-        info.update(self._match.end(label, truncated=True))
-        if self._callbacks is not None:
-            info["setpiece"]["return"].update(self._callbacks.tally)
-        self._playing = False
-        self._sum_up(info)
-
     def _sum_up(self, info: dict[str, Any]) -> None:
         """Completes the summary of an episode that has ended."""
         summary = info["setpiece"]
@@ -508,3 +502,51 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def __str__(self) -> str:
         return repr(self)
+
+    def seats(self) -> Seats:
+        """Returns what `ParallelFootballEnv` needs of this environment, for this package alone.
+
+        From now on `reset` goes over only to scenarios with the same agents and as many players.
+        """
+        self._same_agents = True
+        return Seats(self)
+
+
+class Seats:
+    """The agents of an environment one by one: what its public methods don't say."""
+
+    def __init__(self, env: FootballEnv) -> None:
+        self._env = env
+        slots = env.slots
+        self.spaces: dict[str, spaces.Space[Any]] = {
+            slot.id: observation_space(env._native, env.observation, [slot]) for slot in slots
+        }
+        self.state_space = state_space(env._native.players)
+
+    @property
+    def playing(self) -> bool:
+        """Whether an episode is being played, so that `step` may be called."""
+        return self._env._playing
+
+    def sent_off(self) -> set[str]:
+        """Returns the ids of the agents whose players have been sent off."""
+        native = self._env._native
+        return {agent.id for agent, gone in zip(native.agents, native.gone, strict=True) if gone}
+
+    def refuse(self, why: str) -> NoReturn:
+        """Raises Gymnasium's `ResetNeeded`; of a closed environment, or in the middle of a step, the error for that."""
+        with self._env._turn:
+            raise gymnasium.error.ResetNeeded(why)
+
+    def truncate(self, label: str, info: dict[str, Any]) -> None:
+        """Ends the episode by a limit of the caller's, and adds the outcome to the `info` of its last step."""
+        env = self._env
+        info.update(env._match.end(label, truncated=True))
+        if env._callbacks is not None:
+            info["setpiece"]["return"].update(env._callbacks.tally)
+        env._playing = False
+        env._sum_up(info)
+
+    def record(self, record: Record, info: dict[str, Any]) -> str | None:
+        """Records the episode that has ended; returns where, if it is written."""
+        return record.end(self._env._native, self._env.scenario.name, info["score"])

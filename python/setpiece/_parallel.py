@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from os import PathLike
 from typing import Any
 
-import gymnasium
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
@@ -21,8 +20,8 @@ from setpiece._native import ACTION_SETS, Scenario
 from setpiece._options import RESET_OPTIONS
 from setpiece._record import Record
 from setpiece._rows import Picker, split_info
-from setpiece._spaces import Layout, observation_space, one_action_space
-from setpiece._state import state, state_space
+from setpiece._spaces import Layout, one_action_space
+from setpiece._state import state
 from setpiece._vocabulary import Action
 from setpiece._words import similar
 
@@ -63,21 +62,18 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         if max_cycles is not None and not integers(max_cycles, (), 2**31):
             raise ParameterError(f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles")
         self.env = env
-        env._same_agents = True
+        self._seats = env.seats()
         self.max_cycles = max_cycles
         self.metadata = {**env.metadata, "name": f"setpiece/{env.scenario.name}-v0", "is_parallelizable": True}
         self.render_mode = env.render_mode
         self.possible_agents = list(env.agents)
         self.agents = []
         self._n_actions = ACTION_SETS[env.action_set]
-        slots = {agent.id: agent for agent in env.slots}
-        self.observation_spaces = {
-            agent: observation_space(env._native, env.observation, [slots[agent]]) for agent in self.possible_agents
-        }
+        self.observation_spaces = {agent: self._seats.spaces[agent] for agent in self.possible_agents}
         self.action_spaces: dict[str, spaces.Space[Any]] = {
             agent: one_action_space(env.action_set) for agent in self.possible_agents
         }
-        self.state_space = state_space(env._native.players)
+        self.state_space = self._seats.state_space
         n_agents = len(self.possible_agents)
         self._pickers = {agent: Picker(n_agents, at) for at, agent in enumerate(self.possible_agents)}
         self._cycles = 0
@@ -118,7 +114,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         try:
             observation, info = self.env.reset(seed=seed, options=options)
         except SetpieceError:
-            if not self.env._playing:
+            if not self._seats.playing:
                 self.agents = []
             raise
         self._cycles = 0
@@ -131,22 +127,20 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         an invalid, missing or superfluous action; the episode is then unchanged.
         """
         if not self.agents:
-            # Taking the turn reports that it is closed; a `reset` wouldn't help then.
-            with self.env._turn:
-                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no agent is playing")
+            self._seats.refuse("call `reset` before `step`: no agent is playing")
         acting = self.agents
         observation, reward, terminated, truncated, info = self.env.step(self._joined(actions))
         self._cycles += 1
         if self.max_cycles is not None and self._cycles >= self.max_cycles and not (terminated or truncated):
             truncated = True
-            self.env._cut("max_cycles", info)
+            self._seats.truncate("max_cycles", info)
         infos = self._infos(info, acting)
         gone = self._gone()
         terminations = {agent: terminated or agent in gone for agent in acting}
         truncations = {agent: truncated and not terminations[agent] for agent in acting}
         self.agents = [agent for agent in acting if not (terminations[agent] or truncations[agent])]
         if self._record is not None and not self.agents:
-            replay = self._record.end(self.env._native, self.scenario.name, info["score"])
+            replay = self._seats.record(self._record, info)
             for one in infos.values():
                 one["setpiece"] = {**one.get("setpiece", {}), "replay": replay}
         paid = dict(zip(self.possible_agents, np.atleast_1d(reward).tolist(), strict=True))
@@ -211,8 +205,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
 
     def _gone(self) -> set[str]:
         """The agents whose players have been sent off."""
-        gone = dict(zip((agent.id for agent in self.env._native.agents), self.env._native.gone, strict=True))
-        return {agent for agent in self.possible_agents if gone[agent]}
+        return self._seats.sent_off().intersection(self.possible_agents)
 
     def _joined(self, actions: Any) -> Any:
         """Everyone's action, from those of the agents that are left."""

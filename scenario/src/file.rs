@@ -3,14 +3,15 @@
 
 pub mod binary;
 
+use crate::container::{HeadError, checksum};
 use crate::scenario::Scenario;
 use crate::verify::verify;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
-/// The version that this build reads and writes.
-pub const FORMAT_VERSION: u32 = 1;
-/// Largest file, bytes: more than the largest scenario needs, and small enough to read at once.
+/// The version this build reads and writes.
+pub const FORMAT_VERSION: u32 = 2;
+/// Largest file, bytes: more than the largest scenario needs, and little enough to be read whole.
 pub const FILE_MAX_BYTES: u64 = 16 << 20;
 /// The value of the field `format`.
 pub(crate) const FORMAT_NAME: &str = "setpiece scenario";
@@ -52,6 +53,19 @@ impl std::fmt::Display for FormatError {
 
 impl std::error::Error for FormatError {}
 
+impl From<HeadError> for FormatError {
+    fn from(error: HeadError) -> FormatError {
+        match error {
+            HeadError::Mark => {
+                FormatError::NotAScenario("it doesn't begin as `setpiece build --format bin` writes".into())
+            }
+            HeadError::Truncated => FormatError::Truncated,
+            HeadError::Version(found) => FormatError::Version(found),
+            HeadError::Checksum => FormatError::Checksum,
+        }
+    }
+}
+
 #[derive(Serialize)]
 struct Out<'a> {
     format: &'a str,
@@ -78,7 +92,7 @@ struct In<'a> {
 pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     let write = |error: serde_json::Error| FormatError::Write(error.to_string());
     let body = serde_json::to_string(scenario).map_err(write)?;
-    let checksum = format!("{:016x}", fnv1a(body.as_bytes()));
+    let checksum = written_checksum(&body);
     let raw = RawValue::from_string(body).map_err(write)?;
     let out = Out { format: FORMAT_NAME, version: FORMAT_VERSION, checksum, scenario: &raw };
     let file = serde_json::to_string(&out).map_err(write)?;
@@ -94,7 +108,7 @@ fn check_size(bytes: usize, fault: impl Fn(String) -> FormatError) -> Result<(),
     Err(fault(format!("it is larger than {} MiB", FILE_MAX_BYTES >> 20)))
 }
 
-/// A number that changes with any part of the scenario: the checksum of its file.
+/// A number that changes with anything in the scenario: snapshots name the scenario that they are of by it.
 ///
 /// # Errors
 /// [`FormatError::Write`] if a constant isn't finite.
@@ -128,7 +142,7 @@ pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
         return Err(FormatError::Version(version));
     }
     let body = envelope.scenario.ok_or(FormatError::Truncated)?.get();
-    if envelope.checksum.as_deref() != Some(format!("{:016x}", fnv1a(body.as_bytes())).as_str()) {
+    if envelope.checksum.as_deref() != Some(written_checksum(body).as_str()) {
         return Err(FormatError::Checksum);
     }
     let scenario: Scenario = serde_json::from_str(body).map_err(|error| FormatError::Corrupt(error.to_string()))?;
@@ -136,7 +150,12 @@ pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
     Ok(scenario)
 }
 
-/// FNV-1a, 64 bit: a checksum against accidents, not against malice ([`verify`] is for that).
+/// The checksum of a scenario's JSON, as its file says it.
+fn written_checksum(body: &str) -> String {
+    format!("{:08x}", checksum(body.as_bytes()))
+}
+
+/// FNV-1a, 64 bit: the hash of digests. Files have a [`checksum`] instead.
 pub fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }

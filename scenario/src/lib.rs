@@ -1,13 +1,13 @@
 //! The compiled scenario: the compiler writes it and the engine runs it.
 //!
-//! It is plain data. A [`Scenario`] holds everything that an episode needs: the roster; the start
-//! (a [`Program`] that runs at every reset); rewards and endings (programs that run in every step);
-//! scripts; and the parameters, which stay symbolic until a match binds them. [`vocabulary`] has
-//! every list that the language, the engine, the docs and Python share. [`file`](mod@file) is the
-//! versioned `.pitchc` format.
+//! Plain data. A [`Scenario`] holds everything an episode needs: the roster, the start (a [`Program`] that is run at
+//! every reset), rewards and endings (programs run at every step), scripts, and the parameters, which stay symbolic
+//! until a match binds them. [`vocabulary`] is the one home of every list that the language, the engine, the docs and
+//! Python share. [`file`](mod@file) is the versioned `.pitchc` format, [`container`] the head of all binary files.
 
 pub mod behavior;
 pub mod bounds;
+pub mod container;
 pub mod file;
 pub mod operators;
 pub mod params;

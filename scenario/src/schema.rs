@@ -29,7 +29,7 @@ pub fn schema() -> Value {
     let fields = [
         ("format", json!({ "const": crate::file::FORMAT_NAME })),
         ("version", json!({ "const": FORMAT_VERSION })),
-        ("checksum", json!({ "type": "string", "pattern": "^[0-9a-f]{16}$" })),
+        ("checksum", json!({ "type": "string", "pattern": "^[0-9a-f]{8}$" })),
     ];
     for (name, rule) in fields {
         let field = schema.pointer_mut("/properties").and_then(|all| all.get_mut(name)).and_then(Value::as_object_mut);

@@ -19,7 +19,7 @@ mod summary;
 use crate::Error;
 use crate::dsl::problem::Code;
 use clap::{Parser, Subcommand, ValueEnum};
-use out::Out;
+use out::{Out, StyledText};
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
@@ -229,7 +229,8 @@ fn list(out: &Out) -> u8 {
     let width = entries.iter().map(|entry| entry.name.len()).max().unwrap_or_default();
     for entry in entries {
         let [left, right] = entry.players;
-        out.line(&format!("{:width$}  {left:>2} v {right:<2}  {}", out.bold(&entry.name, width), entry.title));
+        let line = StyledText::default().bold(&format!("{:width$}", entry.name));
+        out.line(line.text(&format!("  {left:>2} v {right:<2}  {}", entry.title)));
     }
     FINE
 }
@@ -244,6 +245,6 @@ fn build(source: &OsStr, output: &std::path::Path, format: BuildFormat, out: &Ou
     };
     let bytes = written.map_err(|why| Error::Format { path: output.to_owned(), why })?;
     crate::files::write(output, &bytes)?;
-    out.line(&format!("{} → {} ({} bytes)", loaded.scenario.name, output.display(), bytes.len()));
+    out.line(format!("{} → {} ({} bytes)", loaded.scenario.name, output.display(), bytes.len()));
     Ok(FINE)
 }

@@ -28,11 +28,11 @@ const ROWS: usize = 19;
 /// Draws a match from above, without colours. Players of the left team are digits in source order,
 /// those of the right team are letters, and the ball is `o`.
 pub fn draw(game: &Match) -> String {
-    draw_painted(game, |sign, _| sign.to_string())
+    drawn(game).into_iter().map(|(sign, _)| sign).collect()
 }
 
-/// The same, with each sign painted by its meaning.
-pub fn draw_painted(game: &Match, paint_sign: impl Fn(char, Paint) -> String) -> String {
+/// The same sign by sign, each with what it stands for.
+pub fn drawn(game: &Match) -> Vec<(char, Paint)> {
     let mut cells = [[(' ', Paint::Plain); COLUMNS]; ROWS];
     markings(&mut cells);
     for team in Team::ALL {
@@ -46,18 +46,19 @@ pub fn draw_painted(game: &Match, paint_sign: impl Fn(char, Paint) -> String) ->
     }
     let (row, column) = cell(game.ball.pos.x, game.ball.pos.y);
     cells[row][column] = ('o', Paint::Ball);
-    let mut text = format!("  ┌{}┐\n", "─".repeat(COLUMNS));
+    let plain = |text: &str| text.chars().map(|sign| (sign, Paint::Plain)).collect::<Vec<_>>();
+    let rim = "─".repeat(COLUMNS);
+    let mut signs = plain(&format!("  ┌{rim}┐\n"));
     for (row, line) in cells.iter().enumerate() {
         // The goal mouths are open.
         let mouth = row == ROWS / 2;
-        let (left, right) = if mouth { ('▐', '▌') } else { ('│', '│') };
-        text.extend([' ', ' ', left]);
-        for (sign, paint) in line {
-            text.push_str(&paint_sign(*sign, *paint));
-        }
-        text.extend([right, '\n']);
+        let (left, right) = if mouth { ("  ▐", "▌\n") } else { ("  │", "│\n") };
+        signs.extend(plain(left));
+        signs.extend(line);
+        signs.extend(plain(right));
     }
-    text + "  └" + "─".repeat(COLUMNS).as_str() + "┘"
+    signs.extend(plain(&format!("  └{rim}┘")));
+    signs
 }
 
 /// The half-way line, the boxes and the centre spot.

@@ -108,8 +108,9 @@ pub enum Packed {
 impl Packed {
     /// Recognises a file by its first bytes.
     pub fn of(bytes: &[u8]) -> Option<Packed> {
-        let marks = [(crate::replay::MAGIC, Packed::Replay), (setpiece_engine::snapshot::MAGIC, Packed::Snapshot)];
-        marks.into_iter().find(|(mark, _)| bytes.starts_with(*mark)).map(|(_, kind)| kind)
+        let kinds =
+            [(crate::replay::CONTAINER, Packed::Replay), (setpiece_engine::snapshot::CONTAINER, Packed::Snapshot)];
+        kinds.into_iter().find(|(container, _)| container.marks(bytes)).map(|(_, kind)| kind)
     }
 }
 

@@ -4,10 +4,13 @@ use crate::error::{Error, FileFault};
 use crate::stdlib;
 use setpiece_dsl::CAST_NAME;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
+use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
 
 /// Largest source file, bytes; a typical scenario has a few kilobytes.
 pub const SOURCE_MAX_BYTES: u64 = 1 << 20;
@@ -344,14 +347,21 @@ struct Temporary {
     path: PathBuf,
 }
 
+/// How temporary files begin and end; between stand the process and a count.
+const TEMPORARY: (&str, &str) = (".setpiece.", ".tmp");
+/// Age at which a temporary file has no writer any more: no write takes so long.
+const STALE: Duration = Duration::from_secs(60 * 60);
+
 impl Temporary {
     fn write(beside: &Path, content: &[u8]) -> std::io::Result<Temporary> {
         /// Makes the names within one process differ.
         static COUNT: AtomicU32 = AtomicU32::new(0);
+        remove_stale(beside.parent().unwrap_or(Path::new("")));
         loop {
             let count = COUNT.fetch_add(1, Ordering::Relaxed);
-            // A short name, because a name derived from the target could be too long.
-            let path = beside.with_file_name(format!(".setpiece.{}.{count}.tmp", std::process::id()));
+            // A short name of its own: together with the other's it could be too long.
+            let (head, tail) = TEMPORARY;
+            let path = beside.with_file_name(format!("{head}{}.{count}{tail}", std::process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(mut file) => {
                     let temporary = Temporary { path };
@@ -366,8 +376,54 @@ impl Temporary {
     }
 }
 
+/// Removes what killed processes have left in a folder; once per process and folder, since a folder of recorded
+/// episodes may be long.
+fn remove_stale(folder: &Path) {
+    static SEEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let Ok(absolute) = std::path::absolute(folder) else { return };
+    // Where another thread has panicked, nothing is removed.
+    if !SEEN.lock().is_ok_and(|mut seen| seen.insert(absolute)) {
+        return;
+    }
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let between = name.to_str().and_then(|name| name.strip_prefix(TEMPORARY.0)?.strip_suffix(TEMPORARY.1));
+        let ours = between.is_some_and(|between| between.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
+        let age = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
+        if ours && age().is_some_and(|age| age > STALE) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
 impl Drop for Temporary {
     fn drop(&mut self) {
         let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use super::*;
+    use std::time::SystemTime;
+
+    #[test]
+    fn what_killed_writers_have_left_is_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let left = |name: &str, age: Duration| {
+            let file = File::create(folder.path().join(name)).unwrap();
+            file.set_modified(SystemTime::now() - age).unwrap();
+        };
+        left(".setpiece.17.3.tmp", 2 * STALE);
+        left(".setpiece.18.0.tmp", STALE / 2);
+        left(".setpiece.notes.tmp", 2 * STALE);
+        write(&folder.path().join("a.pitchc"), "a").unwrap();
+        let mut names: Vec<_> =
+            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, [".setpiece.18.0.tmp", ".setpiece.notes.tmp", "a.pitchc"]);
     }
 }

@@ -130,7 +130,7 @@ fn load_file_with(path: &Path, options: &LoadOptions<'_>) -> Result<Loaded, Erro
     let compiled = is_compiled(path);
     let bytes = read_file(path, most_bytes(path))?;
     let format = |why| Error::Format { path: path.to_owned(), why };
-    if bytes.starts_with(binary::MAGIC) {
+    if binary::CONTAINER.marks(&bytes) {
         return of_file(binary::from_bytes(&bytes).map_err(format)?, path, options.cast);
     }
     if let Some(kind) = Packed::of(&bytes) {

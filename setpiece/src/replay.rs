@@ -1,8 +1,7 @@
 //! Replays: an episode as a file that can be played again, bit for bit.
 //!
-//! A replay holds the scenario, who played, the key of the draw and every agent's actions;
-//! everything else follows from these. It begins with a header (magic number, version, checksum,
-//! length), like a compiled scenario's compact form. Then comes deflated CBOR.
+//! A replay holds the scenario, who played, the key of the draw and what every agent did; everything else follows. It
+//! begins with a [head](setpiece_scenario::container); what follows is CBOR, deflated.
 
 use crate::error::Error;
 use flate2::Compression;
@@ -15,24 +14,23 @@ use setpiece_engine::batch::{EpisodeError, STEPS_MAX};
 use setpiece_engine::environment::{AgentsChoice, Environment, EnvironmentOptions, Physics, ResetError, Scratch};
 use setpiece_engine::judge::Outcome;
 use setpiece_engine::state::Steer;
-use setpiece_scenario::file::{binary, fnv1a};
+use setpiece_scenario::container::{Container, HeadError};
+use setpiece_scenario::file::binary;
 use setpiece_scenario::{Action, Bindings, Scenario, Verdict};
 use std::io::{Read as _, Write as _};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// The version of replays that this build writes and plays.
-pub const REPLAY_VERSION: u32 = 1;
+pub const REPLAY_VERSION: u32 = 2;
 /// Largest replay, bytes.
 pub const REPLAY_MAX_BYTES: u64 = 64 << 20;
 /// The most bytes after the header, inflated.
 const BODY_MAX_BYTES: u64 = 64 << 20;
 /// The most actions, over all agents and steps: three whole matches of 22 agents.
 const ACTS_MAX: usize = 4_000_000;
-/// The first bytes of a replay; no text starts with them.
-pub(crate) const MAGIC: &[u8; 8] = b"\x8bpitchr\n";
-/// Length of the header: magic number, version, checksum, length.
-const HEAD: usize = 8 + 4 + 8 + 8;
+/// Replays as files.
+pub(crate) const CONTAINER: Container = Container { mark: b"\x8bpitchr\n", version: REPLAY_VERSION };
 
 /// Why a replay can't be read or played.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -72,7 +70,18 @@ pub enum ReplayError {
     },
 }
 
-/// The recording of an episode in progress.
+impl From<HeadError> for ReplayError {
+    fn from(error: HeadError) -> ReplayError {
+        match error {
+            HeadError::Mark => ReplayError::NotAReplay,
+            HeadError::Truncated => ReplayError::Truncated,
+            HeadError::Version(found) => ReplayError::Version(found),
+            HeadError::Checksum => ReplayError::Checksum,
+        }
+    }
+}
+
+/// What is written down while an episode is played.
 #[derive(Clone, Debug, Default)]
 pub struct Recorder {
     from: Option<Vec<u8>>,
@@ -193,16 +202,10 @@ impl Replay {
         if body.len() as u64 > BODY_MAX_BYTES {
             return Err(Error::Replay(ReplayError::TooLarge));
         }
-        let mut deflated = DeflateEncoder::new(Vec::new(), Compression::default());
+        let mut deflated = DeflateEncoder::new(Container::begin(0), Compression::default());
         deflated.write_all(&body).map_err(|why| corrupt(why.to_string()))?;
-        let body = deflated.finish().map_err(|why| corrupt(why.to_string()))?;
-        let mut file = Vec::with_capacity(HEAD + body.len());
-        file.extend_from_slice(MAGIC);
-        file.extend_from_slice(&REPLAY_VERSION.to_le_bytes());
-        file.extend_from_slice(&fnv1a(&body).to_le_bytes());
-        file.extend_from_slice(&(body.len() as u64).to_le_bytes());
-        file.extend_from_slice(&body);
-        Ok(file)
+        let file = deflated.finish().map_err(|why| corrupt(why.to_string()))?;
+        Ok(CONTAINER.seal(file))
     }
 
     /// Decodes a replay.
@@ -345,22 +348,7 @@ fn acts<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T
 }
 
 fn read(file: &[u8]) -> Result<Replay, ReplayError> {
-    let rest = file.strip_prefix(MAGIC).ok_or(ReplayError::NotAReplay)?;
-    let (version, rest) = rest.split_first_chunk::<4>().ok_or(ReplayError::Truncated)?;
-    let version = u32::from_le_bytes(*version);
-    if version != REPLAY_VERSION {
-        return Err(ReplayError::Version(version));
-    }
-    let (checksum, rest) = rest.split_first_chunk::<8>().ok_or(ReplayError::Truncated)?;
-    let (length, body) = rest.split_first_chunk::<8>().ok_or(ReplayError::Truncated)?;
-    match u64::from_le_bytes(*length) {
-        wanted if wanted > body.len() as u64 => return Err(ReplayError::Truncated),
-        wanted if wanted < body.len() as u64 => return Err(ReplayError::Checksum),
-        _ => {}
-    }
-    if fnv1a(body) != u64::from_le_bytes(*checksum) {
-        return Err(ReplayError::Checksum);
-    }
+    let body = CONTAINER.open(file)?;
     let mut inflated = Vec::new();
     let mut inflater = DeflateDecoder::new(body).take(BODY_MAX_BYTES + 1);
     inflater.read_to_end(&mut inflated).map_err(|why| ReplayError::Corrupt(why.to_string()))?;

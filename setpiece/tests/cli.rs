@@ -161,9 +161,13 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
 
     let whole = std::fs::read_to_string(&compiled).unwrap();
     let cut = write(folder.path(), "cut.pitchc", &whole[..whole.len() / 2]);
-    fails(&["run", &cut], 1, &["SP0007", "truncated"]);
-    let other = write(folder.path(), "other.pitchc", whole.replacen("\"version\":1", "\"version\":99", 1));
-    fails(&["run", &other], 1, &["SP0007", "version 99"]);
+    fails(&["run", &cut], 1, &["SP0007", "cut off"]);
+    let written = format!("\"version\":{}", setpiece::scenario::FORMAT_VERSION);
+    for version in ["1", "99"] {
+        let other = whole.replacen(&written, &format!("\"version\":{version}"), 1);
+        let other = write(folder.path(), "other.pitchc", other);
+        fails(&["run", &other], 1, &["SP0007", &format!("version {version};")]);
+    }
     let changed = write(folder.path(), "changed.pitchc", whole.replacen("close", "klose", 1));
     fails(&["run", &changed], 1, &["SP0007", "checksum"]);
 }
@@ -570,7 +574,7 @@ fn imports_and_scripts_stay_below_the_root() {
             [scenario(&format!("import \"{path}\""), ""), scenario("", &format!("reward script \"{path}\" as \"r\""))]
         {
             let root = write(&inner, "root.pitch", text);
-            let said = fails(&["check", &root], 1, &[]) + &text_of(&["check", &root]);
+            let said = fails(&["check", &root], 1, &[]) + text_of(&["check", &root]).as_str();
             assert!(said.contains("lies outside of the scenario's folder"), "{path}: {said}");
             assert!(!said.contains("root:x"), "{path}: {said}");
         }
@@ -613,4 +617,20 @@ fn what_an_author_writes_does_not_steer_the_terminal() {
     }
     let said = fails(&["check", "no\u{1B}[31msuch.pitch"], 1, &["SP0001"]);
     assert!(!said.contains('\u{1B}'), "{said:?}");
+}
+
+#[test]
+fn names_and_words_of_a_scenario_set_no_colours() {
+    let folder = folder();
+    let text = CLOSE.replace("ball at", "reward r\n    ball at");
+    let text =
+        format!("/// A \u{1b}[7mtitle\u{1b}[0m\n{text}\nreward r {{ give 0.1 as \"\u{1b}[31mred\u{1b}]0;x\u{7}\" }}\n");
+    let file = write(folder.path(), "loud.pitch", text);
+    let output = text_of(&["run", &file, "--color", "always", "--episodes", "2"]);
+    assert!(output.contains("␛[31mred") && output.contains("A ␛[7mtitle"), "{output}");
+    assert!(output.contains("\u{1b}[1mclose"), "the command's own styles are kept: {output}");
+    assert!(
+        !output.contains("\u{1b}[31mred") && !output.contains("\u{1b}[7m") && !output.contains('\u{7}'),
+        "{output}"
+    );
 }

@@ -6,8 +6,9 @@ use proptest::prelude::*;
 use setpiece::engine::digest;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, ResetError, Scratch};
 use setpiece::engine::random::{Purpose, Stream};
-use setpiece::engine::snapshot::{SnapshotError, checksum, match_bytes};
+use setpiece::engine::snapshot::{CONTAINER, SnapshotError, match_bytes};
 use setpiece::engine::state::player::{Intent, Pose};
+use setpiece::scenario::container::HEAD_BYTES;
 use setpiece::scenario::vocabulary::EventKind;
 use setpiece::scenario::{Action, Bindings, Scenario};
 use std::collections::BTreeMap;
@@ -329,17 +330,10 @@ fn a_copy_in_memory_is_the_straight_run() {
     assert!(stopped > 5, "{stopped} stops of play");
 }
 
-/// Gives a snapshot's content a valid header.
-fn sealed(mut file: Vec<u8>) -> Vec<u8> {
-    let body = file.split_off(HEAD);
-    file[12..20].copy_from_slice(&checksum(&body).to_le_bytes());
-    file[20..28].copy_from_slice(&(body.len() as u64).to_le_bytes());
-    file.extend(body);
-    file
+/// Gives a snapshot's content the head that fits it.
+fn sealed(file: Vec<u8>) -> Vec<u8> {
+    CONTAINER.seal(file)
 }
-
-/// Length of the header: magic number, version, checksum, length.
-const HEAD: usize = 28;
 
 /// An environment some steps into an episode, with its snapshot.
 fn underway(scenario: &Arc<Scenario>, seed: u64, steps: u32) -> (Environment, Vec<u8>) {
@@ -426,8 +420,8 @@ fn change() -> impl Strategy<Value = Change> {
 fn changed(snapshot: &[u8], changes: &[Change]) -> Vec<u8> {
     let mut bytes = snapshot.to_vec();
     for change in changes {
-        let body = bytes.len() - HEAD;
-        let place = |at: f64| HEAD + (at * body as f64) as usize;
+        let body = bytes.len() - HEAD_BYTES;
+        let place = |at: f64| HEAD_BYTES + (at * body as f64) as usize;
         match *change {
             Change::Byte(at, byte) => bytes[place(at)] = byte,
             Change::Float(at, float) => {
@@ -445,7 +439,7 @@ fn changed(snapshot: &[u8], changes: &[Change]) -> Vec<u8> {
                 bytes.splice(end..end, part);
             }
         }
-        if bytes.len() <= HEAD {
+        if bytes.len() <= HEAD_BYTES {
             return bytes;
         }
     }

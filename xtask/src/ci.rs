@@ -3,17 +3,48 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Format, house rules, lints, tests, docs, the wheel and its tests.
+/// Format, house rules, lints, dependencies, tests, docs, the wheel and its tests.
 pub(crate) fn ci() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     crate::tidy::tidy()?;
     cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    if has_deny() {
+        deny()?;
+    } else {
+        println!("deny: left out, cargo-deny is not installed: `cargo install cargo-deny --locked` brings it");
+    }
     rust_tests()?;
     run(Command::new("cargo").args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"))?;
     python()
 }
 
-/// Runs the Rust tests, with nextest if it is installed.
+/// Checks the dependencies of both workspaces by `deny.toml`.
+///
+/// Advisories are left out, with a word, where their database can't be fetched.
+pub(crate) fn deny() -> Result<(), String> {
+    if !has_deny() {
+        return Err("cargo-deny is not installed: `cargo install cargo-deny --locked` brings it".to_owned());
+    }
+    for manifest in ["Cargo.toml", "fuzz/Cargo.toml"] {
+        cargo(&["deny", "--manifest-path", manifest, "check", "bans", "licenses", "sources"])?;
+        let mut advisories = Command::new("cargo");
+        advisories.args(["deny", "--manifest-path", manifest, "check", "advisories"]).current_dir(root());
+        let output = advisories.output().map_err(|why| format!("cargo-deny can't be run: {why}"))?;
+        let said = String::from_utf8_lossy(&output.stderr);
+        if said.contains("failed to fetch advisory database") {
+            println!("deny: advisories of {manifest} left out, their database can't be fetched");
+        } else if !output.status.success() {
+            return Err(format!("advisories of {manifest}:\n{said}"));
+        }
+    }
+    Ok(())
+}
+
+fn has_deny() -> bool {
+    Command::new("cargo").args(["deny", "--version"]).output().is_ok_and(|output| output.status.success())
+}
+
+/// The Rust tests, by nextest where it is installed.
 pub(crate) fn rust_tests() -> Result<(), String> {
     let nextest =
         Command::new("cargo").args(["nextest", "--version"]).output().is_ok_and(|output| output.status.success());
@@ -110,9 +141,9 @@ fn cargo(args: &[&str]) -> Result<(), String> {
     run(Command::new("cargo").args(args))
 }
 
-/// Builds the lab with full optimisation and runs it.
-pub(crate) fn lab(args: &[String]) -> Result<(), String> {
-    run(Command::new("cargo").args(["run", "--release", "--package", "setpiece-lab", "--"]).args(args))
+/// Builds the lab with every optimisation and runs it.
+pub(crate) fn lab(command: &str, args: &[String]) -> Result<(), String> {
+    run(Command::new("cargo").args(["run", "--release", "--package", "setpiece-lab", "--", command]).args(args))
 }
 
 /// Prints and runs a command, in the repository's root unless it names another folder.

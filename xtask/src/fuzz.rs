@@ -7,74 +7,87 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The targets, and the longest input of each, bytes.
-const TARGETS: &[(&str, usize)] = &[("compile", 4096), ("script", 2048), ("load", 12_288), ("play", 512)];
-/// Compiler flags that count edges. Comparisons aren't traced: the dictionaries contain the words,
-/// and tracing takes two thirds of the time.
+/// Options of the compiler: count edges. Comparisons are not traced: the dictionaries know the words, and tracing takes
+/// two thirds of the time.
 const FLAGS: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
                      -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
                      --cfg fuzzing -Ccodegen-units=1";
 /// The total size of a target's kept inputs, bytes, and their number.
 const KEPT_MAX: (u64, usize) = (240_000, 400);
 
-/// The options of a run.
-struct Options {
-    targets: Vec<(&'static str, usize)>,
+/// A target of `fuzz/targets`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Target {
+    Compile,
+    Script,
+    Load,
+    Play,
+}
+
+impl Target {
+    /// The name of its program.
+    fn name(self) -> &'static str {
+        match self {
+            Target::Compile => "compile",
+            Target::Script => "script",
+            Target::Load => "load",
+            Target::Play => "play",
+        }
+    }
+
+    /// Its longest input, bytes.
+    fn max_len(self) -> usize {
+        match self {
+            Target::Compile => 4096,
+            Target::Script => 2048,
+            Target::Load => 12_288,
+            Target::Play => 512,
+        }
+    }
+}
+
+/// Options of `cargo xtask fuzz`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FuzzArgs {
+    /// Targets; all of them by default
+    #[arg(value_enum, value_name = "TARGET")]
+    targets: Vec<Target>,
+    /// Run each target for this many seconds
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
     seconds: u32,
+    /// The seed of the fuzzer
+    // 0 would mean another one every time.
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     seed: u32,
+    /// Keep the smallest inputs that reach what the seeds don't
+    #[arg(long)]
     keep: bool,
 }
 
-/// Runs `cargo xtask fuzz [TARGET…] [--seconds N] [--seed S] [--keep]`.
-pub(crate) fn fuzz(args: &[String]) -> Result<(), String> {
-    let options = options(args)?;
+/// Builds the targets and runs them.
+pub(crate) fn fuzz(args: &FuzzArgs) -> Result<(), String> {
+    use clap::ValueEnum as _;
     let bins = build()?;
     let commit = first_line(Command::new("git").args(["rev-parse", "--short", "HEAD"]).current_dir(root()))?;
     let mut failed = Vec::new();
-    for &(target, max_len) in &options.targets {
-        let (executions, result) = fuzz_target(&bins.join(target), target, max_len, &options)?;
-        println!("{target}: {executions} executions in {} s, {result}", options.seconds);
-        let line = format!("{},{commit},{target},{},{executions},{result}\n", today(), options.seed);
+    let targets = if args.targets.is_empty() { Target::value_variants() } else { &args.targets };
+    for target in targets {
+        let (target, max_len) = (target.name(), target.max_len());
+        let (executions, result) = fuzz_target(&bins.join(target), target, max_len, args)?;
+        println!("{target}: {executions} executions in {} s, {result}", args.seconds);
+        let line = format!("{},{commit},{target},{},{executions},{result}\n", today(), args.seed);
         let log = File::options().append(true).create(true).open(root().join("fuzz/log.csv"));
         log.and_then(|mut log| log.write_all(line.as_bytes())).map_err(|why| format!("fuzz/log.csv: {why}"))?;
         if ["crash-", "timeout-", "oom-", "leak-", "ended"].iter().any(|sign| result.contains(sign)) {
             failed.push(format!("{target}: {result}"));
-        } else if options.keep {
+        } else if args.keep {
             keep(&bins.join(target), target, max_len)?;
         }
     }
     if failed.is_empty() { Ok(()) } else { Err(format!("{}; see fuzz/artifacts", failed.join("; "))) }
 }
 
-fn options(args: &[String]) -> Result<Options, String> {
-    let mut options = Options { targets: Vec::new(), seconds: 60, seed: 1, keep: false };
-    let mut args = args.iter();
-    while let Some(arg) = args.next() {
-        let mut number = || -> Result<u32, String> {
-            let text = args.next().ok_or_else(|| format!("`{arg}` wants a number"))?;
-            text.parse().map_err(|_| format!("`{arg}` wants a number, not `{text}`"))
-        };
-        match arg.as_str() {
-            "--seconds" => options.seconds = number()?.max(1),
-            // 0 would mean a different seed every time.
-            "--seed" => options.seed = number()?.max(1),
-            "--keep" => options.keep = true,
-            name => {
-                let known = TARGETS.iter().find(|(target, _)| *target == name);
-                options.targets.push(*known.ok_or_else(|| {
-                    let names: Vec<&str> = TARGETS.iter().map(|(target, _)| *target).collect();
-                    format!("no target `{name}`; there is {}", names.join(", "))
-                })?);
-            }
-        }
-    }
-    if options.targets.is_empty() {
-        options.targets = TARGETS.to_vec();
-    }
-    Ok(options)
-}
-
-/// Builds every target; returns the folder of the programs.
+/// Builds every target; returns the folder of their programs.
 fn build() -> Result<PathBuf, String> {
     let version = first_line_with("host: ", Command::new("rustc").args(["+nightly", "-vV"]));
     let host = version.map_err(|why| format!("no nightly ({why}); `rustup toolchain install nightly` brings it"))?;
@@ -87,17 +100,17 @@ fn build() -> Result<PathBuf, String> {
     Ok(root().join("fuzz/target").join(host).join("release"))
 }
 
-/// Runs a target; returns the number of inputs and the result.
-fn fuzz_target(bin: &Path, target: &str, max_len: usize, options: &Options) -> Result<(u64, String), String> {
+/// Runs a target; returns how many inputs it tried and what came of it.
+fn fuzz_target(bin: &Path, target: &str, max_len: usize, args: &FuzzArgs) -> Result<(u64, String), String> {
     let (found, seeds) = (folder("target/found", target)?, fresh("target/seeds", target)?);
     let (kept, artifacts) = (folder("corpus", target)?, folder("artifacts", "")?);
     let log = root().join(format!("fuzz/target/{target}.log"));
-    println!("{target}: {} s, seed {}; {}", options.seconds, options.seed, log.display());
+    println!("{target}: {} s, seed {}; {}", args.seconds, args.seed, log.display());
     let status = fuzzer(bin, target, max_len)?
         .args([&found, &kept, &seeds])
         .arg(format!("-artifact_prefix={}/{target}-", artifacts.display()))
-        .arg(format!("-max_total_time={}", options.seconds))
-        .arg(format!("-seed={}", options.seed))
+        .arg(format!("-max_total_time={}", args.seconds))
+        .arg(format!("-seed={}", args.seed))
         .args(["-report_slow_units=1", "-print_final_stats=1"])
         .env("SETPIECE_FUZZ_SEEDS", &seeds)
         .stderr(File::create(&log).map_err(|why| format!("{}: {why}", log.display()))?)

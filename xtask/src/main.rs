@@ -7,46 +7,84 @@ mod fuzz;
 mod tidy;
 mod transfer;
 
+use clap::{CommandFactory as _, Parser, Subcommand};
 use std::process::ExitCode;
 
+/// The chores of this repository.
+#[derive(Debug, Parser)]
+#[command(name = "xtask", bin_name = "cargo xtask")]
+struct Xtask {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+/// A chore.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run everything that must pass, from the format to the wheel's own tests
+    Ci,
+    /// Run the Rust tests
+    Test,
+    /// Build the wheel and run the Python tests
+    Python {
+        /// Run all of them, beside the heavy packages of python/requirements-full.txt
+        #[arg(long)]
+        full: bool,
+    },
+    /// Check the house rules: which room may use which, file lengths, words, names
+    Tidy,
+    /// Check licences, sources and advisories of the dependencies with cargo-deny
+    Deny,
+    /// Write docs/pitchc.schema.json
+    Schema,
+    /// Compare the game's figures with those measured in Google Research Football
+    #[command(disable_help_flag = true)]
+    Calibrate {
+        /// Options of `lab calibrate`: --check, --write, --only SECTION, --count N
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
+        args: Vec<String>,
+    },
+    /// Play random scenarios and check properties of every step
+    #[command(disable_help_flag = true)]
+    Soak {
+        /// Options of `lab soak`: --steps N, --seed S, --from SCENARIO
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
+        args: Vec<String>,
+    },
+    /// Train policies and play them in both games
+    #[command(disable_help_flag = true)]
+    Transfer {
+        /// Options of lab/transfer/transfer.py: --scenario NAME, --steps N, --episodes N, --recorded, --seed S
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
+        args: Vec<String>,
+    },
+    /// Try random inputs; see fuzz/README.md
+    Fuzz(fuzz::FuzzArgs),
+}
+
 fn main() -> ExitCode {
-    let command = std::env::args().nth(1).unwrap_or_default();
-    let result = match command.as_str() {
-        "ci" => ci::ci(),
-        "test" => ci::rust_tests(),
-        "python" => match std::env::args().nth(2).as_deref() {
-            None => ci::python(),
-            Some("--full") => ci::python_full(),
-            Some(other) => Err(format!("no option `{other}`; there is `--full`")),
-        },
-        "schema" => schema(),
-        "tidy" => tidy::tidy(),
-        "calibrate" | "soak" => ci::lab(&std::env::args().skip(1).collect::<Vec<_>>()),
-        "transfer" => transfer::transfer(&std::env::args().skip(2).collect::<Vec<_>>()),
-        "fuzz" => fuzz::fuzz(&std::env::args().skip(2).collect::<Vec<_>>()),
-        _ => {
-            println!("cargo xtask ci      everything that must pass: format, lints, tests, docs, wheel, Python tests");
-            println!("cargo xtask test    the Rust tests");
-            println!(
-                "cargo xtask python  [--full]: build the wheel and run the Python tests; --full adds heavy packages"
-            );
-            println!("cargo xtask calibrate  [--check] [--only SECTION] [--count N]: compare our figures with GRF's");
-            println!("cargo xtask soak    [--steps N] [--seed S]: long runs of random scenarios; see lab/soak.csv");
-            println!(
-                "cargo xtask transfer  [--scenario NAME]… [--steps N] [--episodes N] [--recorded] [--seed S]: agents in both games"
-            );
-            println!("cargo xtask schema  write docs/pitchc.schema.json");
-            println!("cargo xtask tidy    the project's rules: which room may use which, file lengths, words");
-            println!(
-                "cargo xtask fuzz    [TARGET…] [--seconds N] [--seed S] [--keep]: random inputs; see fuzz/README.md"
-            );
-            return if command.is_empty() || command == "help" { ExitCode::SUCCESS } else { ExitCode::from(2) };
-        }
+    let Some(command) = Xtask::parse().command else {
+        // A list that can't be written has no reader.
+        let _ = Xtask::command().print_help();
+        return ExitCode::SUCCESS;
+    };
+    let (name, result) = match command {
+        Command::Ci => ("ci", ci::ci()),
+        Command::Test => ("test", ci::rust_tests()),
+        Command::Python { full: false } => ("python", ci::python()),
+        Command::Python { full: true } => ("python", ci::python_full()),
+        Command::Tidy => ("tidy", tidy::tidy()),
+        Command::Deny => ("deny", ci::deny()),
+        Command::Schema => ("schema", schema()),
+        Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
+        Command::Soak { args } => ("soak", ci::lab("soak", &args)),
+        Command::Transfer { args } => ("transfer", transfer::transfer(&args)),
+        Command::Fuzz(args) => ("fuzz", fuzz::fuzz(&args)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
-            println!("xtask {command}: {why}");
+            println!("xtask {name}: {why}");
             ExitCode::FAILURE
         }
     }
@@ -56,4 +94,26 @@ fn main() -> ExitCode {
 fn schema() -> Result<(), String> {
     let path = ci::root().join("docs/pitchc.schema.json");
     std::fs::write(&path, setpiece_scenario::schema::text()).map_err(|why| format!("{}: {why}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_is_well_formed_and_has_one_line_of_help() {
+        let command = Xtask::command();
+        command.clone().debug_assert();
+        for chore in command.get_subcommands() {
+            let about = chore.get_about().map(ToString::to_string).unwrap_or_default();
+            assert!(!about.is_empty() && !about.contains('\n'), "{}: {about}", chore.get_name());
+        }
+    }
+
+    #[test]
+    fn options_of_other_programs_are_handed_on() {
+        let parsed = Xtask::parse_from(["xtask", "calibrate", "--only", "5", "--help"]);
+        let Some(Command::Calibrate { args }) = parsed.command else { panic!("{:?}", parsed.command) };
+        assert_eq!(args, ["--only", "5", "--help"]);
+    }
 }

@@ -15,7 +15,7 @@ const LINES_MAX: usize = 600;
 /// Each room, and everything that it may depend on.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("setpiece-grammar", &["pest", "pest_derive"]),
-    ("setpiece-scenario", &["ciborium", "libm", "schemars", "serde", "serde_json"]),
+    ("setpiece-scenario", &["ciborium", "crc32fast", "libm", "schemars", "serde", "serde_json"]),
     (
         "setpiece-dsl",
         &["setpiece-grammar", "setpiece-scenario", "miette", "pest", "strsim", "thiserror", "serde", "serde_json"],

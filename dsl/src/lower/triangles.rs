@@ -1,4 +1,7 @@
 //! Polygons as triangles: ear clipping.
+//!
+//! Which triangles, and in which order, is part of a scenario: a seed picks one by its number, and then a point in it.
+//! A library that cuts otherwise (earcutr) would begin every polygon's episodes elsewhere, and refuses no crossing edges.
 
 /// A triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]

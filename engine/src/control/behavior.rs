@@ -13,7 +13,7 @@ use crate::draw::Roster;
 use crate::in_place::clone_in_place;
 use crate::judge::known::{Given, Known};
 use crate::judge::machine::{Crew, Input, Machine, Registers};
-use crate::judge::script::{ScriptError, Scripts};
+use crate::judge::script::{ScriptError, Scripts, Shelf};
 use crate::judge::view::{Sight, View};
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
@@ -94,15 +94,15 @@ impl Actors {
         }
     }
 
-    /// Writes or reads their memory. Before reading, [`Self::reset`] has been called.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads what they remember; on the way in [`Self::reset`] has come before.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         if self.list.is_empty() {
             return Ok(());
         }
-        self.known.archive(archive)?;
+        self.known.archive(archive, shelf)?;
         archive.value("prev", &mut self.prev)?;
         archive.value("faults", &mut self.faults)?;
-        self.list.iter_mut().try_for_each(|actor| actor.archive(archive))
+        self.list.iter_mut().try_for_each(|actor| actor.archive(archive, shelf))
     }
 
     /// Chooses every scripted player's action: writes

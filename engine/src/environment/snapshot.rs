@@ -3,6 +3,7 @@
 use super::fits::fits;
 use super::{Environment, ResetError, bound};
 use crate::draw::Roster;
+use crate::judge::script::Shelf;
 use crate::judge::{Given, Outcome};
 use crate::snapshot::{About, Archive, Opened, SnapshotError, write};
 use crate::state::Match;
@@ -106,9 +107,19 @@ impl Environment {
         self.judged = 0;
     }
 
-    /// Writes or reads the episode around the match.
+    /// Writes or reads the episode around the match: the scenes that scripts have kept, then what leads to them.
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        // The key may differ from the environment's if a later reset found no start.
+        let mut shelf = Shelf::default();
+        archive.in_order(
+            &mut shelf,
+            |shelf, archive| shelf.archive_scenes(archive),
+            |shelf, archive| self.archive_episode(archive, shelf),
+        )
+    }
+
+    /// Writes or reads all but the scenes.
+    fn archive_episode(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+        // The key is not the environment's where a later reset found no start.
         let Given { mut seed, mut index, params, lets } = self.judge.given();
         let (mut params, mut lets) = (params.to_vec(), lets.to_vec());
         archive.value("seed", &mut seed)?;
@@ -123,8 +134,8 @@ impl Environment {
             self.judge.reset(&self.game, &given);
             self.actors.reset(&self.game, &given);
         }
-        self.judge.archive(archive)?;
-        archive.part("actors", |archive| self.actors.archive(archive))?;
+        self.judge.archive(archive, shelf)?;
+        archive.part("actors", |archive| self.actors.archive(archive, shelf))?;
         archive.value("events", &mut self.events)?;
         let mut judged = self.judged as u32;
         archive.value("judged", &mut judged)?;

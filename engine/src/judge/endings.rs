@@ -2,7 +2,7 @@
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
-use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts, Shelf};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 use crate::state::event::{Event, Events};
@@ -70,11 +70,11 @@ impl EndingJudge {
         self.at_start = self.endings.list.iter().position(holds);
     }
 
-    /// Writes or reads its memory. Before reading, [`Self::reset`] has been called.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads what it remembers; on the way in [`Self::reset`] has come before.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         archive.slots("cells", &mut self.cells)?;
         for memory in &mut self.memories {
-            memory.archive("this", archive)?;
+            memory.archive("this", archive, shelf)?;
         }
         archive.value("faults", &mut self.faults)?;
         let mut at_start = self.at_start.map(|which| which as u32);

@@ -62,9 +62,9 @@ impl Known {
         });
     }
 
-    /// Writes or reads what scripts may read; the rest is fixed when the episode begins.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
-        Shelf::archive("scene", &mut self.scene, archive)?;
+    /// Writes or reads what scripts are shown; the rest is known since the episode began.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+        shelf.archive("scene", &mut self.scene, archive)?;
         if self.scene.is_some() == self.scripted {
             return Ok(());
         }

@@ -9,7 +9,7 @@ mod lanes;
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
-use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts, Shelf};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
@@ -178,14 +178,14 @@ impl RewardJudge {
         self.clear_step();
     }
 
-    /// Writes or reads payments and memory. Before reading, [`Self::reset`] has been called.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads what was paid and what is remembered; on the way in [`Self::reset`] has come before.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         for state in &mut self.states {
             for lanes in state.lanes.iter_mut().flatten() {
                 lanes.archive(archive)?;
             }
             for memory in state.hooks.iter_mut().flat_map(|hook| &mut hook.memories) {
-                memory.archive("this", archive)?;
+                memory.archive("this", archive, shelf)?;
             }
         }
         archive.slots("terms", &mut self.terms)?;

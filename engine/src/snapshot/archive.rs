@@ -7,7 +7,6 @@
 
 use super::error::SnapshotError;
 use super::walk::{Found, walk};
-use crate::judge::script::Shelf;
 use postcard::ser_flavors::Flavor;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -16,8 +15,6 @@ use std::fmt;
 /// A stream of values being written to bytes or read from them.
 pub(crate) struct Archive<'a> {
     way: Way<'a>,
-    /// The scenes that scripts were shown and have kept.
-    pub(crate) shelf: Shelf,
 }
 
 enum Way<'a> {
@@ -28,12 +25,12 @@ enum Way<'a> {
 impl<'a> Archive<'a> {
     /// Starts writing, after some bytes.
     pub(super) fn writing(bytes: Vec<u8>) -> Archive<'a> {
-        Archive { way: Way::Out(bytes), shelf: Shelf::default() }
+        Archive { way: Way::Out(bytes) }
     }
 
     /// Starts reading.
     pub(super) fn reading(bytes: &'a [u8]) -> Archive<'a> {
-        Archive { way: Way::In(bytes), shelf: Shelf::default() }
+        Archive { way: Way::In(bytes) }
     }
 
     /// Whether this archive reads.
@@ -41,12 +38,25 @@ impl<'a> Archive<'a> {
         matches!(self.way, Way::In(_))
     }
 
-    /// The number of bytes so far.
-    pub(super) fn written(&self) -> usize {
-        match &self.way {
-            Way::Out(bytes) => bytes.len(),
-            Way::In(_) => 0,
+    /// Writes two parts in the other order than they are archived in: `first` is called when `second` has been, and
+    /// stands before it. They are read in the order in which they stand.
+    pub(crate) fn in_order<C>(
+        &mut self,
+        context: &mut C,
+        first: impl FnOnce(&mut C, &mut Self) -> Result<(), SnapshotError>,
+        second: impl FnOnce(&mut C, &mut Self) -> Result<(), SnapshotError>,
+    ) -> Result<(), SnapshotError> {
+        if self.is_reading() {
+            first(context, self)?;
+            return second(context, self);
         }
+        let mut behind = Archive::writing(Vec::new());
+        second(context, &mut behind)?;
+        first(context, self)?;
+        if let Way::Out(bytes) = &mut self.way {
+            bytes.extend_from_slice(&behind.into_bytes());
+        }
+        Ok(())
     }
 
     /// The bytes, including those that were there before.

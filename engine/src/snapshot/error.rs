@@ -1,5 +1,7 @@
 //! Errors of snapshots.
 
+use setpiece_scenario::container::HeadError;
+
 /// The version of snapshots that this build takes and restores.
 pub const SNAPSHOT_VERSION: u32 = 13;
 
@@ -71,6 +73,17 @@ impl SnapshotError {
     /// An error about damage at a place.
     pub(crate) fn damaged(place: impl Into<String>, why: impl Into<String>) -> SnapshotError {
         SnapshotError::Damaged { place: place.into(), why: why.into() }
+    }
+}
+
+impl From<HeadError> for SnapshotError {
+    fn from(error: HeadError) -> SnapshotError {
+        match error {
+            HeadError::Mark => SnapshotError::NotASnapshot,
+            HeadError::Truncated => SnapshotError::Truncated,
+            HeadError::Version(found) => SnapshotError::Version(found),
+            HeadError::Checksum => SnapshotError::Checksum,
+        }
     }
 }
 

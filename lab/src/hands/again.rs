@@ -16,21 +16,34 @@ use std::io::BufRead;
 /// places of both teams; keys; the agents' players; score.
 type Step = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
 
-/// Runs `recorded FILE TRACES [--write | --add]`: compares figures of traces with the file's,
-/// replaces them, or merges both.
-pub(crate) fn recorded(args: &[String]) -> Result<(), Failure> {
-    let [file, traces, rest @ ..] = args else { return Err("recorded wants a file of lab/data and traces".to_owned()) };
+/// Options of `lab recorded`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct RecordedArgs {
+    /// A file of lab/data
+    file: String,
+    /// What lab/record has written
+    traces: String,
+    /// Write the figures in place of the file's
+    #[arg(long)]
+    write: bool,
+    /// Write the figures together with the file's
+    #[arg(long, conflicts_with = "write")]
+    add: bool,
+}
+
+/// Sets figures of traces beside the file's, writes them in their place, or makes one of both.
+pub(crate) fn recorded(args: &RecordedArgs) -> Result<(), Failure> {
+    let RecordedArgs { file, traces, .. } = args;
     let topic = topics().find(|topic| topic.file == file).ok_or_else(|| format!("no topic has `{file}`"))?;
     let recorded = topic.recorded()?;
     let values = read(topic, &recorded, traces)?;
-    match rest.first().map(String::as_str) {
-        Some("--write") => write(topic, &values, |_| None),
-        Some("--add") => write(topic, &values, |number| recorded.rows.get(number)),
-        Some(other) => Err(format!("no option `{other}`; there is --write, --add")),
-        None => {
-            print!("{}", compared(topic, &recorded, &values));
-            Ok(())
-        }
+    if args.write {
+        write(topic, &values, |_| None)
+    } else if args.add {
+        write(topic, &values, |number| recorded.rows.get(number))
+    } else {
+        print!("{}", compared(topic, &recorded, &values));
+        Ok(())
     }
 }
 

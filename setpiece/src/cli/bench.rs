@@ -1,7 +1,8 @@
 //! `setpiece bench`: how fast scenarios are played on this machine.
 
+use super::FINE;
+use super::out::{Out, StyledText};
 use super::playing::AgentName;
-use super::{FINE, out::Out};
 use crate::Error;
 use crate::bench::{BenchOptions, Measured, ONCE_NAMES, Observation, measure, once, phases, scaling};
 use crate::engine::environment::EnvironmentOptions;
@@ -152,7 +153,7 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
             let earlier = before.iter().find(|earlier| row.compares_with(earlier));
             row.ratio = earlier.map(|earlier| row.steps_per_cpu_second / earlier.steps_per_cpu_second);
             if args.format == Format::Jsonl {
-                out.line(&serde_json::to_string(&row).unwrap_or_default());
+                out.line(serde_json::to_string(&row).unwrap_or_default());
             }
             rows.push(row);
         }
@@ -164,7 +165,7 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
         && rows.iter().all(|row| row.ratio.is_none())
     {
         let path = path.display();
-        out.note(&format!(
+        out.note(format!(
             "no row of {path} has the scenario, threads, matches, observation and agent of one measured here"
         ));
     }
@@ -190,14 +191,14 @@ fn row(scenario: &str, options: &BenchOptions, measured: &Measured, words: (&str
 
 fn print(rows: &[Row], compared: bool, words: (&str, &str), out: &Out) {
     let (observation, agent) = words;
-    out.line(&format!("agent {agent} · observation {observation} · resets included"));
+    out.line(format!("agent {agent} · observation {observation} · resets included"));
     out.line("");
     let width = rows.iter().map(|row| row.scenario.len()).max().unwrap_or(0).max(12);
     let scales = rows.iter().any(|row| row.scaling.is_some());
     let scaling = if scales { "       scaling" } else { "" };
     let against = if compared { "   ratio" } else { "" };
     let head = format!("{:width$}  threads  matches  steps/s  steps/CPU-s{scaling}{against}", "scenario");
-    out.line(&out.dim(&head));
+    out.line(StyledText::default().dim(&head));
     for row in rows {
         let ratio = match row.ratio {
             Some(ratio) => format!("{ratio:>8.2}"),
@@ -209,7 +210,7 @@ fn print(rows: &[Row], compared: bool, words: (&str, &str), out: &Out) {
             None if scales => " ".repeat(14),
             None => String::new(),
         };
-        out.line(&format!(
+        out.line(format!(
             "{:width$}  {:>7}  {:>7}  {:>7.0}  {:>11.0}{scaling}{ratio}",
             row.scenario, row.threads, row.matches, row.steps_per_second, row.steps_per_cpu_second
         ));
@@ -227,10 +228,10 @@ fn times(rows: &[&Row], title: &str, names: &[&str], of: impl Fn(&Row) -> &BTree
     let width = rows.iter().map(|row| row.scenario.len()).max().unwrap_or(0).max(12);
     out.line("");
     let head: String = names.iter().map(|name| format!("{name:>12}")).collect();
-    out.line(&out.dim(&format!("{title:width$}{head}")));
+    out.line(StyledText::default().dim(&format!("{title:width$}{head}")));
     for row in rows {
         let time = |name: &&str| format!("{:>12.2}", of(row).get(*name).copied().unwrap_or(0.0));
-        out.line(&format!("{:width$}{}", row.scenario, names.iter().map(time).collect::<String>()));
+        out.line(format!("{:width$}{}", row.scenario, names.iter().map(time).collect::<String>()));
     }
 }
 

@@ -1,6 +1,7 @@
 //! `setpiece check`: reports every problem of some files.
 
-use super::{FAULT, FINE, MessageFormat, out::Out};
+use super::out::{Out, StyledText};
+use super::{FAULT, FINE, MessageFormat};
 use crate::Error;
 use crate::dsl::problem::Severity;
 use crate::dsl::report::{Format, render};
@@ -20,7 +21,7 @@ pub(crate) fn watch(files: &[OsString], format: MessageFormat, out: &Out) -> Res
     let mut watcher = Watcher::new(&inputs);
     loop {
         if format == MessageFormat::Human {
-            out.line(&out.dim("waiting for a change; Ctrl-C ends"));
+            out.line(StyledText::default().dim("waiting for a change; Ctrl-C ends"));
         }
         while !watcher.changed(TICK) {}
         inputs.clear();
@@ -52,11 +53,11 @@ pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs
         let errors = problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
         failed |= errors > 0;
         match format {
-            MessageFormat::Human if problems.is_empty() => out.line(&format!("{name}: no problems")),
+            MessageFormat::Human if problems.is_empty() => out.line(format!("{name}: no problems")),
             MessageFormat::Human => {
                 out.problems(&problems, &sources);
                 let warnings = problems.len() - errors;
-                out.line(&format!("{name}: {} and {}", count(errors, "error"), count(warnings, "warning")));
+                out.line(format!("{name}: {} and {}", count(errors, "error"), count(warnings, "warning")));
             }
             MessageFormat::Json => {
                 let text = render(&problems, &sources, Format::Json);
@@ -67,7 +68,7 @@ pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs
         }
     }
     if format == MessageFormat::Json {
-        out.line(&serde_json::Value::Array(array).to_string());
+        out.line(serde_json::Value::Array(array).to_string());
     }
     if failed { FAULT } else { FINE }
 }

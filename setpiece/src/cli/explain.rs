@@ -1,6 +1,7 @@
 //! `setpiece explain`: the page of an error code.
 
-use super::{FAULT, FINE, out::Out};
+use super::out::{Out, StyledText};
+use super::{FAULT, FINE};
 use crate::dsl::problem::{Code, Severity};
 use crate::explain::{page, similar};
 
@@ -9,7 +10,8 @@ pub(crate) fn explain(wanted: Option<&str>, out: &Out) -> u8 {
     let Some(wanted) = wanted else {
         for code in Code::ALL {
             let severity = if code.severity() == Severity::Error { "error" } else { "warning" };
-            out.line(&format!("{}  {severity:7}  {}", out.bold(&code.to_string(), 6), code.title()));
+            let line = StyledText::default().bold(&format!("{code:6}"));
+            out.line(line.text(&format!("  {severity:7}  {}", code.title())));
         }
         return FINE;
     };
@@ -26,7 +28,7 @@ pub(crate) fn explain(wanted: Option<&str>, out: &Out) -> u8 {
         } else if in_block {
             out.line(format!("    {line}").trim_end());
         } else if let Some(title) = line.strip_prefix("# ") {
-            out.line(&out.bold(title, 0));
+            out.line(StyledText::default().bold(title));
         } else {
             out.line(line);
         }

@@ -43,7 +43,7 @@ pub(crate) fn fmt(args: &FmtArgs, out: &Out) -> u8 {
         let files = |n: usize| format!("{n} {}", if n == 1 { "file" } else { "files" });
         let verb = if args.check { "to be formatted" } else { "formatted" };
         let left = if failed == 0 { String::new() } else { format!(", {failed} left alone") };
-        out.note(&format!("{} {verb}, {same} unchanged{left}", files(changed)));
+        out.note(format!("{} {verb}, {same} unchanged{left}", files(changed)));
     }
     if failed > 0 || (args.check && changed > 0) { FAULT } else { FINE }
 }

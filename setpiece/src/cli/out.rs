@@ -5,7 +5,7 @@ use crate::drawing::Paint;
 use crate::dsl::report::{Format, printable, render};
 use crate::dsl::{problem::Problem, source::Sources};
 use crate::{Error, LoadOptions, Loaded};
-use owo_colors::OwoColorize;
+use owo_colors::{OwoColorize, Style};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 
@@ -39,17 +39,19 @@ impl Out {
         LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() }
     }
 
-    /// Prints a line. A closed reader (`| head`) isn't an error, but a full disk is.
-    pub(crate) fn line(&self, text: &str) {
-        self.text(&format!("{text}\n"));
+    /// Prints a line; a reader that has gone away (`| head`) is no error, a full disk is.
+    pub(crate) fn line(&self, text: impl Into<StyledText>) {
+        self.text(text.into().text("\n"));
     }
 
-    /// Prints a text. On a terminal, control characters from an author's text are removed.
-    pub(crate) fn text(&self, text: &str) {
+    /// Prints a text. On a terminal the styles that it was given are all that reaches it: control characters of authors
+    /// become their pictures.
+    pub(crate) fn text(&self, text: impl Into<StyledText>) {
         let mut stdout = std::io::stdout();
-        // A file or another program gets the text unchanged.
-        let text = if stdout.is_terminal() { printable(text, self.stdout_colour) } else { text.into() };
-        if let Err(why) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush())
+        // A file or another program gets what was written.
+        let steady = stdout.is_terminal() || self.stdout_colour;
+        let shown = text.into().shown(steady, self.stdout_colour);
+        if let Err(why) = stdout.write_all(shown.as_bytes()).and_then(|()| stdout.flush())
             && why.kind() != std::io::ErrorKind::BrokenPipe
         {
             self.failed.set(true);
@@ -62,34 +64,8 @@ impl Out {
     }
 
     /// Prints a line to standard error.
-    pub(crate) fn note(&self, text: &str) {
-        let _ = writeln!(std::io::stderr(), "{}", printable(text, self.stderr_colour));
-    }
-
-    /// Bold, padded to `width` (escapes don't count).
-    pub(crate) fn bold(&self, text: &str, width: usize) -> String {
-        let text = format!("{text:width$}");
-        if self.stdout_colour { text.bold().to_string() } else { text }
-    }
-
-    /// Dimmed.
-    pub(crate) fn dim(&self, text: &str) -> String {
-        if self.stdout_colour { text.dimmed().to_string() } else { text.to_owned() }
-    }
-
-    /// In the colour of its meaning.
-    pub(crate) fn paint(&self, text: &str, paint: Paint) -> String {
-        if !self.stdout_colour {
-            return text.to_owned();
-        }
-        match paint {
-            Paint::Left => text.yellow().bold().to_string(),
-            Paint::Right => text.cyan().bold().to_string(),
-            Paint::Ball => text.white().bold().to_string(),
-            Paint::Success => text.green().to_string(),
-            Paint::Failure => text.red().to_string(),
-            Paint::Plain => text.to_owned(),
-        }
+    pub(crate) fn note(&self, text: impl Into<StyledText>) {
+        let _ = writeln!(std::io::stderr(), "{}", text.into().shown(true, self.stderr_colour));
     }
 
     /// Prints an error: the reports of a compilation, or one message with its code and help.
@@ -103,21 +79,18 @@ impl Out {
 
     /// Prints a message with a code and help.
     pub(crate) fn fault(&self, code: &str, message: &str, help: Option<&str>) {
-        let (code, cross) = if self.stderr_colour {
-            (code.red().bold().to_string(), "×".red().to_string())
-        } else {
-            (code.to_owned(), "×".to_owned())
-        };
-        self.note(&format!("{code}\n  {cross} {}", printable(message, false)));
+        let head = StyledText::default().styled(code, Style::new().red().bold()).text("\n  ");
+        self.note(head.styled("×", Style::new().red()).text(" ").text(message));
         if let Some(help) = help {
-            self.note(&format!("  help: {}", printable(help, false)));
+            self.note(format!("  help: {help}"));
         }
     }
 
     /// Prints reports.
     pub(crate) fn problems(&self, problems: &[Problem], sources: &Sources) {
         let text = render(problems, sources, Format::Human { color: self.stderr_colour, width: 100 });
-        self.note(text.trim_end());
+        // Steady already, with colours of its own.
+        let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
     }
 
     /// Prints a scenario's warnings.
@@ -125,5 +98,75 @@ impl Out {
         if !loaded.warnings.is_empty() {
             self.problems(&loaded.warnings, &loaded.sources);
         }
+    }
+}
+
+/// A text in parts, some of them in a style. Styles are given here alone: what a part contains sets none.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StyledText(Vec<(String, Option<Style>)>);
+
+impl StyledText {
+    /// Adds a part as it is.
+    pub(crate) fn text(mut self, text: &str) -> StyledText {
+        self.0.push((text.to_owned(), None));
+        self
+    }
+
+    /// Adds a bold part.
+    pub(crate) fn bold(self, text: &str) -> StyledText {
+        self.styled(text, Style::new().bold())
+    }
+
+    /// Adds a dimmed part.
+    pub(crate) fn dim(self, text: &str) -> StyledText {
+        self.styled(text, Style::new().dimmed())
+    }
+
+    /// Adds a part in the colour of what it stands for.
+    pub(crate) fn paint(self, text: &str, paint: Paint) -> StyledText {
+        match paint {
+            Paint::Left => self.styled(text, Style::new().yellow().bold()),
+            Paint::Right => self.styled(text, Style::new().cyan().bold()),
+            Paint::Ball => self.styled(text, Style::new().white().bold()),
+            Paint::Success => self.styled(text, Style::new().green()),
+            Paint::Failure => self.styled(text, Style::new().red()),
+            Paint::Plain => self.text(text),
+        }
+    }
+
+    fn styled(mut self, text: &str, style: Style) -> StyledText {
+        self.0.push((text.to_owned(), Some(style)));
+        self
+    }
+
+    /// The text as it is printed; `steady`: without control characters in its parts.
+    fn shown(&self, steady: bool, colour: bool) -> String {
+        let mut shown = String::new();
+        for (text, style) in &self.0 {
+            let text = if steady { printable(text, false) } else { text.into() };
+            match style.filter(|_| colour) {
+                Some(style) => shown += &text.style(style).to_string(),
+                None => shown += &text,
+            }
+        }
+        shown
+    }
+}
+
+impl From<&str> for StyledText {
+    fn from(text: &str) -> StyledText {
+        StyledText::default().text(text)
+    }
+}
+
+impl From<String> for StyledText {
+    fn from(text: String) -> StyledText {
+        StyledText(vec![(text, None)])
+    }
+}
+
+impl From<&String> for StyledText {
+    fn from(text: &String) -> StyledText {
+        StyledText::from(text.as_str())
     }
 }

@@ -1,6 +1,7 @@
 //! `setpiece run`: plays episodes of a scenario, once or whenever its file changes.
 
-use super::{FAULT, FINE, out::Out, playing::Playing, summary};
+use super::out::{Out, StyledText};
+use super::{FAULT, FINE, playing::Playing, summary};
 use crate::engine::environment::EnvironmentOptions;
 use crate::live::Live;
 use crate::run::{RunOptions, Summary, first_error, run};
@@ -59,7 +60,7 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
         return Err(error);
     }
     match args.format {
-        Format::Json => out.line(&summary::json(&loaded.scenario, &options, &summary)),
+        Format::Json => out.line(summary::json(&loaded.scenario, &options, &summary)),
         Format::Text => summary::print(&loaded.scenario, &options, &summary, out)?,
     }
     if let Some(error) = first_error(&summary) {
@@ -114,22 +115,22 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let mut options = options(args, live.loaded())?;
     let mut scenario = live.loaded().scenario.clone();
     loop {
-        out.line(&out.bold(&scenario.name, 0));
+        out.line(StyledText::default().bold(&scenario.name));
         for index in 0..args.episodes {
             let one = RunOptions { episodes: index..index + 1, threads: 1, ..options.clone() };
             let summary = run(&scenario, &one, |_| {})?;
             for episode in summary.episodes.iter().flatten() {
-                out.line(&summary::episode_line(episode, out));
+                out.line(summary::episode_line(episode));
             }
             if let Some(error) = first_error(&summary) {
                 out.error(&error);
             }
             if let Some(fresh) = reload(args, &mut live, Duration::ZERO, out) {
                 (scenario, options) = fresh;
-                out.line(&out.bold(&scenario.name, 0));
+                out.line(StyledText::default().bold(&scenario.name));
             }
         }
-        out.line(&out.dim("waiting for a change; Ctrl-C ends"));
+        out.line(StyledText::default().dim("waiting for a change; Ctrl-C ends"));
         (scenario, options) = loop {
             if let Some(fresh) = reload(args, &mut live, TICK, out) {
                 break fresh;

@@ -64,6 +64,6 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
     let fault = |why: String| Error::File { path: path.clone(), why: FileFault::Write(why) };
     let picture = picture.ok_or_else(|| fault("the picture is too large".to_owned()))?;
     write(path, picture.encode_png().map_err(|why| fault(why.to_string()))?)?;
-    out.line(&format!("{}, {} · {shown} → {}", film.name, film.origin, path.display()));
+    out.line(format!("{}, {} · {shown} → {}", film.name, film.origin, path.display()));
     Ok(FINE)
 }

@@ -36,7 +36,7 @@ pub(crate) fn replay(args: &ReplayArgs, out: &Out) -> Result<u8, Error> {
     let as_jsonl = args.format == ReplayFormat::Jsonl;
     let environment = replay.play(|environment, actions| {
         if as_jsonl {
-            out.line(&moment(environment, actions).to_string());
+            out.line(moment(environment, actions).to_string());
         }
     })?;
     if !as_jsonl {
@@ -48,14 +48,14 @@ pub(crate) fn replay(args: &ReplayArgs, out: &Out) -> Result<u8, Error> {
 fn summary(replay: &Replay, environment: &Environment, out: &Out) {
     let [left, right] = environment.score();
     let outcome = environment.outcome().map_or_else(|| "not ended".to_owned(), |outcome| outcome.label.to_string());
-    out.line(&format!("{}  seed {}, episode {}", environment.scenario().name, replay.seed, replay.index));
-    out.line(&format!("  {outcome} after {} steps, {left} : {right}", replay.length));
+    out.line(format!("{}  seed {}, episode {}", environment.scenario().name, replay.seed, replay.index));
+    out.line(format!("  {outcome} after {} steps, {left} : {right}", replay.length));
     for (agent, id) in environment.agent_ids().iter().enumerate() {
         let sums = environment.term_names().iter().zip(environment.term_sums(agent));
         let terms: Vec<String> = sums.map(|(name, sum)| format!("{name} {sum:+.3}")).collect();
-        out.line(&format!("  {id}  {}", terms.join("  ")));
+        out.line(format!("  {id}  {}", terms.join("  ")));
     }
-    out.line(&format!("  digest {:016x}, as it was", replay.digest));
+    out.line(format!("  digest {:016x}, as it was", replay.digest));
 }
 
 /// A moment in the world's frame: places normalised, heights in metres.

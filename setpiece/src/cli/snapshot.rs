@@ -42,7 +42,7 @@ pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
     write(&args.output, &bytes)?;
     let [left, right] = environment.score();
     let at = format!("{} at step {}, {left} : {right}", loaded.scenario.name, environment.steps());
-    out.line(&format!("{at} → {} ({} bytes)", args.output.display(), bytes.len()));
+    out.line(format!("{at} → {} ({} bytes)", args.output.display(), bytes.len()));
     Ok(FINE)
 }
 

@@ -1,8 +1,8 @@
 //! Prints the results of a run: a table, one JSON object, or one line per episode.
 
-use super::out::Out;
+use super::out::{Out, StyledText};
 use crate::Error;
-use crate::drawing::{Paint, draw_painted};
+use crate::drawing::{Paint, drawn};
 use crate::engine::batch::EpisodeSummary;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::Environment;
@@ -69,16 +69,17 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
 
 /// Prints the table, below a drawing of the first episode's start.
 pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Summary, out: &Out) -> Result<(), Error> {
-    out.line(&format!("{}  {}", out.bold(&scenario.name, 0), scenario.title()));
+    out.line(StyledText::default().bold(&scenario.name).text("  ").text(scenario.title()));
     let mut environment =
         Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
     if environment.reset(Some(options.seed), Some(0)).is_ok() {
-        out.line(&draw_painted(environment.state(), |sign, paint| out.paint(&sign.to_string(), paint)));
+        let signs = drawn(environment.state()).into_iter();
+        out.line(signs.fold(StyledText::default(), |text, (sign, paint)| text.paint(&sign.to_string(), paint)));
     }
-    out.line(&out.dim("  left team 0-9 attacks →, right team a-k ←, ball o"));
+    out.line(StyledText::default().dim("  left team 0-9 attacks →, right team a-k ←, ball o"));
     out.line("");
     let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == options.agent).map_or("", |(name, _)| *name);
-    out.line(&format!("  {} episodes · agent {agent} · seed {}", summary.episodes.len(), options.seed));
+    out.line(format!("  {} episodes · agent {agent} · seed {}", summary.episodes.len(), options.seed));
     out.line("");
     let width = summary.outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
     for (label, verdict, count) in &summary.outcomes {
@@ -89,30 +90,27 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
             Some(Verdict::Failure) => ("failure", Paint::Failure),
             None => ("", Paint::Plain),
         };
-        out.line(&format!(
-            "  {label:width$}  {word:7}  {count:>5}  {:>5.1} %  {}",
-            100.0 * share,
-            out.paint(&bar, paint)
-        ));
+        let head = format!("  {label:width$}  {word:7}  {count:>5}  {:>5.1} %  ", 100.0 * share);
+        out.line(StyledText::from(head).paint(&bar, paint));
     }
     out.line("");
     let [left, right] = summary.score;
-    out.line(&format!("  {:width$}  {left:.2} : {right:.2}", "mean score"));
-    out.line(&format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
+    out.line(format!("  {:width$}  {left:.2} : {right:.2}", "mean score"));
+    out.line(format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
     for (name, mean) in &summary.terms {
-        out.line(&format!("  {:width$}    {mean:+.3}  {name}", ""));
+        out.line(format!("  {:width$}    {mean:+.3}  {name}", ""));
     }
     if summary.faults > 0 {
-        let note = format!("{} values were not finite and were not paid: a division by zero?", summary.faults);
-        out.line(&format!("  {:width$}    {}", "", out.paint(&note, Paint::Failure)));
+        let report = format!("{} values were not finite and were not paid: a division by zero?", summary.faults);
+        out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
     }
-    out.line(&format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
+    out.line(format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
     for (index, (name, mean)) in summary.records.iter().enumerate() {
-        out.line(&format!("  {:width$}  {mean:.3}  {name}", if index == 0 { "records" } else { "" }));
+        out.line(format!("  {:width$}  {mean:.3}  {name}", if index == 0 { "records" } else { "" }));
     }
     if scenario.endings.list.is_empty() {
         let m = &summary.match_stats;
-        out.line(&format!(
+        out.line(format!(
             "  {:width$}  {:.0} passes, {:.0} % completed · {:.1} shots · {:.1} goals · spells of {:.0} steps",
             "per match",
             m.passes,
@@ -122,23 +120,20 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
             m.possession_spell
         ));
     }
-    out.line(&format!("  {:width$}  {:.0} steps per second", "speed", summary.steps_per_second));
+    out.line(format!("  {:width$}  {:.0} steps per second", "speed", summary.steps_per_second));
     Ok(())
 }
 
-/// One line about an episode, for `--watch`.
-pub(crate) fn episode_line(episode: &EpisodeSummary, out: &Out) -> String {
+/// One line about an episode, for watching.
+pub(crate) fn episode_line(episode: &EpisodeSummary) -> StyledText {
     let paint = match episode.verdict {
         Some(Verdict::Success) => Paint::Success,
         Some(Verdict::Failure) => Paint::Failure,
         None => Paint::Plain,
     };
     let [left, right] = episode.score;
-    format!(
-        "  episode {:>3}  {}  {left}:{right}  return {:+.3}  {} steps",
-        episode.index,
-        out.paint(&format!("{:14}", episode.outcome), paint),
-        episode.returns.iter().sum::<f64>(),
-        episode.length
-    )
+    let paid: f64 = episode.returns.iter().sum();
+    StyledText::from(format!("  episode {:>3}  ", episode.index))
+        .paint(&format!("{:14}", episode.outcome), paint)
+        .text(&format!("  {left}:{right}  return {paid:+.3}  {} steps", episode.length))
 }

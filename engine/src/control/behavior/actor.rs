@@ -3,7 +3,7 @@
 use super::perform::{Step, Wish, perform};
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{DrawKey, Machine, truth};
-use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts};
+use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts, Shelf};
 use crate::judge::view::player_index;
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
@@ -106,15 +106,15 @@ impl Actor {
         self.thread.memories.iter_mut().for_each(|(_, memory)| *memory = Memory::default());
     }
 
-    /// Writes or reads their memory.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    /// Writes or reads what the player remembers.
+    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
         let Thread { player: _, at, interrupted, steps, turned, memories } = &mut self.thread;
         archive.slots("cells", &mut self.cells)?;
         archive.value("at", at)?;
         archive.value("interrupted", interrupted)?;
         archive.value("steps", steps)?;
         archive.slots("turned", turned)?;
-        memories.iter_mut().try_for_each(|(_, memory)| memory.archive("this", archive))
+        memories.iter_mut().try_for_each(|(_, memory)| memory.archive("this", archive, shelf))
     }
 }
 

@@ -1,9 +1,8 @@
 //! Encodes what a script keeps in its memory as plain data, for snapshots.
 //!
-//! A value becomes a flat list of nodes, parts before wholes, so reading needs no recursion,
-//! however deeply nested the value is. A value that was shown to a hook (`this.last = now`) refers
-//! to its scene. Scenes are stored once each on a separate [`Shelf`], so that values that shared a
-//! scene share it again.
+//! A value becomes a flat list of nodes, parts before wholes, so that no list however wild is read by recursion. What a
+//! hook was shown (`this.last = now`) leads to its scene; scenes stand on a [`Shelf`] of their own, each once, so that
+//! what was one is one again. The shelf is handed along beside the archive of an episode.
 
 use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
 use super::{Perspective, Scene};
@@ -100,15 +99,20 @@ struct Unkept {
 
 impl Memory {
     /// Writes or reads a script's memory.
-    pub(crate) fn archive(&mut self, name: &str, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    pub(crate) fn archive(
+        &mut self,
+        name: &str,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         let mut nodes = Nodes::default();
         if !archive.is_reading() {
-            archive.shelf.write(&self.this, &mut nodes.0).map_err(Unkept::within_this)?;
+            shelf.write(&self.this, &mut nodes.0).map_err(Unkept::within_this)?;
         }
         archive.value("begun", &mut self.begun)?;
         archive.value(name, &mut nodes)?;
         if archive.is_reading() {
-            self.this = archive.shelf.read(nodes.0).map_err(|why| SnapshotError::damaged(name, why))?;
+            self.this = shelf.read(nodes.0).map_err(|why| SnapshotError::damaged(name, why))?;
             host::check_size(&self.this, MEMORIES_BYTES_MAX).map_err(|why| SnapshotError::damaged(name, why))?;
         }
         Ok(())
@@ -116,17 +120,17 @@ impl Memory {
 }
 
 impl Shelf {
-    /// Writes or reads a reference to a scene.
+    /// Writes or reads where a scene stands.
     pub(crate) fn archive(
+        &mut self,
         name: &str,
         scene: &mut Option<Arc<Scene>>,
         archive: &mut Archive<'_>,
     ) -> Result<(), SnapshotError> {
-        let shelf = &mut archive.shelf;
-        let mut at = scene.as_ref().map(|scene| shelf.place(scene)).transpose().map_err(Unkept::within_this)?;
+        let mut at = scene.as_ref().map(|scene| self.place(scene)).transpose().map_err(Unkept::within_this)?;
         archive.value(name, &mut at)?;
         if archive.is_reading() {
-            let found = |at| archive.shelf.scene(at).map_err(|why| SnapshotError::damaged(name, why));
+            let found = |at| self.scene(at).map_err(|why| SnapshotError::damaged(name, why));
             *scene = at.map(found).transpose()?;
         }
         Ok(())

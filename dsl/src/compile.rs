@@ -8,7 +8,7 @@ use crate::ast::{ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
-use crate::lower::script::Scripts;
+use crate::lower::script::LoadedScripts;
 use crate::lower::{Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, start};
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
@@ -35,7 +35,7 @@ pub struct CompileOptions<'a> {
 
 /// What came out.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct CompileOutcome {
     /// The scenario, exactly when no problem is an error.
     pub scenario: Option<Scenario>,
     /// Everything that was found, by file, place and code.
@@ -68,11 +68,11 @@ pub fn parts(text: &str) -> Option<Vec<String>> {
 ///
 /// Every scenario of the root that is not abstract is checked; the wanted one, or the last, comes out.
 #[allow(clippy::needless_pass_by_value, reason = "a caller has no more use for the root, which the outcome holds")]
-pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> Outcome {
+pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> CompileOutcome {
     let mut problems = Vec::new();
     let texts: Vec<Source> = options.cast.iter().map(cast::source).collect();
     let (mut library, guests) = load(&root, loader, options.prelude, &texts, &mut problems);
-    let mut scripts = Scripts::new(options.scripts);
+    let mut scripts = LoadedScripts::new(options.scripts);
     scripts::load(&mut library, &mut scripts, loader, &mut problems);
     let casting = cast::read(options.cast, &guests, &library, &mut problems);
 
@@ -138,7 +138,7 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         Some((scenario, origins)) => ((!failed).then_some(scenario), origins),
         None => (None, Origins::default()),
     };
-    Outcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
+    CompileOutcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
 }
 
 /// What a scenario costs above its limits, reported where most of it stands.
@@ -214,7 +214,7 @@ fn is_enough(effort: &Effort, item: &ScenarioItem, problems: &mut Vec<Problem>) 
 #[allow(clippy::too_many_arguments, reason = "what a scenario is made of, and where its findings go")]
 fn compile_one<'a>(
     library: &'a Library,
-    scripts: &'a Scripts<'a>,
+    scripts: &'a LoadedScripts<'a>,
     casting: &'a [Casting<'a>],
     item: &'a ScenarioItem,
     doc: &'a str,

@@ -15,7 +15,7 @@ pub(crate) const BRACKET_APART: &str = " (";
 
 /// Where a habit is met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum HabitPlace {
     /// A name that nothing has.
     Name,
     /// Text that can't be read, in any list of statements.
@@ -36,7 +36,7 @@ pub(crate) enum Place {
 
 /// A row of the table.
 struct Habit {
-    place: Place,
+    place: HabitPlace,
     /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text begins.
     ///
     /// `_` is a name, `""` a string, `9` a number, `9a` a number with letters, `é` a word of other letters, `ROLE` a
@@ -48,7 +48,7 @@ struct Habit {
 
 /// A habit that was met.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Found {
+pub(crate) struct FoundHabit {
     /// What to write.
     pub(crate) help: String,
     /// Whether it goes on with what stands before the place.
@@ -68,14 +68,14 @@ pub(crate) enum Begins {
 
 /// What to write for a name that nothing has.
 pub(crate) fn of_name(name: &str) -> Option<String> {
-    let mut habits = HABITS.iter().filter(|habit| habit.place == Place::Name);
+    let mut habits = HABITS.iter().filter(|habit| habit.place == HabitPlace::Name);
     habits.find_map(|habit| habit.at(&[], &[name], true)).map(|found| found.help)
 }
 
 /// What to write where the tokens of a statement stop making sense at one of them; the unreadable begins at `first`.
 /// Gives the token, too, that the habit is seen at.
-pub(crate) fn of_text(place: Place, tokens: &[&str], at: usize, first: usize) -> Option<(usize, Found)> {
-    let habits = HABITS.iter().filter(|habit| habit.place == place || habit.place == Place::Anywhere);
+pub(crate) fn of_text(place: HabitPlace, tokens: &[&str], at: usize, first: usize) -> Option<(usize, FoundHabit)> {
+    let habits = HABITS.iter().filter(|habit| habit.place == place || habit.place == HabitPlace::Anywhere);
     // A sign is only wrong where nothing fits.
     let word = |token: &&str| token.starts_with(|char: char| char.is_alphanumeric() || "_\"".contains(char));
     let first = if tokens.get(first).is_some_and(word) { first } else { at };
@@ -88,7 +88,7 @@ pub(crate) fn of_text(place: Place, tokens: &[&str], at: usize, first: usize) ->
 
 impl Habit {
     /// Whether it is met between two parts of a statement.
-    fn at(&self, before: &[&str], behind: &[&str], begins: bool) -> Option<Found> {
+    fn at(&self, before: &[&str], behind: &[&str], begins: bool) -> Option<FoundHabit> {
         let (left, right) = self.seen.split_once('|').unwrap_or(("", self.seen));
         let (mut found, mut ahead) = (Vec::new(), Vec::new());
         let pattern: Vec<&str> = right.split_whitespace().chain(["…"]).collect();
@@ -107,11 +107,11 @@ impl Habit {
         Some(self.found(if left.is_empty() { Begins::Either } else { Begins::Before }, &ahead))
     }
 
-    fn found(&self, begins: Begins, open: &[&str]) -> Found {
+    fn found(&self, begins: Begins, open: &[&str]) -> FoundHabit {
         let fill = |help: String, (index, text): (usize, &&str)| {
             help.replace(&format!("{{{}}}", index + 1), text.trim_matches('"'))
         };
-        Found { help: open.iter().enumerate().fold(self.write.to_owned(), fill), begins }
+        FoundHabit { help: open.iter().enumerate().fold(self.write.to_owned(), fill), begins }
     }
 }
 
@@ -158,29 +158,29 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
 mod tests {
     use super::*;
 
-    fn text(place: Place, tokens: &str, at: usize) -> Option<String> {
+    fn text(place: HabitPlace, tokens: &str, at: usize) -> Option<String> {
         of_text(place, &tokens.split_whitespace().collect::<Vec<_>>(), at, 0).map(|(_, found)| found.help)
     }
 
     #[test]
     fn what_is_left_open_is_filled_in() {
-        assert_eq!(text(Place::Fields, "offside = off", 1).as_deref(), Some("write `offside: off`"));
-        assert_eq!(text(Place::Reward, "x += 1", 1).as_deref(), Some("write `x = x + …`"));
+        assert_eq!(text(HabitPlace::Fields, "offside = off", 1).as_deref(), Some("write `offside: off`"));
+        assert_eq!(text(HabitPlace::Reward, "x += 1", 1).as_deref(), Some("write `x = x + …`"));
         assert_eq!(of_name("e_PlayerRole_CM").as_deref(), Some("write `CM`"));
     }
 
     #[test]
     fn a_row_belongs_to_its_place() {
-        assert_ne!(text(Place::Reward, "elif x", 0), text(Place::Behavior, "elif x", 0));
+        assert_ne!(text(HabitPlace::Reward, "elif x", 0), text(HabitPlace::Behavior, "elif x", 0));
         assert_eq!(of_name("elif"), None);
-        assert_eq!(text(Place::Team, "striker", 1), None);
+        assert_eq!(text(HabitPlace::Team, "striker", 1), None);
     }
 
     #[test]
     fn every_row_can_be_met() {
         for habit in HABITS {
             assert!(!habit.write.is_empty() && !habit.seen.trim().is_empty());
-            assert_eq!(habit.place == Place::Name, !habit.seen.contains('|'), "{}", habit.seen);
+            assert_eq!(habit.place == HabitPlace::Name, !habit.seen.contains('|'), "{}", habit.seen);
             let open = habit.seen.split_whitespace().filter(|token| {
                 ["_", "*", "9", "9a", "é", "\"\"", "ROLE", "EVENT"].contains(token)
                     || token.contains('¦')

@@ -18,6 +18,6 @@ mod resolve;
 pub mod source;
 
 pub use cast::{CAST_NAME, Cast, CastTarget};
-pub use compile::{CompileOptions, Outcome, compile, parts};
+pub use compile::{CompileOptions, CompileOutcome, compile, parts};
 pub use origins::{Origins, RequireOrigin};
 pub use resolve::Prelude;

@@ -42,10 +42,10 @@ use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
 use start::{StartState, Streams};
 use step::StepWorld;
-use value::{Frame, Repr, Scope, Value};
+use value::{LiteralFrame, Repr, Scope, Value};
 
 /// What kind of program is written, which decides what it may read; with what this kind alone keeps.
-pub(crate) enum Stage<'w> {
+pub(crate) enum ProgramStage<'w> {
     /// Nothing but constants.
     Constant,
     /// The draw of a start; with its places and `let`s.
@@ -65,15 +65,25 @@ pub(crate) enum Stage<'w> {
     Behavior(Option<Vec<behavior::Draw>>),
 }
 
-impl Stage<'_> {
+impl ProgramStage<'_> {
     /// Whether the match is under way.
     pub(crate) fn is_step(&self) -> bool {
-        matches!(self, Stage::Reward | Stage::Ending | Stage::Record(_) | Stage::Observation | Stage::Behavior(_))
+        matches!(
+            self,
+            ProgramStage::Reward
+                | ProgramStage::Ending
+                | ProgramStage::Record(_)
+                | ProgramStage::Observation
+                | ProgramStage::Behavior(_)
+        )
     }
 
     /// Whether it runs for an agent or a player, so that there is a `me`.
     pub(crate) fn has_me(&self) -> bool {
-        matches!(self, Stage::Reward | Stage::Record(_) | Stage::Observation | Stage::Behavior(_))
+        matches!(
+            self,
+            ProgramStage::Reward | ProgramStage::Record(_) | ProgramStage::Observation | ProgramStage::Behavior(_)
+        )
     }
 }
 
@@ -86,7 +96,7 @@ pub(crate) struct Lower<'c, 'w> {
     /// The program.
     pub(crate) code: Builder,
     /// Its kind.
-    pub(crate) stage: Stage<'w>,
+    pub(crate) stage: ProgramStage<'w>,
     /// The names in sight.
     pub(crate) scope: Scope<'w>,
     /// The team whose view it is, if any.
@@ -112,18 +122,18 @@ const INLINED_MAX: u32 = 10_000;
 impl<'c, 'w> Lower<'c, 'w> {
     /// An empty program of what is known now.
     pub(crate) fn constant(world: &'c World<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
-        Lower::new(world, None, Stage::Constant, scope)
+        Lower::new(world, None, ProgramStage::Constant, scope)
     }
 
     /// An empty program of what is drawn or computed at the start.
     pub(crate) fn of_start(world: &'c World<'w>, scope: Scope<'w>, state: StartState<'w>) -> Lower<'c, 'w> {
-        Lower::new(world, None, Stage::Start(state), scope)
+        Lower::new(world, None, ProgramStage::Start(state), scope)
     }
 
     /// What is known of the start; `None` in any other program.
     pub(crate) fn start(&self) -> Option<&StartState<'w>> {
         match &self.stage {
-            Stage::Start(state) => Some(state),
+            ProgramStage::Start(state) => Some(state),
             _ => None,
         }
     }
@@ -131,21 +141,21 @@ impl<'c, 'w> Lower<'c, 'w> {
     /// The same, to note more.
     pub(crate) fn start_mut(&mut self) -> Option<&mut StartState<'w>> {
         match &mut self.stage {
-            Stage::Start(state) => Some(state),
+            ProgramStage::Start(state) => Some(state),
             _ => None,
         }
     }
 
     /// An empty program of a step, or of what is kept from step to step.
-    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: Stage<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
-        debug_assert!(stage.is_step() || matches!(stage, Stage::Init));
+    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: ProgramStage<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+        debug_assert!(stage.is_step() || matches!(stage, ProgramStage::Init));
         Lower::new(step.world, Some(step), stage, scope)
     }
 
     fn new(
         world: &'c World<'w>,
         step: Option<&'c StepWorld<'c, 'w>>,
-        stage: Stage<'w>,
+        stage: ProgramStage<'w>,
         scope: Scope<'w>,
     ) -> Lower<'c, 'w> {
         Lower {
@@ -193,7 +203,7 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// Runs `f` in the own frame or the world's.
-    pub(crate) fn in_frame<T>(&mut self, frame: Frame, f: impl FnOnce(&mut Self) -> T) -> T {
+    pub(crate) fn in_frame<T>(&mut self, frame: LiteralFrame, f: impl FnOnce(&mut Self) -> T) -> T {
         let outer = std::mem::replace(&mut self.scope.frame, frame);
         let result = f(self);
         self.scope.frame = outer;
@@ -305,7 +315,7 @@ impl<'c, 'w> Lower<'c, 'w> {
     /// +1 or -1 where the own frame is read, `None` where it is the world's.
     pub(crate) fn side(&mut self) -> Option<Reg> {
         match (self.scope.frame, self.team, self.world.mirror) {
-            (Frame::Own, Some(team), _) => Some(self.code.unary(setpiece_scenario::UnaryOp::Side, team)),
+            (LiteralFrame::Own, Some(team), _) => Some(self.code.unary(setpiece_scenario::UnaryOp::Side, team)),
             (_, _, Mirror::Ends) => Some(self.code.constant(-1.0)),
             _ => None,
         }

@@ -4,7 +4,7 @@
 
 use setpiece_dsl::problem::{Code, Severity, nearest};
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
-use setpiece_dsl::{CompileOptions, Outcome, compile};
+use setpiece_dsl::{CompileOptions, CompileOutcome, compile};
 use std::cell::Cell;
 use std::fmt::Write as _;
 
@@ -35,11 +35,11 @@ impl SourceLoader for Endless {
     }
 }
 
-fn outcome(text: &str) -> Outcome {
+fn outcome(text: &str) -> CompileOutcome {
     outcome_with(text, &Endless::default())
 }
 
-fn outcome_with(text: &str, loader: &Endless) -> Outcome {
+fn outcome_with(text: &str, loader: &Endless) -> CompileOutcome {
     assert!(text.len() <= FULL, "{} bytes", text.len());
     let root = Source { name: "case.pitch".to_owned(), text: text.into() };
     compile(root, loader, &CompileOptions::default())
@@ -65,12 +65,12 @@ fn repeated(head: &str, n: usize, part: impl Fn(usize) -> String, tail: &str) ->
 }
 
 /// How often a code was reported.
-fn count(outcome: &Outcome, code: Code) -> usize {
+fn count(outcome: &CompileOutcome, code: Code) -> usize {
     outcome.problems.iter().filter(|problem| problem.code() == code).count()
 }
 
 #[track_caller]
-fn is_too_much(outcome: &Outcome, message: &str) {
+fn is_too_much(outcome: &CompileOutcome, message: &str) {
     let found = outcome.problems.iter().find(|problem| problem.code() == Code::TooMuch);
     let found = found.unwrap_or_else(|| panic!("{:#?}", outcome.problems.iter().take(3).collect::<Vec<_>>()));
     assert!(found.words().message.contains(message), "{}", found.words().message);

@@ -3,7 +3,7 @@
 
 use setpiece_dsl::problem::Severity;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
-use setpiece_dsl::{CompileOptions, Outcome, compile};
+use setpiece_dsl::{CompileOptions, CompileOutcome, compile};
 
 /// The standard library from the repository.
 struct Std;
@@ -24,7 +24,7 @@ impl SourceLoader for Std {
     }
 }
 
-fn outcome(text: &str) -> Outcome {
+fn outcome(text: &str) -> CompileOutcome {
     let root = Source { name: "case.pitch".to_owned(), text: text.into() };
     let outcome = compile(root, &Std, &CompileOptions::default());
     let failed = outcome.problems.iter().any(|problem| problem.severity() == Severity::Error);

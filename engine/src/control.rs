@@ -29,7 +29,7 @@ use arrayvec::ArrayVec;
 use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Rule};
-use tell::Before;
+use tell::BeforeBots;
 
 /// Steps that a set piece waits for an agent. (GRF's: the twentieth is hurried.)
 const STALLING_STEPS: u16 = 19;
@@ -59,7 +59,7 @@ pub fn bot_actions(game: &mut Match) -> ArrayVec<Action, PLAYERS_MAX> {
 }
 
 /// Decides every intent of the step, and returns what was under way before the bots decided.
-fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
+fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> BeforeBots {
     game.play.led = [false; 2];
     game.play.rush = [false; 2];
     game.play.team_pressure = [false; 2];
@@ -107,7 +107,7 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> Before {
         }
     }
     drive_scripted(game, events);
-    let before = Before::of(game);
+    let before = BeforeBots::of(game);
     bot::think(game);
     before
 }

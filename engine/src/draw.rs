@@ -102,7 +102,7 @@ impl Drawer {
         }
         Drawer {
             regs: Registers::of(program),
-            failures: vec![0; scenario.start.requires.len() + place::Fault::ALL.len()],
+            failures: vec![0; scenario.start.requires.len() + place::PlaceFault::ALL.len()],
             random,
             attempts_max: (WORK_MAX / start_work(scenario)).clamp(1, ATTEMPTS_MAX.into()) as u32,
         }
@@ -190,7 +190,7 @@ impl Drawer {
             .fold((0, 0), |best, (which, n)| if n > best.1 { (which, n) } else { best });
         let requirement = match scenario.start.requires.get(which) {
             Some(require) => require.label.clone(),
-            None => place::Fault::ALL[which - scenario.start.requires.len()].words().to_owned(),
+            None => place::PlaceFault::ALL[which - scenario.start.requires.len()].words().to_owned(),
         };
         DrawError { requirement, failures, attempts, seed, index }
     }

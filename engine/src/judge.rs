@@ -1,7 +1,7 @@
 //! The judge: what an episode is worth, and when it ends.
 //!
 //! Decides rewards and endings from what happened in a step; never changes the match. For each step
-//! it gets a [`View`] of the state before any restart, the view that the last step left behind
+//! it gets a [`MatchView`] of the state before any restart, the view that the last step left behind
 //! (after its restart), and the step's events. Endings are judged first, in their order. The one
 //! that holds adds the event `end`, which the rewards of that last step see.
 //!
@@ -26,7 +26,7 @@ pub use machine::Machine;
 pub use records::{RecordJudge, Recorded};
 pub use rewards::RewardJudge;
 pub use script::{ScriptError, ScriptFault, ScriptFaultKind, check_script};
-pub use view::{Memory, Sight, View};
+pub use view::{MatchView, Sight, ViewMemory};
 
 use crate::in_place::clone_in_place;
 use crate::judge::script::Shelf;
@@ -38,7 +38,7 @@ pub use known::Given;
 use known::Known;
 use machine::Input;
 use observation::ObservationJudge;
-use script::{Scene, Scripts};
+use script::{HookScene, Scripts};
 use setpiece_scenario::{Endings, Reward, Scenario};
 use std::sync::Arc;
 
@@ -50,11 +50,11 @@ pub struct Judge {
     records: RecordJudge,
     observation: Option<ObservationJudge>,
     known: Known,
-    prev: View,
+    prev: MatchView,
     /// How much of the state is kept in `prev`.
-    memory: Memory,
+    memory: ViewMemory,
     /// The value of `prev` in the step just judged, for observations that compare with it.
-    before: View,
+    before: MatchView,
 }
 
 clone_in_place! {
@@ -73,9 +73,9 @@ impl Judge {
             records: RecordJudge::new(&scenario.records, n_agents),
             observation: scenario.observation.as_ref().map(ObservationJudge::new),
             known: Known::new(scripts, scripted, Purpose::Script),
-            memory: if scripted { Memory::All } else { memory(scenario, &rewards) },
-            prev: View::EMPTY,
-            before: View::EMPTY,
+            memory: if scripted { ViewMemory::All } else { memory(scenario, &rewards) },
+            prev: MatchView::EMPTY,
+            before: MatchView::EMPTY,
         }
     }
 
@@ -119,7 +119,7 @@ impl Judge {
     /// Begins an episode; the match is at its start.
     pub fn reset(&mut self, game: &Match, given: &Given<'_>) {
         self.known.begin(given);
-        self.prev = View::of(game);
+        self.prev = MatchView::of(game);
         self.before = self.prev;
         let input = self.known.input(Sight::Live(game), &self.prev, endings::judged_side(game));
         self.endings.reset(&input);
@@ -151,13 +151,13 @@ impl Judge {
     /// A hook that failed; the episode can't continue.
     pub fn step(&mut self, game: &Match, events: &mut Events) -> Result<Option<Outcome>, ScriptError> {
         let side = endings::judged_side(game);
-        let mut scene = self.known.show(|| View::of(game), &self.prev, events.as_slice());
+        let mut scene = self.known.show(|| MatchView::of(game), &self.prev, events.as_slice());
         let input = Input { events: events.as_slice(), ..self.known.input(Sight::Live(game), &self.prev, side) };
         let outcome = self.endings.step(game, &input, shown(&self.known, scene.as_ref()))?;
         if let Some(outcome) = &outcome {
             endings::announce(outcome, game, events);
             drop(scene);
-            scene = self.known.show(|| View::of(game), &self.prev, events.as_slice());
+            scene = self.known.show(|| MatchView::of(game), &self.prev, events.as_slice());
         }
         let input = Input { events: events.as_slice(), ..self.known.input(Sight::Live(game), &self.prev, side) };
         self.rewards.step(game, &input, shown(&self.known, scene.as_ref()))?;
@@ -175,17 +175,17 @@ impl Judge {
 }
 
 /// What a judge's scripts may read.
-fn shown<'a>(known: &'a Known, scene: Option<&'a Arc<Scene>>) -> Option<(&'a Scripts, &'a Arc<Scene>)> {
+fn shown<'a>(known: &'a Known, scene: Option<&'a Arc<HookScene>>) -> Option<(&'a Scripts, &'a Arc<HookScene>)> {
     scene.map(|scene| (known.scripts(), scene))
 }
 
 /// How much of a state must be kept for the next step's `prev`.
-fn memory(scenario: &Scenario, rewards: &[Reward]) -> Memory {
-    let of = |reward: &Reward| Memory::of(&reward.body.step);
+fn memory(scenario: &Scenario, rewards: &[Reward]) -> ViewMemory {
+    let of = |reward: &Reward| ViewMemory::of(&reward.body.step);
     let programs = scenario.records.iter().map(|record| &record.program);
     let programs = programs.chain(scenario.observation.iter().map(|observation| &observation.program));
     let programs = programs.chain([&scenario.endings.program]);
-    programs.map(Memory::of).chain(rewards.iter().map(of)).max().unwrap_or_default()
+    programs.map(ViewMemory::of).chain(rewards.iter().map(of)).max().unwrap_or_default()
 }
 
 #[cfg(test)]

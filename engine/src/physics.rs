@@ -23,7 +23,7 @@ use glam::{Vec2, Vec3};
 
 /// A player's body that the ball may meet during a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct BallObstacle {
     /// Player id.
     pub id: u8,
     /// Feet, world metres.
@@ -50,7 +50,7 @@ pub enum Contact {
 ///
 /// `full` always runs rapier. Otherwise rapier runs only if the swept ball comes near something
 /// hard.
-pub fn advance_ball(ball: &mut Ball, bodies: &[Body], full: bool, scratch: &mut Scratch) -> Option<Contact> {
+pub fn advance_ball(ball: &mut Ball, bodies: &[BallObstacle], full: bool, scratch: &mut Scratch) -> Option<Contact> {
     let bodies = gate::near_bodies(ball, bodies);
     if bodies.is_empty() && flight::lies_still(ball) {
         return None;

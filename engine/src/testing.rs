@@ -1,6 +1,6 @@
 //! Test helpers that build programs and scenarios by hand.
 
-use crate::judge::View;
+use crate::judge::MatchView;
 use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers};
 use crate::judge::view::Sight;
 use crate::state::PlayerId;
@@ -67,8 +67,8 @@ pub(crate) struct Left {
 /// Runs a program once on memory that the caller keeps.
 pub(crate) fn run(
     program: &Program,
-    now: &View,
-    prev: &View,
+    now: &MatchView,
+    prev: &MatchView,
     events: &[Event],
     cells: &mut [f64],
     silent: bool,
@@ -120,8 +120,8 @@ pub(crate) fn event(kind: EventKind, team: Option<Team>, by: Option<u8>) -> Even
 }
 
 /// A view with the left keeper at the goal and players 1 and 12 at the given places, metres.
-pub(crate) fn view(left: [f32; 2], right: [f32; 2], ball: [f32; 3]) -> View {
-    let mut view = View { ball, ..View::EMPTY };
+pub(crate) fn view(left: [f32; 2], right: [f32; 2], ball: [f32; 3]) -> MatchView {
+    let mut view = MatchView { ball, ..MatchView::EMPTY };
     for (id, pos, role) in [(0, [-55.0, 0.0], Role::GK), (1, left, Role::CM), (12, right, Role::CB)] {
         let player = &mut view.players[id];
         (player.present, player.active, player.pos, player.role) = (true, true, pos, role);

@@ -4,7 +4,7 @@
 use glam::{Vec2, Vec3};
 use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS};
-use setpiece_engine::physics::{Body, Contact, Scratch, advance_ball, crossed_goal_line};
+use setpiece_engine::physics::{BallObstacle, Contact, Scratch, advance_ball, crossed_goal_line};
 use setpiece_engine::random::{Purpose, Stream};
 
 /// A draw from the test's own stream.
@@ -36,12 +36,12 @@ fn aimed(from: Vec3, at: Vec3, speed: f32, spin: Vec3) -> Ball {
     Ball { pos: from, vel, spin }
 }
 
-fn standing(id: u8, pos: Vec2) -> Body {
-    Body { id, pos, vel: Vec2::ZERO, height_m: 1.8 }
+fn standing(id: u8, pos: Vec2) -> BallObstacle {
+    BallObstacle { id, pos, vel: Vec2::ZERO, height_m: 1.8 }
 }
 
 /// A shot and the bodies in its way.
-type Shot = (Ball, Vec<Body>);
+type Shot = (Ball, Vec<BallObstacle>);
 
 /// Shots of every kind, from all over the pitch, at either goal.
 fn shots(count: usize) -> Vec<Shot> {
@@ -151,7 +151,7 @@ fn both_goals_are_alike_to_the_bit() {
         let turn = |v: Vec3| Vec3::new(-v.x, -v.y, v.z);
         let mut one = start;
         let mut other = Ball { pos: turn(start.pos), vel: turn(start.vel), spin: turn(start.spin) };
-        let turned: Vec<Body> = bodies.iter().map(|body| Body { pos: -body.pos, ..*body }).collect();
+        let turned: Vec<BallObstacle> = bodies.iter().map(|body| BallObstacle { pos: -body.pos, ..*body }).collect();
         for _ in 0..200 {
             let touched = advance_ball(&mut one, &bodies, false, &mut scratch);
             assert_eq!(touched, advance_ball(&mut other, &turned, false, &mut scratch));
@@ -261,7 +261,7 @@ fn a_ball_over_the_head_passes() {
 fn a_running_body_takes_a_resting_ball_along() {
     let mut scratch = Scratch::default();
     let mut ball = Ball { pos: Vec3::new(0.0, 0.0, BALL_RADIUS), vel: Vec3::ZERO, spin: Vec3::ZERO };
-    let mut body = Body { id: 4, pos: Vec2::new(-1.0, 0.0), vel: Vec2::new(6.0, 0.0), height_m: 1.8 };
+    let mut body = BallObstacle { id: 4, pos: Vec2::new(-1.0, 0.0), vel: Vec2::new(6.0, 0.0), height_m: 1.8 };
     let mut touched = None;
     for _ in 0..30 {
         touched = touched.or(advance_ball(&mut ball, &[body], false, &mut scratch));
@@ -279,7 +279,7 @@ fn a_body_cannot_press_the_ball_through_the_net() {
         let from = draw.point([56.0, -3.0, 0.11], [57.0, 3.0, 0.11]);
         let mut ball = Ball { pos: from, vel: Vec3::ZERO, spin: Vec3::ZERO };
         let vel = Vec2::new(draw.within(1.0, 8.0), draw.within(-4.0, 4.0));
-        let mut body = Body { id: 2, pos: from.truncate() - vel.normalize(), vel, height_m: 1.85 };
+        let mut body = BallObstacle { id: 2, pos: from.truncate() - vel.normalize(), vel, height_m: 1.85 };
         for _ in 0..150 {
             advance_ball(&mut ball, &[body], false, &mut scratch);
             body.pos += body.vel * 0.01;

@@ -1,7 +1,7 @@
 //! Ready-made agents on the scenarios: their scores and the lengths of their episodes.
 
 use crate::figure::{Section, short};
-use crate::pitch::{Failure, library};
+use crate::pitch::{LabError, library};
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::EnvironmentOptions;
 use setpiece::run::{RunOptions, Summary, run};
@@ -11,9 +11,9 @@ const EPISODES: u64 = 500;
 
 /// A scenario with their scores and lengths for the random and the scripted agent, and the required
 /// range for the scripted one.
-type Row = (&'static str, [f64; 2], [f64; 2], [f64; 2], Option<[f64; 2]>);
+type AgentRow = (&'static str, [f64; 2], [f64; 2], [f64; 2], Option<[f64; 2]>);
 
-const ACADEMY: &[Row] = &[
+const ACADEMY: &[AgentRow] = &[
     ("academy_empty_goal_close", [0.105, 122.0], [1.0, 13.0], [0.97, 1.0], Some([9.0, 20.0])),
     ("academy_empty_goal", [0.0, 123.0], [1.0, 70.0], [0.95, 1.0], Some([55.0, 85.0])),
     ("academy_run_to_score", [-0.07, 115.0], [1.0, 70.0], [0.85, 1.0], Some([55.0, 85.0])),
@@ -32,7 +32,7 @@ const MATCHES: &[(&str, [f64; 2], f64)] = &[
 ];
 
 /// Measures everything of the section.
-pub(crate) fn measure(episodes: Option<u64>) -> Result<Section, Failure> {
+pub(crate) fn measure(episodes: Option<u64>) -> Result<Section, LabError> {
     let episodes = episodes.unwrap_or(EPISODES);
     let mut section = Section::new(
         5,
@@ -67,7 +67,7 @@ pub(crate) fn measure(episodes: Option<u64>) -> Result<Section, Failure> {
     Ok(section)
 }
 
-fn matches(section: &mut Section, episodes: u64) -> Result<(), Failure> {
+fn matches(section: &mut Section, episodes: u64) -> Result<(), LabError> {
     let mut easier = f64::INFINITY;
     for &(name, [random, unsure], scripted) in MATCHES {
         let ours = goals(&play(name, Agent::RunAndShoot, episodes)?);
@@ -91,7 +91,7 @@ fn goals(summary: &Summary) -> f64 {
 }
 
 /// Plays the episodes.
-fn play(name: &str, agent: Agent, episodes: u64) -> Result<Summary, Failure> {
+fn play(name: &str, agent: Agent, episodes: u64) -> Result<Summary, LabError> {
     let environment = library(name, &[])?;
     let options = RunOptions {
         episodes: 0..episodes,

@@ -1,7 +1,7 @@
 //! The ball: how it leaves the foot, flies, bounces and rolls, and the results of shots.
 
 use crate::figure::Section;
-use crate::pitch::{Failure, Trial, deviation, mean, text};
+use crate::pitch::{LabError, Trial, deviation, mean, text};
 use setpiece::scenario::vocabulary::{Action, EventKind};
 
 /// Seeds of every kick.
@@ -10,7 +10,7 @@ const SEEDS: u64 = 64;
 const SHOTS: u64 = 200;
 
 /// Measures everything of the section.
-pub(crate) fn measure() -> Result<Section, Failure> {
+pub(crate) fn measure() -> Result<Section, LabError> {
     let mut section = Section::new(
         3,
         "The ball",
@@ -56,7 +56,7 @@ const KICKS: &str = "scenario kicks {
 }";
 
 /// Kicks once for every seed.
-fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, Failure> {
+fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, LabError> {
     let mate = mate.map_or("GK at (-1, 0) { ai: lazy }".to_owned(), |ahead| {
         format!("CM at ({}, 0) {{ ai: hold }}", -0.37 + ahead)
     });
@@ -107,7 +107,7 @@ fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, F
     Ok(kicks)
 }
 
-fn kicks(section: &mut Section) -> Result<(), Failure> {
+fn kicks(section: &mut Section) -> Result<(), LabError> {
     use Action::{HighPass, LongPass, ShortPass, Shot};
     let cases = [
         ("shot, standing", Shot, None, RunUp::Stand, [3.0, 3.0], [26.0, 27.5], [0.7, 1.2], "0.9–2.6"),
@@ -161,14 +161,14 @@ const FREE: &str = "scenario free {
 }";
 
 /// A ball released with a horizontal speed from a height.
-fn let_go(x: f64, speed: f64, height: f64) -> Result<Trial, Failure> {
+fn let_go(x: f64, speed: f64, height: f64) -> Result<Trial, LabError> {
     let source =
         FREE.replace('X', &x.to_string()).replace('V', &format!("{speed}m/s")).replace('Z', &format!("{height}m"));
     Trial::new(text(&source)?, 0)
 }
 
 /// Flight, bounce and roll of a ball that nobody touches.
-fn motion(section: &mut Section) -> Result<(), Failure> {
+fn motion(section: &mut Section) -> Result<(), LabError> {
     let level = |trial: &Trial| f64::from(trial.state().ball.vel.truncate().length());
     for speed in [6.0, 12.0, 18.0, 24.0] {
         let mut trial = let_go(-0.5, speed, 0.0)?;
@@ -224,7 +224,7 @@ fn motion(section: &mut Section) -> Result<(), Failure> {
 }
 
 /// The mean vertical acceleration of standing shots before they come down, m/s².
-fn shot_fall() -> Result<f64, Failure> {
+fn shot_fall() -> Result<f64, LabError> {
     let mut trial = Trial::new(text(&KICKS.replace("MATE", "GK at (-1, 0) { ai: lazy }"))?, 0)?;
     let mut falls = Vec::new();
     for seed in 0..SEEDS {

@@ -1,7 +1,7 @@
 //! The report: every figure with its limits and verdict.
 
 use crate::figure::{Figure, Section};
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use crate::{agents, ball, explained, hands, matches, movement, page};
 
 /// Options of `lab calibrate`.
@@ -22,7 +22,7 @@ pub(crate) struct CalibrateArgs {
 }
 
 /// Measures, prints the sections and writes the page.
-pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<(), Failure> {
+pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<(), LabError> {
     let wanted = |number: u16| args.only.is_none_or(|only| only == number);
     // One has no spread.
     let count = args.count.map(|count| count.max(2));
@@ -57,7 +57,7 @@ fn outside(sections: &[Section]) -> impl Iterator<Item = &Figure> + Clone {
 
 /// Prints the figures that are outside without a reason, and with `whole` the reasons that explain
 /// nothing. With `check` such figures are a failure.
-fn verdict(sections: &[Section], whole: bool, check: bool) -> Result<(), Failure> {
+fn verdict(sections: &[Section], whole: bool, check: bool) -> Result<(), LabError> {
     let mut bad = Vec::new();
     for section in sections {
         let (all, outside) = (section.figures.len(), section.outside().count());

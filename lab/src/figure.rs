@@ -10,12 +10,12 @@ pub(crate) struct Figure {
     /// What is measured.
     pub(crate) what: String,
     /// The figures of the row.
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<FigurePart>,
 }
 
 /// One figure of a row.
 #[derive(Clone, Debug)]
-pub(crate) struct Part {
+pub(crate) struct FigurePart {
     /// Its name, if a row has several.
     pub(crate) name: String,
     /// Theirs, as measured.
@@ -26,10 +26,10 @@ pub(crate) struct Part {
     pub(crate) ours: f64,
 }
 
-impl Part {
+impl FigurePart {
     /// A named figure that must equal theirs within a tolerance.
-    pub(crate) fn around(name: &str, theirs: f64, give: f64, ours: f64) -> Part {
-        Part { name: name.to_owned(), theirs: short(theirs), range: [theirs - give, theirs + give], ours }
+    pub(crate) fn around(name: &str, theirs: f64, give: f64, ours: f64) -> FigurePart {
+        FigurePart { name: name.to_owned(), theirs: short(theirs), range: [theirs - give, theirs + give], ours }
     }
 }
 
@@ -57,11 +57,11 @@ impl Section {
 
     /// Adds a figure that must lie within a range.
     pub(crate) fn within(&mut self, what: impl Into<String>, theirs: impl Into<String>, range: [f64; 2], ours: f64) {
-        self.row(what, vec![Part { name: String::new(), theirs: theirs.into(), range, ours }]);
+        self.row(what, vec![FigurePart { name: String::new(), theirs: theirs.into(), range, ours }]);
     }
 
     /// Adds a row of several figures.
-    pub(crate) fn row(&mut self, what: impl Into<String>, parts: Vec<Part>) {
+    pub(crate) fn row(&mut self, what: impl Into<String>, parts: Vec<FigurePart>) {
         self.figures.push(Figure { what: what.into(), parts });
     }
 
@@ -115,17 +115,17 @@ impl Section {
 impl Figure {
     /// Whether all figures are in their ranges.
     pub(crate) fn is_inside(&self) -> bool {
-        self.parts.iter().all(Part::is_inside)
+        self.parts.iter().all(FigurePart::is_inside)
     }
 
     /// The figures of the row that are outside.
-    pub(crate) fn outside(&self) -> impl Iterator<Item = &Part> {
+    pub(crate) fn outside(&self) -> impl Iterator<Item = &FigurePart> {
         self.parts.iter().filter(|part| !part.is_inside())
     }
 
     /// The allowed ranges, in words.
     pub(crate) fn wanted(&self) -> String {
-        self.joined(Part::wanted)
+        self.joined(FigurePart::wanted)
     }
 
     /// Ours, in words.
@@ -134,12 +134,12 @@ impl Figure {
     }
 
     /// Joins a text of every part, in order.
-    fn joined(&self, what: impl Fn(&Part) -> String) -> String {
+    fn joined(&self, what: impl Fn(&FigurePart) -> String) -> String {
         self.parts.iter().map(what).collect::<Vec<_>>().join(" · ")
     }
 }
 
-impl Part {
+impl FigurePart {
     /// Whether ours is in the range; NaN never is.
     fn is_inside(&self) -> bool {
         // Tolerates the rounding of a decimal limit.

@@ -32,7 +32,7 @@ mod winning;
 pub(crate) use again::{RecordedArgs, recorded};
 
 use crate::figure::Section;
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use setpiece::scenario::vocabulary::Action;
 
 /// The topics in the common form, in the order of the report.
@@ -55,7 +55,7 @@ const TOPICS: [recorded::Topic; 15] = [
 ];
 
 /// Measures everything of the section.
-pub(crate) fn measure(count: Option<u64>) -> Result<Section, Failure> {
+pub(crate) fn measure(count: Option<u64>) -> Result<Section, LabError> {
     let mut section = Section::new(
         6,
         "Under an agent's hands",
@@ -72,12 +72,12 @@ pub(crate) fn measure(count: Option<u64>) -> Result<Section, Failure> {
 }
 
 /// Adds shots of standing players to the section of the ball.
-pub(crate) fn standing_shots(section: &mut Section, count: Option<u64>) -> Result<(), Failure> {
+pub(crate) fn standing_shots(section: &mut Section, count: Option<u64>) -> Result<(), LabError> {
     recorded::measure(section, &standing::TOPIC, count)
 }
 
 /// Adds runs with the ball to the section of movement.
-pub(crate) fn runs_with_the_ball(section: &mut Section) -> Result<(), Failure> {
+pub(crate) fn runs_with_the_ball(section: &mut Section) -> Result<(), LabError> {
     recorded::measure(section, &runs::TOPIC, None)
 }
 

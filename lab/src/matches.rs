@@ -3,7 +3,7 @@
 mod recorded;
 
 use crate::figure::{Section, short};
-use crate::pitch::{Failure, deviation, library, mean};
+use crate::pitch::{LabError, deviation, library, mean};
 use recorded::{Give, part};
 use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::engine::state::Match;
@@ -94,7 +94,7 @@ impl Tally {
 }
 
 /// Plays matches of two difficulties, with seeds from 0 on.
-pub(crate) fn play(left: f64, right: f64, matches: u64) -> Result<Vec<Tally>, Failure> {
+pub(crate) fn play(left: f64, right: f64, matches: u64) -> Result<Vec<Tally>, LabError> {
     let params = [("difficulty", right.to_string()), ("left_difficulty", left.to_string())];
     let prototype = library(SCENARIO, &params)?;
     let workers = crate::threads() as u64;
@@ -107,21 +107,21 @@ pub(crate) fn play(left: f64, right: f64, matches: u64) -> Result<Vec<Tally>, Fa
                     (worker..matches)
                         .step_by(workers as usize)
                         .map(|seed| Ok((seed, match_of(&mut environment, seed, &mut scratch)?)))
-                        .collect::<Result<Vec<_>, Failure>>()
+                        .collect::<Result<Vec<_>, LabError>>()
                 })
             })
             .collect();
         hands
             .into_iter()
             .map(|hand| hand.join().map_err(|_| "a worker stopped".to_owned())?)
-            .collect::<Result<Vec<_>, Failure>>()
+            .collect::<Result<Vec<_>, LabError>>()
     })?
     .concat();
     all.sort_by_key(|(seed, _)| *seed);
     Ok(all.into_iter().map(|(_, tally)| tally).collect())
 }
 
-fn match_of(environment: &mut Environment, seed: u64, scratch: &mut Scratch) -> Result<Tally, Failure> {
+fn match_of(environment: &mut Environment, seed: u64, scratch: &mut Scratch) -> Result<Tally, LabError> {
     environment.reset(Some(seed), Some(seed)).map_err(|why| why.to_string())?;
     let mut statistics = Statistics::begin(environment.state());
     let mut beside = Beside::default();
@@ -135,7 +135,7 @@ fn match_of(environment: &mut Environment, seed: u64, scratch: &mut Scratch) -> 
 }
 
 /// Measures everything of the section.
-pub(crate) fn measure(matches: Option<u64>) -> Result<Section, Failure> {
+pub(crate) fn measure(matches: Option<u64>) -> Result<Section, LabError> {
     let count = matches.unwrap_or(MATCHES);
     let mut section = Section::new(
         4,
@@ -183,7 +183,7 @@ fn pairing(left: f64, right: f64, theirs: f64, tallies: &[Tally]) -> String {
 }
 
 /// The figures of equal teams.
-fn equal(section: &mut Section, level: f64, tallies: &[Tally]) -> Result<(), Failure> {
+fn equal(section: &mut Section, level: f64, tallies: &[Tally]) -> Result<(), LabError> {
     let of = |what: &dyn Fn(&Tally) -> f64| mean(&tallies.iter().map(what).collect::<Vec<_>>());
     let per = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { f64::NAN };
     let both = |count: fn(&TeamStatistics) -> u32| of(&|t| t.both(count));
@@ -240,7 +240,7 @@ fn equal(section: &mut Section, level: f64, tallies: &[Tally]) -> Result<(), Fai
 }
 
 /// The ladder of difficulties: the better against the worse, on both sides.
-pub(crate) fn ladder(seeds: Option<u64>) -> Result<Section, Failure> {
+pub(crate) fn ladder(seeds: Option<u64>) -> Result<Section, LabError> {
     let seeds = seeds.unwrap_or(LADDER);
     let mut section = Section::new(
         7,

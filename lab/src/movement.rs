@@ -1,7 +1,7 @@
 //! Running, turning, stopping, tiring: one player without opponents.
 
 use crate::figure::Section;
-use crate::pitch::{Failure, Trial, mean, text};
+use crate::pitch::{LabError, Trial, mean, text};
 use glam::Vec2;
 use setpiece::scenario::vocabulary::Action;
 
@@ -17,21 +17,22 @@ const ALONE: &str = "scenario alone {
 
 /// The player's gait.
 #[derive(Clone, Copy, PartialEq)]
-enum Gait {
+enum MeasuredGait {
     Dribble,
     Walk,
     Sprint,
 }
 
-impl Gait {
-    const ALL: [(Gait, &'static str); 3] = [(Gait::Dribble, "dribble"), (Gait::Walk, "walk"), (Gait::Sprint, "sprint")];
+impl MeasuredGait {
+    const ALL: [(MeasuredGait, &'static str); 3] =
+        [(MeasuredGait::Dribble, "dribble"), (MeasuredGait::Walk, "walk"), (MeasuredGait::Sprint, "sprint")];
 
     /// The action that turns it on.
     fn action(self) -> Action {
         match self {
-            Gait::Dribble => Action::Dribble,
-            Gait::Walk => Action::Idle,
-            Gait::Sprint => Action::Sprint,
+            MeasuredGait::Dribble => Action::Dribble,
+            MeasuredGait::Walk => Action::Idle,
+            MeasuredGait::Sprint => Action::Sprint,
         }
     }
 }
@@ -42,7 +43,7 @@ const SPRINT: [f64; 20] = [
     7.77,
 ];
 /// Measures everything of the section.
-pub(crate) fn measure() -> Result<Section, Failure> {
+pub(crate) fn measure() -> Result<Section, LabError> {
     let mut section = Section::new(
         2,
         "Movement",
@@ -58,7 +59,7 @@ pub(crate) fn measure() -> Result<Section, Failure> {
     Ok(section)
 }
 
-fn start(with_ball: bool) -> Result<Trial, Failure> {
+fn start(with_ball: bool) -> Result<Trial, LabError> {
     let ball = if with_ball { "(-0.79, 0.1)" } else { "(0.9, -0.35)" };
     let mut trial = Trial::new(text(&ALONE.replace("BALL", ball))?, 0)?;
     if with_ball {
@@ -69,7 +70,7 @@ fn start(with_ball: bool) -> Result<Trial, Failure> {
 }
 
 /// The player's speed in every step after the keys are pressed, one per step, m/s.
-fn speeds(trial: &mut Trial, keys: &[Action], steps: usize) -> Result<Vec<f64>, Failure> {
+fn speeds(trial: &mut Trial, keys: &[Action], steps: usize) -> Result<Vec<f64>, LabError> {
     let mut before = trial.place()?;
     let mut speeds = Vec::with_capacity(steps);
     for step in 0..steps {
@@ -81,9 +82,9 @@ fn speeds(trial: &mut Trial, keys: &[Action], steps: usize) -> Result<Vec<f64>, 
     Ok(speeds)
 }
 
-fn top_speeds(section: &mut Section) -> Result<(), Failure> {
+fn top_speeds(section: &mut Section) -> Result<(), LabError> {
     for (with_ball, theirs) in [(false, [3.50, 5.00, 7.82]), (true, [4.1, 5.12, 7.45])] {
-        for ((gait, name), theirs) in Gait::ALL.into_iter().zip(theirs) {
+        for ((gait, name), theirs) in MeasuredGait::ALL.into_iter().zip(theirs) {
             let run = speeds(&mut start(with_ball)?, &[Action::Right, gait.action()], 70)?;
             let of = if with_ball { "with the ball" } else { "without the ball" };
             section.near(format!("top speed, {name}, {of}, m/s"), theirs, 0.05, mean(&run[35..]));
@@ -92,17 +93,17 @@ fn top_speeds(section: &mut Section) -> Result<(), Failure> {
     Ok(())
 }
 
-fn curves(section: &mut Section) -> Result<(), Failure> {
+fn curves(section: &mut Section) -> Result<(), LabError> {
     let cut = |top: f64| SPRINT.map(|speed| speed.min(top)).to_vec();
     let cases = [
-        ("sprint without the ball", Gait::Sprint, SPRINT.to_vec()),
-        ("walk without the ball", Gait::Walk, cut(5.0)),
-        ("dribble without the ball", Gait::Dribble, cut(3.5)),
+        ("sprint without the ball", MeasuredGait::Sprint, SPRINT.to_vec()),
+        ("walk without the ball", MeasuredGait::Walk, cut(5.0)),
+        ("dribble without the ball", MeasuredGait::Dribble, cut(3.5)),
     ];
     for (name, gait, theirs) in cases {
         let give = |theirs: f64| (theirs * 0.1).max(0.4);
         let run = speeds(&mut start(false)?, &[Action::Right, gait.action()], theirs.len())?;
-        if matches!(gait, Gait::Walk | Gait::Dribble) {
+        if matches!(gait, MeasuredGait::Walk | MeasuredGait::Dribble) {
             // The same curve, cut: one figure.
             let off = run.iter().zip(&theirs).filter(|(ours, theirs)| (*ours - *theirs).abs() > give(**theirs)).count();
             let what = format!("points of 20 beside the same curve cut at {:.1} m/s, {name}", theirs[19]);
@@ -122,12 +123,12 @@ fn curves(section: &mut Section) -> Result<(), Failure> {
     Ok(())
 }
 
-fn turns(section: &mut Section) -> Result<(), Failure> {
+fn turns(section: &mut Section) -> Result<(), LabError> {
     let cases = [
         // Steps until the direction is new, until the speed is back; for 45° and 90°; steps to a
         // stop, its way.
-        ("walk without the ball", Gait::Walk, [[2, 5], [2, 5]], [[3, 5], [5, 8]], [3, 5], 1.1),
-        ("sprint without the ball", Gait::Sprint, [[3, 5], [6, 8]], [[5, 7], [12, 14]], [5, 6], 2.4),
+        ("walk without the ball", MeasuredGait::Walk, [[2, 5], [2, 5]], [[3, 5], [5, 8]], [3, 5], 1.1),
+        ("sprint without the ball", MeasuredGait::Sprint, [[3, 5], [6, 8]], [[5, 7], [12, 14]], [5, 6], 2.4),
     ];
     for (name, gait, half, full, stop, way) in cases {
         for (turn, degrees, [direction, speed]) in [(Action::BottomRight, 45, half), (Action::Bottom, 90, full)] {
@@ -159,7 +160,7 @@ fn wide([low, high]: [u32; 2]) -> [f64; 2] {
 
 /// Steps until the velocity points within 12° of a new direction, and until it also has 90 % of the
 /// old speed.
-fn turn_steps(gait: Gait, turn: Action) -> Result<[f64; 2], Failure> {
+fn turn_steps(gait: MeasuredGait, turn: Action) -> Result<[f64; 2], LabError> {
     let mut trial = start(false)?;
     speeds(&mut trial, &[Action::Right, gait.action()], 35)?;
     let old = mean(&speeds(&mut trial, &[], 5)?);
@@ -183,7 +184,7 @@ fn turn_steps(gait: Gait, turn: Action) -> Result<[f64; 2], Failure> {
 }
 
 /// Steps until the player stands, and the metres that they take.
-fn stop_of(gait: Gait) -> Result<[f64; 2], Failure> {
+fn stop_of(gait: MeasuredGait) -> Result<[f64; 2], LabError> {
     let mut trial = start(false)?;
     speeds(&mut trial, &[Action::Right, gait.action()], 40)?;
     let from = trial.place()?;
@@ -198,7 +199,7 @@ fn stop_of(gait: Gait) -> Result<[f64; 2], Failure> {
     Ok([f64::INFINITY, f64::INFINITY])
 }
 
-fn tiredness(section: &mut Section) -> Result<(), Failure> {
+fn tiredness(section: &mut Section) -> Result<(), LabError> {
     let mut trial = start(false)?;
     trial.steps(Action::Right, 1)?;
     trial.steps(Action::Sprint, 1)?;

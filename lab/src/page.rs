@@ -2,7 +2,7 @@
 
 use crate::explained::REASONS;
 use crate::figure::Section;
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ const HEAD: &str = "# Calibration\n\nSetpiece's game beside Google Research Foot
 const LAST: &str = "Explained";
 
 /// Writes the page with these sections; others stay unchanged.
-pub(crate) fn write(sections: &[Section]) -> Result<(), Failure> {
+pub(crate) fn write(sections: &[Section]) -> Result<(), LabError> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/calibration.md");
     let before = std::fs::read_to_string(&path).unwrap_or_default();
     std::fs::write(&path, page(&before, sections)).map_err(|why| format!("{}: {why}", path.display()))

@@ -11,10 +11,10 @@ use setpiece::scenario::vocabulary::Action;
 const PLACED: [f64; 2] = [55.0 / 54.4, 84.96 / 83.6];
 
 /// An error message.
-pub(crate) type Failure = String;
+pub(crate) type LabError = String;
 
 /// The environment of a library scenario with parameters.
-pub(crate) fn library(name: &str, params: &[(&str, String)]) -> Result<Environment, Failure> {
+pub(crate) fn library(name: &str, params: &[(&str, String)]) -> Result<Environment, LabError> {
     let loaded = setpiece::load(name).map_err(|why| format!("{name}: {why}"))?;
     let pairs = params.iter().map(|(key, value)| (*key, value.as_str()));
     let bindings = setpiece::bind(&loaded.scenario, pairs).map_err(|why| format!("{name}: {why}"))?;
@@ -23,14 +23,14 @@ pub(crate) fn library(name: &str, params: &[(&str, String)]) -> Result<Environme
 }
 
 /// The environment of a scenario's text.
-pub(crate) fn text(source: &str) -> Result<Environment, Failure> {
+pub(crate) fn text(source: &str) -> Result<Environment, LabError> {
     let loaded = setpiece::compile_text(source, "<lab>").map_err(|why| why.to_string())?;
     Environment::new(loaded.scenario, EnvironmentOptions::default()).map_err(|why| why.to_string())
 }
 
 /// The environment of a text whose players stand where a GRF script places them: on a wider scale
 /// than the ball.
-pub(crate) fn script(source: &str) -> Result<Environment, Failure> {
+pub(crate) fn script(source: &str) -> Result<Environment, LabError> {
     let mut pieces = source.split(" at (");
     let mut placed = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {
@@ -55,23 +55,23 @@ pub(crate) struct Trial {
 
 impl Trial {
     /// Begins the first episode of a seed.
-    pub(crate) fn new(mut environment: Environment, seed: u64) -> Result<Trial, Failure> {
+    pub(crate) fn new(mut environment: Environment, seed: u64) -> Result<Trial, LabError> {
         environment.reset(Some(seed), None).map_err(|why| why.to_string())?;
         Ok(Trial { environment, scratch: Scratch::default() })
     }
 
     /// Begins the first episode of another seed.
-    pub(crate) fn again(&mut self, seed: u64) -> Result<(), Failure> {
+    pub(crate) fn again(&mut self, seed: u64) -> Result<(), LabError> {
         self.environment.reset(Some(seed), None).map_err(|why| why.to_string())
     }
 
     /// Plays a step; false once the episode has ended.
-    pub(crate) fn step(&mut self, action: Action) -> Result<bool, Failure> {
+    pub(crate) fn step(&mut self, action: Action) -> Result<bool, LabError> {
         self.step_all(&[action])
     }
 
     /// Plays a step of several agents, the left team's first; false once the episode has ended.
-    pub(crate) fn step_all(&mut self, actions: &[Action]) -> Result<bool, Failure> {
+    pub(crate) fn step_all(&mut self, actions: &[Action]) -> Result<bool, LabError> {
         if !self.environment.is_running() {
             return Ok(false);
         }
@@ -80,7 +80,7 @@ impl Trial {
     }
 
     /// Plays several steps of one action.
-    pub(crate) fn steps(&mut self, action: Action, count: usize) -> Result<(), Failure> {
+    pub(crate) fn steps(&mut self, action: Action, count: usize) -> Result<(), LabError> {
         for _ in 0..count {
             self.step(action)?;
         }
@@ -98,14 +98,14 @@ impl Trial {
     }
 
     /// The agent's player.
-    pub(crate) fn me(&self) -> Result<&Player, Failure> {
+    pub(crate) fn me(&self) -> Result<&Player, LabError> {
         let game = self.state();
         let id = game.agents.first().and_then(|slot| slot.player).ok_or("the agent has no player")?;
         Ok(game.player(id))
     }
 
     /// The place of the agent's player.
-    pub(crate) fn place(&self) -> Result<Vec2, Failure> {
+    pub(crate) fn place(&self) -> Result<Vec2, LabError> {
         Ok(self.me()?.pos)
     }
 

@@ -3,7 +3,7 @@
 mod properties;
 mod scramble;
 
-use crate::pitch::{Failure, text};
+use crate::pitch::{LabError, text};
 use properties::{Step, Witness};
 use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::engine::random::{Purpose, Stream};
@@ -51,7 +51,7 @@ impl Count {
 }
 
 /// Breaches: the first case of each kind, and the number of cases.
-type Breaches = BTreeMap<String, (u64, Failure)>;
+type Breaches = BTreeMap<String, (u64, LabError)>;
 
 /// Options of `lab soak`.
 #[derive(Debug, clap::Args)]
@@ -68,7 +68,7 @@ pub(crate) struct SoakArgs {
 }
 
 /// Plays, and reports what has not held.
-pub(crate) fn soak(args: &SoakArgs) -> Result<(), Failure> {
+pub(crate) fn soak(args: &SoakArgs) -> Result<(), LabError> {
     let &SoakArgs { steps, seed, from } = args;
     let next = AtomicU64::new(from);
     let done = AtomicU64::new(0);
@@ -100,7 +100,7 @@ pub(crate) fn soak(args: &SoakArgs) -> Result<(), Failure> {
     if breaches.is_empty() {
         return if steps < LOGGED || from > 0 { Ok(()) } else { log(seed, total) };
     }
-    let reports: Vec<Failure> = breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
+    let reports: Vec<LabError> = breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
     Err(reports.join("\n"))
 }
 
@@ -111,7 +111,7 @@ fn kind_of(what: &str) -> String {
 
 /// Who acts in an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Habit {
+enum AgentHabit {
     /// Idle.
     Idle,
     /// Every agent acts at random in every step.
@@ -123,20 +123,21 @@ enum Habit {
 }
 
 /// Habits, each as often as it is drawn.
-const HABITS: [Habit; 5] = [Habit::Random, Habit::Random, Habit::Bot, Habit::Slow, Habit::Idle];
+const HABITS: [AgentHabit; 5] =
+    [AgentHabit::Random, AgentHabit::Random, AgentHabit::Bot, AgentHabit::Slow, AgentHabit::Idle];
 
 /// A property that was breached.
 struct Breach {
-    what: Failure,
+    what: LabError,
     /// The same, with its scenario and the moment.
-    report: Failure,
+    report: LabError,
 }
 
 /// Plays some episodes of a random scenario derived from a seed.
 fn play(seed: u64, which: u64, scratch: &mut Scratch, count: &mut Count) -> Result<(), Breach> {
     let mut random = Stream::new(seed, which, Purpose::Agent);
     let source = scramble::scenario(&mut random, EPISODE);
-    let tell = |what: Failure, when: String| Breach {
+    let tell = |what: LabError, when: String| Breach {
         report: format!("seed {seed}, scenario {which}{when}: {what}\n{source}"),
         what,
     };
@@ -156,20 +157,20 @@ fn play(seed: u64, which: u64, scratch: &mut Scratch, count: &mut Count) -> Resu
 
 fn episode_of(
     environment: &mut Environment,
-    habit: Habit,
+    habit: AgentHabit,
     random: &mut Stream,
     scratch: &mut Scratch,
     count: &mut Count,
-) -> Result<(), Failure> {
+) -> Result<(), LabError> {
     let mut witness = Witness::new(environment.state())?;
     let mut actions = vec![Action::Idle; environment.n_agents()];
     while environment.is_running() {
         for action in &mut actions {
             *action = match habit {
-                Habit::Idle => Action::Idle,
-                Habit::Bot => Action::BuiltinAi,
-                Habit::Slow if random.below(8) > 0 => *action,
-                Habit::Random | Habit::Slow => {
+                AgentHabit::Idle => Action::Idle,
+                AgentHabit::Bot => Action::BuiltinAi,
+                AgentHabit::Slow if random.below(8) > 0 => *action,
+                AgentHabit::Random | AgentHabit::Slow => {
                     Action::from_index(random.below(Action::FULL_SET as u32) as usize).unwrap_or(Action::Idle)
                 }
             };
@@ -195,7 +196,7 @@ fn episode_of(
 }
 
 /// Adds a line to the log of such runs.
-fn log(seed: u64, total: Count) -> Result<(), Failure> {
+fn log(seed: u64, total: Count) -> Result<(), LabError> {
     let commit = Command::new("git").args(["rev-parse", "--short", "HEAD"]).output();
     let commit =
         commit.map_or_else(|_| "unknown".to_owned(), |out| String::from_utf8_lossy(&out.stdout).trim().to_owned());

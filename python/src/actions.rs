@@ -23,16 +23,16 @@ pub(crate) enum ActionSet {
 
 /// An agent's action in a step.
 #[derive(Clone, Copy)]
-pub(crate) struct Act {
+pub(crate) struct GivenAction {
     /// The key it presses.
     pub(crate) action: Action,
     /// How it steers, with continuous actions.
     pub(crate) steer: Option<Steer>,
 }
 
-impl Act {
+impl GivenAction {
     /// Presses nothing.
-    pub(crate) const IDLE: Act = Act { action: Action::Idle, steer: None };
+    pub(crate) const IDLE: GivenAction = GivenAction { action: Action::Idle, steer: None };
 }
 
 impl ActionSet {
@@ -67,7 +67,7 @@ impl ActionSet {
 /// n; with continuous actions four numbers, or n rows of four.
 ///
 /// Raises `ActionError` for anything else; `acts` may then be partly overwritten.
-pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, acts: &mut [Act]) -> PyResult<()> {
+pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, acts: &mut [GivenAction]) -> PyResult<()> {
     let size = match set {
         ActionSet::Keys(size) => size,
         ActionSet::Continuous => return read_numbers(given, acts),
@@ -75,7 +75,7 @@ pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, acts: &mut [Act]) -
     if let [single] = acts
         && let Some(action) = one(given, size)
     {
-        *single = Act { action, steer: None };
+        *single = GivenAction { action, steer: None };
         return Ok(());
     }
     if several(given, size, acts) { Ok(()) } else { Err(wrong(given, size, acts.len())) }
@@ -90,7 +90,7 @@ pub(crate) fn one(given: &Bound<'_, PyAny>, size: usize) -> Option<Action> {
     Action::from_index(number).filter(|_| number < size)
 }
 
-fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [Act]) -> bool {
+fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [GivenAction]) -> bool {
     // A value with keys has no order, and the letters of a text aren't actions.
     let unordered =
         given.is_instance_of::<PyString>() || given.is_instance_of::<PyDict>() || given.is_instance_of::<PySet>();
@@ -101,7 +101,7 @@ fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [Act]) -> bool {
     let mut slots = acts.iter_mut();
     for item in items {
         match (item.ok().and_then(|item| one(&item, size)), slots.next()) {
-            (Some(action), Some(slot)) => *slot = Act { action, steer: None },
+            (Some(action), Some(slot)) => *slot = GivenAction { action, steer: None },
             _ => return false,
         }
     }
@@ -109,7 +109,7 @@ fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [Act]) -> bool {
 }
 
 /// Reads rows of four numbers.
-fn read_numbers(given: &Bound<'_, PyAny>, acts: &mut [Act]) -> PyResult<()> {
+fn read_numbers(given: &Bound<'_, PyAny>, acts: &mut [GivenAction]) -> PyResult<()> {
     let py = given.py();
     let n_agents = acts.len();
     let wrong = |why: &str| {
@@ -125,7 +125,7 @@ fn read_numbers(given: &Bound<'_, PyAny>, acts: &mut [Act]) -> PyResult<()> {
     for (act, row) in acts.iter_mut().zip(values.chunks_exact(4)) {
         let (steer, action) = continuous::decode([row[0], row[1], row[2], row[3]])
             .ok_or_else(|| wrong(&format!("found {row:?}, which is not all numbers")))?;
-        *act = Act { action, steer: Some(steer) };
+        *act = GivenAction { action, steer: Some(steer) };
     }
     Ok(())
 }

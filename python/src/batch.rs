@@ -3,11 +3,13 @@
 //! Everything that an agent sees is in arrays with a row per environment. They are written in
 //! place, on a few threads, without the interpreter.
 
-use crate::actions::{self, Act, ActionSet};
+use crate::actions::{self, ActionSet, GivenAction};
 use crate::environment::{AgentInfo, Prepared, SMM_SIZE, agents_of, from_episode, players_of, prepare};
 use crate::errors;
 use crate::info::{records, write_mask};
-use crate::observation::{self, BlockInfo, Kind, Observer, Shown, Stack, Wanted, write_floats, write_map};
+use crate::observation::{
+    self, BlockInfo, ObservationForm, ObservationKind, Observer, Stack, Wanted, write_floats, write_map,
+};
 use crate::options::EnvOptions;
 use crate::params::bind;
 use crate::scenario::Scenario;
@@ -20,9 +22,9 @@ use setpiece::engine::observe::ObserveError;
 use setpiece::scenario::{Action, Verdict};
 
 /// One of the matches.
-struct Lane {
+struct BatchLane {
     engine: Engine,
-    film: Film,
+    film: NewestObservations,
     /// Whether the episode has ended and no other has begun.
     over: bool,
     /// The failure of the last step.
@@ -31,13 +33,13 @@ struct Lane {
 }
 
 /// The latest observations of a match.
-enum Film {
+enum NewestObservations {
     Floats(Stack<f32>),
     Map(Stack<u8>),
 }
 
 /// The row that a match writes into in a step.
-struct Row<'a> {
+struct BatchRow<'a> {
     observation: Rows<'a>,
     rewards: &'a mut [f64],
     terms: &'a mut [f64],
@@ -51,8 +53,8 @@ struct Row<'a> {
 
 /// The options of writing a row.
 #[derive(Clone, Copy)]
-struct View {
-    kind: Kind,
+struct RowView {
+    kind: ObservationKind,
     action_set: ActionSet,
 }
 
@@ -64,13 +66,13 @@ enum Rows<'a> {
 /// Several matches of one scenario that are stepped together.
 #[pyclass(module = "setpiece._native")]
 pub(crate) struct Batch {
-    lanes: Lanes<Lane>,
-    kind: Kind,
+    lanes: Lanes<BatchLane>,
+    kind: ObservationKind,
     stack: usize,
     action_set: ActionSet,
     /// Whether a step begins the next episode after one has ended.
     next_step: bool,
-    acts: Vec<Act>,
+    acts: Vec<GivenAction>,
     /// The process that owns the threads.
     process: u32,
 }
@@ -110,18 +112,18 @@ impl Batch {
         next_step: bool,
     ) -> PyResult<Batch> {
         let Prepared { engine, kind, action_set } = prepare(py, scenario, &options)?;
-        let Shown { stack, .. } = options.shown();
-        if kind == Kind::Raw {
+        let ObservationForm { stack, .. } = options.shown();
+        if kind == ObservationKind::Raw {
             let message = "raw observations are dicts, which a vector environment doesn't stack";
             return Err(errors::parameter(py, "observation", message));
         }
         let (planes, one) = (kind.planes(&engine), kind.shape(&engine, 1).iter().product());
         let film = || match kind {
-            Kind::Smm { .. } => Film::Map(Stack::new(stack, planes, one)),
-            _ => Film::Floats(Stack::new(stack, planes, one)),
+            ObservationKind::Smm { .. } => NewestObservations::Map(Stack::new(stack, planes, one)),
+            _ => NewestObservations::Floats(Stack::new(stack, planes, one)),
         };
-        let acts = vec![Act::IDLE; n * engine.n_agents()];
-        let lane = || Lane { engine: engine.clone(), film: film(), over: true, fault: None, broken: None };
+        let acts = vec![GivenAction::IDLE; n * engine.n_agents()];
+        let lane = || BatchLane { engine: engine.clone(), film: film(), over: true, fault: None, broken: None };
         let lanes = Lanes::new((0..n).map(|_| lane()).collect(), threads)
             .map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
         Ok(Batch { lanes, kind, stack, action_set, next_step, acts, process: std::process::id() })
@@ -160,7 +162,9 @@ impl Batch {
     /// Bounds of every number of one observation of floats; none for others.
     #[getter]
     fn bounds(&self, py: Python<'_>) -> Option<observation::Bounds> {
-        let (Kind::Floats(floats), Some(lane)) = (self.kind, self.lanes.lanes().first()) else { return None };
+        let (ObservationKind::Floats(floats), Some(lane)) = (self.kind, self.lanes.lanes().first()) else {
+            return None;
+        };
         Some(observation::bounds(py, floats, &lane.engine))
     }
 
@@ -179,7 +183,7 @@ impl Batch {
         let agents = lane.engine.n_agents();
         let shape: Vec<usize> = [n, agents].into_iter().chain(self.kind.shape(&lane.engine, self.stack)).collect();
         let observations = match self.kind {
-            Kind::Smm { .. } => PyArrayDyn::<u8>::zeros(py, shape, false).into_any(),
+            ObservationKind::Smm { .. } => PyArrayDyn::<u8>::zeros(py, shape, false).into_any(),
             _ => PyArrayDyn::<f32>::zeros(py, shape, false).into_any(),
         };
         let terms = lane.engine.term_names().len();
@@ -221,7 +225,7 @@ impl Batch {
         if order.len() != self.lanes.lanes().len() {
             return Err(errors::parameter(py, "reset_mask", &format!("expected {} entries", self.lanes.lanes().len())));
         }
-        let view = View { kind: self.kind, action_set: self.action_set };
+        let view = RowView { kind: self.kind, action_set: self.action_set };
         self.each(py, arrays, |at, lane, row, _| {
             let (which, seed, index) = order[at];
             if which {
@@ -236,7 +240,7 @@ impl Batch {
     fn step(&mut self, py: Python<'_>, arrays: &Arrays, action: &Bound<'_, PyAny>) -> PyResult<()> {
         self.read(action)?;
         let agents = self.acts.len() / self.lanes.lanes().len().max(1);
-        let (view, next_step) = (View { kind: self.kind, action_set: self.action_set }, self.next_step);
+        let (view, next_step) = (RowView { kind: self.kind, action_set: self.action_set }, self.next_step);
         if !next_step && let Some(at) = self.lanes.lanes().iter().position(|lane| lane.over) {
             let message =
                 format!("the episode of environment {at} has ended: call `reset` with a `reset_mask` that names it");
@@ -278,9 +282,9 @@ impl Batch {
     fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let wanted = Wanted { name: observation, size: SMM_SIZE, scale };
         let held = self.action_set.held();
-        let look = |lane: &mut Lane| {
+        let look = |lane: &mut BatchLane| {
             let kind = wanted.of(py, &lane.engine)?;
-            Observer::new(py, kind, &lane.engine, Shown::FRESH, held).observe(py, &mut lane.engine, true)
+            Observer::new(py, kind, &lane.engine, ObservationForm::FRESH, held).observe(py, &mut lane.engine, true)
         };
         self.lanes.lanes_mut().iter_mut().map(look).collect()
     }
@@ -309,7 +313,7 @@ impl Batch {
                         let message = format!("expected actions 0..{}, found {number} at {at}", size - 1);
                         return Err(errors::raise_plain(py, "ActionError", &message));
                     };
-                    *act = Act { action, steer: None };
+                    *act = GivenAction { action, steer: None };
                 }
                 return Ok(());
             }
@@ -334,7 +338,7 @@ impl Batch {
         &mut self,
         py: Python<'_>,
         arrays: &Arrays,
-        work: impl Fn(usize, &mut Lane, Row<'_>, &mut Scratch) + Sync,
+        work: impl Fn(usize, &mut BatchLane, BatchRow<'_>, &mut Scratch) + Sync,
     ) -> PyResult<()> {
         let n = self.lanes.lanes().len();
         let lost = || errors::raise_plain(py, "SetpieceError", "an array of the batch is in use or read-only");
@@ -367,7 +371,7 @@ impl Batch {
         for ((((rewards, terms), mask), score), (((terminated, truncated), begun), observation)) in
             numbers.zip(flags.zip(shown.drain(..)))
         {
-            rows.push(Row { observation, rewards, terms, mask, score, terminated, truncated, begun });
+            rows.push(BatchRow { observation, rewards, terms, mask, score, terminated, truncated, begun });
         }
         if self.process != std::process::id() {
             // A fork has inherited it.
@@ -408,9 +412,9 @@ fn chunks<T>(values: &mut [T], n: usize) -> Vec<&mut [T]> {
     parts
 }
 
-impl Lane {
+impl BatchLane {
     /// Begins an episode and shows its first moment.
-    fn begin(&mut self, seed: Option<u64>, index: Option<u64>, view: View, keep: bool, mut row: Row<'_>) {
+    fn begin(&mut self, seed: Option<u64>, index: Option<u64>, view: RowView, keep: bool, mut row: BatchRow<'_>) {
         if let Err(why) = self.engine.reset(seed, index) {
             self.fault = Some(why.into());
             self.over = true;
@@ -427,7 +431,14 @@ impl Lane {
     }
 
     /// Plays a step, or begins the next episode.
-    fn step(&mut self, acts: &[Act], next_step: bool, view: View, mut row: Row<'_>, scratch: &mut Scratch) {
+    fn step(
+        &mut self,
+        acts: &[GivenAction],
+        next_step: bool,
+        view: RowView,
+        mut row: BatchRow<'_>,
+        scratch: &mut Scratch,
+    ) {
         if self.over && next_step {
             return self.begin(None, None, view, false, row);
         }
@@ -458,7 +469,7 @@ impl Lane {
     }
 
     /// Writes the observations of the current match.
-    fn show(&mut self, view: View, row: &mut Row<'_>, first: bool) {
+    fn show(&mut self, view: RowView, row: &mut BatchRow<'_>, first: bool) {
         let n_agents = self.engine.n_agents();
         // The buffers have the sizes that the engine requires, so this can't fail.
         let _ = observe(&mut self.engine, &mut self.film, view.kind, &mut row.observation, n_agents, first);
@@ -474,20 +485,20 @@ impl Lane {
 
 fn observe(
     engine: &mut Engine,
-    film: &mut Film,
-    kind: Kind,
+    film: &mut NewestObservations,
+    kind: ObservationKind,
     rows: &mut Rows<'_>,
     n_agents: usize,
     first: bool,
 ) -> Result<(), ObserveError> {
     match (kind, film, rows) {
-        (Kind::Floats(floats), Film::Floats(stack), Rows::Floats(out)) => {
+        (ObservationKind::Floats(floats), NewestObservations::Floats(stack), Rows::Floats(out)) => {
             let one = (out.len() / n_agents.max(1)).max(1);
             for (agent, out) in out.chunks_exact_mut(one).enumerate() {
                 stack.push(out, first, |out| write_floats(floats, engine, agent, out))?;
             }
         }
-        (Kind::Smm { width, height }, Film::Map(stack), Rows::Map(out)) => {
+        (ObservationKind::Smm { width, height }, NewestObservations::Map(stack), Rows::Map(out)) => {
             let one = (out.len() / n_agents.max(1)).max(1);
             for (agent, out) in out.chunks_exact_mut(one).enumerate() {
                 stack.push(out, first, |out| write_map((width, height), engine, agent, out))?;

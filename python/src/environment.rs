@@ -1,9 +1,9 @@
 //! Environments: one match, its judge, and the arrays that an agent sees.
 
-use crate::actions::{self, Act, ActionSet};
+use crate::actions::{self, ActionSet, GivenAction};
 use crate::errors;
 use crate::info::{InfoOptions, InfoWriter};
-use crate::observation::{self, BlockInfo, Kind, Observer, Shown, Wanted};
+use crate::observation::{self, BlockInfo, ObservationForm, ObservationKind, Observer, Wanted};
 use crate::options::EnvOptions;
 use crate::params::{bind, to_python};
 use crate::replay::Replay;
@@ -58,9 +58,9 @@ pub(crate) struct Environment {
     observer: Observer,
     info: InfoWriter,
     action_set: ActionSet,
-    kind: Kind,
+    kind: ObservationKind,
     stack: usize,
-    acts: Vec<Act>,
+    acts: Vec<GivenAction>,
     actions: Vec<Action>,
     recorder: Recorder,
 }
@@ -107,7 +107,7 @@ impl Environment {
     /// Bounds of every number of one observation of floats: two float32 `(n,)`; none for others.
     #[getter]
     fn bounds(&self, py: Python<'_>) -> Option<observation::Bounds> {
-        let Kind::Floats(floats) = self.kind else { return None };
+        let ObservationKind::Floats(floats) = self.kind else { return None };
         Some(observation::bounds(py, floats, &self.engine))
     }
 
@@ -115,7 +115,7 @@ impl Environment {
     #[pyo3(signature = (observation, scale = false))]
     fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Bound<'py, PyAny>> {
         let kind = Wanted { name: observation, size: SMM_SIZE, scale }.of(py, &self.engine)?;
-        let mut observer = Observer::new(py, kind, &self.engine, Shown::FRESH, self.action_set.held());
+        let mut observer = Observer::new(py, kind, &self.engine, ObservationForm::FRESH, self.action_set.held());
         observer.observe(py, &mut self.engine, true)
     }
 
@@ -248,7 +248,7 @@ impl Environment {
         let n_agents = self.actions.len();
         let acts = replay.inner().acts().skip(self.engine.steps() as usize * n_agents).take(n_agents);
         for (agent, (action, steer)) in acts.enumerate() {
-            self.press(agent, Act { action, steer });
+            self.press(agent, GivenAction { action, steer });
         }
         self.play(py, Some(replay.inner()))
     }
@@ -284,7 +284,13 @@ impl Environment {
 
 impl Environment {
     /// Wraps an engine with its observer and info writer.
-    pub(crate) fn around(py: Python<'_>, engine: Engine, kind: Kind, shown: Shown, info: InfoOptions) -> Environment {
+    pub(crate) fn around(
+        py: Python<'_>,
+        engine: Engine,
+        kind: ObservationKind,
+        shown: ObservationForm,
+        info: InfoOptions,
+    ) -> Environment {
         let action_set = info.actions;
         Environment {
             kind,
@@ -292,7 +298,7 @@ impl Environment {
             action_set,
             observer: Observer::new(py, kind, &engine, shown, action_set.held()),
             info: InfoWriter::new(py, &engine, info),
-            acts: vec![Act::IDLE; engine.n_agents()],
+            acts: vec![GivenAction::IDLE; engine.n_agents()],
             actions: vec![Action::Idle; engine.n_agents()],
             scratch: Scratch::default(),
             recorder: Recorder::default(),
@@ -301,7 +307,7 @@ impl Environment {
     }
 
     /// Sets an agent's action of the next step.
-    fn press(&mut self, agent: usize, act: Act) {
+    fn press(&mut self, agent: usize, act: GivenAction) {
         self.actions[agent] = act.action;
         if act.steer.is_some() {
             self.engine.steer(agent, act.steer);
@@ -368,7 +374,7 @@ pub(crate) fn players_of(engine: &Engine) -> (usize, usize) {
 /// An engine with its observation and action set.
 pub(crate) struct Prepared {
     pub(crate) engine: Engine,
-    pub(crate) kind: Kind,
+    pub(crate) kind: ObservationKind,
     pub(crate) action_set: ActionSet,
 }
 

@@ -43,9 +43,9 @@ pub(crate) fn from_facade(py: Python<'_>, error: &Error) -> PyErr {
         .map_or_else(|failed| failed, |(class, message, fields)| raise(py, class, &message, &fields))
 }
 
-type Parts<'py> = (&'static str, String, Bound<'py, PyDict>);
+type ErrorParts<'py> = (&'static str, String, Bound<'py, PyDict>);
 
-fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<Parts<'py>> {
+fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py>> {
     let fields = PyDict::new(py);
     fields.set_item("code", error.code().to_string())?;
     if let Error::Compile(failure) = error {

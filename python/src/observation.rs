@@ -14,7 +14,7 @@ const PLANES: usize = 4;
 
 /// The kind of an observation.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum ObservationKind {
     /// float32 `(n,)`.
     Floats(Floats),
     /// uint8 `(height, width, 4)`.
@@ -28,33 +28,33 @@ pub(crate) enum Kind {
     Raw,
 }
 
-impl Kind {
+impl ObservationKind {
     /// The kind of a name in `setpiece.make`; `size` is a map's width and height.
-    fn from_name(name: &str, (width, height): (usize, usize)) -> Option<Kind> {
+    fn from_name(name: &str, (width, height): (usize, usize)) -> Option<ObservationKind> {
         Some(match name {
-            "simple115" => Kind::Floats(Floats::Simple115),
-            "simple115v2" => Kind::Floats(Floats::Simple115v2),
-            "simple115v2+sticky" => Kind::Floats(Floats::Simple115v2Sticky),
-            "egocentric" => Kind::Floats(Floats::Egocentric),
-            "vector" => Kind::Floats(Floats::Vector),
-            "smm" => Kind::Smm { width, height },
-            "raw" => Kind::Raw,
+            "simple115" => ObservationKind::Floats(Floats::Simple115),
+            "simple115v2" => ObservationKind::Floats(Floats::Simple115v2),
+            "simple115v2+sticky" => ObservationKind::Floats(Floats::Simple115v2Sticky),
+            "egocentric" => ObservationKind::Floats(Floats::Egocentric),
+            "vector" => ObservationKind::Floats(Floats::Vector),
+            "smm" => ObservationKind::Smm { width, height },
+            "raw" => ObservationKind::Raw,
             _ => return None,
         })
     }
 
     /// The scaled form; none for kinds without floats or without known units.
-    fn scaled(self) -> Option<Kind> {
-        let Kind::Floats(floats) = self else { return None };
-        floats.scaled().map(Kind::Floats)
+    fn scaled(self) -> Option<ObservationKind> {
+        let ObservationKind::Floats(floats) = self else { return None };
+        floats.scaled().map(ObservationKind::Floats)
     }
 
     /// The shape of one agent's observation, `stack` of them on the last axis; empty for a dict.
     pub(crate) fn shape(self, engine: &Engine, stack: usize) -> Vec<usize> {
         match self {
-            Kind::Floats(floats) => vec![engine.layout(floats).len() * stack],
-            Kind::Smm { width, height } => vec![height, width, PLANES * stack],
-            Kind::Raw => Vec::new(),
+            ObservationKind::Floats(floats) => vec![engine.layout(floats).len() * stack],
+            ObservationKind::Smm { width, height } => vec![height, width, PLANES * stack],
+            ObservationKind::Raw => Vec::new(),
         }
     }
 
@@ -77,11 +77,11 @@ pub(crate) struct Wanted<'a> {
 
 impl Wanted<'_> {
     /// The kind of observation, if the scenario has it.
-    pub(crate) fn of(self, py: Python<'_>, engine: &Engine) -> PyResult<Kind> {
+    pub(crate) fn of(self, py: Python<'_>, engine: &Engine) -> PyResult<ObservationKind> {
         let name = self.name;
-        let kind = Kind::from_name(name, self.size)
+        let kind = ObservationKind::from_name(name, self.size)
             .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{name}`")))?;
-        if kind == Kind::Floats(Floats::Vector) && engine.observed_names().is_empty() {
+        if kind == ObservationKind::Floats(Floats::Vector) && engine.observed_names().is_empty() {
             let scenario = &engine.scenario().name;
             let message = format!("`{scenario}` declares no observation: it has no `observe vector {{ … }}`");
             return Err(errors::parameter(py, "observation", &message));
@@ -95,16 +95,16 @@ impl Wanted<'_> {
 
 /// How observations are returned.
 #[derive(Clone, Copy)]
-pub(crate) struct Shown {
+pub(crate) struct ObservationForm {
     /// How many of the latest observations are shown at once.
     pub(crate) stack: usize,
     /// Whether every call returns a new array.
     pub(crate) copy: bool,
 }
 
-impl Shown {
+impl ObservationForm {
     /// One observation, in a new array.
-    pub(crate) const FRESH: Shown = Shown { stack: 1, copy: true };
+    pub(crate) const FRESH: ObservationForm = ObservationForm { stack: 1, copy: true };
 }
 
 /// A block of numbers on the last axis of an observation of floats.
@@ -185,15 +185,15 @@ impl<T: Element + Copy + Default> Stack<T> {
 /// tuple.
 pub(crate) enum Observer {
     /// Arrays of float32.
-    Floats(Floats, Film<f32>),
+    Floats(Floats, ObservationArrays<f32>),
     /// Arrays of uint8.
-    Map((usize, usize), Film<u8>),
+    Map((usize, usize), ObservationArrays<u8>),
     /// Dicts, with this number of held actions.
     Raw(usize),
 }
 
 /// The arrays of an environment: always the same one, or a new one each time.
-pub(crate) struct Film<T> {
+pub(crate) struct ObservationArrays<T> {
     shape: Vec<usize>,
     shared: Option<Py<PyArrayDyn<T>>>,
     stack: Stack<T>,
@@ -205,20 +205,21 @@ impl Observer {
     /// Prepares observations of every agent; without `copy` the next step overwrites the arrays.
     pub(crate) fn new(
         py: Python<'_>,
-        kind: Kind,
+        kind: ObservationKind,
         engine: &Engine,
-        Shown { stack, copy }: Shown,
+        ObservationForm { stack, copy }: ObservationForm,
         held_actions: usize,
     ) -> Observer {
         let (shape, planes) = (kind.shape(engine, stack), kind.planes(engine));
         match kind {
-            Kind::Floats(floats) => {
-                Observer::Floats(floats, Film::new(py, engine.n_agents(), shape, (stack, planes), copy))
+            ObservationKind::Floats(floats) => {
+                Observer::Floats(floats, ObservationArrays::new(py, engine.n_agents(), shape, (stack, planes), copy))
             }
-            Kind::Smm { width, height } => {
-                Observer::Map((width, height), Film::new(py, engine.n_agents(), shape, (stack, planes), copy))
-            }
-            Kind::Raw => Observer::Raw(held_actions),
+            ObservationKind::Smm { width, height } => Observer::Map(
+                (width, height),
+                ObservationArrays::new(py, engine.n_agents(), shape, (stack, planes), copy),
+            ),
+            ObservationKind::Raw => Observer::Raw(held_actions),
         }
     }
 
@@ -275,8 +276,14 @@ impl Observer {
     }
 }
 
-impl<T: Element + Copy + Default> Film<T> {
-    fn new(py: Python<'_>, n_agents: usize, one: Vec<usize>, (depth, planes): (usize, usize), copy: bool) -> Film<T> {
+impl<T: Element + Copy + Default> ObservationArrays<T> {
+    fn new(
+        py: Python<'_>,
+        n_agents: usize,
+        one: Vec<usize>,
+        (depth, planes): (usize, usize),
+        copy: bool,
+    ) -> ObservationArrays<T> {
         let numbers: usize = one.iter().product();
         let mut shape = one;
         if n_agents != 1 {
@@ -284,7 +291,7 @@ impl<T: Element + Copy + Default> Film<T> {
         }
         let shared = (!copy).then(|| PyArrayDyn::zeros(py, shape.clone(), false).unbind());
         let held = if depth > 1 { vec![T::default(); numbers * n_agents] } else { Vec::new() };
-        Film { shape, shared, stack: Stack::new(depth, planes, numbers / depth.max(1)), held }
+        ObservationArrays { shape, shared, stack: Stack::new(depth, planes, numbers / depth.max(1)), held }
     }
 
     fn fill<'py>(
@@ -323,8 +330,8 @@ pub(crate) fn from_observe(py: Python<'_>, why: ObserveError) -> PyErr {
 }
 
 /// The blocks of an observation of floats; none for others.
-pub(crate) fn blocks(kind: Kind, engine: &Engine) -> Vec<BlockInfo> {
-    let Kind::Floats(floats) = kind else { return Vec::new() };
+pub(crate) fn blocks(kind: ObservationKind, engine: &Engine) -> Vec<BlockInfo> {
+    let ObservationKind::Floats(floats) = kind else { return Vec::new() };
     let blocks = engine.layout(floats).blocks.into_iter();
     blocks
         .map(|block| BlockInfo { start: block.start, length: block.len, meaning: block.meaning, unit: block.unit })

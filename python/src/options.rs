@@ -1,6 +1,6 @@
 //! The options of an environment, passed as one value.
 
-use crate::observation::{Shown, Wanted};
+use crate::observation::{ObservationForm, Wanted};
 use crate::seats::Seats;
 use pyo3::prelude::*;
 
@@ -35,8 +35,8 @@ impl<'py> EnvOptions<'py> {
     }
 
     /// How it is returned.
-    pub(crate) fn shown(&self) -> Shown {
-        Shown { stack: self.stack, copy: self.copy }
+    pub(crate) fn shown(&self) -> ObservationForm {
+        ObservationForm { stack: self.stack, copy: self.copy }
     }
 
     /// The agents.

@@ -97,27 +97,27 @@ pub(crate) fn bind(py: Python<'_>, params: &[compiled::Param], given: &Bound<'_,
             return Err(errors::parameter(py, "params", &message));
         };
         bind_one(params, &mut bindings, &name, &value).map_err(|fault| match fault {
-            Fault::Param(why) => errors::from_param(py, why, params),
-            Fault::Python(error) => error,
+            ParamFault::Param(why) => errors::from_param(py, why, params),
+            ParamFault::Python(error) => error,
         })?;
     }
     Ok(bindings)
 }
 
-enum Fault {
+enum ParamFault {
     Param(ParamError),
     Python(PyErr),
 }
 
-impl From<PyErr> for Fault {
-    fn from(error: PyErr) -> Fault {
-        Fault::Python(error)
+impl From<PyErr> for ParamFault {
+    fn from(error: PyErr) -> ParamFault {
+        ParamFault::Python(error)
     }
 }
 
-impl From<ParamError> for Fault {
-    fn from(why: ParamError) -> Fault {
-        Fault::Param(why)
+impl From<ParamError> for ParamFault {
+    fn from(why: ParamError) -> ParamFault {
+        ParamFault::Param(why)
     }
 }
 
@@ -126,12 +126,12 @@ fn bind_one(
     bindings: &mut Bindings,
     name: &str,
     value: &Bound<'_, PyAny>,
-) -> Result<(), Fault> {
+) -> Result<(), ParamFault> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(bindings.set_text(params, name, &text.to_string_lossy())?);
     }
     let ty = params.iter().find(|param| param.name == name).map(|param| param.ty);
-    let wrong = || -> Result<(), Fault> {
+    let wrong = || -> Result<(), ParamFault> {
         let found = value.repr()?.to_string();
         // An unknown name is reported as such, whatever the value.
         Err(match ty {

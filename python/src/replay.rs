@@ -4,7 +4,7 @@ use crate::actions::ActionSet;
 use crate::environment::{Environment, SMM_SIZE};
 use crate::errors;
 use crate::info::InfoOptions;
-use crate::observation::{Shown, Wanted};
+use crate::observation::{ObservationForm, Wanted};
 use crate::scenario::Scenario;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -121,6 +121,6 @@ impl Replay {
         let engine = self.inner.environment().map_err(|error| errors::from_facade(py, &error))?;
         let kind = Wanted { name: observation, size: SMM_SIZE, scale: false }.of(py, &engine)?;
         let info = InfoOptions { actions: self.set(), events: true, bot_action: false };
-        Ok(Environment::around(py, engine, kind, Shown::FRESH, info))
+        Ok(Environment::around(py, engine, kind, ObservationForm::FRESH, info))
     }
 }

@@ -175,9 +175,9 @@ fn text_name(name: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
     name.map_or_else(|| Ok("<text>".to_owned()), |name| given::text("name", name))
 }
 
-/// What plays some players, as the package passes it: its `Casting`.
+/// What plays some players, as the package passes it: its `CastingArgument`.
 #[derive(FromPyObject)]
-pub(crate) struct Casting<'py> {
+pub(crate) struct CastingArgument<'py> {
     /// 0 left, 1 right.
     team: usize,
     /// The index of one player; none for the whole team.
@@ -186,8 +186,8 @@ pub(crate) struct Casting<'py> {
     ai: Bound<'py, PyAny>,
 }
 
-fn cast_of(casting: Vec<Casting<'_>>) -> PyResult<Vec<Cast>> {
-    let cast = |Casting { team, place, ai }: Casting<'_>| {
+fn cast_of(casting: Vec<CastingArgument<'_>>) -> PyResult<Vec<Cast>> {
+    let cast = |CastingArgument { team, place, ai }: CastingArgument<'_>| {
         let team = if team == 0 { Team::Left } else { Team::Right };
         let target = place.map_or(CastTarget::Team(team), |place| CastTarget::Player(team, place));
         Ok(Cast { target, ai: given::text("opponents", &ai)? })
@@ -201,7 +201,7 @@ fn cast_of(casting: Vec<Casting<'_>>) -> PyResult<Vec<Cast>> {
 pub(crate) fn load_cast(
     py: Python<'_>,
     name_or_path: &Bound<'_, PyAny>,
-    casting: Vec<Casting<'_>>,
+    casting: Vec<CastingArgument<'_>>,
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let (name_or_path, cast) = (given::path("scenario", name_or_path)?, cast_of(casting)?);
@@ -215,7 +215,7 @@ pub(crate) fn load_cast(
 pub(crate) fn compile_cast(
     text: &Bound<'_, PyAny>,
     name: &Bound<'_, PyAny>,
-    casting: Vec<Casting<'_>>,
+    casting: Vec<CastingArgument<'_>>,
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let py = text.py();

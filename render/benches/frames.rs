@@ -9,7 +9,7 @@ mod scenes;
 
 use cpu::CpuTime;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use setpiece_render::{Camera, Observer, Options, Pixels, Region, Renderer};
+use setpiece_render::{Camera, Options, PitchRegion, PixelObserver, Pixels, Renderer};
 use std::hint::black_box;
 
 fn frames(c: &mut Criterion<CpuTime>) {
@@ -17,7 +17,7 @@ fn frames(c: &mut Criterion<CpuTime>) {
     group.throughput(Throughput::Elements(1));
     let all = scenes::all();
     for (width, height) in [(1280, 720), (640, 360), (96, 72)] {
-        for (name, camera) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(Region::Whole))] {
+        for (name, camera) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(PitchRegion::Whole))] {
             let options = Options { camera, ..Options::default() };
             let mut renderer = Renderer::new(width, height, options).expect("the size can be drawn");
             let mut rgba = vec![0; width * height * 4];
@@ -30,7 +30,7 @@ fn frames(c: &mut Criterion<CpuTime>) {
             });
         }
     }
-    let mut observer = Observer::new(Pixels::SMALL_GRAY, Options::default()).expect("the size can be drawn");
+    let mut observer = PixelObserver::new(Pixels::SMALL_GRAY, Options::default()).expect("the size can be drawn");
     let mut out = vec![0; Pixels::SMALL_GRAY.len()];
     group.bench_function("observation 96x72 gray", |b| {
         b.iter(|| observer.observe(black_box(&all[2].1), &mut out).expect("the buffer fits"));

@@ -7,7 +7,7 @@
 mod scenes;
 
 use cpu_time::ThreadTime;
-use setpiece_render::{Camera, Options, Overlays, Region, Renderer, Scene};
+use setpiece_render::{Camera, Options, Overlays, PitchRegion, Renderer, Scene};
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn pictures(folder: &Path, width: usize, height: usize) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(folder)?;
     for (name, scene) in scenes::all() {
-        for (camera, view) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(Region::Whole))] {
+        for (camera, view) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(PitchRegion::Whole))] {
             let overlays = Overlays { terms: true, ..Overlays::default() };
             let mut renderer = Renderer::new(width, height, Options { camera: view, overlays })?;
             let mut rgba = vec![0; width * height * 4];
@@ -62,7 +62,7 @@ fn trail(scene: &Scene) -> Vec<Scene> {
 /// Prints the least time of five runs, each long enough for the clock.
 fn cost(width: usize, height: usize) -> Result<(), Box<dyn Error>> {
     let count = (60_000_000 / (width * height)).clamp(8, 8000);
-    for (name, camera) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(Region::Whole))] {
+    for (name, camera) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(PitchRegion::Whole))] {
         let mut renderer = Renderer::new(width, height, Options { camera, ..Options::default() })?;
         let mut rgba = vec![0; width * height * 4];
         let all = scenes::all();

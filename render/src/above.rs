@@ -1,11 +1,11 @@
 //! The plan: discs with numbers that show where players face, what their bodies do, where they came from.
 
-use crate::canvas::{Canvas, Capsule, Mask, Wash};
+use crate::canvas::{Capsule, Mask, Raster, Wash};
 use crate::color::{Rgb, WHITE, WOOD, YELLOW_CARD, kit, mixed, scaled};
 use crate::math::{Vec2, ground, space, within};
-use crate::scene::{Pitch, Player, Posture, Scene};
-use crate::text::{Digits, Style};
-use crate::view::{Eye, View};
+use crate::scene::{Pitch, Posture, Scene, ScenePlayer};
+use crate::text::{Digits, Lettering};
+use crate::view::{CameraEye, CameraView};
 
 /// Radius of a player's disc, metres; its bounds are pixels and depend on the picture.
 const RADIUS_M: f32 = 0.95;
@@ -19,27 +19,27 @@ const DARK: Rgb = [6, 18, 10];
 
 /// The plan's projection.
 #[derive(Clone, Copy)]
-struct Plan {
+struct PlanView {
     corner: Vec2,
     scale: f32,
     radius: f32,
     ball: f32,
 }
 
-impl Plan {
-    fn new(view: &View) -> Option<Plan> {
-        let Eye::Plan { corner, scale } = view.eye else { return None };
+impl PlanView {
+    fn new(view: &CameraView) -> Option<PlanView> {
+        let CameraEye::PlanView { corner, scale } = view.eye else { return None };
         let size = view.width.min(view.height * 3 / 2) as f32;
         let radius = (RADIUS_M * scale).max(within(size / 75.0, 1.15, 8.5));
         let ball = (BALL_M * scale).max(within(size / 150.0, 0.95, 4.2));
-        Some(Plan { corner, scale, radius, ball })
+        Some(PlanView { corner, scale, radius, ball })
     }
 
     fn at(&self, x: f32, y: f32) -> Vec2 {
         (Vec2::new(x, y) - self.corner) * self.scale
     }
 
-    fn player(&self, player: &Player) -> Vec2 {
+    fn player(&self, player: &ScenePlayer) -> Vec2 {
         let place = ground(player.pos);
         self.at(place.x, place.y)
     }
@@ -47,19 +47,19 @@ impl Plan {
 
 /// Draws goals, trails, players and the ball over the grass.
 pub(crate) fn draw(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Raster<'_>,
     mask: &mut Mask,
-    view: &View,
+    view: &CameraView,
     before: &[Scene],
     scene: &Scene,
     pitch: &Pitch,
 ) {
-    let Some(plan) = Plan::new(view) else { return };
+    let Some(plan) = PlanView::new(view) else { return };
     for side in [-1.0, 1.0] {
         goal(canvas, &plan, pitch, side);
     }
     trails(canvas, mask, &plan, before, scene);
-    let ranks = |player: &Player| (player.posture == Posture::Upright, scene.ball.owner == Some(player.id));
+    let ranks = |player: &ScenePlayer| (player.posture == Posture::Upright, scene.ball.owner == Some(player.id));
     // Who lies is below who stands, and the ball's owner is on top.
     for rank in [(false, false), (false, true), (true, false), (true, true)] {
         for player in scene.players.iter().filter(|player| player.present && ranks(player) == rank) {
@@ -69,7 +69,7 @@ pub(crate) fn draw(
     ball(canvas, &plan, scene);
 }
 
-fn goal(canvas: &mut Canvas<'_>, plan: &Plan, pitch: &Pitch, side: f32) {
+fn goal(canvas: &mut Raster<'_>, plan: &PlanView, pitch: &Pitch, side: f32) {
     let (line, half, depth) = (pitch.length_m * 0.5, pitch.goal_width_m * 0.5, pitch.goal_depth_m);
     let at = |behind: f32, y: f32| plan.at((line + behind) * side, y);
     let (a, b, c, d) = (at(0.0, -half), at(depth, -half), at(depth, half), at(0.0, half));
@@ -96,7 +96,7 @@ fn goal(canvas: &mut Canvas<'_>, plan: &Plan, pitch: &Pitch, side: f32) {
 }
 
 /// Tails from the scenes before, back to the last that was placed.
-fn trails(canvas: &mut Canvas<'_>, mask: &mut Mask, plan: &Plan, before: &[Scene], scene: &Scene) {
+fn trails(canvas: &mut Raster<'_>, mask: &mut Mask, plan: &PlanView, before: &[Scene], scene: &Scene) {
     if scene.placed {
         return;
     }
@@ -123,7 +123,7 @@ fn trails(canvas: &mut Canvas<'_>, mask: &mut Mask, plan: &Plan, before: &[Scene
     mask.wash(canvas, tail, wash(WHITE));
 }
 
-fn disc(canvas: &mut Canvas<'_>, plan: &Plan, player: &Player, scene: &Scene) {
+fn disc(canvas: &mut Raster<'_>, plan: &PlanView, player: &ScenePlayer, scene: &Scene) {
     let (at, radius, kit) = (plan.player(player), plan.radius, kit(player));
     let edge = mixed(kit.shirt, [0, 0, 0], 0.66);
     let facing = match player.posture {
@@ -152,7 +152,7 @@ fn disc(canvas: &mut Canvas<'_>, plan: &Plan, player: &Player, scene: &Scene) {
     if scene.ball.owner == Some(player.id) {
         canvas.disc(at, radius * 1.7, WHITE, 0.28);
     }
-    let body = |canvas: &mut Canvas<'_>, from: f32, to: f32, wide: f32| {
+    let body = |canvas: &mut Raster<'_>, from: f32, to: f32, wide: f32| {
         let (a, b) = (along(from, 0.0), along(to, 0.0));
         canvas.stroke(a, b, radius * wide * 0.5 + rim, edge, 1.0);
         canvas.stroke(a, b, radius * wide * 0.5, kit.shirt, 1.0);
@@ -187,7 +187,7 @@ fn disc(canvas: &mut Canvas<'_>, plan: &Plan, player: &Player, scene: &Scene) {
     }
     if radius >= NUMBERED && player.number > 0 {
         let digits = Digits::new(u32::from(player.number.min(99)), 1);
-        let mut style = Style::bold(radius * 1.0, kit.number);
+        let mut style = Lettering::bold(radius * 1.0, kit.number);
         style.weight = 0.17;
         style.stretch = if player.number > 9 { 0.8 } else { 1.0 };
         style.centre(canvas, digits.as_str(), at);
@@ -201,7 +201,7 @@ fn disc(canvas: &mut Canvas<'_>, plan: &Plan, player: &Player, scene: &Scene) {
 }
 
 /// The ball: the higher, the larger, and the further from its shadow.
-fn ball(canvas: &mut Canvas<'_>, plan: &Plan, scene: &Scene) {
+fn ball(canvas: &mut Raster<'_>, plan: &PlanView, scene: &Scene) {
     let place = space(scene.ball.pos);
     let high = within(place.z - 0.11, 0.0, 40.0);
     let at = plan.at(place.x, place.y);

@@ -1,9 +1,9 @@
 //! The ball from the stand: a lit sphere whose dark panels turn with it, and its shadow.
 
-use crate::canvas::{Canvas, blend, cover};
+use crate::canvas::{Raster, blend, cover};
 use crate::math::{Vec2, Vec3, cos, sin, space, unit_or, within};
-use crate::scene::Ball;
-use crate::view::View;
+use crate::scene::SceneBall;
+use crate::view::CameraView;
 
 /// Radius of the ball, and the size at which it is drawn: larger than life, as on any screen.
 pub(crate) const RADIUS_M: f32 = 0.11;
@@ -16,13 +16,13 @@ const PANELS_PX: f32 = 2.6;
 const CAST: Vec2 = Vec2::new(0.42, -0.3);
 
 /// Where the ball is drawn.
-pub(crate) fn place(ball: &Ball) -> Vec3 {
+pub(crate) fn place(ball: &SceneBall) -> Vec3 {
     let at = space(ball.pos);
     Vec3::new(at.x, at.y, at.z.max(0.0))
 }
 
 /// Draws the shadow.
-pub(crate) fn below(canvas: &mut Canvas<'_>, view: &View, ball: &Ball) {
+pub(crate) fn below(canvas: &mut Raster<'_>, view: &CameraView, ball: &SceneBall) {
     let at = place(ball);
     let high = (at.z - RADIUS_M).max(0.0);
     let on = Vec3::new(at.x + high * CAST.x, at.y + high * CAST.y, 0.0);
@@ -33,7 +33,7 @@ pub(crate) fn below(canvas: &mut Canvas<'_>, view: &View, ball: &Ball) {
 }
 
 /// Draws the ball.
-pub(crate) fn draw(canvas: &mut Canvas<'_>, view: &View, ball: &Ball, time_s: f32) {
+pub(crate) fn draw(canvas: &mut Raster<'_>, view: &CameraView, ball: &SceneBall, time_s: f32) {
     let at = place(ball);
     let Some(spot) = view.spot(Vec3::new(at.x, at.y, at.z.max(DRAWN_M))) else { return };
     let radius = (DRAWN_M * spot.scale).max(LEAST_PX);
@@ -83,7 +83,7 @@ impl Turn {
 
 /// How the ball is turned. A scene has no history: the way along the velocity decides, or the time if it spins in
 /// place.
-fn turned(ball: &Ball, time_s: f32) -> Turn {
+fn turned(ball: &SceneBall, time_s: f32) -> Turn {
     let (pos, vel, spin) = (place(ball), space(ball.vel), space(ball.spin));
     let roll = Vec3::new(-vel.y, vel.x, 0.0);
     let axis = unit_or(spin, unit_or(roll, Vec3::X));

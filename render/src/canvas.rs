@@ -9,7 +9,7 @@ use crate::math::{Vec2, within};
 pub(crate) type Px = [u8; 4];
 
 /// A picture that is being drawn.
-pub(crate) struct Canvas<'a> {
+pub(crate) struct Raster<'a> {
     pub(crate) px: &'a mut [Px],
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -17,7 +17,7 @@ pub(crate) struct Canvas<'a> {
 
 /// Whole pixels: from (inclusive) to (exclusive).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Span {
+pub(crate) struct RowSpan {
     pub(crate) x0: usize,
     pub(crate) x1: usize,
     pub(crate) y0: usize,
@@ -78,14 +78,14 @@ impl Capsule {
     }
 }
 
-impl Canvas<'_> {
+impl Raster<'_> {
     /// The pixels of the picture within a box, if there are any.
-    pub(crate) fn span(&self, low: Vec2, high: Vec2) -> Option<Span> {
+    pub(crate) fn span(&self, low: Vec2, high: Vec2) -> Option<RowSpan> {
         // A cast of a float saturates, and NaN becomes 0.
         let clip = |x: f32, most: usize| (x as i64).clamp(0, most as i64) as usize;
         let (x0, x1) = (clip(low.x, self.width), clip(high.x + 1.0, self.width));
         let (y0, y1) = (clip(low.y, self.height), clip(high.y + 1.0, self.height));
-        (x0 < x1 && y0 < y1).then_some(Span { x0, x1, y0, y1 })
+        (x0 < x1 && y0 < y1).then_some(RowSpan { x0, x1, y0, y1 })
     }
 
     /// A part of a row.
@@ -217,7 +217,7 @@ impl Mask {
     /// Lays a colour over everything below some capsules, each with a strength 0..1, as one shape.
     pub(crate) fn wash(
         &mut self,
-        canvas: &mut Canvas<'_>,
+        canvas: &mut Raster<'_>,
         shapes: impl Iterator<Item = (Capsule, f32)> + Clone,
         wash: Wash,
     ) {

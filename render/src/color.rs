@@ -1,6 +1,6 @@
 //! Colours, and the kits: one accent per team, distinct with every kind of colour vision.
 
-use crate::scene::{Player, Role};
+use crate::scene::{Role, ScenePlayer};
 
 /// Red, green, blue.
 pub(crate) type Rgb = [u8; 3];
@@ -78,7 +78,7 @@ const KITS: [[Kit; 2]; 2] = [
 ];
 
 /// A player's kit.
-pub(crate) fn kit(player: &Player) -> &'static Kit {
+pub(crate) fn kit(player: &ScenePlayer) -> &'static Kit {
     &KITS[player.id.team.index()][usize::from(player.role == Role::GK)]
 }
 
@@ -93,7 +93,7 @@ const FACES: [(Rgb, Rgb); 6] = [
 ];
 
 /// A player's skin and hair, the same in every scene.
-pub(crate) fn face(player: &Player) -> (Rgb, Rgb) {
+pub(crate) fn face(player: &ScenePlayer) -> (Rgb, Rgb) {
     // Neighbours of a team look different, and so do the two teams.
     let pick = usize::from(player.id.slot) * 5 + usize::from(player.id.slot) / 6 + player.id.team.index() * 3 + 1;
     FACES[pick % FACES.len()]

@@ -1,9 +1,9 @@
 //! The crowd and the boards, painted once per renderer.
 
-use crate::canvas::{Canvas, Capsule};
+use crate::canvas::{Capsule, Raster};
 use crate::color::{ACCENTS, Rgb, scaled};
 use crate::math::{Vec2, hash, within};
-use crate::text::Style;
+use crate::text::Lettering;
 use crate::tile::Tile;
 
 /// Height of a board.
@@ -26,7 +26,7 @@ const BOARDS: [(&str, Rgb, Rgb); 4] = [
 pub(crate) fn boards(per_m: f32) -> Tile {
     let mut tile = Tile::new([BOARD_M * BOARDS.len() as f32, BOARD_HEIGHT_M], per_m, [0, 0, 0]);
     let (length, height) = (tile.width as f32 / BOARDS.len() as f32, tile.height as f32);
-    let mut canvas = Canvas { px: &mut tile.px, width: tile.width, height: tile.height };
+    let mut canvas = Raster { px: &mut tile.px, width: tile.width, height: tile.height };
     for (i, (word, back, ink)) in BOARDS.iter().enumerate() {
         let (from, to) = (i as f32 * length, (i as f32 + 1.0) * length);
         for y in 0..canvas.height {
@@ -34,7 +34,7 @@ pub(crate) fn boards(per_m: f32) -> Tile {
             canvas.part(y, from as usize, to as usize).fill([r, g, b, 255]);
         }
         if height >= 5.0 {
-            let mut style = Style::bold(height * 0.62, *ink);
+            let mut style = Lettering::bold(height * 0.62, *ink);
             style.stretch = within(length * 0.8 / style.width(word), 0.5, 1.25);
             style.centre(&mut canvas, word, Vec2::new((from + to) * 0.5, height * 0.5));
         }
@@ -62,7 +62,7 @@ pub(crate) fn crowd(per_m: f32) -> Tile {
     let mut tile = Tile::new(size_m, per_m, [40, 44, 54]);
     let (seat, back) = (tile.width as f32 / SEATS as f32, tile.height as f32 / ROWS as f32);
     let size = tile.width as f32;
-    let mut canvas = Canvas { px: &mut tile.px, width: tile.width, height: tile.height };
+    let mut canvas = Raster { px: &mut tile.px, width: tile.width, height: tile.height };
     // From the top, where the furthest row is; one row more on either side closes the pattern.
     for row in -1..=ROWS as i32 {
         for place in 0..SEATS as i32 {
@@ -88,7 +88,7 @@ pub(crate) fn crowd(per_m: f32) -> Tile {
 }
 
 /// A spectator: shoulders and head, drawn on both sides of the tile's seam.
-fn person(canvas: &mut Canvas<'_>, at: Vec2, seat: f32, back: f32, colors: [Rgb; 2], size: f32, flat: bool) {
+fn person(canvas: &mut Raster<'_>, at: Vec2, seat: f32, back: f32, colors: [Rgb; 2], size: f32, flat: bool) {
     for seam in [-size, 0.0, size] {
         let at = at + Vec2::new(seam, 0.0);
         if at.x < -seat || at.x > canvas.width as f32 + seat {

@@ -1,13 +1,13 @@
 //! A player from the stand: a figure of tapered, shaded capsules, with fewer of them the smaller it is.
 
-use crate::canvas::{Canvas, Capsule, Mask, Wash};
+use crate::canvas::{Capsule, Mask, Raster, Wash};
 use crate::color::{ACCENTS, Kit, RING, Rgb, YELLOW_CARD, face, kit, scaled};
 use crate::math::{Vec2, Vec3, ground, space, unit_or, within};
-use crate::pose::Pose;
-use crate::scene::{Player, Posture};
+use crate::pose::LimbPose;
+use crate::scene::{Posture, ScenePlayer};
 use crate::skeleton::{GROWN, Skeleton};
-use crate::text::{Digits, Style};
-use crate::view::{Spot, View};
+use crate::text::{Digits, Lettering};
+use crate::view::{CameraView, Spot};
 
 /// Pixels per metre from which a figure has all its parts, and from which it has limbs at all.
 const FULL: f32 = 12.0;
@@ -25,29 +25,29 @@ const CAST: Vec2 = Vec2::new(0.42, -0.3);
 
 /// A capsule of a figure, and how far it is from the camera.
 #[derive(Clone, Copy)]
-struct Part {
+struct BodyPart {
     shape: Capsule,
     color: Rgb,
     away: f32,
 }
 
 /// The parts of a figure, the furthest first.
-struct Parts {
-    list: [Part; PARTS],
+struct BodyParts {
+    list: [BodyPart; PARTS],
     count: usize,
 }
 
 /// How a figure is drawn.
 #[derive(Clone, Copy)]
-pub(crate) struct Figure<'a> {
-    pub(crate) player: &'a Player,
+pub(crate) struct BodyShape<'a> {
+    pub(crate) player: &'a ScenePlayer,
     pub(crate) time_s: f32,
     pub(crate) owner: bool,
 }
 
-impl Figure<'_> {
+impl BodyShape<'_> {
     /// Draws what lies on the ground: the shadow, and the ring of a player that an agent plays.
-    pub(crate) fn below(&self, canvas: &mut Canvas<'_>, view: &View, mask: &mut Mask) {
+    pub(crate) fn below(&self, canvas: &mut Raster<'_>, view: &CameraView, mask: &mut Mask) {
         let at = ground(self.player.pos);
         let Some(foot) = view.spot(at) else { return };
         if !near(canvas, &foot) {
@@ -58,7 +58,7 @@ impl Figure<'_> {
             let radii = Vec2::new((0.5 * foot.scale).max(0.8), (0.5 * foot.scale * squash).max(0.5));
             canvas.ellipse(foot.at, radii, None, [10, 24, 12], 0.4);
         } else {
-            let skeleton = Skeleton::new(&Pose::of(self.player, self.time_s), at);
+            let skeleton = Skeleton::new(&LimbPose::of(self.player, self.time_s), at);
             let capsules = shadow(&skeleton, view);
             let wash = Wash { color: SHADE, opacity: 0.52, squash, soft: (foot.scale * 0.05).max(0.7) };
             mask.wash(canvas, capsules.iter().map(|shape| (*shape, 1.0)), wash);
@@ -77,7 +77,7 @@ impl Figure<'_> {
     }
 
     /// Draws the figure.
-    pub(crate) fn draw(&self, canvas: &mut Canvas<'_>, view: &View) {
+    pub(crate) fn draw(&self, canvas: &mut Raster<'_>, view: &CameraView) {
         let at = ground(self.player.pos);
         let Some(foot) = view.spot(at) else { return };
         if !near(canvas, &foot) {
@@ -87,8 +87,8 @@ impl Figure<'_> {
             self.tiny(canvas, view, at, &foot);
             return;
         }
-        let skeleton = Skeleton::new(&Pose::of(self.player, self.time_s), at);
-        let mut parts = Parts::new();
+        let skeleton = Skeleton::new(&LimbPose::of(self.player, self.time_s), at);
+        let mut parts = BodyParts::new();
         if foot.scale >= FULL {
             full(&mut parts, &skeleton, self.player, view);
         } else {
@@ -106,7 +106,7 @@ impl Figure<'_> {
     }
 
     /// A figure of a few pixels: legs, trunk, head.
-    fn tiny(&self, canvas: &mut Canvas<'_>, view: &View, at: Vec3, foot: &Spot) {
+    fn tiny(&self, canvas: &mut Raster<'_>, view: &CameraView, at: Vec3, foot: &Spot) {
         let (kit, (skin, _)) = (kit(self.player), face(self.player));
         let lift = if self.player.height_m.is_nan() { 0.0 } else { self.player.height_m.clamp(0.0, 3.0) };
         let way = unit_or(space([self.player.vel[0], self.player.vel[1], 0.0]), Vec3::ZERO);
@@ -129,7 +129,7 @@ impl Figure<'_> {
     }
 
     /// A booked player's card, and the mark of who has the ball.
-    fn tags(&self, canvas: &mut Canvas<'_>, view: &View, skeleton: &Skeleton, foot: &Spot) {
+    fn tags(&self, canvas: &mut Raster<'_>, view: &CameraView, skeleton: &Skeleton, foot: &Spot) {
         let Some(head) = view.spot(skeleton.head + Vec3::Z * 0.35) else { return };
         let size = (foot.scale * 0.13).max(2.0);
         let mut at = head.at - Vec2::new(0.0, size * 0.6);
@@ -157,7 +157,7 @@ impl Figure<'_> {
 }
 
 /// Whether anything of a figure can be in the picture.
-fn near(canvas: &Canvas<'_>, foot: &Spot) -> bool {
+fn near(canvas: &Raster<'_>, foot: &Spot) -> bool {
     let pad = 4.0 * foot.scale + 4.0;
     let (width, height) = (canvas.width as f32, canvas.height as f32);
     foot.at.x > -pad && foot.at.x < width + pad && foot.at.y > -pad && foot.at.y < height + pad
@@ -174,7 +174,7 @@ fn lit(color: Rgb, off: Vec2) -> Rgb {
 }
 
 /// The shadow's capsules on the screen.
-fn shadow(skeleton: &Skeleton, view: &View) -> [Capsule; 9] {
+fn shadow(skeleton: &Skeleton, view: &CameraView) -> [Capsule; 9] {
     let flat = |p: Vec3| {
         let on = Vec3::new(p.x + p.z * CAST.x, p.y + p.z * CAST.y, 0.0);
         view.spot(on).unwrap_or(Spot { at: Vec2::splat(-1e4), scale: 1.0 })
@@ -198,7 +198,7 @@ fn shadow(skeleton: &Skeleton, view: &View) -> [Capsule; 9] {
 }
 
 /// Every part.
-fn full(parts: &mut Parts, s: &Skeleton, player: &Player, view: &View) {
+fn full(parts: &mut BodyParts, s: &Skeleton, player: &ScenePlayer, view: &CameraView) {
     let kit: &Kit = kit(player);
     let (skin, hair) = face(player);
     let boot = [32, 32, 36];
@@ -232,7 +232,7 @@ fn full(parts: &mut Parts, s: &Skeleton, player: &Player, view: &View) {
 }
 
 /// Fewer parts.
-fn simple(parts: &mut Parts, s: &Skeleton, player: &Player, view: &View) {
+fn simple(parts: &mut BodyParts, s: &Skeleton, player: &ScenePlayer, view: &CameraView) {
     let kit = kit(player);
     let (skin, hair) = face(player);
     for side in [0, 1] {
@@ -247,13 +247,13 @@ fn simple(parts: &mut Parts, s: &Skeleton, player: &Player, view: &View) {
     parts.add(view, crown, crown, 0.11, 0.11, hair);
 }
 
-impl Parts {
-    fn new() -> Parts {
+impl BodyParts {
+    fn new() -> BodyParts {
         let none = Capsule { a: Vec2::ZERO, b: Vec2::ZERO, ra: 0.0, rb: 0.0 };
-        Parts { list: [Part { shape: none, color: [0; 3], away: 0.0 }; PARTS], count: 0 }
+        BodyParts { list: [BodyPart { shape: none, color: [0; 3], away: 0.0 }; PARTS], count: 0 }
     }
 
-    fn add(&mut self, view: &View, a: Vec3, b: Vec3, ra: f32, rb: f32, color: Rgb) {
+    fn add(&mut self, view: &CameraView, a: Vec3, b: Vec3, ra: f32, rb: f32, color: Rgb) {
         let (ra, rb) = (ra * GROWN, rb * GROWN);
         let (Some(from), Some(to)) = (view.spot(a), view.spot(b)) else { return };
         let shape = Capsule { a: from.at, b: to.at, ra: (ra * from.scale).max(0.6), rb: (rb * to.scale).max(0.6) };
@@ -261,7 +261,7 @@ impl Parts {
         let depth = |p: Vec3, radius: f32| -p.y * 0.89 - p.z * 0.45 - radius;
         let away = (depth(a, ra) + depth(b, rb)) * 0.5;
         if let Some(place) = self.list.get_mut(self.count) {
-            *place = Part { shape, color, away };
+            *place = BodyPart { shape, color, away };
             self.count += 1;
         }
     }
@@ -280,7 +280,7 @@ impl Parts {
 }
 
 /// The number on chest or back, as far as it faces the camera.
-fn number(canvas: &mut Canvas<'_>, view: &View, skeleton: &Skeleton, player: &Player) {
+fn number(canvas: &mut Raster<'_>, view: &CameraView, skeleton: &Skeleton, player: &ScenePlayer) {
     if player.number == 0 {
         return;
     }
@@ -293,7 +293,7 @@ fn number(canvas: &mut Canvas<'_>, view: &View, skeleton: &Skeleton, player: &Pl
     let side = if shown > 0.0 { 0.14 } else { -0.14 };
     let Some(spot) = view.spot(middle + skeleton.front * side) else { return };
     let digits = Digits::new(u32::from(player.number.min(99)), 1);
-    let mut style = Style::bold(0.3 * spot.scale, kit(player).number);
+    let mut style = Lettering::bold(0.3 * spot.scale, kit(player).number);
     style.weight = 0.2;
     style.stretch = within(shown.abs() * 1.1 - 0.1, 0.4, 1.0) * if player.number > 9 { 0.62 } else { 0.9 };
     style.centre(canvas, digits.as_str(), spot.at);

@@ -3,11 +3,11 @@
 //! A goal is drawn in bands across, so that whoever stands in the mouth is in front of one part and behind another.
 
 use crate::ball;
-use crate::canvas::Canvas;
+use crate::canvas::Raster;
 use crate::color::{WOOD, scaled};
 use crate::math::{Vec2, Vec3, smooth, within};
 use crate::scene::{Pitch, Scene};
-use crate::view::View;
+use crate::view::CameraView;
 
 /// Bands of a goal, from the far post to the near one.
 pub(crate) const BANDS: usize = 8;
@@ -77,7 +77,7 @@ impl Goal {
     }
 
     /// Draws one band: woodwork and net.
-    pub(crate) fn draw(&self, canvas: &mut Canvas<'_>, view: &View, band: usize) {
+    pub(crate) fn draw(&self, canvas: &mut Raster<'_>, view: &CameraView, band: usize) {
         let Some(spot) = view.spot(self.point(0.0, 0.0, 0.0)) else { return };
         if spot.scale < 4.0 {
             self.small(canvas, view, band);
@@ -103,7 +103,7 @@ impl Goal {
     }
 
     /// Whether any part of the goal can be in the picture.
-    fn seen(&self, canvas: &Canvas<'_>, view: &View) -> bool {
+    fn seen(&self, canvas: &Raster<'_>, view: &CameraView) -> bool {
         let mut low = Vec2::splat(f32::MAX);
         let mut high = Vec2::splat(f32::MIN);
         for corner in 0..8 {
@@ -121,7 +121,7 @@ impl Goal {
     }
 
     /// A goal of a few pixels.
-    fn small(&self, canvas: &mut Canvas<'_>, view: &View, band: usize) {
+    fn small(&self, canvas: &mut Raster<'_>, view: &CameraView, band: usize) {
         let (from, to) = (self.band_y(band), self.band_y(band + 1));
         let corners = [(0.0, self.height), (self.depth * TOP, self.height), (self.depth, 0.0)];
         let spots = |y: f32| corners.map(|(behind, z)| view.spot(self.point(behind, y, z)).map(|spot| spot.at));
@@ -138,16 +138,16 @@ impl Goal {
         }
     }
 
-    fn post(&self, canvas: &mut Canvas<'_>, view: &View, y: f32) {
+    fn post(&self, canvas: &mut Raster<'_>, view: &CameraView, y: f32) {
         wood(canvas, view, self.point(0.0, y, 0.0), self.point(0.0, y, self.height));
     }
 
-    fn bar(&self, canvas: &mut Canvas<'_>, view: &View, from: f32, to: f32) {
+    fn bar(&self, canvas: &mut Raster<'_>, view: &CameraView, from: f32, to: f32) {
         wood(canvas, view, self.point(0.0, from, self.height), self.point(0.0, to, self.height));
     }
 
     /// Roof and back of the net between two y.
-    fn back(&self, canvas: &mut Canvas<'_>, view: &View, from: f32, to: f32, mesh: f32) {
+    fn back(&self, canvas: &mut Raster<'_>, view: &CameraView, from: f32, to: f32, mesh: f32) {
         let columns = cells((to - from) / mesh);
         let (rows, roof) = (cells(self.height / mesh), cells(self.depth * TOP / mesh));
         let step_y = (to - from) / columns as f32;
@@ -175,7 +175,7 @@ impl Goal {
         }
     }
 
-    fn side_net(&self, canvas: &mut Canvas<'_>, view: &View, y: f32, mesh: f32) {
+    fn side_net(&self, canvas: &mut Raster<'_>, view: &CameraView, y: f32, mesh: f32) {
         let out = Vec3::new(0.0, if y > 0.0 { 1.0 } else { -1.0 }, 0.0);
         let (columns, rows) = (cells(self.depth / mesh), cells(self.height / mesh));
         let at = |i: usize, j: usize| {
@@ -198,7 +198,7 @@ fn cells(count: f32) -> usize {
 }
 
 /// A thread of the net through some points.
-fn thread(canvas: &mut Canvas<'_>, view: &View, points: impl Iterator<Item = Vec3>, strength: f32) {
+fn thread(canvas: &mut Raster<'_>, view: &CameraView, points: impl Iterator<Item = Vec3>, strength: f32) {
     let mut last = None;
     for point in points {
         let spot = view.spot(point);
@@ -209,12 +209,12 @@ fn thread(canvas: &mut Canvas<'_>, view: &View, points: impl Iterator<Item = Vec
     }
 }
 
-fn line(canvas: &mut Canvas<'_>, from: Vec2, to: crate::view::Spot, strength: f32) {
+fn line(canvas: &mut Raster<'_>, from: Vec2, to: crate::view::Spot, strength: f32) {
     canvas.stroke(from, to.at, (0.011 * to.scale).max(0.3), WOOD, strength);
 }
 
 /// A piece of woodwork, lit from the left.
-fn wood(canvas: &mut Canvas<'_>, view: &View, a: Vec3, b: Vec3) {
+fn wood(canvas: &mut Raster<'_>, view: &CameraView, a: Vec3, b: Vec3) {
     let (Some(a), Some(b)) = (view.spot(a), view.spot(b)) else { return };
     let shape =
         crate::canvas::Capsule { a: a.at, b: b.at, ra: (POST_M * a.scale).max(0.55), rb: (POST_M * b.scale).max(0.55) };

@@ -1,11 +1,11 @@
 //! Grass: mown stripes with a grain, and what lies around the pitch.
 
-use crate::canvas::{Canvas, Px, between, solid};
+use crate::canvas::{Px, Raster, between, solid};
 use crate::color::Rgb;
 use crate::marks::Marks;
 use crate::math::{hash, within};
 use crate::scene::Pitch;
-use crate::view::{Row, View};
+use crate::view::{CameraView, Row};
 
 /// Stripes of the lawn; even, so that both halves look alike.
 const STRIPES: i32 = 20;
@@ -138,7 +138,7 @@ impl Ground {
 }
 
 /// Paints the ground of a whole picture, row by row.
-pub(crate) fn paint_all(ground: &Ground, canvas: &mut Canvas<'_>, view: &View, pitch: &Pitch, lawn: &Lawn) {
+pub(crate) fn paint_all(ground: &Ground, canvas: &mut Raster<'_>, view: &CameraView, pitch: &Pitch, lawn: &Lawn) {
     let marks = Marks::new(pitch);
     for y in 0..canvas.height {
         if let Some(row) = view.row(y) {

@@ -56,7 +56,7 @@ mod view;
 pub mod scene;
 
 pub use overlay::Overlays;
-pub use pixels::{Observer, Pixels};
+pub use pixels::{PixelObserver, Pixels};
 pub use renderer::{Options, RenderError, Renderer, SIDE_MAX, gray};
 pub use scene::Scene;
-pub use view::{Camera, Region};
+pub use view::{Camera, PitchRegion};

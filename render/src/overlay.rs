@@ -5,7 +5,7 @@ mod radar;
 mod scoreboard;
 mod terms;
 
-use crate::canvas::Canvas;
+use crate::canvas::Raster;
 use crate::scene::{Pitch, Scene};
 
 /// Least size of a picture that has room for an overlay, pixels.
@@ -41,7 +41,7 @@ impl Overlays {
     }
 
     /// Draws them.
-    pub(crate) fn draw(self, canvas: &mut Canvas<'_>, scene: &Scene, pitch: &Pitch, radar: bool) {
+    pub(crate) fn draw(self, canvas: &mut Raster<'_>, scene: &Scene, pitch: &Pitch, radar: bool) {
         let unit = (canvas.height as f32 / 720.0).min(canvas.width as f32 / 960.0).max(0.45);
         if self.radar && radar {
             radar::draw(canvas, scene, pitch, unit);

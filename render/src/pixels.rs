@@ -39,18 +39,18 @@ impl Pixels {
 
 /// Writes observations in pixels.
 #[derive(Debug)]
-pub struct Observer {
+pub struct PixelObserver {
     pixels: Pixels,
     renderer: Renderer,
 }
 
-impl Observer {
+impl PixelObserver {
     /// Prepares observations of a shape.
     ///
     /// # Errors
     /// [`RenderError::Size`] for sides that can't be drawn.
-    pub fn new(pixels: Pixels, options: Options) -> Result<Observer, RenderError> {
-        Ok(Observer { pixels, renderer: Renderer::new(pixels.width, pixels.height, options)? })
+    pub fn new(pixels: Pixels, options: Options) -> Result<PixelObserver, RenderError> {
+        Ok(PixelObserver { pixels, renderer: Renderer::new(pixels.width, pixels.height, options)? })
     }
 
     /// The shape.

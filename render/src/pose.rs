@@ -4,7 +4,7 @@
 //! stride follows the speed, as it mostly does with people. Nothing jumps when a player turns or brakes.
 
 use crate::math::{Vec3, cos, mix, sin, smooth, space, unit_or, within};
-use crate::scene::{Id, Player, Posture, Scene};
+use crate::scene::{Id, Posture, Scene, ScenePlayer};
 
 /// Strides (two steps) per second. Ten steps of the match are a second, so the pattern repeats after five seconds.
 const STRIDES_HZ: f32 = 1.4;
@@ -23,7 +23,7 @@ pub(crate) struct Limb {
 
 /// A body's attitude. Sides are 0 for the side of `across`, 1 for the other.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pose {
+pub(crate) struct LimbPose {
     /// Along the trunk, towards the head.
     pub(crate) up: Vec3,
     /// Where the chest faces.
@@ -50,9 +50,9 @@ fn phase(id: Id, time_s: f32) -> f32 {
     (time_s * STRIDES_HZ + own as f32 / 16.0) * std::f32::consts::TAU
 }
 
-impl Pose {
+impl LimbPose {
     /// A player's attitude at a time.
-    pub(crate) fn of(player: &Player, time_s: f32) -> Pose {
+    pub(crate) fn of(player: &ScenePlayer, time_s: f32) -> LimbPose {
         let velocity = space([player.vel[0], player.vel[1], 0.0]);
         let facing = unit_or(space([player.facing[0], player.facing[1], 0.0]), Vec3::X);
         let progress = within(player.progress, 0.0, 1.0);
@@ -77,8 +77,8 @@ impl Pose {
     }
 }
 
-fn upright(facing: Vec3) -> Pose {
-    Pose {
+fn upright(facing: Vec3) -> LimbPose {
+    LimbPose {
         up: Vec3::Z,
         front: facing,
         legs_up: Vec3::Z,
@@ -90,7 +90,7 @@ fn upright(facing: Vec3) -> Pose {
     }
 }
 
-fn running(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> Pose {
+fn running(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> LimbPose {
     let mut pose = upright(facing);
     if speed < 0.25 {
         // Shifting the weight.
@@ -122,17 +122,17 @@ fn running(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> Pose {
     pose
 }
 
-fn stumbling(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> Pose {
+fn stumbling(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> LimbPose {
     let mut pose = running(facing, way, speed.max(2.0), phase);
     pose.up = unit_or(Vec3::Z + way * 0.7, Vec3::Z);
     pose.arms = [Limb { swing: 0.9, spread: 0.9, bend: 0.4 }, Limb { swing: 0.4, spread: 1.2, bend: 0.5 }];
     pose
 }
 
-fn sliding(way: Vec3, progress: f32) -> Pose {
+fn sliding(way: Vec3, progress: f32) -> LimbPose {
     let down = smooth(progress * 4.0 + 0.5);
     let lean = Vec3::Z * 0.55 - way * 0.85 * down;
-    Pose {
+    LimbPose {
         up: unit_or(lean, Vec3::Z),
         front: unit_or(Vec3::Z * 0.8 + way * 0.6, way),
         legs_up: Vec3::Z,
@@ -144,9 +144,9 @@ fn sliding(way: Vec3, progress: f32) -> Pose {
     }
 }
 
-fn fallen(facing: Vec3) -> Pose {
+fn fallen(facing: Vec3) -> LimbPose {
     let along = -facing;
-    Pose {
+    LimbPose {
         up: unit_or(along + Vec3::Z * 0.06, along),
         front: unit_or(Vec3::new(-facing.y, facing.x, 0.0) * 0.6 + Vec3::Z, Vec3::Z),
         legs_up: along,
@@ -158,7 +158,7 @@ fn fallen(facing: Vec3) -> Pose {
     }
 }
 
-fn jumping(facing: Vec3, progress: f32) -> Pose {
+fn jumping(facing: Vec3, progress: f32) -> LimbPose {
     let high = sin(progress * std::f32::consts::PI).max(0.0);
     let mut pose = upright(facing);
     pose.up = unit_or(Vec3::Z - facing * 0.12 + facing * 0.3 * smooth(progress * 2.0 - 0.8), Vec3::Z);
@@ -170,7 +170,7 @@ fn jumping(facing: Vec3, progress: f32) -> Pose {
     pose
 }
 
-fn diving(facing: Vec3, way: Vec3, speed: f32, progress: f32) -> Pose {
+fn diving(facing: Vec3, way: Vec3, speed: f32, progress: f32) -> LimbPose {
     // Who doesn't move dives where they face.
     let way = if speed < 0.5 { facing } else { way };
     let tilt = mix(0.5, 1.5, smooth(progress * 2.2));
@@ -179,7 +179,7 @@ fn diving(facing: Vec3, way: Vec3, speed: f32, progress: f32) -> Pose {
     let front = unit_or(chest, Vec3::new(-way.y, way.x, 0.0));
     let hips =
         if progress < 0.45 { mix(0.8, 0.95, progress / 0.45) } else { mix(0.95, 0.17, smooth(progress * 1.8 - 0.8)) };
-    Pose {
+    LimbPose {
         up,
         front,
         legs_up: unit_or(up + Vec3::Z * 0.15, up),
@@ -191,7 +191,7 @@ fn diving(facing: Vec3, way: Vec3, speed: f32, progress: f32) -> Pose {
     }
 }
 
-fn kicking(facing: Vec3, speed: f32, progress: f32) -> Pose {
+fn kicking(facing: Vec3, speed: f32, progress: f32) -> LimbPose {
     let mut pose = upright(facing);
     let (back, through) = (smooth(progress / 0.35), smooth((progress - 0.35) / 0.35));
     let swing = mix(mix(0.0, -1.0, back), 1.15, through) - 0.6 * smooth((progress - 0.75) / 0.25);

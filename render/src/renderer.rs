@@ -2,12 +2,12 @@
 
 use crate::above;
 use crate::broadcast::Broadcast;
-use crate::canvas::{Canvas, Mask, Px};
+use crate::canvas::{Mask, Px, Raster};
 use crate::ground::{Ground, PLAN, paint_all};
 use crate::overlay::Overlays;
 use crate::scene::Scene;
 use crate::stands::Stands;
-use crate::view::{Camera, Eye, View, sound};
+use crate::view::{Camera, CameraEye, CameraView, sound};
 use serde::{Deserialize, Serialize};
 
 /// Longest side of a picture, pixels. Two pictures of this size take half a gigabyte, more than any screen needs.
@@ -158,9 +158,9 @@ impl Renderer {
 
     fn draw(&mut self, before: &[Scene], scene: &Scene, px: &mut [Px]) {
         let pitch = sound(&scene.pitch);
-        let view = View::new(self.options.camera, &pitch, scene.ball.pos, self.width, self.height);
-        let mut canvas = Canvas { px, width: self.width, height: self.height };
-        if let (Eye::Stand(stand), Some(stands)) = (view.eye, &mut self.stands) {
+        let view = CameraView::new(self.options.camera, &pitch, scene.ball.pos, self.width, self.height);
+        let mut canvas = Raster { px, width: self.width, height: self.height };
+        if let (CameraEye::StandView(stand), Some(stands)) = (view.eye, &mut self.stands) {
             stands.paint(&mut canvas, &view, &stand, &pitch, &self.ground);
             self.broadcast.draw(&mut canvas, &mut self.mask, &view, scene, &pitch);
         } else {

@@ -17,9 +17,9 @@ pub struct Scene {
     /// The measures of the pitch.
     pub pitch: Pitch,
     /// The ball.
-    pub ball: Ball,
+    pub ball: SceneBall,
     /// Everyone of both squads, in any order.
-    pub players: Vec<Player>,
+    pub players: Vec<ScenePlayer>,
     /// The teams' names on the scoreboard, left and right.
     pub names: [String; 2],
     /// Goals, left and right.
@@ -44,7 +44,7 @@ impl Default for Scene {
             step: 0,
             between: 0.0,
             pitch: Pitch::default(),
-            ball: Ball::default(),
+            ball: SceneBall::default(),
             players: Vec::new(),
             names: ["LEFT".to_owned(), "RIGHT".to_owned()],
             score: [0, 0],
@@ -60,7 +60,7 @@ impl Default for Scene {
 
 impl Scene {
     /// The player who has the ball.
-    pub fn owner(&self) -> Option<&Player> {
+    pub fn owner(&self) -> Option<&ScenePlayer> {
         self.ball.owner.and_then(|id| self.players.iter().find(|player| player.id == id && player.present))
     }
 }
@@ -114,7 +114,7 @@ impl Default for Pitch {
 /// The ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Ball {
+pub struct SceneBall {
     /// Its centre.
     pub pos: [f32; 3],
     /// m/s.
@@ -155,7 +155,7 @@ pub struct Id {
 /// A player.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Player {
+pub struct ScenePlayer {
     /// Who it is.
     pub id: Id,
     /// The number on the shirt.
@@ -184,9 +184,9 @@ pub struct Player {
     pub agent: bool,
 }
 
-impl Default for Player {
-    fn default() -> Player {
-        Player {
+impl Default for ScenePlayer {
+    fn default() -> ScenePlayer {
+        ScenePlayer {
             id: Id::default(),
             number: 0,
             role: Role::CM,

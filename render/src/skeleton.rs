@@ -1,7 +1,7 @@
 //! A pose as joints in space.
 
 use crate::math::{Vec3, cos, sin, unit_or};
-use crate::pose::{Limb, Pose};
+use crate::pose::{Limb, LimbPose};
 
 /// People are drawn so much larger than life, so that they can be read.
 pub(crate) const GROWN: f32 = 1.14;
@@ -40,16 +40,16 @@ pub(crate) struct Skeleton {
 }
 
 /// Three directions at right angles.
-struct Frame {
+struct LimbFrame {
     up: Vec3,
     front: Vec3,
     across: Vec3,
 }
 
-impl Frame {
-    fn new(up: Vec3, front: Vec3) -> Frame {
+impl LimbFrame {
+    fn new(up: Vec3, front: Vec3) -> LimbFrame {
         let front = unit_or(front - up * front.dot(up), Vec3::new(-up.z, 0.0, up.x));
-        Frame { up, front, across: up.cross(front) }
+        LimbFrame { up, front, across: up.cross(front) }
     }
 
     /// The directions of a limb's two parts; `knee` bends the second back, otherwise forward.
@@ -67,9 +67,9 @@ impl Frame {
 
 impl Skeleton {
     /// The joints of a pose at a place on the ground.
-    pub(crate) fn new(pose: &Pose, at: Vec3) -> Skeleton {
-        let legs = Frame::new(pose.legs_up, pose.legs_front);
-        let trunk = Frame::new(pose.up, pose.front);
+    pub(crate) fn new(pose: &LimbPose, at: Vec3) -> Skeleton {
+        let legs = LimbFrame::new(pose.legs_up, pose.legs_front);
+        let trunk = LimbFrame::new(pose.up, pose.front);
         let sides = [0, 1];
         // First about hips at the origin.
         let hip = sides.map(|side| trunk.across * if side == 0 { HIP_M } else { -HIP_M });

@@ -2,14 +2,14 @@
 //!
 //! Both are painted once, at the picture's own size, and then laid into each frame row by row.
 
-use crate::canvas::{Canvas, Px};
+use crate::canvas::{Px, Raster};
 use crate::crowd::{BOARD_HEIGHT_M, boards, crowd};
 use crate::ground::{Ground, STADIUM};
 use crate::marks::Marks;
 use crate::math::{mix, within};
 use crate::scene::Pitch;
 use crate::tile::Tile;
-use crate::view::{Eye, Stand, View};
+use crate::view::{CameraEye, CameraView, StandView};
 
 /// Distance of the boards from the lines.
 const BOARDS_Y_M: f32 = 5.0;
@@ -38,10 +38,10 @@ pub(crate) struct Stands {
 impl Stands {
     /// Paints crowd and boards for a picture of this size.
     pub(crate) fn new(width: usize, height: usize) -> Stands {
-        let view = View::new(crate::Camera::Broadcast, &Pitch::default(), [0.0; 3], width, height);
+        let view = CameraView::new(crate::Camera::Broadcast, &Pitch::default(), [0.0; 3], width, height);
         let per_m = match view.eye {
-            Eye::Stand(stand) => within(stand.focal / AWAY_M, 0.5, 40.0),
-            Eye::Plan { .. } => 1.0,
+            CameraEye::StandView(stand) => within(stand.focal / AWAY_M, 0.5, 40.0),
+            CameraEye::PlanView { .. } => 1.0,
         };
         let (crowd, boards) = (crowd(per_m), boards(per_m));
         let line = vec![[0, 0, 0, 255]; crowd.width.max(boards.width)];
@@ -51,9 +51,9 @@ impl Stands {
     /// Paints everything behind the players: stands, boards, ground.
     pub(crate) fn paint(
         &mut self,
-        canvas: &mut Canvas<'_>,
-        view: &View,
-        stand: &Stand,
+        canvas: &mut Raster<'_>,
+        view: &CameraView,
+        stand: &StandView,
         pitch: &Pitch,
         ground: &Ground,
     ) {
@@ -84,7 +84,7 @@ impl Stands {
     }
 
     /// A row of the far boards and the stand above them; returns how far away it is.
-    fn behind(&mut self, view: &View, stand: &Stand, y: usize, far: f32, px: &mut [Px]) -> f32 {
+    fn behind(&mut self, view: &CameraView, stand: &StandView, y: usize, far: f32, px: &mut [Px]) -> f32 {
         let (along, fall) = ray(stand, y);
         let back = stand.pos.y - far;
         let depth = back / along.max(1e-3);
@@ -116,7 +116,7 @@ impl Stands {
 
     /// The stands behind the goals: pixels of a row, from the picture's edge inwards, that show one before `depth`.
     #[allow(clippy::too_many_arguments, reason = "a row, a plane, and where it is")]
-    fn beside(&self, stand: &Stand, y: usize, depth: f32, side: f32, pitch: &Pitch, px: &mut [Px]) {
+    fn beside(&self, stand: &StandView, y: usize, depth: f32, side: f32, pitch: &Pitch, px: &mut [Px]) {
         let (along, fall) = ray(stand, y);
         let off = pitch.length_m * 0.5 + BOARDS_X_M + STAND_BACK_M - side * stand.pos.x;
         let above = stand.pos.z - STAND_LOW_M + STEEP * off;
@@ -154,7 +154,7 @@ impl Stands {
     }
 
     /// The boards behind the goals. A column of the picture shows one depth of their plane.
-    fn sides(&self, canvas: &mut Canvas<'_>, stand: &Stand, pitch: &Pitch, far: f32) {
+    fn sides(&self, canvas: &mut Raster<'_>, stand: &StandView, pitch: &Pitch, far: f32) {
         let (middle, centre) = (canvas.width as f32 * 0.5, stand.centre);
         for side in [-1.0, 1.0] {
             let off = side * (pitch.length_m * 0.5 + BOARDS_X_M) - stand.pos.x;
@@ -198,7 +198,7 @@ impl Stands {
 }
 
 /// How far forward and how far down the rays of a row go per metre of depth.
-fn ray(stand: &Stand, y: usize) -> (f32, f32) {
+fn ray(stand: &StandView, y: usize) -> (f32, f32) {
     let down = (y as f32 + 0.5 - stand.centre) / stand.focal;
     (stand.cos - down * stand.sin, stand.sin + down * stand.cos)
 }

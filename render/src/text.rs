@@ -1,12 +1,12 @@
 //! Text from a small stroke font: capitals, digits and a few signs, drawn as capsules at any size.
 
-use crate::canvas::Canvas;
+use crate::canvas::Raster;
 use crate::color::Rgb;
 use crate::math::Vec2;
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Style {
+pub(crate) struct Lettering {
     /// Height of a capital, pixels.
     pub(crate) size: f32,
     /// Width of a stroke over the height.
@@ -16,15 +16,15 @@ pub(crate) struct Style {
     pub(crate) color: Rgb,
 }
 
-impl Style {
+impl Lettering {
     /// Ordinary text.
-    pub(crate) fn plain(size: f32, color: Rgb) -> Style {
-        Style { size, weight: 0.13, stretch: 1.0, color }
+    pub(crate) fn plain(size: f32, color: Rgb) -> Lettering {
+        Lettering { size, weight: 0.13, stretch: 1.0, color }
     }
 
     /// Bold text.
-    pub(crate) fn bold(size: f32, color: Rgb) -> Style {
-        Style { size, weight: 0.175, stretch: 1.0, color }
+    pub(crate) fn bold(size: f32, color: Rgb) -> Lettering {
+        Lettering { size, weight: 0.175, stretch: 1.0, color }
     }
 
     fn unit(&self) -> Vec2 {
@@ -47,7 +47,7 @@ impl Style {
     }
 
     /// Writes a text whose first capital has its top left corner at a place.
-    pub(crate) fn write(&self, canvas: &mut Canvas<'_>, text: &str, corner: Vec2) {
+    pub(crate) fn write(&self, canvas: &mut Raster<'_>, text: &str, corner: Vec2) {
         let (unit, half) = (self.unit(), self.size * self.weight * 0.5);
         let mut left = corner + half;
         for letter in text.chars() {
@@ -66,7 +66,7 @@ impl Style {
     }
 
     /// Writes a text about a middle.
-    pub(crate) fn centre(&self, canvas: &mut Canvas<'_>, text: &str, middle: Vec2) {
+    pub(crate) fn centre(&self, canvas: &mut Raster<'_>, text: &str, middle: Vec2) {
         self.write(canvas, text, middle - Vec2::new(self.width(text), self.size) * 0.5);
     }
 }

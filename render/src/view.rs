@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case")]
 pub enum Camera {
     /// A plan, north up, so to say: +y is at the bottom.
-    Above(Region),
+    Above(PitchRegion),
     /// From the stand behind the touch line at +y. It follows the ball, and depends on nothing else.
     #[default]
     Broadcast,
@@ -21,7 +21,7 @@ pub enum Camera {
 /// The part of the ground that a plan shows. What doesn't fit the picture's shape is widened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Region {
+pub enum PitchRegion {
     /// The pitch with a margin for the goals.
     #[default]
     Whole,
@@ -67,24 +67,24 @@ pub(crate) struct Row {
 
 /// A camera in place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct View {
+pub(crate) struct CameraView {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    pub(crate) eye: Eye,
+    pub(crate) eye: CameraEye,
 }
 
 /// The two kinds of projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Eye {
+pub(crate) enum CameraEye {
     /// World place of the top left corner, pixels per metre.
-    Plan { corner: Vec2, scale: f32 },
+    PlanView { corner: Vec2, scale: f32 },
     /// Perspective.
-    Stand(Stand),
+    StandView(StandView),
 }
 
 /// A camera in the stand.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Stand {
+pub(crate) struct StandView {
     /// Its place.
     pub(crate) pos: Vec3,
     /// Cosine and sine of how far it looks down.
@@ -115,21 +115,21 @@ const NEARER: f32 = 0.16;
 /// Margins of the plan beyond goal lines and touch lines.
 const MARGIN_M: Vec2 = Vec2::new(4.5, 3.5);
 
-impl View {
+impl CameraView {
     /// Places the camera.
-    pub(crate) fn new(camera: Camera, pitch: &Pitch, ball: [f32; 3], width: usize, height: usize) -> View {
+    pub(crate) fn new(camera: Camera, pitch: &Pitch, ball: [f32; 3], width: usize, height: usize) -> CameraView {
         let eye = match camera {
             Camera::Above(region) => plan(region, pitch, width as f32, height as f32),
-            Camera::Broadcast => Eye::Stand(stand(pitch, ball, width as f32, height as f32)),
+            Camera::Broadcast => CameraEye::StandView(stand(pitch, ball, width as f32, height as f32)),
         };
-        View { width, height, eye }
+        CameraView { width, height, eye }
     }
 
     /// Where a place is in the picture; `None` behind the camera.
     pub(crate) fn spot(&self, p: Vec3) -> Option<Spot> {
         match self.eye {
-            Eye::Plan { corner, scale } => Some(Spot { at: (Vec2::new(p.x, p.y) - corner) * scale, scale }),
-            Eye::Stand(stand) => {
+            CameraEye::PlanView { corner, scale } => Some(Spot { at: (Vec2::new(p.x, p.y) - corner) * scale, scale }),
+            CameraEye::StandView(stand) => {
                 let (away, up) = (stand.pos.y - p.y, p.z - stand.pos.z);
                 let depth = away * stand.cos - up * stand.sin;
                 if depth < 1.0 {
@@ -146,7 +146,7 @@ impl View {
     /// The ground that a row shows, if it shows any.
     pub(crate) fn row(&self, index: usize) -> Option<Row> {
         match self.eye {
-            Eye::Plan { corner, scale } => {
+            CameraEye::PlanView { corner, scale } => {
                 let step = 1.0 / scale;
                 Some(Row {
                     y: corner.y + (index as f32 + 0.5) * step,
@@ -158,7 +158,7 @@ impl View {
                     slant: 0.0,
                 })
             }
-            Eye::Stand(stand) => {
+            CameraEye::StandView(stand) => {
                 let ray = |y: f32| {
                     let down = (y - stand.centre) / stand.focal;
                     (stand.cos - down * stand.sin, stand.sin + down * stand.cos)
@@ -177,7 +177,7 @@ impl View {
     }
 
     /// A row at a depth.
-    pub(crate) fn along_x(&self, stand: &Stand, depth: f32, y: f32, dy: f32, slant: f32) -> Row {
+    pub(crate) fn along_x(&self, stand: &StandView, depth: f32, y: f32, dy: f32, slant: f32) -> Row {
         let dx = depth / stand.focal;
         let x0 = stand.pos.x + (0.5 - self.width as f32 * 0.5) * dx;
         Row { y, dy, x0, dx, per_m: stand.focal / depth, eye_x: stand.pos.x, slant }
@@ -186,13 +186,13 @@ impl View {
     /// How flat the ground looks: its height on the screen over its depth.
     pub(crate) fn squash(&self) -> f32 {
         match self.eye {
-            Eye::Plan { .. } => 1.0,
-            Eye::Stand(stand) => stand.sin,
+            CameraEye::PlanView { .. } => 1.0,
+            CameraEye::StandView(stand) => stand.sin,
         }
     }
 }
 
-fn stand(pitch: &Pitch, ball: [f32; 3], width: f32, height: f32) -> Stand {
+fn stand(pitch: &Pitch, ball: [f32; 3], width: f32, height: f32) -> StandView {
     let (half_x, half_y) = (pitch.length_m * 0.5, pitch.width_m * 0.5);
     let distance = (HEIGHT_M * HEIGHT_M + BACK_M * BACK_M).sqrt();
     let focal = (width * distance / SHOWN_M).max(height / SHOWN_UP).max(1.0);
@@ -206,16 +206,16 @@ fn stand(pitch: &Pitch, ball: [f32; 3], width: f32, height: f32) -> Stand {
     let ray = (HEIGHT_M * HEIGHT_M + ahead * ahead).sqrt();
     // What a tall picture has more than a wide one, it has at the bottom: the stand fills no more of it.
     let centre = (height * 0.5).min(focal * UPWARD);
-    Stand { pos: Vec3::new(x, y + BACK_M, HEIGHT_M), cos: ahead / ray, sin: HEIGHT_M / ray, focal, centre }
+    StandView { pos: Vec3::new(x, y + BACK_M, HEIGHT_M), cos: ahead / ray, sin: HEIGHT_M / ray, focal, centre }
 }
 
-fn plan(region: Region, pitch: &Pitch, width: f32, height: f32) -> Eye {
+fn plan(region: PitchRegion, pitch: &Pitch, width: f32, height: f32) -> CameraEye {
     let half = Vec2::new(pitch.length_m, pitch.width_m) * 0.5 + MARGIN_M;
     let (low, high) = match region {
-        Region::Whole => (-half, half),
-        Region::LeftHalf => (-half, Vec2::new(MARGIN_M.x, half.y)),
-        Region::RightHalf => (Vec2::new(-MARGIN_M.x, -half.y), half),
-        Region::Box { low, high } => {
+        PitchRegion::Whole => (-half, half),
+        PitchRegion::LeftHalf => (-half, Vec2::new(MARGIN_M.x, half.y)),
+        PitchRegion::RightHalf => (Vec2::new(-MARGIN_M.x, -half.y), half),
+        PitchRegion::Box { low, high } => {
             let (a, b) = (Vec2::new(metres(low[0]), metres(low[1])), Vec2::new(metres(high[0]), metres(high[1])));
             let middle = (a + b) * 0.5;
             let half = ((b - a).abs() * 0.5).max(Vec2::ONE);
@@ -225,7 +225,7 @@ fn plan(region: Region, pitch: &Pitch, width: f32, height: f32) -> Eye {
     let size = high - low;
     let scale = (width / size.x).min(height / size.y);
     let corner = (low + high) * 0.5 - Vec2::new(width, height) * (0.5 / scale);
-    Eye::Plan { corner, scale }
+    CameraEye::PlanView { corner, scale }
 }
 
 /// The pitch's measures within what can be drawn; the usual ones where they are not numbers.
@@ -256,10 +256,10 @@ mod tests {
 
     const SIZES: [(usize, usize); 6] = [(1280, 720), (96, 72), (72, 96), (84, 84), (16, 16), (480, 854)];
 
-    fn views(ball: [f32; 3]) -> impl Iterator<Item = View> {
+    fn views(ball: [f32; 3]) -> impl Iterator<Item = CameraView> {
         SIZES
             .into_iter()
-            .map(move |(width, height)| View::new(Camera::Broadcast, &Pitch::default(), ball, width, height))
+            .map(move |(width, height)| CameraView::new(Camera::Broadcast, &Pitch::default(), ball, width, height))
     }
 
     #[test]
@@ -301,9 +301,9 @@ mod tests {
 
     #[test]
     fn the_camera_moves_no_faster_than_the_ball_by_much() {
-        let eye = |x: f32| match View::new(Camera::Broadcast, &Pitch::default(), [x, 0.0, 0.11], 1280, 720).eye {
-            Eye::Stand(stand) => stand.pos.x,
-            Eye::Plan { .. } => f32::NAN,
+        let eye = |x: f32| match CameraView::new(Camera::Broadcast, &Pitch::default(), [x, 0.0, 0.11], 1280, 720).eye {
+            CameraEye::StandView(stand) => stand.pos.x,
+            CameraEye::PlanView { .. } => f32::NAN,
         };
         for step in -700..700 {
             let x = step as f32 * 0.1;

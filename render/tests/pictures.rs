@@ -6,12 +6,12 @@
 mod scenes;
 
 use proptest::prelude::*;
-use setpiece_render::scene::{Id, Mode, News, NewsKind, Pitch, Player, Posture, Role, Side, Term};
+use setpiece_render::scene::{Id, Mode, News, NewsKind, Pitch, Posture, Role, ScenePlayer, Side, Term};
 use setpiece_render::{
-    Camera, Observer, Options, Overlays, Pixels, Region, RenderError, Renderer, SIDE_MAX, Scene, gray,
+    Camera, Options, Overlays, PitchRegion, PixelObserver, Pixels, RenderError, Renderer, SIDE_MAX, Scene, gray,
 };
 
-const ABOVE: Camera = Camera::Above(Region::Whole);
+const ABOVE: Camera = Camera::Above(PitchRegion::Whole);
 
 fn picture(scene: &Scene, camera: Camera, width: usize, height: usize) -> Vec<u8> {
     let options = Options { camera, overlays: Overlays { terms: true, ..Overlays::default() } };
@@ -179,8 +179,8 @@ fn rgb_and_gray_are_the_same_picture() {
     let scene = scenes::shot();
     let rgba = picture(&scene, Camera::Broadcast, 96, 72);
     let (mut rgb, mut gray_bytes) = (vec![0; Pixels::SMALL.len()], vec![0; Pixels::SMALL_GRAY.len()]);
-    Observer::new(Pixels::SMALL, Options::default()).unwrap().observe(&scene, &mut rgb).unwrap();
-    Observer::new(Pixels::SMALL_GRAY, Options::default()).unwrap().observe(&scene, &mut gray_bytes).unwrap();
+    PixelObserver::new(Pixels::SMALL, Options::default()).unwrap().observe(&scene, &mut rgb).unwrap();
+    PixelObserver::new(Pixels::SMALL_GRAY, Options::default()).unwrap().observe(&scene, &mut gray_bytes).unwrap();
     for (i, px) in rgba.chunks(4).enumerate() {
         assert_eq!(&rgb[i * 3..][..3], &px[..3]);
         assert_eq!(gray_bytes[i], gray([px[0], px[1], px[2]]));
@@ -244,7 +244,7 @@ fn number() -> impl Strategy<Value = f32> {
     ]
 }
 
-fn player() -> impl Strategy<Value = Player> {
+fn player() -> impl Strategy<Value = ScenePlayer> {
     let postures = vec![
         Posture::Upright,
         Posture::Stumbling,
@@ -259,7 +259,7 @@ fn player() -> impl Strategy<Value = Player> {
     let marks = (any::<bool>(), any::<u8>(), any::<u8>(), any::<bool>(), any::<bool>(), any::<bool>());
     (places, body, marks).prop_map(|((pos, vel, facing), (posture, progress, height_m, tired), marks)| {
         let (right, slot, number, keeper, agent, present) = marks;
-        Player {
+        ScenePlayer {
             id: Id { team: if right { Side::Right } else { Side::Left }, slot },
             number,
             role: if keeper { Role::GK } else { Role::CF },
@@ -326,7 +326,7 @@ proptest! {
         low in [number(), number()],
         high in [number(), number()],
     ) {
-        let regions = [Region::LeftHalf, Region::Box { low, high }].map(Camera::Above);
+        let regions = [PitchRegion::LeftHalf, PitchRegion::Box { low, high }].map(Camera::Above);
         let cameras = [Camera::Broadcast, ABOVE, regions[0], regions[1]];
         for camera in cameras {
             let rgba = picture(&scene, camera, width, height);

@@ -67,7 +67,7 @@ impl From<HeadError> for FormatError {
 }
 
 #[derive(Serialize)]
-struct Out<'a> {
+struct WrittenFile<'a> {
     format: &'a str,
     version: u32,
     checksum: String,
@@ -75,7 +75,7 @@ struct Out<'a> {
 }
 
 #[derive(Deserialize)]
-struct In<'a> {
+struct ReadFile<'a> {
     #[serde(borrow)]
     format: Option<std::borrow::Cow<'a, str>>,
     version: Option<u32>,
@@ -94,7 +94,7 @@ pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     let body = serde_json::to_string(scenario).map_err(write)?;
     let checksum = written_checksum(&body);
     let raw = RawValue::from_string(body).map_err(write)?;
-    let out = Out { format: FORMAT_NAME, version: FORMAT_VERSION, checksum, scenario: &raw };
+    let out = WrittenFile { format: FORMAT_NAME, version: FORMAT_VERSION, checksum, scenario: &raw };
     let file = serde_json::to_string(&out).map_err(write)?;
     check_size(file.len(), FormatError::Write)?;
     Ok(file)
@@ -126,7 +126,7 @@ pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
     if text.trim().is_empty() {
         return Err(FormatError::NotAScenario("it is empty".to_owned()));
     }
-    let envelope: In<'_> = serde_json::from_str(text).map_err(|error| {
+    let envelope: ReadFile<'_> = serde_json::from_str(text).map_err(|error| {
         if error.is_eof() && text.trim_start().starts_with('{') {
             FormatError::Truncated
         } else {

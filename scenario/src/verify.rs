@@ -36,19 +36,19 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
     let n_params = scenario.params.len();
     let n_lets = scenario.start.lets.len();
     let n_scripts = scenario.scripts.len();
-    let check = |what: &str, program: &Program, place: Place| {
+    let check = |what: &str, program: &Program, place: ProgramPlace| {
         verify_program(program, place, n_params, n_lets).map_err(|fault| format!("{what}: {fault}"))
     };
-    check("the start", &scenario.start.program, Place::Start)?;
-    check("the endings", &scenario.endings.program, Place::Step { terms: 0 })?;
+    check("the start", &scenario.start.program, ProgramPlace::Start)?;
+    check("the endings", &scenario.endings.program, ProgramPlace::Step { terms: 0 })?;
     for ending in &scenario.endings.list {
         ending.when.map_or(Ok(()), |reg| visible(&scenario.endings.program, reg))?;
         ending.script.map_or(Ok(()), |script| below("script", script, n_scripts))?;
     }
     for reward in scenario.rewards.iter().chain(&scenario.library) {
         let RewardBody { init, step, terms, hooks } = &reward.body;
-        check(&reward.name, init, Place::Init)?;
-        check(&reward.name, step, Place::Step { terms: terms.len() })?;
+        check(&reward.name, init, ProgramPlace::Init)?;
+        check(&reward.name, step, ProgramPlace::Step { terms: terms.len() })?;
         if init.cells != step.cells {
             return Err(format!("{}: init and step differ in memory", reward.name));
         }
@@ -65,21 +65,21 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
         }
     }
     for record in &scenario.records {
-        check(&record.name, &record.program, Place::Step { terms: 0 })?;
+        check(&record.name, &record.program, ProgramPlace::Step { terms: 0 })?;
         record.values.iter().try_for_each(|&reg| visible(&record.program, reg))?;
         if !(1..=2).contains(&record.values.len()) {
             return Err(format!("{}: a record has one value or two", record.name));
         }
     }
     if let Some(observation) = &scenario.observation {
-        check("the observation", &observation.program, Place::Step { terms: 0 })?;
+        check("the observation", &observation.program, ProgramPlace::Step { terms: 0 })?;
         observation.values.iter().try_for_each(|value| visible(&observation.program, value.value))?;
         if observation.program.cells > 0 {
             return Err("the observation remembers something".to_owned());
         }
     }
     for behavior in &scenario.behaviors {
-        check(&behavior.name, &behavior.program, Place::Step { terms: 0 })?;
+        check(&behavior.name, &behavior.program, ProgramPlace::Step { terms: 0 })?;
         behavior::verify_nodes(behavior, n_scripts).map_err(|fault| format!("{}: {fault}", behavior.name))?;
     }
     verify_start(scenario)
@@ -150,13 +150,13 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
 
 /// The role of a program, which decides what it may contain.
 #[derive(Clone, Copy)]
-enum Place {
+enum ProgramPlace {
     Start,
     Init,
     Step { terms: usize },
 }
 
-fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usize) -> Result<(), String> {
+fn verify_program(program: &Program, place: ProgramPlace, n_params: usize, n_lets: usize) -> Result<(), String> {
     if program.code.len() > CODE_MAX || program.cells as usize > CODE_MAX {
         return Err("too large".to_owned());
     }
@@ -179,14 +179,14 @@ fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usiz
         match (instr, place) {
             (Instr::Const(value), _) if !value.is_finite() => return Err(format!("constant {at} is not finite")),
             (Instr::Param(param), _) => below("parameter", *param, n_params)?,
-            (Instr::Let(_), Place::Start) => return Err("a `let` is read in the start itself".to_owned()),
+            (Instr::Let(_), ProgramPlace::Start) => return Err("a `let` is read in the start itself".to_owned()),
             (Instr::Let(index), _) => below("let", *index, n_lets)?,
             (Instr::Load { field, of, .. }, _) => {
                 let wanted = matches!(field.subject(), Owner::Player | Owner::Team);
                 if wanted != of.is_some() {
                     return Err(format!("instruction {at} loads `{field}` of the wrong thing"));
                 }
-                if !matches!(place, Place::Step { .. }) {
+                if !matches!(place, ProgramPlace::Step { .. }) {
                     return Err(format!("instruction {at} reads the match before it has begun"));
                 }
             }
@@ -201,12 +201,12 @@ fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usiz
                 | Instr::Once { .. },
                 _,
             ) if !open.is_empty() => return Err(format!("instruction {at} looks back inside a loop")),
-            (Instr::Give { term, .. }, Place::Step { terms }) => below("term", *term, terms)?,
-            (Instr::Random { .. }, Place::Start)
-            | (Instr::Assign { .. }, Place::Init | Place::Step { .. })
-            | (Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. }, Place::Step { .. })
-            | (Instr::Until { .. } | Instr::Once { .. } | Instr::Us | Instr::Me, Place::Step { .. })
-            | (Instr::Us, Place::Init) => {}
+            (Instr::Give { term, .. }, ProgramPlace::Step { terms }) => below("term", *term, terms)?,
+            (Instr::Random { .. }, ProgramPlace::Start)
+            | (Instr::Assign { .. }, ProgramPlace::Init | ProgramPlace::Step { .. })
+            | (Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. }, ProgramPlace::Step { .. })
+            | (Instr::Until { .. } | Instr::Once { .. } | Instr::Us | Instr::Me, ProgramPlace::Step { .. })
+            | (Instr::Us, ProgramPlace::Init) => {}
             (
                 Instr::Random { .. }
                 | Instr::Give { .. }
@@ -226,7 +226,7 @@ fn verify_program(program: &Program, place: Place, n_params: usize, n_lets: usiz
                 if end > limit {
                     return Err(format!("the loop at {at} runs past its end"));
                 }
-                if !matches!(place, Place::Step { .. }) {
+                if !matches!(place, ProgramPlace::Step { .. }) {
                     return Err(format!("instruction {at} reads the match before it has begun"));
                 }
                 if open.len() >= LOOPS_MAX {

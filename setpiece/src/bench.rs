@@ -32,7 +32,7 @@ pub struct BenchOptions {
     /// The agent that plays every slot.
     pub agent: Agent,
     /// The observation that every agent gets after every step.
-    pub observation: Observation,
+    pub observation: BenchObservation,
     /// Match k plays the episodes of the seed `seed + k`.
     pub seed: u64,
     /// Parameters, physics.
@@ -41,7 +41,7 @@ pub struct BenchOptions {
 
 /// The observation of an agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Observation {
+pub enum BenchObservation {
     /// Nothing.
     None,
     /// GRF's 115 floats.
@@ -83,7 +83,7 @@ pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measu
     let threads = |why: setpiece_engine::batch::BatchError| Error::Threads(why.to_string());
     let mut batch = Batch::new(lanes(scenario, options)?, options.threads).map_err(threads)?;
     let mut play = |until: Duration, staggered: bool| -> Result<Measured, Error> {
-        let counted = |batch: &Batch<Lane>| {
+        let counted = |batch: &Batch<BenchLane>| {
             let lanes = batch.lanes().iter();
             lanes.fold((0, 0), |(steps, resets), lane| (steps + lane.steps, resets + lane.resets))
         };
@@ -165,12 +165,12 @@ fn reading_ns() -> f64 {
 }
 
 /// A match, its player and its observation buffers.
-struct Lane {
+struct BenchLane {
     environment: Environment,
     agent: ReadyMade,
     seed: u64,
     actions: Vec<Action>,
-    observation: Observation,
+    observation: BenchObservation,
     floats: Vec<f32>,
     map: Vec<u8>,
     steps: u64,
@@ -178,14 +178,14 @@ struct Lane {
     failed: Option<Box<EpisodeError>>,
 }
 
-fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<Lane>, Error> {
+fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<BenchLane>, Error> {
     let prototype = Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
     let (floats, map) = match options.observation {
-        Observation::None => (0, 0),
-        Observation::Simple115v2 => (prototype.layout(Floats::Simple115v2).len(), 0),
-        Observation::Smm => (0, smm_size(SMM_WIDTH, SMM_HEIGHT)),
+        BenchObservation::None => (0, 0),
+        BenchObservation::Simple115v2 => (prototype.layout(Floats::Simple115v2).len(), 0),
+        BenchObservation::Smm => (0, smm_size(SMM_WIDTH, SMM_HEIGHT)),
     };
-    let lane = |at: usize| Lane {
+    let lane = |at: usize| BenchLane {
         environment: prototype.clone(),
         agent: ReadyMade::new(options.agent),
         seed: options.seed.wrapping_add(at as u64),
@@ -200,7 +200,7 @@ fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<Lane>, 
     Ok((0..options.matches).map(lane).collect())
 }
 
-impl Lane {
+impl BenchLane {
     /// Plays a step of the match, or starts the next episode if it has ended; no-op after a
     /// failure.
     fn advance(&mut self, scratch: &mut Scratch) {
@@ -228,9 +228,9 @@ impl Lane {
         for agent in 0..self.actions.len() {
             // Buffers have the sizes of their observations.
             let _ = match self.observation {
-                Observation::None => Ok(()),
-                Observation::Simple115v2 => self.environment.observe(Floats::Simple115v2, agent, &mut self.floats),
-                Observation::Smm => smm(self.environment.state(), agent, SMM_WIDTH, SMM_HEIGHT, &mut self.map),
+                BenchObservation::None => Ok(()),
+                BenchObservation::Simple115v2 => self.environment.observe(Floats::Simple115v2, agent, &mut self.floats),
+                BenchObservation::Smm => smm(self.environment.state(), agent, SMM_WIDTH, SMM_HEIGHT, &mut self.map),
             };
             black_box((&self.floats, &self.map));
         }

@@ -36,8 +36,8 @@ const FAULT: u8 = 1;
 )]
 pub(crate) struct Args {
     /// When to colour the output
-    #[arg(long, global = true, value_enum, default_value_t = Colour::Auto, value_name = "WHEN")]
-    color: Colour,
+    #[arg(long, global = true, value_enum, default_value_t = ColourChoice::Auto, value_name = "WHEN")]
+    color: ColourChoice,
     /// Let imports and scripts lie outside of the scenario's folder
     #[arg(long, global = true)]
     allow_outside: bool,
@@ -47,7 +47,7 @@ pub(crate) struct Args {
 
 /// When to colour the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Colour {
+pub(crate) enum ColourChoice {
     /// On a terminal
     Auto,
     /// Always

@@ -11,7 +11,7 @@
 
 mod events;
 
-use self::events::Events;
+use self::events::FileEvents;
 use crate::error::{Error, FileFault};
 use crate::files::{most_bytes, read_file};
 use setpiece_scenario::file::fnv1a;
@@ -35,7 +35,7 @@ pub struct Watcher {
     files: Vec<Watched>,
     looked: Option<Instant>,
     /// Ends a wait early; none before the first wait.
-    events: Option<Events>,
+    events: Option<FileEvents>,
 }
 
 /// A file and its known state.
@@ -117,7 +117,7 @@ impl Watcher {
     /// Listens to the events of the files' folders. Returns how long a wait without an event may
     /// be.
     fn listen(&mut self) -> Duration {
-        let events = self.events.get_or_insert_with(Events::new);
+        let events = self.events.get_or_insert_with(FileEvents::new);
         let is_complete = events.follow(self.files.iter().map(|file| file.path.as_path()));
         if is_complete { LOOK_ANYWAY } else { LOOK_EVERY }
     }

@@ -6,7 +6,7 @@ use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::state::player::Pose;
 use setpiece::render::colours::{AGENT, Colour, shirt};
 use setpiece::render::view::View;
-use setpiece::render::{Film, FilmOptions, Region, Scene, draw, film, frame, replayed, sheet};
+use setpiece::render::{Film, FilmOptions, Region, SheetScene, draw, film, frame, replayed, sheet};
 use setpiece::replay::{Recorder, Replay};
 use setpiece::scenario::Action;
 use std::path::Path;
@@ -50,7 +50,7 @@ fn played(name: &str, agent: Agent) -> Film {
 }
 
 /// A scene on the whole pitch, 10 pixels per metre.
-fn drawn(moments: &[Scene]) -> Pixmap {
+fn drawn(moments: &[SheetScene]) -> Pixmap {
     let mut pixels = vec![0; 1200 * 800 * 4];
     draw(PixmapMut::from_bytes(&mut pixels, 1200, 800).unwrap(), moments, Region::WHOLE);
     let mut picture = Pixmap::new(1200, 800).unwrap();
@@ -181,7 +181,7 @@ fn poses_cards_and_the_way_a_player_faces_are_seen() {
 fn the_height_of_the_ball_is_seen() {
     let mut scene = played("academy_3_vs_1_with_keeper", Agent::Idle).scenes[0].clone();
     scene.ball = [0.0, 20.0, 0.11];
-    let white = |scene: &Scene, y_m: f32| count(&drawn(std::slice::from_ref(scene)), spot(0.0, y_m), 4.0, AGENT);
+    let white = |scene: &SheetScene, y_m: f32| count(&drawn(std::slice::from_ref(scene)), spot(0.0, y_m), 4.0, AGENT);
     assert!(white(&scene, 20.0) > 10);
     scene.ball[2] = 5.0;
     assert_eq!(white(&scene, 20.0), 0, "its shadow lies there");

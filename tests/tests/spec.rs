@@ -18,7 +18,7 @@ use setpiece::Loaded;
 use setpiece::script_api::EngineScripts;
 use setpiece_dsl::problem::Problem;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
-use setpiece_dsl::{CompileOptions, Outcome, compile};
+use setpiece_dsl::{CompileOptions, CompileOutcome, compile};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -152,7 +152,7 @@ fn annotated(text: &str, problems: &[(usize, usize, &Problem)]) -> String {
 }
 
 /// Compiles a case, with the engine's check of its scripts; `probe` adds the dry run.
-fn run(case: &Case, probe: bool) -> Outcome {
+fn run(case: &Case, probe: bool) -> CompileOutcome {
     let bare: Vec<(String, String)> = case.files.iter().map(|(name, text)| (name.clone(), bare(text))).collect();
     let (name, text) = bare[0].clone();
     let options = CompileOptions { scripts: Some(&EngineScripts), ..CompileOptions::default() };
@@ -172,7 +172,7 @@ fn run(case: &Case, probe: bool) -> Outcome {
 }
 
 /// The case with the right annotations.
-fn expected(case: &Case, outcome: &Outcome) -> String {
+fn expected(case: &Case, outcome: &CompileOutcome) -> String {
     let mut out = format!("--- {}\n", case.header);
     for (index, (name, text)) in case.files.iter().enumerate() {
         if index > 0 {

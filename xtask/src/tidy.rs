@@ -1,6 +1,7 @@
-//! The project's rules that a machine can check: which room may use which, where files and clocks
-//! are read, file lengths, words.
+//! The rules of the project that a machine can check: which room may use which, where files and clocks
+//! are read, file lengths, names of types, words.
 
+mod names;
 mod rooms;
 mod words;
 
@@ -8,6 +9,19 @@ use crate::ci::root;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// The sources of the workspace's crates.
+const CRATES: &[&str] = &[
+    "grammar/src",
+    "scenario/src",
+    "dsl/src",
+    "engine/src",
+    "render/src",
+    "setpiece/src",
+    "python/src",
+    "xtask/src",
+    "lab/src",
+];
 
 /// Longest source file in lines, without tests.
 const LINES_MAX: usize = 600;
@@ -120,17 +134,7 @@ pub(crate) fn tidy() -> Result<(), String> {
             }
         }
     }
-    for folder in [
-        "grammar/src",
-        "scenario/src",
-        "dsl/src",
-        "engine/src",
-        "render/src",
-        "setpiece/src",
-        "python/src",
-        "xtask/src",
-        "lab/src",
-    ] {
+    for folder in CRATES {
         for file in rust_files(&root().join(folder)) {
             let text = read(&file)?;
             let lines = text.split("#[cfg(test)]").next().unwrap_or_default().lines().count();
@@ -143,6 +147,7 @@ pub(crate) fn tidy() -> Result<(), String> {
         }
     }
     dsl_arrows(&mut breaches)?;
+    names::check(&mut breaches)?;
     words::check(&mut breaches)?;
     if breaches.is_empty() {
         println!("tidy: the house is in order");

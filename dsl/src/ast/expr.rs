@@ -48,9 +48,9 @@ pub enum ExprKind {
         args: Vec<Arg>,
     },
     /// `-x`, `+x`, `not x`
-    Unary(UnaryOp, Box<Expr>),
+    Unary(PrefixOp, Box<Expr>),
     /// `a + b`, `a < b`, `a and b`, …
-    Binary(Spanned<BinaryOp>, Box<Expr>, Box<Expr>),
+    Binary(Spanned<InfixOp>, Box<Expr>, Box<Expr>),
     /// `if c then a else b`
     If(Box<Expr>, Box<Expr>, Box<Expr>),
     /// `X has ball`
@@ -87,7 +87,7 @@ pub struct Arg {
 
 /// An operator of one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnaryOp {
+pub enum PrefixOp {
     /// `-`
     Neg,
     /// `+`
@@ -99,7 +99,7 @@ pub enum UnaryOp {
 /// An operator of two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "each is the operator it is named after")]
-pub enum BinaryOp {
+pub enum InfixOp {
     Add,
     Sub,
     Mul,

@@ -5,7 +5,7 @@ use crate::ast::{
     GiveValue, ItemKind, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind, ScriptRef, ScriptSource,
     TeamStmt, TeamStmtKind,
 };
-use crate::lower::script::Scripts;
+use crate::lower::script::LoadedScripts;
 use crate::problem::Problem;
 use crate::problem::facts::Files;
 use crate::resolve::Library;
@@ -14,7 +14,7 @@ use crate::source::{Source, SourceLoader};
 /// Loads every script that a file names, so that reports can show its text.
 pub(super) fn load(
     library: &mut Library,
-    scripts: &mut Scripts<'_>,
+    scripts: &mut LoadedScripts<'_>,
     loader: &dyn SourceLoader,
     problems: &mut Vec<Problem>,
 ) {

@@ -1,26 +1,26 @@
 //! Where lines end.
 
-use super::pieces::{Kind, Piece};
+use super::pieces::{PieceKind, SourcePiece};
 use super::print::{gap, width};
 use super::{INDENT, WIDTH};
 use setpiece_grammar::Rule;
 
 /// A line: its pieces and how it stands.
 #[derive(Clone, Debug)]
-pub(super) struct Line<'t> {
+pub(super) struct FormatLine<'t> {
     /// Blanks before it.
     pub(super) indent: usize,
     /// Whether an empty line stands before it.
     pub(super) spaced: bool,
     /// What stands on it.
-    pub(super) parts: Vec<Part<'t>>,
+    pub(super) parts: Vec<LinePart<'t>>,
 }
 
 /// A piece on its line.
 #[derive(Clone, Debug)]
-pub(super) struct Part<'t> {
+pub(super) struct LinePart<'t> {
     /// The piece.
-    pub(super) piece: Piece<'t>,
+    pub(super) piece: SourcePiece<'t>,
     /// Its place among all pieces.
     index: usize,
     /// How many brackets are open around it.
@@ -30,7 +30,7 @@ pub(super) struct Part<'t> {
 }
 
 /// A block: what stands between two curly brackets.
-struct Block {
+struct BraceBlock {
     open: usize,
     close: usize,
     /// Whether its statements stand on lines of their own.
@@ -41,10 +41,10 @@ struct Block {
     fields: bool,
 }
 
-struct Layout<'p, 't> {
-    pieces: &'p [Piece<'t>],
+struct LineLayout<'p, 't> {
+    pieces: &'p [SourcePiece<'t>],
     /// The file first.
-    blocks: Vec<Block>,
+    blocks: Vec<BraceBlock>,
     /// Of every piece, the block that it stands in.
     block_of: Vec<usize>,
     /// Of every curly bracket, the block that it opens or closes.
@@ -56,8 +56,8 @@ struct Layout<'p, 't> {
 }
 
 /// Lays out the pieces of a text.
-pub(super) fn lay_out<'t>(pieces: &[Piece<'t>]) -> Vec<Line<'t>> {
-    let mut layout = Layout::new(pieces);
+pub(super) fn lay_out<'t>(pieces: &[SourcePiece<'t>]) -> Vec<FormatLine<'t>> {
+    let mut layout = LineLayout::new(pieces);
     // Every round opens a block or wraps a line, of which there are no more than pieces.
     for _ in 0..=pieces.len() {
         let lines = layout.lines();
@@ -68,9 +68,10 @@ pub(super) fn lay_out<'t>(pieces: &[Piece<'t>]) -> Vec<Line<'t>> {
     layout.lines()
 }
 
-impl<'p, 't> Layout<'p, 't> {
-    fn new(pieces: &'p [Piece<'t>]) -> Layout<'p, 't> {
-        let mut blocks = vec![Block { open: usize::MAX, close: pieces.len(), broken: true, parent: 0, fields: false }];
+impl<'p, 't> LineLayout<'p, 't> {
+    fn new(pieces: &'p [SourcePiece<'t>]) -> LineLayout<'p, 't> {
+        let mut blocks =
+            vec![BraceBlock { open: usize::MAX, close: pieces.len(), broken: true, parent: 0, fields: false }];
         let (mut current, mut block_of, mut bracket_of) = (0, Vec::with_capacity(pieces.len()), vec![0; pieces.len()]);
         for (index, piece) in pieces.iter().enumerate() {
             if piece.is(Rule::brace_close)
@@ -83,7 +84,7 @@ impl<'p, 't> Layout<'p, 't> {
             block_of.push(current);
             if piece.is(Rule::brace_open) {
                 let fields = piece.within == Rule::fields;
-                blocks.push(Block { open: index, close: pieces.len(), broken: false, parent: current, fields });
+                blocks.push(BraceBlock { open: index, close: pieces.len(), broken: false, parent: current, fields });
                 current = blocks.len() - 1;
                 if let Some(bracket) = bracket_of.get_mut(index) {
                     *bracket = current;
@@ -92,7 +93,7 @@ impl<'p, 't> Layout<'p, 't> {
         }
         for block in blocks.iter_mut().skip(1) {
             let inside = pieces.get(block.open + 1..=block.close).unwrap_or_default();
-            let breaks = |piece: &Piece<'_>| piece.newlines > 0 || piece.ends_line() || piece.text.contains('\n');
+            let breaks = |piece: &SourcePiece<'_>| piece.newlines > 0 || piece.ends_line() || piece.text.contains('\n');
             block.broken = inside.len() > 1 && inside.iter().any(breaks);
         }
         let mut free = vec![true; pieces.len()];
@@ -103,7 +104,7 @@ impl<'p, 't> Layout<'p, 't> {
             }
             *free = next;
         }
-        Layout { pieces, blocks, block_of, bracket_of, free, wrapped: vec![false; pieces.len()] }
+        LineLayout { pieces, blocks, block_of, bracket_of, free, wrapped: vec![false; pieces.len()] }
     }
 
     fn is_broken(&self, block: usize) -> bool {
@@ -136,7 +137,7 @@ impl<'p, 't> Layout<'p, 't> {
         if piece.is_comment() {
             return piece.newlines > 0;
         }
-        if last.kind == Kind::BlockComment && piece.newlines == 0 && before_breaks {
+        if last.kind == PieceKind::BlockComment && piece.newlines == 0 && before_breaks {
             return false;
         }
         if piece.is(Rule::brace_close) {
@@ -146,26 +147,26 @@ impl<'p, 't> Layout<'p, 't> {
             return self.is_broken(self.block(index));
         }
         if piece.is(Rule::brace_open) || (last.is(Rule::brace_close) && piece.is(Rule::kw_else)) {
-            return last.kind == Kind::BlockComment && piece.newlines > 0;
+            return last.kind == PieceKind::BlockComment && piece.newlines > 0;
         }
         let asked = piece.newlines > 0 || self.wrapped.get(index).copied().unwrap_or_default();
-        asked && (last.kind == Kind::BlockComment || may_break(last, piece))
+        asked && (last.kind == PieceKind::BlockComment || may_break(last, piece))
     }
 
     fn is_free(&self, index: usize) -> bool {
         self.free.get(index).copied().unwrap_or(true)
     }
 
-    fn lines(&self) -> Vec<Line<'t>> {
-        let mut lines: Vec<Line<'t>> = Vec::new();
-        let mut frames = vec![Frame { close: 0, inner: 0, curly: true, opened: true }];
+    fn lines(&self) -> Vec<FormatLine<'t>> {
+        let mut lines: Vec<FormatLine<'t>> = Vec::new();
+        let mut frames = vec![OpenBracket { close: 0, inner: 0, curly: true, opened: true }];
         let (mut before, mut before_breaks) = (None, true);
         for (index, piece) in self.pieces.iter().enumerate().filter(|(index, _)| self.is_shown(*index)) {
             let breaks = before.is_none_or(|before| self.breaks(before, before_breaks, index));
             if breaks {
                 let indent = frames.last().map_or(0, |frame| frame.indent(piece, self.is_free(index)));
                 let spaced = before.is_some_and(|before| self.is_spaced(before, index));
-                lines.push(Line { indent, spaced, parts: Vec::new() });
+                lines.push(FormatLine { indent, spaced, parts: Vec::new() });
             }
             let Some(line) = lines.last_mut() else { continue };
             let comma = piece.begins
@@ -175,7 +176,7 @@ impl<'p, 't> Layout<'p, 't> {
             if piece.closes() && frames.len() > 1 {
                 frames.pop();
             }
-            line.parts.push(Part { piece: piece.clone(), index, depth: frames.len(), comma });
+            line.parts.push(LinePart { piece: piece.clone(), index, depth: frames.len(), comma });
             if piece.opens() {
                 let opened = (index + 1..self.pieces.len())
                     .find(|next| self.is_shown(*next))
@@ -183,7 +184,7 @@ impl<'p, 't> Layout<'p, 't> {
                 let curly = piece.is(Rule::brace_open);
                 let outer = frames.iter().rev().find(|frame| frame.curly).map_or(0, |frame| frame.inner);
                 let close = if curly { outer } else { line.indent };
-                frames.push(Frame { close, inner: close + INDENT, curly, opened });
+                frames.push(OpenBracket { close, inner: close + INDENT, curly, opened });
             }
             (before, before_breaks) = (Some(index), breaks);
         }
@@ -201,7 +202,7 @@ impl<'p, 't> Layout<'p, 't> {
     }
 
     /// Opens a block or wraps a line that is too wide; whether there was one.
-    fn narrow(&mut self, lines: &[Line<'t>]) -> bool {
+    fn narrow(&mut self, lines: &[FormatLine<'t>]) -> bool {
         let mut changed = false;
         for line in lines.iter().filter(|line| width(line) > WIDTH) {
             let mut depth = usize::MAX;
@@ -222,7 +223,7 @@ impl<'p, 't> Layout<'p, 't> {
     }
 
     /// Breaks a line at the last place that fits, as far outside of brackets as can be; whether there is one.
-    fn wrap(&mut self, line: &Line<'t>) -> bool {
+    fn wrap(&mut self, line: &FormatLine<'t>) -> bool {
         let mut column = line.indent;
         let mut best: Option<(bool, usize, usize)> = None;
         for pair in line.parts.windows(2) {
@@ -248,7 +249,7 @@ impl<'p, 't> Layout<'p, 't> {
 }
 
 /// An open bracket, or the file.
-struct Frame {
+struct OpenBracket {
     /// The indentation of its closing bracket.
     close: usize,
     /// The indentation of what it holds.
@@ -258,9 +259,9 @@ struct Frame {
     opened: bool,
 }
 
-impl Frame {
+impl OpenBracket {
     /// The indentation of a line that begins with a piece.
-    fn indent(&self, piece: &Piece<'_>, free: bool) -> usize {
+    fn indent(&self, piece: &SourcePiece<'_>, free: bool) -> usize {
         match (piece.closes(), self.curly) {
             (true, _) => self.close,
             (false, true) if piece.begins || piece.is(Rule::doc) || (piece.is_comment() && free) => self.inner,
@@ -272,9 +273,9 @@ impl Frame {
 }
 
 /// Whether a line inside a statement may end between two tokens: in brackets, and before the words that join.
-fn may_break(last: &Piece<'_>, piece: &Piece<'_>) -> bool {
-    let Kind::Token(rule) = piece.kind else { return false };
-    let in_brackets = matches!(last.kind, Kind::Token(Rule::paren_open | Rule::bracket_open | Rule::comma))
+fn may_break(last: &SourcePiece<'_>, piece: &SourcePiece<'_>) -> bool {
+    let PieceKind::Token(rule) = piece.kind else { return false };
+    let in_brackets = matches!(last.kind, PieceKind::Token(Rule::paren_open | Rule::bracket_open | Rule::comma))
         || matches!(rule, Rule::paren_close | Rule::bracket_close);
     let joins = matches!(
         rule,
@@ -297,6 +298,6 @@ fn may_break(last: &Piece<'_>, piece: &Piece<'_>) -> bool {
             | Rule::star
     );
     // `if`, `give` and their like don't stand alone, and an option's `on` is a value.
-    let head = matches!(last.kind, Kind::Token(Rule::kw_give | Rule::kw_else | Rule::colon));
+    let head = matches!(last.kind, PieceKind::Token(Rule::kw_give | Rule::kw_else | Rule::colon));
     in_brackets || (joins && !head) || last.is(Rule::equals)
 }

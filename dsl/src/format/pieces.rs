@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 /// What a piece is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum PieceKind {
     /// A token, by the rule that reads it.
     Token(Rule),
     /// `// …`, to the end of its line.
@@ -18,9 +18,9 @@ pub(super) enum Kind {
 
 /// A token or a comment.
 #[derive(Clone, Debug)]
-pub(super) struct Piece<'t> {
+pub(super) struct SourcePiece<'t> {
     /// What it is.
-    pub(super) kind: Kind,
+    pub(super) kind: PieceKind,
     /// As it is printed.
     pub(super) text: Cow<'t, str>,
     /// The rule that it is a direct part of.
@@ -35,48 +35,48 @@ pub(super) struct Piece<'t> {
     pub(super) separates: bool,
 }
 
-impl Piece<'_> {
+impl SourcePiece<'_> {
     /// Whether it is this token.
     pub(super) fn is(&self, rule: Rule) -> bool {
-        self.kind == Kind::Token(rule)
+        self.kind == PieceKind::Token(rule)
     }
 
     /// Whether it is a comment; a `///` line is a token.
     pub(super) fn is_comment(&self) -> bool {
-        matches!(self.kind, Kind::LineComment | Kind::BlockComment)
+        matches!(self.kind, PieceKind::LineComment | PieceKind::BlockComment)
     }
 
     /// Whether nothing may follow it on its line.
     pub(super) fn ends_line(&self) -> bool {
-        self.kind == Kind::LineComment || self.is(Rule::doc)
+        self.kind == PieceKind::LineComment || self.is(Rule::doc)
     }
 
     pub(super) fn opens(&self) -> bool {
-        matches!(self.kind, Kind::Token(Rule::brace_open | Rule::paren_open | Rule::bracket_open))
+        matches!(self.kind, PieceKind::Token(Rule::brace_open | Rule::paren_open | Rule::bracket_open))
     }
 
     pub(super) fn closes(&self) -> bool {
-        matches!(self.kind, Kind::Token(Rule::brace_close | Rule::paren_close | Rule::bracket_close))
+        matches!(self.kind, PieceKind::Token(Rule::brace_close | Rule::paren_close | Rule::bracket_close))
     }
 }
 
 /// The pieces of a text that parses; `None` where it doesn't.
-pub(super) fn pieces(text: &str) -> Option<Vec<Piece<'_>>> {
+pub(super) fn pieces(text: &str) -> Option<Vec<SourcePiece<'_>>> {
     let file = PitchParser::parse(Rule::file, text).ok()?.next()?;
-    let mut reader = Reader { text, at: 0, pieces: Vec::new() };
+    let mut reader = PieceReader { text, at: 0, pieces: Vec::new() };
     reader.walk(file, Rule::file, false);
     reader.gap(text.len());
     Some(reader.pieces)
 }
 
-struct Reader<'t> {
+struct PieceReader<'t> {
     text: &'t str,
     /// Behind the last piece.
     at: usize,
-    pieces: Vec<Piece<'t>>,
+    pieces: Vec<SourcePiece<'t>>,
 }
 
-impl<'t> Reader<'t> {
+impl<'t> PieceReader<'t> {
     fn walk(&mut self, pair: Pair<'t, Rule>, within: Rule, begins: bool) {
         let rule = pair.as_rule();
         let mut inner = pair.clone().into_inner().peekable();
@@ -114,8 +114,8 @@ impl<'t> Reader<'t> {
         let (newlines, blanks) = self.gap(pair.as_span().start());
         self.at = pair.as_span().start() + text.len();
         let text = if pair.as_rule() == Rule::quantity { quantity(pair) } else { Cow::Borrowed(text) };
-        let kind = Kind::Token(pair.as_rule());
-        self.pieces.push(Piece { kind, text, within, newlines, blanks, begins, separates: false });
+        let kind = PieceKind::Token(pair.as_rule());
+        self.pieces.push(SourcePiece { kind, text, within, newlines, blanks, begins, separates: false });
     }
 
     /// Reads the comments up to `end`; the line breaks and blanks behind the last of them.
@@ -123,9 +123,9 @@ impl<'t> Reader<'t> {
         let (mut newlines, mut blanks, mut semicolon) = (0, 0, false);
         while let Some(rest) = self.text.get(self.at..end).filter(|rest| !rest.is_empty()) {
             let comment = if rest.starts_with("//") {
-                Some((Kind::LineComment, rest.find('\n').unwrap_or(rest.len())))
+                Some((PieceKind::LineComment, rest.find('\n').unwrap_or(rest.len())))
             } else if rest.starts_with("/*") {
-                Some((Kind::BlockComment, rest.find("*/").map_or(rest.len(), |at| at + 2)))
+                Some((PieceKind::BlockComment, rest.find("*/").map_or(rest.len(), |at| at + 2)))
             } else {
                 None
             };
@@ -133,7 +133,7 @@ impl<'t> Reader<'t> {
                 let text = Cow::Borrowed(rest.get(..length).unwrap_or(rest).trim_end());
                 let newlines = newlines.max(usize::from(semicolon));
                 let (within, begins, separates) = (Rule::COMMENT, false, false);
-                self.pieces.push(Piece { kind, text, within, newlines, blanks, begins, separates });
+                self.pieces.push(SourcePiece { kind, text, within, newlines, blanks, begins, separates });
                 self.at += length;
             } else {
                 let sign = rest.chars().next().unwrap_or(' ');

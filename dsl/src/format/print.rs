@@ -1,33 +1,33 @@
 //! Lines in text: blanks between tokens, and columns of labels and comments.
 
 use super::WIDTH;
-use super::layout::{Line, Part};
-use super::pieces::{Kind, Piece};
+use super::layout::{FormatLine, LinePart};
+use super::pieces::{PieceKind, SourcePiece};
 use setpiece_grammar::Rule;
 
 /// Widest gap before a column.
 const GAP_MAX: usize = 4;
 
 /// A line in text: what stands before its columns, its label, its comment.
-struct Row {
+struct TextRow {
     indent: usize,
     spaced: bool,
     main: String,
-    label: Option<Column>,
-    comment: Option<Column>,
+    label: Option<AlignedColumn>,
+    comment: Option<AlignedColumn>,
 }
 
 /// Something at the end of a line that may stand in a column with those above and below.
-struct Column {
+struct AlignedColumn {
     text: String,
     /// Blanks before it: the author's, then the layout's.
     gap: usize,
 }
 
 /// The text of some lines.
-pub(super) fn print(lines: &[Line<'_>]) -> String {
-    let mut rows: Vec<Row> = lines.iter().map(row).collect();
-    let main = |row: &Row| row.indent + row.main.chars().count();
+pub(super) fn print(lines: &[FormatLine<'_>]) -> String {
+    let mut rows: Vec<TextRow> = lines.iter().map(row).collect();
+    let main = |row: &TextRow| row.indent + row.main.chars().count();
     align(&mut rows, |row| row.label.as_mut(), main);
     align(&mut rows, |row| row.comment.as_mut(), |row| main(row) + shown(row.label.as_ref()).chars().count());
     let mut text = String::new();
@@ -43,18 +43,18 @@ pub(super) fn print(lines: &[Line<'_>]) -> String {
     text
 }
 
-fn shown(column: Option<&Column>) -> String {
+fn shown(column: Option<&AlignedColumn>) -> String {
     column.map_or(String::new(), |column| " ".repeat(column.gap) + &column.text)
 }
 
-fn row(line: &Line<'_>) -> Row {
+fn row(line: &FormatLine<'_>) -> TextRow {
     let mut parts = line.parts.as_slice();
     let mut comment = None;
     if let [rest @ .., last] = parts
-        && last.piece.kind == Kind::LineComment
+        && last.piece.kind == PieceKind::LineComment
         && !rest.is_empty()
     {
-        comment = Some(Column { text: last.piece.text.to_string(), gap: last.piece.blanks });
+        comment = Some(AlignedColumn { text: last.piece.text.to_string(), gap: last.piece.blanks });
         parts = rest;
     }
     let mut label = None;
@@ -64,13 +64,13 @@ fn row(line: &Line<'_>) -> Row {
         && !rest.is_empty()
     {
         let gap = if word.piece.newlines == 0 { word.piece.blanks } else { 1 };
-        label = Some(Column { text: format!("as {}", name.piece.text), gap });
+        label = Some(AlignedColumn { text: format!("as {}", name.piece.text), gap });
         parts = rest;
     }
-    Row { indent: line.indent, spaced: line.spaced, main: joined(parts), label, comment }
+    TextRow { indent: line.indent, spaced: line.spaced, main: joined(parts), label, comment }
 }
 
-fn joined(parts: &[Part<'_>]) -> String {
+fn joined(parts: &[LinePart<'_>]) -> String {
     let mut text = String::new();
     for (index, part) in parts.iter().enumerate() {
         if let Some(last) = index.checked_sub(1).and_then(|before| parts.get(before)) {
@@ -85,10 +85,10 @@ fn joined(parts: &[Part<'_>]) -> String {
 }
 
 /// Columns of a line without the comment at its end, the widest of its rows.
-pub(super) fn width(line: &Line<'_>) -> usize {
+pub(super) fn width(line: &FormatLine<'_>) -> usize {
     let mut width = line.indent;
     for (index, part) in line.parts.iter().enumerate() {
-        if part.piece.kind == Kind::LineComment || part.piece.text.contains('\n') {
+        if part.piece.kind == PieceKind::LineComment || part.piece.text.contains('\n') {
             break;
         }
         if let Some(last) = index.checked_sub(1).and_then(|before| line.parts.get(before)) {
@@ -100,13 +100,13 @@ pub(super) fn width(line: &Line<'_>) -> usize {
 }
 
 /// Columns between two pieces of a line.
-pub(super) fn gap(last: &Piece<'_>, part: &Part<'_>) -> usize {
+pub(super) fn gap(last: &SourcePiece<'_>, part: &LinePart<'_>) -> usize {
     usize::from(spaced(last, &part.piece)) + usize::from(part.comma)
 }
 
 /// Whether a blank stands between two pieces of a line.
-fn spaced(last: &Piece<'_>, piece: &Piece<'_>) -> bool {
-    let (Kind::Token(before), Kind::Token(rule)) = (last.kind, piece.kind) else { return true };
+fn spaced(last: &SourcePiece<'_>, piece: &SourcePiece<'_>) -> bool {
+    let (PieceKind::Token(before), PieceKind::Token(rule)) = (last.kind, piece.kind) else { return true };
     let touches = match rule {
         Rule::paren_close | Rule::bracket_close | Rule::comma | Rule::colon | Rule::dot | Rule::range_dots => true,
         Rule::paren_open => matches!(piece.within, Rule::args | Rule::params),
@@ -118,7 +118,11 @@ fn spaced(last: &Piece<'_>, piece: &Piece<'_>) -> bool {
 }
 
 /// Puts the ends of neighbouring rows into one column where the author began one, by two blanks or more.
-fn align(rows: &mut [Row], column: impl Fn(&mut Row) -> Option<&mut Column>, before: impl Fn(&Row) -> usize) {
+fn align(
+    rows: &mut [TextRow],
+    column: impl Fn(&mut TextRow) -> Option<&mut AlignedColumn>,
+    before: impl Fn(&TextRow) -> usize,
+) {
     let mut from = 0;
     while from < rows.len() {
         let Some(first) = rows.get_mut(from) else { return };
@@ -138,7 +142,11 @@ fn align(rows: &mut [Row], column: impl Fn(&mut Row) -> Option<&mut Column>, bef
     }
 }
 
-fn align_run(run: &mut [Row], column: &impl Fn(&mut Row) -> Option<&mut Column>, before: &impl Fn(&Row) -> usize) {
+fn align_run(
+    run: &mut [TextRow],
+    column: &impl Fn(&mut TextRow) -> Option<&mut AlignedColumn>,
+    before: &impl Fn(&TextRow) -> usize,
+) {
     let (mut widest, mut gap, mut end, mut begun) = (0, 0, 0, false);
     for row in run.iter_mut() {
         let width = before(row);

@@ -1,6 +1,6 @@
 //! Whether two texts say the same: their trees but for commas that mean nothing, and their comments.
 
-use super::pieces::{Piece, pieces};
+use super::pieces::{SourcePiece, pieces};
 use pest::Parser;
 use pest::iterators::Pair;
 use setpiece_grammar::{PitchParser, Rule};
@@ -14,7 +14,7 @@ pub(super) fn same(before: &str, after: &str) -> bool {
 }
 
 /// Tokens and comments in order, without the commas.
-fn words<'p>(pieces: &'p [Piece<'_>]) -> impl Iterator<Item = &'p str> {
+fn words<'p>(pieces: &'p [SourcePiece<'_>]) -> impl Iterator<Item = &'p str> {
     pieces.iter().filter(|piece| !piece.is(Rule::comma)).map(|piece| piece.text.as_ref())
 }
 

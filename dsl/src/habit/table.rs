@@ -1,9 +1,9 @@
 //! The table of habits, one row each; of several that fit, the first is taken.
 
 use super::Habit;
-use super::Place::{self, Anywhere, Behavior, Fields, File, Name, Reward, Scenario, Team};
+use super::HabitPlace::{self, Anywhere, Behavior, Fields, File, Name, Reward, Scenario, Team};
 
-const fn row(place: Place, seen: &'static str, write: &'static str) -> Habit {
+const fn row(place: HabitPlace, seen: &'static str, write: &'static str) -> Habit {
     Habit { place, seen, write }
 }
 

@@ -7,10 +7,10 @@
 mod act;
 mod statement;
 
-use super::builder::Layout;
+use super::builder::RegisterLayout;
 use super::step::StepWorld;
-use super::value::{Binding, Frame, Scope, Value};
-use super::{Lower, Stage, param};
+use super::value::{LiteralFrame, LocalName, Scope, Value};
+use super::{Lower, ProgramStage, param};
 use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Assigned, Behaviors, Names};
@@ -64,7 +64,7 @@ pub(crate) fn lower_behaviors<'w>(
 ) -> Vec<Behavior> {
     let mut behaviors: Vec<Behavior> = Vec::new();
     for (player, used) in uses {
-        let mut writer = Writer::new(step);
+        let mut writer = BehaviorWriter::new(step);
         let name = match used {
             BehaviorUse::Named { item, args, scope, span } => {
                 writer.lower.scope = scope.clone();
@@ -102,12 +102,12 @@ fn check_unused(step: &StepWorld<'_, '_>) {
         if behavior.name.span.file != root || world.used.borrow().contains(&behavior.name.span) {
             continue;
         }
-        let mut writer = Writer::new(step);
-        let mut scope = Scope::new(false, Frame::Own);
+        let mut writer = BehaviorWriter::new(step);
+        let mut scope = Scope::new(false, LiteralFrame::Own);
         for decl in &behavior.params {
             let value = writer.some_value(decl);
             writer.lower.check_hides(&decl.name.node, decl.name.span, &scope);
-            scope.bind(&decl.name.node, Binding::Value(value));
+            scope.bind(&decl.name.node, LocalName::Value(value));
         }
         writer.body(behavior, scope);
     }
@@ -131,7 +131,7 @@ struct State<'w> {
 }
 
 /// Writes one player's behaviour.
-struct Writer<'c, 'w> {
+struct BehaviorWriter<'c, 'w> {
     lower: Lower<'c, 'w>,
     nodes: Vec<Node>,
     watches: Vec<Watch>,
@@ -151,14 +151,14 @@ struct Call {
     finishes: Vec<usize>,
 }
 
-impl<'c, 'w> Writer<'c, 'w> {
-    fn new(step: &'c StepWorld<'c, 'w>) -> Writer<'c, 'w> {
-        let mut lower = Lower::in_step(step, Stage::Behavior(None), Scope::new(false, Frame::Own));
+impl<'c, 'w> BehaviorWriter<'c, 'w> {
+    fn new(step: &'c StepWorld<'c, 'w>) -> BehaviorWriter<'c, 'w> {
+        let mut lower = Lower::in_step(step, ProgramStage::Behavior(None), Scope::new(false, LiteralFrame::Own));
         let us = lower.code.us();
         lower.team = Some(us);
         let (nodes, watches, states, calls) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let around = lower.scope.clone();
-        Writer { lower, nodes, watches, states, around, calls, written: 0, too_large: false }
+        BehaviorWriter { lower, nodes, watches, states, around, calls, written: 0, too_large: false }
     }
 
     /// Writes a behaviour out; its arguments are read in the present scope.
@@ -179,7 +179,7 @@ impl<'c, 'w> Writer<'c, 'w> {
             self.too_large = true;
             return;
         }
-        let mut scope = Scope::new(false, Frame::Own);
+        let mut scope = Scope::new(false, LiteralFrame::Own);
         self.drawing(|writer| {
             writer.lower.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
         });
@@ -216,9 +216,9 @@ impl<'c, 'w> Writer<'c, 'w> {
 
     /// Runs `f`; the draws in what it reads happen before what comes next.
     fn drawing<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = std::mem::replace(&mut self.lower.stage, Stage::Behavior(Some(Vec::new())));
+        let outer = std::mem::replace(&mut self.lower.stage, ProgramStage::Behavior(Some(Vec::new())));
         let result = f(self);
-        let Stage::Behavior(draws) = std::mem::replace(&mut self.lower.stage, outer) else { return result };
+        let ProgramStage::Behavior(draws) = std::mem::replace(&mut self.lower.stage, outer) else { return result };
         for Draw { cell, count, key, from } in draws.into_iter().flatten() {
             self.nodes.push(Node::Draw { cell, count, key, from });
         }
@@ -246,7 +246,7 @@ impl<'c, 'w> Writer<'c, 'w> {
         let declared = decl.ty.as_ref().map(|ty| param::declared_type(self.lower.world, ty));
         let ty = match (&decl.default, declared) {
             (Some(default), _) => {
-                let home = Scope::new(false, Frame::World);
+                let home = Scope::new(false, LiteralFrame::World);
                 return self.drawing(|writer| {
                     writer.lower.within(home, |lower| match declared {
                         Some(ty) => lower.want(default, ty),
@@ -279,7 +279,7 @@ impl<'c, 'w> Writer<'c, 'w> {
             Behavior { name, program: setpiece_scenario::Program::default(), nodes: self.nodes, watches: self.watches };
         let mut roots: Vec<Reg> = Vec::new();
         behavior.regs_mut(&mut |reg| roots.push(*reg));
-        let (program, layout): (_, Layout) = self.lower.code.finish(&roots);
+        let (program, layout): (_, RegisterLayout) = self.lower.code.finish(&roots);
         behavior.regs_mut(&mut |reg| *reg = layout.reg(*reg));
         behavior.program = program;
         behavior

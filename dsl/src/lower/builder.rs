@@ -16,7 +16,7 @@ pub(crate) type BlockId = usize;
 const PROLOGUE: BlockId = 0;
 const ROOT: BlockId = 1;
 
-struct Node {
+struct CodeNode {
     instr: Instr,
     block: BlockId,
     /// The body, of an `Each`.
@@ -26,7 +26,7 @@ struct Node {
 }
 
 #[derive(Default)]
-struct Block {
+struct CodeBlock {
     nodes: Vec<u32>,
     known: HashMap<Key, u32>,
     owner: Option<u32>,
@@ -73,16 +73,16 @@ impl OpenLoop {
 
 /// A program under construction.
 pub(crate) struct Builder {
-    nodes: Vec<Node>,
-    blocks: Vec<Block>,
+    nodes: Vec<CodeNode>,
+    blocks: Vec<CodeBlock>,
     open: Vec<BlockId>,
     writes: Vec<u32>,
 }
 
 /// Where the virtual registers went.
-pub(crate) struct Layout(Vec<Option<Reg>>);
+pub(crate) struct RegisterLayout(Vec<Option<Reg>>);
 
-impl Layout {
+impl RegisterLayout {
     /// The final register of a virtual one that was named as a root of `finish`.
     pub(crate) fn reg(&self, reg: Reg) -> Reg {
         self.0.get(reg.index()).copied().flatten().unwrap_or(Reg(0))
@@ -94,7 +94,7 @@ impl Builder {
     pub(crate) fn new() -> Builder {
         Builder {
             nodes: Vec::new(),
-            blocks: vec![Block::default(), Block::default()],
+            blocks: vec![CodeBlock::default(), CodeBlock::default()],
             open: vec![ROOT],
             writes: Vec::new(),
         }
@@ -340,13 +340,13 @@ impl Builder {
         let body = self.blocks.len();
         let at = self.nodes.len() as u32;
         let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
-        self.nodes.push(Node {
+        self.nodes.push(CodeNode {
             instr: Instr::Each(Box::new(Each { over, body: 0, fold })),
             block: body,
             body: Some(body),
             unknown: false,
         });
-        self.blocks.push(Block { owner: Some(at), ..Block::default() });
+        self.blocks.push(CodeBlock { owner: Some(at), ..CodeBlock::default() });
         self.open.push(body);
         OpenLoop { at, body }
     }
@@ -373,12 +373,12 @@ impl Builder {
     }
 
     /// Lays the program out; `roots` are the registers whose values are wanted besides the effects.
-    pub(crate) fn finish(self, roots: &[Reg]) -> (Program, Layout) {
+    pub(crate) fn finish(self, roots: &[Reg]) -> (Program, RegisterLayout) {
         let live = self.live(roots);
-        let mut out = Out { code: Vec::new(), layout: vec![None; self.nodes.len()] };
+        let mut out = LaidOutCode { code: Vec::new(), layout: vec![None; self.nodes.len()] };
         self.lay_out(PROLOGUE, &live, &mut out);
         self.lay_out(ROOT, &live, &mut out);
-        (Program { code: out.code, cells: self.writes.len() as u32 }, Layout(out.layout))
+        (Program { code: out.code, cells: self.writes.len() as u32 }, RegisterLayout(out.layout))
     }
 
     fn here(&self) -> BlockId {
@@ -422,7 +422,7 @@ impl Builder {
         let at = self.nodes.len() as u32;
         let mut unknown = matches!(instr, Instr::Param(u32::MAX));
         instr.operands(&mut |reg| unknown |= self.is_unknown(reg));
-        self.nodes.push(Node { instr, block, body: None, unknown });
+        self.nodes.push(CodeNode { instr, block, body: None, unknown });
         if let Some(block) = self.blocks.get_mut(block) {
             block.nodes.push(at);
             if let Some(key) = key {
@@ -457,7 +457,7 @@ impl Builder {
         live
     }
 
-    fn lay_out(&self, block: BlockId, live: &[bool], out: &mut Out) {
+    fn lay_out(&self, block: BlockId, live: &[bool], out: &mut LaidOutCode) {
         let Some(block) = self.blocks.get(block) else { return };
         for &at in &block.nodes {
             let at = at as usize;
@@ -489,12 +489,12 @@ impl Builder {
 }
 
 /// Code that is being laid out.
-struct Out {
+struct LaidOutCode {
     code: Vec<Instr>,
     layout: Vec<Option<Reg>>,
 }
 
-impl Out {
+impl LaidOutCode {
     fn place(&self, reg: Reg) -> Reg {
         self.layout.get(reg.index()).copied().flatten().unwrap_or(Reg(0))
     }

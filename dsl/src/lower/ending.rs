@@ -1,8 +1,8 @@
 //! Endings: one program, and its conditions in order.
 
 use super::step::StepWorld;
-use super::value::{Frame, Scope};
-use super::{Lower, Stage, script};
+use super::value::{LiteralFrame, Scope};
+use super::{Lower, ProgramStage, script};
 use crate::ast::{EndCondition, ItemKind};
 use crate::problem::facts::{Kind, Names, Rewards};
 use crate::problem::{Guess, Problem, nearest};
@@ -13,8 +13,8 @@ use setpiece_scenario::{Ending, Endings, Reg};
 /// Lowers the endings but for the limit.
 pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
     let world = step.world;
-    let scope = Scope::new(true, Frame::World);
-    let mut lower = Lower::in_step(step, Stage::Ending, scope);
+    let scope = Scope::new(true, LiteralFrame::World);
+    let mut lower = Lower::in_step(step, ProgramStage::Ending, scope);
     if let Some(team) = step.agents {
         let team = lower.code.constant(team.index() as f64);
         lower.team = Some(team);
@@ -78,7 +78,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
                 return None;
             };
             lower.world.mark_used(at);
-            let mut scope = Scope::new(false, Frame::World);
+            let mut scope = Scope::new(false, LiteralFrame::World);
             lower.bind_params(&item.name.node, &item.params, &reference.args, reference.span, &mut scope, true);
             let reg = lower.within(scope, |lower| lower.condition(&item.body));
             lowered.when = Some(reg);

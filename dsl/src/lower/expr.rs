@@ -13,9 +13,9 @@ mod set;
 mod temporal;
 
 use super::mirror::Mirror;
-use super::value::{Frame, Repr, Value};
+use super::value::{LiteralFrame, Repr, Value};
 use super::{DEPTH_MAX, Lower};
-use crate::ast::{Expr, ExprKind, Span, UnaryOp};
+use crate::ast::{Expr, ExprKind, PrefixOp, Span};
 use crate::check::types::Ty;
 use crate::problem::Problem;
 use crate::problem::facts::{Calls, Instead, Operand, Scopes, Types};
@@ -27,7 +27,7 @@ use setpiece_scenario::{BinaryOp, Reg, UnaryOp as WorldOp};
 pub(crate) fn is_tuple(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Tuple(_) => true,
-        ExprKind::Unary(UnaryOp::Neg | UnaryOp::Plus, inner) | ExprKind::Own(inner) => is_tuple(inner),
+        ExprKind::Unary(PrefixOp::Neg | PrefixOp::Plus, inner) | ExprKind::Own(inner) => is_tuple(inner),
         _ => false,
     }
 }
@@ -103,7 +103,7 @@ impl<'w> Lower<'_, 'w> {
             let team = self.team.map_or_else(Value::error, |team| Value::one(Ty::Team, team));
             return self.member_of_team(&team, &path, inner.span, span);
         }
-        self.in_frame(Frame::Own, |lower| lower.expr(inner))
+        self.in_frame(LiteralFrame::Own, |lower| lower.expr(inner))
     }
 
     /// `(0.5, 0.1)`, `(27m, 8m)`, `(5m/s, 0m/s)`

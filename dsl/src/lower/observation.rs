@@ -1,8 +1,8 @@
 //! `observe vector { … }`: the scenario's own observation.
 
 use super::step::StepWorld;
-use super::value::{Frame, Repr, Scope};
-use super::{Lower, Stage};
+use super::value::{LiteralFrame, Repr, Scope};
+use super::{Lower, ProgramStage};
 use crate::ast::Expr;
 use crate::check::types::Ty;
 use crate::problem::Problem;
@@ -17,7 +17,7 @@ const NUMBERS_MAX: usize = 10_000;
 pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation> {
     let world = step.world;
     let (observed, span) = world.flat.observed?;
-    let mut lower = Lower::in_step(step, Stage::Observation, Scope::new(true, Frame::Own));
+    let mut lower = Lower::in_step(step, ProgramStage::Observation, Scope::new(true, LiteralFrame::Own));
     let us = lower.code.us();
     lower.team = Some(us);
     let mut values: Vec<(String, Reg)> = Vec::new();

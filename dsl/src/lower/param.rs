@@ -1,7 +1,7 @@
 //! A scenario's parameters.
 
 use super::interval::Interval;
-use super::value::{Frame, Repr, Scope, Value};
+use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, World};
 use crate::ast::{Domain, Expr, Ident, Span};
 use crate::check::types::Ty;
@@ -108,7 +108,7 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         }
         return info;
     }
-    let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
+    let mut lower = Lower::constant(world, Scope::new(false, LiteralFrame::World));
     let value = match declared {
         Some(ty) => lower.want(expr, ty),
         None => lower.expr(expr),
@@ -147,7 +147,7 @@ fn not_constant(world: &World<'_>, expr: &Expr) -> Problem {
 fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
     // Where it is no constant its names are the scenario's, not those that are in sight here.
     let used = world.used.take();
-    let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
+    let mut lower = Lower::constant(world, Scope::new(false, LiteralFrame::World));
     let value = world.tentatively(|| lower.expr(expr));
     *world.used.borrow_mut() = used;
     match value.repr {
@@ -168,7 +168,7 @@ fn in_fractions(domain: Option<&Domain>) -> bool {
 }
 
 fn constant<'w>(world: &World<'w>, expr: &'w Expr, ty: Ty) -> Option<f64> {
-    let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
+    let mut lower = Lower::constant(world, Scope::new(false, LiteralFrame::World));
     let value: Value<'w> = lower.want(expr, ty);
     match value.repr {
         Repr::One(reg) => {
@@ -229,7 +229,7 @@ fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: S
     match domain {
         Some(Domain::List(values, _)) => {
             for value in values {
-                let mut lower = Lower::constant(world, Scope::new(false, Frame::World));
+                let mut lower = Lower::constant(world, Scope::new(false, LiteralFrame::World));
                 if let Repr::Text(word) = lower.want(value, Ty::String).repr {
                     words.push(word);
                 }

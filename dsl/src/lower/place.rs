@@ -2,8 +2,8 @@
 
 use super::mirror::Mirror;
 use super::roster::{Rostered, Stand};
-use super::value::{Frame, Repr, Scope, Value};
-use super::{Lower, Stage};
+use super::value::{LiteralFrame, Repr, Scope, Value};
+use super::{Lower, ProgramStage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
 use crate::check::types::Ty;
 use crate::problem::Problem;
@@ -13,7 +13,7 @@ use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
 
 /// A thing whose place is found on demand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Found<T> {
+pub(crate) enum OnDemand<T> {
     /// Nobody asked yet.
     #[default]
     Todo,
@@ -25,7 +25,7 @@ pub(crate) enum Found<T> {
 
 /// What a place is seen from: the player or team that directions are relative to.
 #[derive(Clone, Copy)]
-enum View {
+enum Viewpoint {
     /// A player of the roster.
     Player(usize),
     /// Anything else: the attack direction of the team in whose block it stands.
@@ -38,8 +38,10 @@ impl<'w> Lower<'_, 'w> {
         match (value.ty, &value.repr) {
             (_, Repr::Two(x, y) | Repr::Three(x, y, _)) => (*x, *y),
             (Ty::Player, Repr::One(reg)) if self.stage.is_step() => self.player_place(*reg),
-            (Ty::Player, Repr::One(reg)) if matches!(self.stage, Stage::Start(_)) => self.start_place(*reg, span),
-            (Ty::Ball, _) if matches!(self.stage, Stage::Start(_)) => self.ball_place(span),
+            (Ty::Player, Repr::One(reg)) if matches!(self.stage, ProgramStage::Start(_)) => {
+                self.start_place(*reg, span)
+            }
+            (Ty::Ball, _) if matches!(self.stage, ProgramStage::Start(_)) => self.ball_place(span),
             (Ty::Player | Ty::Ball, _) => {
                 let (fx, fy, of) = match (value.ty, &value.repr) {
                     (Ty::Player, Repr::One(reg)) => (Field::PlayerX, Field::PlayerY, Some(*reg)),
@@ -84,20 +86,20 @@ impl<'w> Lower<'_, 'w> {
     /// The start place of a player of the roster, computed when it is first asked for.
     pub(crate) fn place_of_rostered(&mut self, index: usize, asked: Span) -> (Reg, Reg) {
         match self.start().and_then(|start| start.places.get(index).copied()) {
-            Some(Found::Done(place)) => return place,
-            Some(Found::Todo) => {}
-            Some(Found::Busy) => {
+            Some(OnDemand::Done(place)) => return place,
+            Some(OnDemand::Todo) => {}
+            Some(OnDemand::Busy) => {
                 self.cyclic(asked);
                 return self.nowhere();
             }
             None => return self.nowhere(),
         }
         if let Some(slot) = self.start_mut().and_then(|start| start.places.get_mut(index)) {
-            *slot = Found::Busy;
+            *slot = OnDemand::Busy;
         }
         let place = self.compute_player(index);
         if let Some(slot) = self.start_mut().and_then(|start| start.places.get_mut(index)) {
-            *slot = Found::Done(place);
+            *slot = OnDemand::Done(place);
         }
         place
     }
@@ -108,24 +110,24 @@ impl<'w> Lower<'_, 'w> {
 
     /// The ball's start place.
     pub(crate) fn ball_place(&mut self, asked: Span) -> (Reg, Reg) {
-        match self.start().map_or(Found::Todo, |start| start.ball) {
-            Found::Done(place) => return place,
-            Found::Busy => {
+        match self.start().map_or(OnDemand::Todo, |start| start.ball) {
+            OnDemand::Done(place) => return place,
+            OnDemand::Busy => {
                 self.cyclic(asked);
                 return self.nowhere();
             }
-            Found::Todo => {}
+            OnDemand::Todo => {}
         }
-        self.set_ball(Found::Busy);
+        self.set_ball(OnDemand::Busy);
         let place = match self.world.flat.ball {
             Some((ball, _)) => self.drawing("ball", |lower| lower.compute_ball(ball)),
             None => self.place_of_start().unwrap_or_else(|| self.nowhere()),
         };
-        self.set_ball(Found::Done(place));
+        self.set_ball(OnDemand::Done(place));
         place
     }
 
-    fn set_ball(&mut self, ball: Found<(Reg, Reg)>) {
+    fn set_ball(&mut self, ball: OnDemand<(Reg, Reg)>) {
         if let Some(start) = self.start_mut() {
             start.ball = ball;
         }
@@ -133,7 +135,7 @@ impl<'w> Lower<'_, 'w> {
 
     fn compute_ball(&mut self, ball: &'w BallStmt) -> (Reg, Reg) {
         let team = self.team.take();
-        let scope = Scope::new(true, Frame::World);
+        let scope = Scope::new(true, LiteralFrame::World);
         let place = self.within(scope, |lower| {
             let place = lower.place(&ball.place);
             lower.jittered(place, ball.jitter.as_ref())
@@ -169,7 +171,7 @@ impl<'w> Lower<'_, 'w> {
             Stand::At(place, scope) => (*place, scope),
             Stand::Either(condition, then, otherwise) => {
                 let condition =
-                    self.within(Scope::new(true, Frame::World), |lower| lower.want_reg(condition, Ty::Bool));
+                    self.within(Scope::new(true, LiteralFrame::World), |lower| lower.want_reg(condition, Ty::Bool));
                 let (a, b) = (self.player_stand(player, then), self.player_stand(player, otherwise));
                 return (self.code.select(condition, a.0, b.0), self.code.select(condition, a.1, b.1));
             }
@@ -238,8 +240,10 @@ impl<'w> Lower<'_, 'w> {
             PlaceKind::Relative { direction, of, by } => {
                 let from = self.expr(of);
                 let view = match &from.repr {
-                    Repr::One(reg) if from.ty == Ty::Player => self.roster_index(*reg).map_or(View::Team, View::Player),
-                    _ => View::Team,
+                    Repr::One(reg) if from.ty == Ty::Player => {
+                        self.roster_index(*reg).map_or(Viewpoint::Team, Viewpoint::Player)
+                    }
+                    _ => Viewpoint::Team,
                 };
                 let origin = self.convert(from, Ty::Point, of);
                 let origin = self.pair(&origin);
@@ -295,11 +299,11 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// The unit vector that points ahead: the explicit facing of a player, else their team's attack.
-    fn ahead(&mut self, view: View, asked: Span) -> (Reg, Reg) {
+    fn ahead(&mut self, view: Viewpoint, asked: Span) -> (Reg, Reg) {
         let world = self.world;
         let player = match view {
-            View::Player(index) => world.roster.get(index).map(|player| (index, player)),
-            View::Team => None,
+            Viewpoint::Player(index) => world.roster.get(index).map(|player| (index, player)),
+            Viewpoint::Team => None,
         };
         if let Some((index, player)) = player {
             if player.facing.is_some_and(|facing| !self.is_being_placed(facing)) {
@@ -325,28 +329,28 @@ impl<'w> Lower<'_, 'w> {
         let Some(start) = self.start() else { return false };
         let roster = self.world.roster.iter().zip(&start.places);
         let mut placed = roster.filter(|(player, _)| player.name.is_some_and(|known| known.node == *name));
-        (name == "ball" && start.ball == Found::Busy) || placed.any(|(_, place)| *place == Found::Busy)
+        (name == "ball" && start.ball == OnDemand::Busy) || placed.any(|(_, place)| *place == OnDemand::Busy)
     }
 
     /// The heading that a player of the roster faces, radians in the world frame.
     pub(crate) fn heading_of(&mut self, index: usize, asked: Span) -> Option<Reg> {
         match self.start()?.headings.get(index).copied()? {
-            Found::Done(heading) => return Some(heading),
-            Found::Busy => {
+            OnDemand::Done(heading) => return Some(heading),
+            OnDemand::Busy => {
                 self.cyclic(asked);
                 return None;
             }
-            Found::Todo => {}
+            OnDemand::Todo => {}
         }
         let world = self.world;
         let player = world.roster.get(index)?;
         let facing = player.facing?;
-        *self.start_mut()?.headings.get_mut(index)? = Found::Busy;
+        *self.start_mut()?.headings.get_mut(index)? = OnDemand::Busy;
         let heading = self.for_team(player.team.index() as f64, |lower| {
             let name = format!("{} facing", player.stream());
             lower.drawing(&name, |lower| lower.within(player.scope.clone(), |lower| lower.facing(facing, index)))
         });
-        *self.start_mut()?.headings.get_mut(index)? = Found::Done(heading);
+        *self.start_mut()?.headings.get_mut(index)? = OnDemand::Done(heading);
         Some(heading)
     }
 

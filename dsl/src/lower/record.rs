@@ -4,8 +4,8 @@
 //! `(count of pass completed by left) / (count of pass by left)`. `series of E` keeps every step's value and stands alone.
 
 use super::step::StepWorld;
-use super::value::{Frame, Repr, Scope, Value};
-use super::{Lower, Stage};
+use super::value::{LiteralFrame, Repr, Scope, Value};
+use super::{Lower, ProgramStage};
 use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
 use crate::problem::Problem;
@@ -19,7 +19,8 @@ pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
 }
 
 fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Record> {
-    let mut lower = Lower::in_step(step, Stage::Record(Remembered::default()), Scope::new(true, Frame::World));
+    let mut lower =
+        Lower::in_step(step, ProgramStage::Record(Remembered::default()), Scope::new(true, LiteralFrame::World));
     if let Some(team) = step.agents {
         let team = lower.code.constant(team.index() as f64);
         lower.team = Some(team);
@@ -31,7 +32,7 @@ fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Re
     let value = lower.expr(expr);
     let values = lower.measured(&value, expr)?;
     // A program that reads `me` runs once per agent.
-    let per_agent = matches!(&lower.stage, Stage::Record(remembered) if remembered.per_agent);
+    let per_agent = matches!(&lower.stage, ProgramStage::Record(remembered) if remembered.per_agent);
     let me = per_agent.then(|| lower.code.me());
     let roots: Vec<Reg> = values.iter().copied().chain(me).collect();
     let (program, layout) = lower.code.finish(&roots);
@@ -71,8 +72,8 @@ impl<'w> Lower<'_, 'w> {
 
     /// `count of EVENT`, `max of E`: over the episode so far.
     pub(super) fn over_episode(&mut self, kind: &'w Ident, of: &'w Expr, span: Span) -> Value<'w> {
-        if !matches!(self.stage, Stage::Record(_)) || kind.node == "series" {
-            let alone = kind.node == "series" && matches!(self.stage, Stage::Record(_));
+        if !matches!(self.stage, ProgramStage::Record(_)) || kind.node == "series" {
+            let alone = kind.node == "series" && matches!(self.stage, ProgramStage::Record(_));
             let kind = kind.node.clone();
             let fact = if alone { Scopes::SeriesStandsAlone } else { Scopes::OverEpisode { kind } };
             return self.fail(Problem::new(span, fact));

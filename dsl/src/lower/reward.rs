@@ -5,8 +5,8 @@ mod state;
 mod writer;
 
 use super::step::StepWorld;
-use super::value::{Frame, Scope};
-use super::{Lower, Stage, World};
+use super::value::{LiteralFrame, Scope};
+use super::{Lower, ProgramStage, World};
 use crate::ast::{
     Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
 };
@@ -17,13 +17,13 @@ use crate::resolve::reward_chain;
 use crate::source::FileId;
 use setpiece_scenario::{Program, Reg, Reward, RewardBody};
 use state::{check_names, states};
-use writer::Writer;
+use writer::RewardWriter;
 
 /// The label of a script's one term.
 const SCRIPT_TERM: &str = "script";
 
 /// A reward as it is written.
-pub(super) struct Written<'w> {
+pub(super) struct WrittenReward<'w> {
     /// Its parents, the root first, and itself, with their arguments; nothing where it stands in a scenario.
     links: Vec<(&'w RewardItem, &'w [Arg])>,
     /// Its statements where it stands in a scenario.
@@ -32,12 +32,12 @@ pub(super) struct Written<'w> {
     span: Span,
 }
 
-impl<'w> Written<'w> {
-    fn inline(body: &'w [RewardStmt], span: Span) -> Written<'w> {
-        Written { links: Vec::new(), inline: body, span }
+impl<'w> WrittenReward<'w> {
+    fn inline(body: &'w [RewardStmt], span: Span) -> WrittenReward<'w> {
+        WrittenReward { links: Vec::new(), inline: body, span }
     }
 
-    fn named(world: &World<'w>, item: &'w RewardItem, args: &'w [Arg], span: Span) -> Written<'w> {
+    fn named(world: &World<'w>, item: &'w RewardItem, args: &'w [Arg], span: Span) -> WrittenReward<'w> {
         let mut found = Vec::new();
         let chain = reward_chain(world.library, item, &mut found);
         for problem in found {
@@ -52,7 +52,7 @@ impl<'w> Written<'w> {
             None => &[],
         };
         let links = chain.into_iter().map(|(link, reference)| (link, arguments(link, reference))).collect();
-        Written { links, inline: &[], span }
+        WrittenReward { links, inline: &[], span }
     }
 
     /// Its statements, parents' first.
@@ -62,12 +62,12 @@ impl<'w> Written<'w> {
 
     /// Binds its parameters; in a step program their values are computed at once.
     fn bind(&self, lower: &mut Lower<'_, 'w>) -> Scope<'w> {
-        let mut scope = Scope::new(self.links.is_empty(), Frame::Own);
+        let mut scope = Scope::new(self.links.is_empty(), LiteralFrame::Own);
         for (index, (link, args)) in self.links.iter().enumerate() {
             // Arguments are read where the reward is used: in the scenario, in the world's frame.
             let in_scenario = index + 1 == self.links.len();
-            let now = matches!(lower.stage, Stage::Reward);
-            lower.within(Scope::new(in_scenario, Frame::World), |lower| {
+            let now = matches!(lower.stage, ProgramStage::Reward);
+            lower.within(Scope::new(in_scenario, LiteralFrame::World), |lower| {
                 lower.bind_params(&link.name.node, &link.params, args, self.span, &mut scope, now);
             });
         }
@@ -94,10 +94,10 @@ pub(crate) fn lower_use<'w>(step: &StepWorld<'_, 'w>, name: &str, used: &'w Rewa
 }
 
 /// The statements of a reward that a scenario uses, and what it is for; `None` of a script, or after a report.
-pub(super) fn written<'w>(world: &World<'w>, used: &'w RewardUse, span: Span) -> Option<(Written<'w>, String)> {
+pub(super) fn written<'w>(world: &World<'w>, used: &'w RewardUse, span: Span) -> Option<(WrittenReward<'w>, String)> {
     let reference = match &used.what {
         RewardUseKind::Script(_) => return None,
-        RewardUseKind::Inline { body, .. } => return Some((Written::inline(body, span), String::new())),
+        RewardUseKind::Inline { body, .. } => return Some((WrittenReward::inline(body, span), String::new())),
         RewardUseKind::Named(reference) => reference,
     };
     let name = &reference.name;
@@ -114,7 +114,7 @@ pub(super) fn written<'w>(world: &World<'w>, used: &'w RewardUse, span: Span) ->
         return None;
     }
     world.mark_used(found.name.span);
-    let written = Written::named(world, item, &reference.args, reference.span);
+    let written = WrittenReward::named(world, item, &reference.args, reference.span);
     Some((written, found.item.doc.clone()))
 }
 
@@ -138,9 +138,9 @@ fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
 
 /// A reward that is a script: one term, `script`.
 fn lower_script<'w>(step: &StepWorld<'_, 'w>, name: &str, script: &'w ScriptRef, weight: Option<&'w Expr>) -> Reward {
-    let mut lower = Lower::in_step(step, Stage::Reward, Scope::new(true, Frame::World));
+    let mut lower = Lower::in_step(step, ProgramStage::Reward, Scope::new(true, LiteralFrame::World));
     let weight = weight.map(|weight| lower.want_reg(weight, Ty::Number));
-    let hooks = Writer::script_alone(&mut lower, script, weight);
+    let hooks = RewardWriter::script_alone(&mut lower, script, weight);
     let (step, _) = lower.code.finish(&[]);
     let init = Program { code: Vec::new(), cells: step.cells };
     let body = RewardBody { init, step, terms: vec![SCRIPT_TERM.to_owned()], hooks };
@@ -158,7 +158,7 @@ pub(crate) fn lower_library(step: &StepWorld<'_, '_>) -> Vec<Reward> {
             continue;
         }
         if item.params.iter().all(|param| param.default.is_some()) && !world.effort.is_spent() {
-            let written = Written::named(world, item, &[], item.name.span);
+            let written = WrittenReward::named(world, item, &[], item.name.span);
             rewards.push(lower_written(step, name, found.item.doc.clone(), &written, None));
         }
     }
@@ -169,7 +169,7 @@ fn lower_written<'w>(
     step: &StepWorld<'_, 'w>,
     name: &str,
     doc: String,
-    written: &Written<'w>,
+    written: &WrittenReward<'w>,
     weight: Option<&'w Expr>,
 ) -> Reward {
     let world = step.world;
@@ -178,7 +178,7 @@ fn lower_written<'w>(
     check_names(world, written);
     let states = states(&statements);
 
-    let mut init = Lower::in_step(step, Stage::Init, Scope::new(false, Frame::Own));
+    let mut init = Lower::in_step(step, ProgramStage::Init, Scope::new(false, LiteralFrame::Own));
     let us = init.code.us();
     init.team = Some(us);
     init.scope = written.bind(&mut init);
@@ -190,21 +190,22 @@ fn lower_written<'w>(
         }
     }
 
-    let mut lower = Lower::in_step(step, Stage::Reward, Scope::new(false, Frame::Own));
+    let mut lower = Lower::in_step(step, ProgramStage::Reward, Scope::new(false, LiteralFrame::Own));
     let us = lower.code.us();
     lower.team = Some(us);
     // The first cells are the states', as in the program that sets them.
     let cells: Vec<Vec<u32>> =
         firsts.iter().map(|first| first.regs().iter().map(|_| lower.code.new_cell()).collect()).collect();
-    let weight =
-        weight.map(|weight| lower.within(Scope::new(true, Frame::World), |lower| lower.want_reg(weight, Ty::Number)));
+    let weight = weight
+        .map(|weight| lower.within(Scope::new(true, LiteralFrame::World), |lower| lower.want_reg(weight, Ty::Number)));
     lower.scope = written.bind(&mut lower);
     for ((state, first), cells) in states.iter().zip(&firsts).zip(cells) {
         let before = cells.iter().map(|&cell| lower.code.cell_before(cell)).collect();
         lower.bind_state(state, cells, before, first.ty);
     }
     let params: Vec<&ParamDecl> = written.links.iter().flat_map(|(link, _)| &link.params).collect();
-    let writer::Written { terms, mut hooks } = Writer::write(&mut lower, &statements, weight, true, params);
+    let writer::WrittenProgram { terms, mut hooks } =
+        RewardWriter::write(&mut lower, &statements, weight, true, params);
     let (mut init, _) = init.code.finish(&[]);
     let roots: Vec<Reg> = hooks.iter().flat_map(|hook| &hook.args).flat_map(|arg| &arg.regs).copied().collect();
     let (step, layout) = lower.code.finish(&roots);

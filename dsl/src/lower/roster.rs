@@ -1,7 +1,7 @@
 //! Who plays: formations and players of both teams as one list.
 
 use super::start::StartState;
-use super::value::{Frame, Repr, Scope, Value};
+use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, World, casting};
 use crate::ast::{
     Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
@@ -87,7 +87,7 @@ pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
             Some((_, fields, span)) => from_layouts(world, *team, flat, fields, *span),
             None => from_statements(world, *team, flat),
         };
-        adjust(world, &mut players, &flat.absent, &flat.overrides, &Scope::new(true, Frame::World));
+        adjust(world, &mut players, &flat.absent, &flat.overrides, &Scope::new(true, LiteralFrame::World));
         // What a parent says of a role that the child has not is said of nobody.
         let side = world
             .casting
@@ -130,7 +130,7 @@ fn from_statements<'w>(world: &World<'w>, team: Team, flat: &FlatTeam<'w>) -> Ve
         if !has_room(world, &players, *span, team) {
             break;
         }
-        let scope = Scope::new(true, Frame::World);
+        let scope = Scope::new(true, LiteralFrame::World);
         players.extend(copies(world, player, *span, &scope, team));
     }
     players
@@ -235,20 +235,20 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<R
         }
         return players;
     }
-    let mut lower = Lower::of_start(world, Scope::new(true, Frame::World), StartState::default());
+    let mut lower = Lower::of_start(world, Scope::new(true, LiteralFrame::World), StartState::default());
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
         && let crate::ast::ItemKind::Formation(item) = &found.item.kind
     {
         world.mark_used(found.name.span);
-        let mut scope = Scope::new(false, Frame::Own);
+        let mut scope = Scope::new(false, LiteralFrame::Own);
         lower.bind_params(&name.node, &item.params, args, expr.span, &mut scope, false);
         return chain_players(world, item, &scope, team);
     }
     let value: Value<'w> = lower.want(expr, Ty::Formation);
     match value.repr {
         Repr::Formation(item) => {
-            let mut scope = Scope::new(false, Frame::Own);
+            let mut scope = Scope::new(false, LiteralFrame::Own);
             lower.bind_params(&item.name.node, &item.params, &[], expr.span, &mut scope, false);
             chain_players(world, item, &scope, team)
         }
@@ -270,7 +270,7 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
             world.mark_used(link.name.span);
             // A parent's parameters are bound by the reference of its child.
             let mut lower = Lower::of_start(world, scope, StartState::default());
-            scope = Scope::new(false, Frame::Own);
+            scope = Scope::new(false, LiteralFrame::Own);
             let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
             lower.bind_params(&link.name.node, &link.params, args, link.name.span, &mut scope, false);
             scope.players_of = Some(team);

@@ -1,6 +1,6 @@
 //! Rhai scripts: loaded, checked against the engine's hooks, embedded with their arguments.
 
-use super::value::{Binding, Repr, Value};
+use super::value::{LocalName, Repr, Value};
 use super::{Lower, World};
 use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span};
 use crate::check::types::Ty;
@@ -23,17 +23,17 @@ pub(crate) struct LoadedScript {
 
 /// Every script that the files name; loaded before anything is lowered, as the sources can't grow afterwards.
 #[derive(Default)]
-pub(crate) struct Scripts<'a> {
+pub(crate) struct LoadedScripts<'a> {
     loaded: Vec<LoadedScript>,
     /// Bytes of all of them.
     bytes: usize,
     api: Option<&'a dyn ScriptApi>,
 }
 
-impl<'a> Scripts<'a> {
+impl<'a> LoadedScripts<'a> {
     /// With the API that scripts are checked against.
-    pub(crate) fn new(api: Option<&'a dyn ScriptApi>) -> Scripts<'a> {
-        Scripts { loaded: Vec::new(), bytes: 0, api }
+    pub(crate) fn new(api: Option<&'a dyn ScriptApi>) -> LoadedScripts<'a> {
+        LoadedScripts { loaded: Vec::new(), bytes: 0, api }
     }
 
     /// Why no more scripts may be loaded, if none may.
@@ -76,7 +76,7 @@ impl<'w> Lower<'_, 'w> {
         let mut args = Vec::new();
         for decl in params {
             let known = self.scope.find(&decl.name.node).cloned();
-            let Some(Binding::Expr { now: Some(value), .. } | Binding::Value(value)) = known else { continue };
+            let Some(LocalName::Expr { now: Some(value), .. } | LocalName::Value(value)) = known else { continue };
             self.world.mark_used(decl.name.span);
             if value.is_error() {
                 continue;

@@ -7,13 +7,13 @@ mod remap;
 
 use super::agents::{lower_agents, side_with_agents};
 use super::behavior::BehaviorUse;
-use super::builder::Layout;
-use super::place::Found;
+use super::builder::RegisterLayout;
+use super::place::OnDemand;
 use super::roster::Rostered;
-use super::step::{LetSlot, Part, StepWorld};
+use super::step::{LetSlot, LetSource, StepWorld};
 use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
-use super::value::{Frame, Scope, Value};
-use super::{Lower, Stage, World};
+use super::value::{LiteralFrame, Scope, Value};
+use super::{Lower, ProgramStage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
 use crate::origins::RequireOrigin;
@@ -33,13 +33,13 @@ pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
 #[derive(Default)]
 pub(crate) struct StartState<'w> {
     /// Start places by roster.
-    pub(crate) places: Vec<Found<(Reg, Reg)>>,
+    pub(crate) places: Vec<OnDemand<(Reg, Reg)>>,
     /// Headings by roster.
-    pub(crate) headings: Vec<Found<Reg>>,
+    pub(crate) headings: Vec<OnDemand<Reg>>,
     /// Layouts of kick-offs by roster: kicking, receiving.
     pub(crate) layouts: Vec<Option<Layouts>>,
     /// The ball's place.
-    pub(crate) ball: Found<(Reg, Reg)>,
+    pub(crate) ball: OnDemand<(Reg, Reg)>,
     /// What must hold of values that are known at the draw only.
     pub(crate) implied: Vec<(Require, RequireOrigin)>,
     /// The behaviour of the player whose options are read.
@@ -95,9 +95,9 @@ pub(crate) struct LoweredStart<'c, 'w> {
 
 /// Lowers the start.
 pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> {
-    let scope = Scope::new(true, Frame::World);
+    let scope = Scope::new(true, LiteralFrame::World);
     let n = world.roster.len();
-    let (places, headings, layouts) = (vec![Found::Todo; n], vec![Found::Todo; n], vec![None; n]);
+    let (places, headings, layouts) = (vec![OnDemand::Todo; n], vec![OnDemand::Todo; n], vec![None; n]);
     let mut lower = Lower::of_start(world, scope, StartState { places, headings, layouts, ..StartState::default() });
 
     for param in world.params.iter().filter(|param| param.bound.is_some()) {
@@ -171,7 +171,7 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
     map_agents(&agents, &mut collect);
 
     let (program, layout) = lower.code.finish(&wanted);
-    let place = |layout: &Layout, reg: Reg| layout.reg(reg);
+    let place = |layout: &RegisterLayout, reg: Reg| layout.reg(reg);
     let mut start = map_start(&start, &mut |reg| place(&layout, reg));
     start.program = program;
     let players = players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
@@ -232,16 +232,16 @@ impl<'w> Lower<'_, 'w> {
     /// The value of a `let` of the scenario, or of a parameter that is bound by a child.
     pub(crate) fn scenario_let(&mut self, name: &'w str, asked: Span) -> Value<'w> {
         match self.stage {
-            Stage::Start(_) => {}
-            Stage::Constant => {
+            ProgramStage::Start(_) => {}
+            ProgramStage::Constant => {
                 return self.fail(Problem::new(asked, Chance::ComputedAtReset { name: name.to_owned() }));
             }
-            Stage::Init
-            | Stage::Reward
-            | Stage::Ending
-            | Stage::Record(_)
-            | Stage::Observation
-            | Stage::Behavior(_) => {
+            ProgramStage::Init
+            | ProgramStage::Reward
+            | ProgramStage::Ending
+            | ProgramStage::Record(_)
+            | ProgramStage::Observation
+            | ProgramStage::Behavior(_) => {
                 return self.step_let(name);
             }
         }
@@ -281,7 +281,7 @@ impl<'w> Lower<'_, 'w> {
         };
         self.set_let(name, None);
         let team = self.team.take();
-        let value = self.within(Scope::new(true, Frame::World), |lower| {
+        let value = self.within(Scope::new(true, LiteralFrame::World), |lower| {
             lower.drawing(&format!("let {name}"), |lower| match ty {
                 Some(ty) => lower.want(expr, ty),
                 None => lower.expr(expr),
@@ -313,7 +313,7 @@ impl<'w> Lower<'_, 'w> {
         }
         let team = self.team.take();
         let stream = names.first().map_or(name, |first| first.node.as_str());
-        let values = self.within(Scope::new(true, Frame::World), |lower| {
+        let values = self.within(Scope::new(true, LiteralFrame::World), |lower| {
             lower.drawing(&format!("let {stream}"), |lower| lower.shuffle(expr, names.len()))
         });
         self.team = team;
@@ -338,11 +338,11 @@ impl<'w> Lower<'_, 'w> {
             let mut parts = Vec::new();
             for reg in value.regs() {
                 let part = match self.code.instr(reg) {
-                    Some(setpiece_scenario::Instr::Const(value)) => Part::Constant(*value),
-                    Some(setpiece_scenario::Instr::Param(index)) => Part::Param(*index),
+                    Some(setpiece_scenario::Instr::Const(value)) => LetSource::Constant(*value),
+                    Some(setpiece_scenario::Instr::Param(index)) => LetSource::Param(*index),
                     _ => {
                         regs.push(reg);
-                        Part::Let(regs.len() as u32 - 1)
+                        LetSource::Let(regs.len() as u32 - 1)
                     }
                 };
                 parts.push((reg, part));
@@ -360,7 +360,7 @@ impl<'w> Lower<'_, 'w> {
         let first = match self.world.flat.kickoff {
             Some((expr, _, _)) => {
                 let team = self.team.take();
-                let scope = Scope::new(true, Frame::World);
+                let scope = Scope::new(true, LiteralFrame::World);
                 let first =
                     self.within(scope, |lower| lower.drawing("kickoff", |lower| lower.want_reg(expr, Ty::Team)));
                 self.team = team;

@@ -41,12 +41,12 @@ pub(crate) struct LetSlot<'w> {
     /// Its value in the start program.
     pub(crate) value: Value<'w>,
     /// For each of its registers: a constant, or its place in the scenario's `let`s.
-    pub(crate) parts: Vec<(Reg, Part)>,
+    pub(crate) parts: Vec<(Reg, LetSource)>,
 }
 
 /// A register of a `let`, seen from a step program.
 #[derive(Clone, Copy)]
-pub(crate) enum Part {
+pub(crate) enum LetSource {
     /// Known now.
     Constant(f64),
     /// A parameter.
@@ -65,9 +65,9 @@ impl<'w> Lower<'_, 'w> {
         // A value's registers are gone through in the order of its parts.
         let mut parts = slot.parts.iter();
         let mut map = |reg: Reg| match parts.find(|(known, _)| *known == reg) {
-            Some((_, Part::Constant(value))) => self.code.constant(*value),
-            Some((_, Part::Param(index))) => self.code.param(*index),
-            Some((_, Part::Let(index))) => self.code.scenario_let(*index),
+            Some((_, LetSource::Constant(value))) => self.code.constant(*value),
+            Some((_, LetSource::Param(index))) => self.code.param(*index),
+            Some((_, LetSource::Let(index))) => self.code.scenario_let(*index),
             None => self.code.constant(0.0),
         };
         slot.value.map(&mut map)

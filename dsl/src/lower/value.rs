@@ -157,7 +157,7 @@ impl RegionValue {
 
 /// How literals and coordinates are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Frame {
+pub(crate) enum LiteralFrame {
     /// As the pitch lies.
     World,
     /// From the own goal, attacking towards +x.
@@ -173,18 +173,18 @@ pub(crate) struct Scope<'w> {
     /// Whose named players are seen, in a formation.
     pub(crate) players_of: Option<Team>,
     /// How literals are read.
-    pub(crate) frame: Frame,
+    pub(crate) frame: LiteralFrame,
 }
 
 struct Local<'w> {
     name: &'w str,
-    binding: Binding<'w>,
+    binding: LocalName<'w>,
     next: Option<Rc<Local<'w>>>,
 }
 
 /// What a local name stands for.
 #[derive(Clone)]
-pub(crate) enum Binding<'w> {
+pub(crate) enum LocalName<'w> {
     /// A value of its own: the element of a loop.
     Value(Value<'w>),
     /// An expression, read in the scope where it was written; `now` is its value in the present program.
@@ -213,29 +213,29 @@ pub(crate) enum Binding<'w> {
     },
 }
 
-impl Binding<'_> {
+impl LocalName<'_> {
     /// Where it is declared, if that is known.
     pub(crate) fn declared(&self) -> Option<Span> {
         match self {
-            Binding::Value(_) => None,
-            Binding::Expr { at, .. } | Binding::State { at, .. } => Some(*at),
+            LocalName::Value(_) => None,
+            LocalName::Expr { at, .. } | LocalName::State { at, .. } => Some(*at),
         }
     }
 }
 
 impl<'w> Scope<'w> {
     /// No locals.
-    pub(crate) fn new(scenario: bool, frame: Frame) -> Scope<'w> {
+    pub(crate) fn new(scenario: bool, frame: LiteralFrame) -> Scope<'w> {
         Scope { locals: None, scenario, players_of: None, frame }
     }
 
     /// Adds a name.
-    pub(crate) fn bind(&mut self, name: &'w str, binding: Binding<'w>) {
+    pub(crate) fn bind(&mut self, name: &'w str, binding: LocalName<'w>) {
         self.locals = Some(Rc::new(Local { name, binding, next: self.locals.take() }));
     }
 
     /// What a name stands for: the latest binding.
-    pub(crate) fn find(&self, name: &str) -> Option<&Binding<'w>> {
+    pub(crate) fn find(&self, name: &str) -> Option<&LocalName<'w>> {
         let mut at = self.locals.as_deref();
         while let Some(local) = at {
             if local.name == name {
@@ -247,7 +247,7 @@ impl<'w> Scope<'w> {
     }
 
     /// Every local name and what it stands for.
-    pub(crate) fn bindings(&self) -> BTreeMap<&'w str, &Binding<'w>> {
+    pub(crate) fn bindings(&self) -> BTreeMap<&'w str, &LocalName<'w>> {
         let mut bindings = BTreeMap::new();
         let mut at = self.locals.as_deref();
         while let Some(local) = at {

@@ -5,7 +5,7 @@ use super::interval::Interval;
 use super::mirror::Mirror;
 use super::param::{ParamInfo, lower_params};
 use super::roster::{Rostered, lower_roster};
-use super::script::Scripts;
+use super::script::LoadedScripts;
 use crate::ast::Span;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
@@ -32,7 +32,7 @@ pub(crate) struct World<'w> {
     /// Scripts that are embedded so far.
     pub(crate) scripts: RefCell<Vec<setpiece_scenario::Script>>,
     /// Scripts as they were loaded.
-    pub(crate) scripts_loaded: &'w Scripts<'w>,
+    pub(crate) scripts_loaded: &'w LoadedScripts<'w>,
     /// What was found so far.
     pub(crate) problems: RefCell<Vec<Problem>>,
     /// Declarations that something refers to.
@@ -79,7 +79,7 @@ impl<'w> World<'w> {
         flat: &'w Flat<'w>,
         mirror: Mirror,
         casting: &'w [Casting<'w>],
-        scripts_loaded: &'w Scripts<'w>,
+        scripts_loaded: &'w LoadedScripts<'w>,
         effort: &'w Effort,
     ) -> World<'w> {
         let mut world = World {

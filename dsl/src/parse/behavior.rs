@@ -1,6 +1,6 @@
 //! Statements of a behaviour.
 
-use super::reader::{Node, Nodes, Reader};
+use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{BehaviorStmt, BehaviorStmtKind, Chance, DoStmt, DoWhat, RepeatHow};
 use crate::problem::Problem;
@@ -10,7 +10,7 @@ use setpiece_grammar::Rule;
 
 impl Reader<'_> {
     /// The statements between a behaviour's or block's braces.
-    pub(super) fn behavior_body(&mut self, node: Node<'_>) -> Vec<BehaviorStmt> {
+    pub(super) fn behavior_body(&mut self, node: CstNode<'_>) -> Vec<BehaviorStmt> {
         let span = self.span(&node);
         let read = |reader: &mut Self| {
             reader.list(node, Context::Behavior, Self::behavior_stmt, |span, _| BehaviorStmt {
@@ -21,12 +21,12 @@ impl Reader<'_> {
         self.nested(span, read).unwrap_or_default()
     }
 
-    fn behavior_stmt(&mut self, node: Node<'_>, span: Span, _doc: String) -> BehaviorStmt {
+    fn behavior_stmt(&mut self, node: CstNode<'_>, span: Span, _doc: String) -> BehaviorStmt {
         let kind = node.into_inner().next().and_then(|node| self.behavior_stmt_kind(node));
         BehaviorStmt { span, kind: kind.unwrap_or(BehaviorStmtKind::Broken) }
     }
 
-    fn behavior_stmt_kind(&mut self, node: Node<'_>) -> Option<BehaviorStmtKind> {
+    fn behavior_stmt_kind(&mut self, node: CstNode<'_>) -> Option<BehaviorStmtKind> {
         let rule = node.as_rule();
         match rule {
             Rule::state => return self.binding(node).map(BehaviorStmtKind::State),
@@ -40,7 +40,7 @@ impl Reader<'_> {
             }
             _ => {}
         }
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         Some(match rule {
             Rule::interrupt => {
                 let condition = nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
@@ -53,7 +53,7 @@ impl Reader<'_> {
                         RepeatHow::Until(nodes.seek(Rule::condition).map(|condition| self.expr(condition))?)
                     }
                     Some(Rule::times) => {
-                        let sum = Nodes::of(nodes.next()?).seek(Rule::sum)?;
+                        let sum = CstNodes::of(nodes.next()?).seek(Rule::sum)?;
                         RepeatHow::Times(self.expr(sum))
                     }
                     _ => RepeatHow::Forever,
@@ -66,7 +66,7 @@ impl Reader<'_> {
                 let mut otherwise = Vec::new();
                 for rest in self.bounded(nodes, "branches") {
                     let is_arm = rest.as_rule() == Rule::else_if;
-                    let mut inner = Nodes::of(rest);
+                    let mut inner = CstNodes::of(rest);
                     if is_arm {
                         let condition = inner.seek(Rule::condition).map(|condition| self.expr(condition))?;
                         arms.push((condition, self.take_body(&mut inner)?));
@@ -86,13 +86,13 @@ impl Reader<'_> {
         })
     }
 
-    fn take_body(&mut self, nodes: &mut Nodes<'_>) -> Option<Vec<BehaviorStmt>> {
+    fn take_body(&mut self, nodes: &mut CstNodes<'_>) -> Option<Vec<BehaviorStmt>> {
         nodes.want(Rule::behavior_body).map(|body| self.behavior_body(body))
     }
 
     /// `2: { … }`, `1: do shoot`
-    fn chance(&mut self, node: Node<'_>) -> Option<Chance> {
-        let mut nodes = Nodes::of(node);
+    fn chance(&mut self, node: CstNode<'_>) -> Option<Chance> {
+        let mut nodes = CstNodes::of(node);
         let weight = nodes.want(Rule::sum).map(|weight| self.expr(weight))?;
         nodes.eat(Rule::colon);
         let what = nodes.next()?;
@@ -106,15 +106,15 @@ impl Reader<'_> {
         Some(Chance { weight, body })
     }
 
-    fn do_stmt(&mut self, node: Node<'_>) -> Option<DoStmt> {
-        let mut nodes = Nodes::of(node);
+    fn do_stmt(&mut self, node: CstNode<'_>) -> Option<DoStmt> {
+        let mut nodes = CstNodes::of(node);
         nodes.eat(Rule::kw_do);
         let what = nodes.next()?;
         let what = if what.as_rule() == Rule::script {
             DoWhat::Script(self.script(what)?)
         } else {
             let span = self.span(&what);
-            let mut inner = Nodes::of(what);
+            let mut inner = CstNodes::of(what);
             let name = inner.want(Rule::act_name).map(|name| self.ident(&name))?;
             let args = inner.want(Rule::args).map(|args| self.args(args)).unwrap_or_default();
             DoWhat::Named { name, args, span }
@@ -125,11 +125,11 @@ impl Reader<'_> {
             let twice = match clause.as_rule() {
                 Rule::kw_sprinting => stmt.sprinting.replace(span).is_some(),
                 Rule::do_until => {
-                    let condition = Nodes::of(clause).seek(Rule::condition).map(|condition| self.expr(condition))?;
+                    let condition = CstNodes::of(clause).seek(Rule::condition).map(|condition| self.expr(condition))?;
                     stmt.until.replace(condition).is_some()
                 }
                 _ => {
-                    let duration = Nodes::of(clause).seek(Rule::duration).map(|duration| self.expr(duration))?;
+                    let duration = CstNodes::of(clause).seek(Rule::duration).map(|duration| self.expr(duration))?;
                     stmt.duration.replace(duration).is_some()
                 }
             };

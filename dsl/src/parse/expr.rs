@@ -1,8 +1,8 @@
 //! Expressions: the flat tokens of an `expr`, `set` or `sum` become a tree by precedence.
 
 use super::MAX_OPERATORS;
-use super::reader::{Node, Nodes, Reader};
-use crate::ast::{Arg, BinaryOp, Expr, ExprKind, Ident, Spanned, UnaryOp};
+use super::reader::{CstNode, CstNodes, Reader};
+use crate::ast::{Arg, Expr, ExprKind, Ident, InfixOp, PrefixOp, Spanned};
 use crate::problem::Problem;
 use crate::problem::facts::{Syntax, Types};
 use crate::source::Span;
@@ -11,7 +11,7 @@ use setpiece_scenario::vocabulary::{Role, Unit};
 
 impl Reader<'_> {
     /// Any expression, whatever rule wraps it.
-    pub(super) fn expr(&mut self, node: Node<'_>) -> Expr {
+    pub(super) fn expr(&mut self, node: CstNode<'_>) -> Expr {
         let span = self.span(&node);
         match node.as_rule() {
             Rule::expr | Rule::set | Rule::sum | Rule::over_what | Rule::factor => self.flat(node, span),
@@ -24,26 +24,26 @@ impl Reader<'_> {
     }
 
     /// Takes the next child if it is of `rule`, as an expression.
-    pub(super) fn take_expr(&mut self, nodes: &mut Nodes<'_>, rule: Rule) -> Option<Expr> {
+    pub(super) fn take_expr(&mut self, nodes: &mut CstNodes<'_>, rule: Rule) -> Option<Expr> {
         nodes.want(rule).map(|node| self.expr(node))
     }
 
     /// An expression's own operators, counted against the limit that bounds the tree's height.
-    fn flat(&mut self, node: Node<'_>, span: Span) -> Expr {
+    fn flat(&mut self, node: CstNode<'_>, span: Span) -> Expr {
         let weight = node.clone().into_inner().filter(|child| child.as_rule() != Rule::operand).count() as u32 + 1;
         if self.operators + weight > MAX_OPERATORS {
             self.push(Problem::new(span, Syntax::TooManyOperators { most: MAX_OPERATORS }));
             return broken(span);
         }
         self.operators += weight;
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         let expr = if nodes.eat(Rule::kw_if) { self.conditional(&mut nodes, span) } else { self.or(&mut nodes, span) };
         self.operators -= weight;
         expr
     }
 
     /// `if` is taken; the arms of `else if` hang in each other.
-    fn conditional(&mut self, nodes: &mut Nodes<'_>, span: Span) -> Expr {
+    fn conditional(&mut self, nodes: &mut CstNodes<'_>, span: Span) -> Expr {
         let mut arms = Vec::new();
         let mut last = None;
         while let Some(node) = nodes.want(Rule::expr) {
@@ -64,25 +64,25 @@ impl Reader<'_> {
         })
     }
 
-    fn or(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn or(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let mut left = self.and(nodes, within);
         while let Some(op) = nodes.want(Rule::kw_or) {
             let right = self.and(nodes, within);
-            left = self.binary(BinaryOp::Or, &op, left, right);
+            left = self.binary(InfixOp::Or, &op, left, right);
         }
         left
     }
 
-    fn and(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn and(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let mut left = self.not(nodes, within);
         while let Some(op) = nodes.want(Rule::kw_and) {
             let right = self.not(nodes, within);
-            left = self.binary(BinaryOp::And, &op, left, right);
+            left = self.binary(InfixOp::And, &op, left, right);
         }
         left
     }
 
-    fn not(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn not(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let mut nots = Vec::new();
         while let Some(not) = nodes.want(Rule::kw_not) {
             nots.push(self.span(&not));
@@ -90,11 +90,11 @@ impl Reader<'_> {
         let operand = self.comparison(nodes, within);
         nots.into_iter().rev().fold(operand, |operand, not| Expr {
             span: not.to(operand.span),
-            kind: ExprKind::Unary(UnaryOp::Not, Box::new(operand)),
+            kind: ExprKind::Unary(PrefixOp::Not, Box::new(operand)),
         })
     }
 
-    fn comparison(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn comparison(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let first = self.union(nodes, within);
         let mut last = first.span;
         let mut comparison = None;
@@ -122,9 +122,9 @@ impl Reader<'_> {
     fn comparison_tail(
         &mut self,
         rule: Rule,
-        op: &Node<'_>,
+        op: &CstNode<'_>,
         first: &Expr,
-        nodes: &mut Nodes<'_>,
+        nodes: &mut CstNodes<'_>,
         within: Span,
     ) -> Expr {
         let op_span = self.span(op);
@@ -140,13 +140,13 @@ impl Reader<'_> {
             }
             _ => {
                 let operator = match op.as_str() {
-                    "==" => BinaryOp::Eq,
-                    "!=" => BinaryOp::Ne,
-                    "<" => BinaryOp::Lt,
-                    "<=" => BinaryOp::Le,
-                    ">" => BinaryOp::Gt,
-                    ">=" => BinaryOp::Ge,
-                    _ => BinaryOp::In,
+                    "==" => InfixOp::Eq,
+                    "!=" => InfixOp::Ne,
+                    "<" => InfixOp::Lt,
+                    "<=" => InfixOp::Le,
+                    ">" => InfixOp::Gt,
+                    ">=" => InfixOp::Ge,
+                    _ => InfixOp::In,
                 };
                 let right = self.union(nodes, within);
                 self.binary(operator, op, first.clone(), right)
@@ -154,43 +154,43 @@ impl Reader<'_> {
         }
     }
 
-    fn union(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn union(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let mut left = self.sum(nodes, within);
         while let Some(op) = nodes.want(Rule::set_op) {
-            let operator = if op.as_str() == "|" { BinaryOp::Union } else { BinaryOp::Intersection };
+            let operator = if op.as_str() == "|" { InfixOp::Union } else { InfixOp::Intersection };
             let right = self.sum(nodes, within);
             left = self.binary(operator, &op, left, right);
         }
         left
     }
 
-    fn sum(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn sum(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let mut left = self.product(nodes, within);
         while let Some(op) = nodes.want(Rule::add_op) {
-            let operator = if op.as_str() == "+" { BinaryOp::Add } else { BinaryOp::Sub };
+            let operator = if op.as_str() == "+" { InfixOp::Add } else { InfixOp::Sub };
             let right = self.product(nodes, within);
             left = self.binary(operator, &op, left, right);
         }
         left
     }
 
-    fn product(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn product(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let mut left = self.operand(nodes, within);
         while let Some(op) = nodes.want(Rule::mul_op) {
-            let operator = if op.as_str() == "*" { BinaryOp::Mul } else { BinaryOp::Div };
+            let operator = if op.as_str() == "*" { InfixOp::Mul } else { InfixOp::Div };
             let right = self.operand(nodes, within);
             left = self.binary(operator, &op, left, right);
         }
         left
     }
 
-    fn binary(&self, operator: BinaryOp, op: &Node<'_>, left: Expr, right: Expr) -> Expr {
+    fn binary(&self, operator: InfixOp, op: &CstNode<'_>, left: Expr, right: Expr) -> Expr {
         let op = Spanned { node: operator, span: self.span(op) };
         Expr { span: left.span.to(right.span), kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) }
     }
 
     /// `-x.y.z`: the members bind first.
-    fn operand(&mut self, nodes: &mut Nodes<'_>, within: Span) -> Expr {
+    fn operand(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let Some(node) = nodes.want(Rule::operand) else { return broken(within) };
         let span = self.span(&node);
         let weight = node.clone().into_inner().count() as u32;
@@ -199,10 +199,10 @@ impl Reader<'_> {
             return broken(span);
         }
         self.operators += weight;
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         let mut signs = Vec::new();
         while let Some(sign) = nodes.want(Rule::sign) {
-            let op = if sign.as_str() == "-" { UnaryOp::Neg } else { UnaryOp::Plus };
+            let op = if sign.as_str() == "-" { PrefixOp::Neg } else { PrefixOp::Plus };
             signs.push((op, self.span(&sign)));
         }
         let mut expr = nodes.next().map_or_else(|| broken(within), |node| self.primary(node));
@@ -218,7 +218,7 @@ impl Reader<'_> {
         expr
     }
 
-    fn primary(&mut self, node: Node<'_>) -> Expr {
+    fn primary(&mut self, node: CstNode<'_>) -> Expr {
         let span = self.span(&node);
         let kind = match node.as_rule() {
             Rule::quantity => return self.quantity(node),
@@ -234,7 +234,7 @@ impl Reader<'_> {
             Rule::paren => return self.paren(node, span),
             Rule::own => self.own(node, span),
             Rule::call => {
-                let mut nodes = Nodes::of(node);
+                let mut nodes = CstNodes::of(node);
                 let Some(name) = nodes.want(Rule::callee).map(|name| self.ident(&name)) else { return broken(span) };
                 ExprKind::Call { name, args: nodes.want(Rule::args).map(|args| self.args(args)).unwrap_or_default() }
             }
@@ -243,7 +243,7 @@ impl Reader<'_> {
                 None => ExprKind::Broken,
             },
             Rule::over_time => {
-                let mut nodes = Nodes::of(node);
+                let mut nodes = CstNodes::of(node);
                 let Some(kind) = nodes.want(Rule::over_kind).map(|kind| self.ident(&kind)) else { return broken(span) };
                 nodes.eat(Rule::kw_of);
                 let of = nodes.next().map_or_else(
@@ -257,9 +257,9 @@ impl Reader<'_> {
         Expr { span, kind }
     }
 
-    fn quantity(&mut self, node: Node<'_>) -> Expr {
+    fn quantity(&mut self, node: CstNode<'_>) -> Expr {
         let span = self.span(&node);
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         let Some(number) = nodes.want(Rule::number) else { return broken(span) };
         let text = number.as_str();
         let value = text.parse::<f64>().unwrap_or(f64::INFINITY);
@@ -278,7 +278,7 @@ impl Reader<'_> {
     }
 
     /// One expression in brackets is itself, two or three are a point.
-    fn paren(&mut self, node: Node<'_>, span: Span) -> Expr {
+    fn paren(&mut self, node: CstNode<'_>, span: Span) -> Expr {
         let mut items: Vec<Expr> = Vec::new();
         for child in node.into_inner().filter(|child| child.as_rule() == Rule::expr) {
             items.push(self.expr(child));
@@ -290,7 +290,7 @@ impl Reader<'_> {
     }
 
     /// `own (x, y)` or `own.a.b`: the whole path is read in the own frame.
-    fn own(&mut self, node: Node<'_>, span: Span) -> ExprKind {
+    fn own(&mut self, node: CstNode<'_>, span: Span) -> ExprKind {
         let mut path: Option<Expr> = None;
         for child in node.into_inner() {
             match child.as_rule() {
@@ -314,14 +314,14 @@ impl Reader<'_> {
     }
 
     /// The arguments in a pair of brackets.
-    pub(super) fn args(&mut self, node: Node<'_>) -> Vec<Arg> {
+    pub(super) fn args(&mut self, node: CstNode<'_>) -> Vec<Arg> {
         let args = node.into_inner().filter(|child| child.as_rule() == Rule::arg);
         self.bounded(args, "arguments").into_iter().filter_map(|arg| self.arg(arg)).collect()
     }
 
-    fn arg(&mut self, node: Node<'_>) -> Option<Arg> {
+    fn arg(&mut self, node: CstNode<'_>) -> Option<Arg> {
         let span = self.span(&node);
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         if let Some(word) = nodes.want(Rule::word) {
             nodes.eat(Rule::colon);
             let kind = match word.as_str() {
@@ -341,13 +341,13 @@ impl Reader<'_> {
         let binder = nodes.want(Rule::binder).and_then(|binder| self.binder(binder));
         let filter = nodes
             .want(Rule::filter)
-            .and_then(|filter| Nodes::of(filter).seek(Rule::expr))
+            .and_then(|filter| CstNodes::of(filter).seek(Rule::expr))
             .map(|filter| self.expr(filter));
         Some(Arg { span, key, value, binder, filter })
     }
 
-    fn binder(&mut self, node: Node<'_>) -> Option<(Ident, Expr)> {
-        let mut nodes = Nodes::of(node);
+    fn binder(&mut self, node: CstNode<'_>) -> Option<(Ident, Expr)> {
+        let mut nodes = CstNodes::of(node);
         let name = nodes.seek(Rule::ident)?;
         let name = self.value_name(&name);
         let set = nodes.seek(Rule::set)?;
@@ -355,9 +355,9 @@ impl Reader<'_> {
     }
 }
 
-impl<'i> Nodes<'i> {
+impl<'i> CstNodes<'i> {
     /// The next token unless it is `and` or `or`.
-    fn next_if_not_logical(&mut self) -> Option<Node<'i>> {
+    fn next_if_not_logical(&mut self) -> Option<CstNode<'i>> {
         match self.peek() {
             None | Some(Rule::kw_and | Rule::kw_or) => None,
             Some(_) => self.next(),

@@ -1,6 +1,6 @@
 //! Options: `{ key: value, … }`, and scripts.
 
-use super::reader::{Node, Nodes, Reader};
+use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{Field, FieldValue, ScriptRef, ScriptSource, Spanned};
 use crate::problem::Problem;
@@ -10,7 +10,7 @@ use setpiece_grammar::Rule;
 
 impl Reader<'_> {
     /// The fields between braces.
-    pub(super) fn fields(&mut self, node: Node<'_>) -> Vec<Field> {
+    pub(super) fn fields(&mut self, node: CstNode<'_>) -> Vec<Field> {
         let fields = self.list(node, Context::Fields, |reader, field, _, _| reader.field(field), |_, _| None);
         let fields: Vec<Field> = fields.into_iter().flatten().collect();
         for (index, field) in fields.iter().enumerate() {
@@ -25,13 +25,13 @@ impl Reader<'_> {
     }
 
     /// Takes the next child if it is `fields`.
-    pub(super) fn take_fields(&mut self, nodes: &mut Nodes<'_>) -> Vec<Field> {
+    pub(super) fn take_fields(&mut self, nodes: &mut CstNodes<'_>) -> Vec<Field> {
         nodes.want(Rule::fields).map(|fields| self.fields(fields)).unwrap_or_default()
     }
 
     /// `key: value`
-    pub(super) fn field(&mut self, node: Node<'_>) -> Option<Field> {
-        let mut nodes = Nodes::of(node);
+    pub(super) fn field(&mut self, node: CstNode<'_>) -> Option<Field> {
+        let mut nodes = CstNodes::of(node);
         let key = nodes.want(Rule::word).map(|key| self.ident(&key))?;
         nodes.eat(Rule::colon);
         let value = nodes.next()?;
@@ -47,9 +47,9 @@ impl Reader<'_> {
     }
 
     /// `script "file.rhai"` or `script rhai """…"""`
-    pub(super) fn script(&mut self, node: Node<'_>) -> Option<ScriptRef> {
+    pub(super) fn script(&mut self, node: CstNode<'_>) -> Option<ScriptRef> {
         let span = self.span(&node);
-        let source = match Nodes::of(node).last()? {
+        let source = match CstNodes::of(node).last()? {
             file if file.as_rule() == Rule::string => ScriptSource::File(self.string(&file)),
             // A script that is not closed was reported: it holds whatever follows it.
             raw if raw.as_span().end() + self.base > self.original().len() => return None,

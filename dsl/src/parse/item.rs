@@ -1,6 +1,6 @@
 //! Items of a file, parameters and references.
 
-use super::reader::{Node, Nodes, Reader};
+use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
     BehaviorBody, BehaviorItem, Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind, ParamDecl, Ref,
@@ -17,12 +17,12 @@ impl Reader<'_> {
         self.list(file, Context::File, Self::item, |span, doc| Item { doc, span, kind: ItemKind::Broken })
     }
 
-    fn item(&mut self, node: Node<'_>, span: Span, doc: String) -> Item {
+    fn item(&mut self, node: CstNode<'_>, span: Span, doc: String) -> Item {
         let kind = node.into_inner().next().and_then(|node| self.item_kind(node)).unwrap_or(ItemKind::Broken);
         Item { doc, span, kind }
     }
 
-    fn item_kind(&mut self, node: Node<'_>) -> Option<ItemKind> {
+    fn item_kind(&mut self, node: CstNode<'_>) -> Option<ItemKind> {
         let rule = node.as_rule();
         match rule {
             Rule::constant => return self.binding(node).map(ItemKind::Const),
@@ -31,7 +31,7 @@ impl Reader<'_> {
             Rule::ending => return self.function(node).map(ItemKind::Ending),
             _ => {}
         }
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         Some(match rule {
             Rule::import => {
                 let path = nodes.seek(Rule::string)?;
@@ -74,15 +74,15 @@ impl Reader<'_> {
     }
 
     /// `(params) extends parent`
-    fn head(&mut self, nodes: &mut Nodes<'_>) -> (Vec<ParamDecl>, Option<Ref>) {
+    fn head(&mut self, nodes: &mut CstNodes<'_>) -> (Vec<ParamDecl>, Option<Ref>) {
         let params = nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
-        let extends = nodes.want(Rule::extends).and_then(|extends| Nodes::of(extends).seek(Rule::reference));
+        let extends = nodes.want(Rule::extends).and_then(|extends| CstNodes::of(extends).seek(Rule::reference));
         (params, extends.and_then(|parent| self.reference(parent)))
     }
 
     /// `NAME [: type] = value`, whatever keyword stands before it.
-    pub(super) fn binding(&mut self, node: Node<'_>) -> Option<Binding> {
-        let mut nodes = Nodes::of(node);
+    pub(super) fn binding(&mut self, node: CstNode<'_>) -> Option<Binding> {
+        let mut nodes = CstNodes::of(node);
         let name = nodes.seek(Rule::ident)?;
         let name = self.value_name(&name);
         let ty = self.annotation(&mut nodes);
@@ -92,9 +92,9 @@ impl Reader<'_> {
     }
 
     /// `NAME [(params)] [-> type] = body`: a function, region or ending.
-    pub(super) fn function(&mut self, node: Node<'_>) -> Option<FnItem> {
+    pub(super) fn function(&mut self, node: CstNode<'_>) -> Option<FnItem> {
         let ending = node.as_rule() == Rule::ending;
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         let name = nodes.seek(Rule::ident)?;
         let name = if ending { self.ident(&name) } else { self.callable_name(&name) };
         let params = nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
@@ -104,13 +104,13 @@ impl Reader<'_> {
         Some(FnItem { name, params, ty, body })
     }
 
-    fn annotation(&self, nodes: &mut Nodes<'_>) -> Option<Ident> {
+    fn annotation(&self, nodes: &mut CstNodes<'_>) -> Option<Ident> {
         let annotation = nodes.want(Rule::annotation)?;
-        Nodes::of(annotation).seek(Rule::type_name).map(|ty| self.ident(&ty))
+        CstNodes::of(annotation).seek(Rule::type_name).map(|ty| self.ident(&ty))
     }
 
     /// Parameters in brackets.
-    fn params(&mut self, node: Node<'_>) -> Vec<ParamDecl> {
+    fn params(&mut self, node: CstNode<'_>) -> Vec<ParamDecl> {
         let mut params = Vec::new();
         let mut doc = String::new();
         let nodes = node.into_inner().filter(|child| matches!(child.as_rule(), Rule::doc | Rule::param));
@@ -125,9 +125,9 @@ impl Reader<'_> {
     }
 
     /// `NAME [: type] [= default] [in domain]`
-    pub(super) fn param(&mut self, node: Node<'_>, doc: String) -> Option<ParamDecl> {
+    pub(super) fn param(&mut self, node: CstNode<'_>, doc: String) -> Option<ParamDecl> {
         let span = self.span(&node);
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         let name = nodes.want(Rule::ident)?;
         let name = self.value_name(&name);
         let ty = self.annotation(&mut nodes);
@@ -137,7 +137,7 @@ impl Reader<'_> {
         Some(ParamDecl { doc, name, ty, default, domain, span })
     }
 
-    fn domain(&mut self, node: Node<'_>) -> Option<Domain> {
+    fn domain(&mut self, node: CstNode<'_>) -> Option<Domain> {
         let domain = node.into_inner().next()?;
         let span = self.span(&domain);
         let is_list = domain.as_rule() == Rule::list;
@@ -151,9 +151,9 @@ impl Reader<'_> {
     }
 
     /// A name with arguments.
-    pub(super) fn reference(&mut self, node: Node<'_>) -> Option<Ref> {
+    pub(super) fn reference(&mut self, node: CstNode<'_>) -> Option<Ref> {
         let span = self.span(&node);
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         let name = nodes.want(Rule::path).map(|name| self.ident(&name))?;
         let args = nodes.want(Rule::args).map(|args| self.args(args)).unwrap_or_default();
         Some(Ref { name, args, span })
@@ -161,7 +161,7 @@ impl Reader<'_> {
 }
 
 /// Adds a line `/// words` to a doc text.
-pub(super) fn add_doc(doc: &mut String, node: &Node<'_>) {
+pub(super) fn add_doc(doc: &mut String, node: &CstNode<'_>) {
     let line = node.as_str().trim_start_matches('/').trim_end();
     if !doc.is_empty() {
         doc.push('\n');

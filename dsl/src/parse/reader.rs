@@ -15,19 +15,19 @@ use std::iter::Peekable;
 use std::ops::Range;
 
 /// A node of the concrete tree.
-pub(super) type Node<'i> = Pair<'i, Rule>;
+pub(super) type CstNode<'i> = Pair<'i, Rule>;
 
 /// The children of a node.
-pub(super) struct Nodes<'i>(Peekable<Pairs<'i, Rule>>);
+pub(super) struct CstNodes<'i>(Peekable<Pairs<'i, Rule>>);
 
-impl<'i> Nodes<'i> {
+impl<'i> CstNodes<'i> {
     /// The children of a node.
-    pub(super) fn of(node: Node<'i>) -> Nodes<'i> {
-        Nodes(node.into_inner().peekable())
+    pub(super) fn of(node: CstNode<'i>) -> CstNodes<'i> {
+        CstNodes(node.into_inner().peekable())
     }
 
     /// The next child, if it is of this rule.
-    pub(super) fn want(&mut self, rule: Rule) -> Option<Node<'i>> {
+    pub(super) fn want(&mut self, rule: Rule) -> Option<CstNode<'i>> {
         self.0.next_if(|node| node.as_rule() == rule)
     }
 
@@ -37,7 +37,7 @@ impl<'i> Nodes<'i> {
     }
 
     /// The first child of this rule; those before it are dropped.
-    pub(super) fn seek(&mut self, rule: Rule) -> Option<Node<'i>> {
+    pub(super) fn seek(&mut self, rule: Rule) -> Option<CstNode<'i>> {
         self.0.find(|node| node.as_rule() == rule)
     }
 
@@ -52,10 +52,10 @@ impl<'i> Nodes<'i> {
     }
 }
 
-impl<'i> Iterator for Nodes<'i> {
-    type Item = Node<'i>;
+impl<'i> Iterator for CstNodes<'i> {
+    type Item = CstNode<'i>;
 
-    fn next(&mut self) -> Option<Node<'i>> {
+    fn next(&mut self) -> Option<CstNode<'i>> {
         self.0.next()
     }
 }
@@ -142,7 +142,7 @@ impl<'t> Reader<'t> {
     }
 
     /// A node's range in the text, without the blanks and comments that its last optional parts swallowed.
-    pub(super) fn range(&self, node: &Node<'_>) -> Range<usize> {
+    pub(super) fn range(&self, node: &CstNode<'_>) -> Range<usize> {
         let (start, end) = (node.as_span().start() + self.base, node.as_span().end() + self.base);
         start..self.trimmed_end(start, end)
     }
@@ -161,7 +161,7 @@ impl<'t> Reader<'t> {
     }
 
     /// A node's span.
-    pub(super) fn span(&self, node: &Node<'_>) -> Span {
+    pub(super) fn span(&self, node: &CstNode<'_>) -> Span {
         let range = self.range(node);
         self.between(range.start, range.end)
     }
@@ -206,8 +206,8 @@ impl<'t> Reader<'t> {
     }
 
     /// The nodes of a list, as many as it may have; reports the first that is too many.
-    pub(super) fn bounded<'i>(&mut self, nodes: impl Iterator<Item = Node<'i>>, what: &str) -> Vec<Node<'i>> {
-        let mut list: Vec<Node<'i>> = nodes.take(MAX_LIST + 1).collect();
+    pub(super) fn bounded<'i>(&mut self, nodes: impl Iterator<Item = CstNode<'i>>, what: &str) -> Vec<CstNode<'i>> {
+        let mut list: Vec<CstNode<'i>> = nodes.take(MAX_LIST + 1).collect();
         if let Some(more) = list.get(MAX_LIST).map(|more| self.span(more)) {
             self.has_room(MAX_LIST, more, what);
             list.truncate(MAX_LIST);
@@ -233,12 +233,12 @@ impl<'t> Reader<'t> {
     }
 
     /// A name as written.
-    pub(super) fn ident(&self, node: &Node<'_>) -> Ident {
+    pub(super) fn ident(&self, node: &CstNode<'_>) -> Ident {
         Ident { node: node.as_str().to_owned(), span: self.span(node) }
     }
 
     /// A name that expressions may use: it can't be an event's, nor hide a value of the language.
-    pub(super) fn value_name(&mut self, node: &Node<'_>) -> Ident {
+    pub(super) fn value_name(&mut self, node: &CstNode<'_>) -> Ident {
         let name = self.ident(node);
         if let Some(owner) = owner_of_value(&name.node) {
             self.push(reserved(&name.node, name.span, owner));
@@ -247,7 +247,7 @@ impl<'t> Reader<'t> {
     }
 
     /// The name of what is called: it can't be a function's, either.
-    pub(super) fn callable_name(&mut self, node: &Node<'_>) -> Ident {
+    pub(super) fn callable_name(&mut self, node: &CstNode<'_>) -> Ident {
         let name = self.value_name(node);
         if let Some(owner) = owner_of_call(&name.node) {
             self.push(reserved(&name.node, name.span, owner));
@@ -256,7 +256,7 @@ impl<'t> Reader<'t> {
     }
 
     /// The words between quotes.
-    pub(super) fn string(&self, node: &Node<'_>) -> Spanned<String> {
+    pub(super) fn string(&self, node: &CstNode<'_>) -> Spanned<String> {
         let text = node.as_str();
         let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
         let mut words = String::with_capacity(inner.len());

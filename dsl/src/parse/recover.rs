@@ -6,7 +6,7 @@ mod tokens;
 mod unit;
 mod words;
 
-use super::reader::{Node, Nodes, Reader, token};
+use super::reader::{CstNode, CstNodes, Reader, token};
 use crate::problem::facts::Syntax;
 use crate::problem::{Problem, nearest};
 use crate::source::Span;
@@ -69,9 +69,9 @@ impl Reader<'_> {
     /// Converts the statements of a list; junk becomes problems and what `broken` makes.
     pub(super) fn list<T>(
         &mut self,
-        node: Node<'_>,
+        node: CstNode<'_>,
         context: Context,
-        convert: impl Fn(&mut Self, Node<'_>, Span, String) -> T,
+        convert: impl Fn(&mut Self, CstNode<'_>, Span, String) -> T,
         broken: impl Fn(Span, String) -> T,
     ) -> Vec<T> {
         let mut statements = Vec::new();
@@ -79,7 +79,7 @@ impl Reader<'_> {
         let mut before: Option<Range<usize>> = None;
         let mut reported: Option<Reported> = None;
         let mut taken = 0;
-        for child in Nodes::of(node) {
+        for child in CstNodes::of(node) {
             let rule = child.as_rule();
             if matches!(rule, Rule::junk) || rule == context.statement() {
                 let at = child.as_span().start() + self.base;

@@ -1,6 +1,6 @@
 //! Statements of a reward.
 
-use super::reader::{Node, Nodes, Reader};
+use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{GiveStmt, GiveValue, RewardStmt, RewardStmtKind};
 use crate::problem::Problem;
@@ -10,7 +10,7 @@ use setpiece_grammar::Rule;
 
 impl Reader<'_> {
     /// The statements between a reward's or block's braces.
-    pub(super) fn reward_body(&mut self, node: Node<'_>) -> Vec<RewardStmt> {
+    pub(super) fn reward_body(&mut self, node: CstNode<'_>) -> Vec<RewardStmt> {
         let span = self.span(&node);
         let read = |reader: &mut Self| {
             reader.list(node, Context::Reward, Self::reward_stmt, |span, _| RewardStmt {
@@ -52,12 +52,12 @@ impl Reader<'_> {
         between.is_some_and(|between| between.contains('\n'))
     }
 
-    fn reward_stmt(&mut self, node: Node<'_>, span: Span, _doc: String) -> RewardStmt {
+    fn reward_stmt(&mut self, node: CstNode<'_>, span: Span, _doc: String) -> RewardStmt {
         let kind = node.into_inner().next().and_then(|node| self.reward_stmt_kind(node));
         RewardStmt { span, kind: kind.unwrap_or(RewardStmtKind::Broken) }
     }
 
-    fn reward_stmt_kind(&mut self, node: Node<'_>) -> Option<RewardStmtKind> {
+    fn reward_stmt_kind(&mut self, node: CstNode<'_>) -> Option<RewardStmtKind> {
         let rule = node.as_rule();
         match rule {
             Rule::state => return self.binding(node).map(RewardStmtKind::State),
@@ -65,11 +65,11 @@ impl Reader<'_> {
             Rule::give => return self.give(node).map(RewardStmtKind::Give),
             _ => {}
         }
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         Some(match rule {
             Rule::on_block => {
                 let events = nodes.seek(Rule::events).map(|events| self.events(events))?;
-                let when = nodes.want(Rule::block_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
+                let when = nodes.want(Rule::block_when).and_then(|when| CstNodes::of(when).seek(Rule::condition));
                 let when = when.map(|when| self.expr(when));
                 let body = nodes.want(Rule::reward_body)?;
                 RewardStmtKind::On { events, when, body: self.reward_body(body) }
@@ -85,7 +85,7 @@ impl Reader<'_> {
     }
 
     /// The arms of `else when` hang in each other, so they count as depth.
-    fn when_block(&mut self, mut nodes: Nodes<'_>) -> Option<RewardStmtKind> {
+    fn when_block(&mut self, mut nodes: CstNodes<'_>) -> Option<RewardStmtKind> {
         let condition = nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
         let then = nodes.want(Rule::reward_body).map(|body| self.reward_body(body))?;
         let otherwise = match nodes.peek() {
@@ -94,17 +94,17 @@ impl Reader<'_> {
                 let span = self.between(first.start + self.base, first.end + self.base);
                 self.nested(span, |reader| reader.else_when(nodes)).map(|inner| inner.into_iter().collect())
             }
-            Some(_) => Nodes::of(nodes.next()?).seek(Rule::reward_body).map(|body| self.reward_body(body)),
+            Some(_) => CstNodes::of(nodes.next()?).seek(Rule::reward_body).map(|body| self.reward_body(body)),
             None => None,
         };
         Some(RewardStmtKind::When { condition, then, otherwise })
     }
 
     /// An `else when …` and all that follows it, as one statement.
-    fn else_when(&mut self, mut nodes: Nodes<'_>) -> Option<RewardStmt> {
+    fn else_when(&mut self, mut nodes: CstNodes<'_>) -> Option<RewardStmt> {
         let arm = nodes.next()?;
         let span = self.span(&arm);
-        let mut inner = Nodes::of(arm);
+        let mut inner = CstNodes::of(arm);
         let condition = inner.seek(Rule::condition).map(|condition| self.expr(condition))?;
         let then = inner.want(Rule::reward_body).map(|body| self.reward_body(body))?;
         let (mut span, mut otherwise) = (span, None);
@@ -119,15 +119,15 @@ impl Reader<'_> {
             Some(_) => {
                 let last = nodes.next()?;
                 span = span.to(self.span(&last));
-                otherwise = Nodes::of(last).seek(Rule::reward_body).map(|body| self.reward_body(body));
+                otherwise = CstNodes::of(last).seek(Rule::reward_body).map(|body| self.reward_body(body));
             }
             None => {}
         }
         Some(RewardStmt { span, kind: RewardStmtKind::When { condition, then, otherwise } })
     }
 
-    fn give(&mut self, node: Node<'_>) -> Option<GiveStmt> {
-        let mut nodes = Nodes::of(node);
+    fn give(&mut self, node: CstNode<'_>) -> Option<GiveStmt> {
+        let mut nodes = CstNodes::of(node);
         nodes.eat(Rule::kw_give);
         let value = nodes.next()?;
         let value = if value.as_rule() == Rule::script {
@@ -142,11 +142,11 @@ impl Reader<'_> {
             match rule {
                 Rule::label => give.label = self.label(&mut nodes),
                 Rule::give_on => {
-                    let events = nodes.next().and_then(|on| Nodes::of(on).seek(Rule::events));
+                    let events = nodes.next().and_then(|on| CstNodes::of(on).seek(Rule::events));
                     give.on = events.map(|events| self.events(events)).unwrap_or_default();
                 }
                 _ => {
-                    let condition = nodes.next().and_then(|when| Nodes::of(when).seek(Rule::condition));
+                    let condition = nodes.next().and_then(|when| CstNodes::of(when).seek(Rule::condition));
                     give.when = condition.map(|condition| self.expr(condition));
                 }
             }

@@ -1,6 +1,6 @@
 //! Statements of a scenario.
 
-use super::reader::{Node, Nodes, Reader};
+use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
     BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt, ScenarioStmtKind, Spanned,
@@ -10,7 +10,7 @@ use setpiece_grammar::Rule;
 
 impl Reader<'_> {
     /// The statements between a scenario's braces.
-    pub(super) fn scenario_body(&mut self, node: Node<'_>) -> Vec<ScenarioStmt> {
+    pub(super) fn scenario_body(&mut self, node: CstNode<'_>) -> Vec<ScenarioStmt> {
         self.list(node, Context::Scenario, Self::scenario_stmt, |span, doc| ScenarioStmt {
             doc,
             span,
@@ -18,7 +18,7 @@ impl Reader<'_> {
         })
     }
 
-    fn scenario_stmt(&mut self, node: Node<'_>, span: Span, mut doc: String) -> ScenarioStmt {
+    fn scenario_stmt(&mut self, node: CstNode<'_>, span: Span, mut doc: String) -> ScenarioStmt {
         let kind = node.into_inner().next().and_then(|node| self.scenario_stmt_kind(node, &doc));
         if let Some(ScenarioStmtKind::Param(_)) = &kind {
             doc.clear();
@@ -26,7 +26,7 @@ impl Reader<'_> {
         ScenarioStmt { doc, span, kind: kind.unwrap_or(ScenarioStmtKind::Broken) }
     }
 
-    fn scenario_stmt_kind(&mut self, node: Node<'_>, doc: &str) -> Option<ScenarioStmtKind> {
+    fn scenario_stmt_kind(&mut self, node: CstNode<'_>, doc: &str) -> Option<ScenarioStmtKind> {
         let rule = node.as_rule();
         match rule {
             Rule::let_stmt => return self.binding(node).map(ScenarioStmtKind::Let),
@@ -35,7 +35,7 @@ impl Reader<'_> {
             Rule::region => return self.function(node).map(ScenarioStmtKind::Region),
             _ => {}
         }
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         let keyword = nodes.next()?;
         Some(match rule {
             Rule::param_stmt => {
@@ -102,51 +102,51 @@ impl Reader<'_> {
     }
 
     /// `record NAME = expr`: its name lives apart from values.
-    fn record(&mut self, node: Node<'_>) -> Option<crate::ast::Binding> {
-        let mut nodes = Nodes::of(node);
+    fn record(&mut self, node: CstNode<'_>) -> Option<crate::ast::Binding> {
+        let mut nodes = CstNodes::of(node);
         let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;
         let value = nodes.seek(Rule::expr).map(|value| self.expr(value))?;
         Some(crate::ast::Binding { name, ty: None, value })
     }
 
-    fn observed(&mut self, node: Node<'_>) -> Option<(Expr, Option<Spanned<String>>)> {
-        let mut nodes = Nodes::of(node);
+    fn observed(&mut self, node: CstNode<'_>) -> Option<(Expr, Option<Spanned<String>>)> {
+        let mut nodes = CstNodes::of(node);
         let value = self.take_expr(&mut nodes, Rule::expr)?;
         Some((value, self.label(&mut nodes)))
     }
 
     /// `as "x"`
-    pub(super) fn label(&self, nodes: &mut Nodes<'_>) -> Option<Spanned<String>> {
+    pub(super) fn label(&self, nodes: &mut CstNodes<'_>) -> Option<Spanned<String>> {
         let label = nodes.want(Rule::label)?;
-        Nodes::of(label).seek(Rule::string).map(|words| self.string(&words))
+        CstNodes::of(label).seek(Rule::string).map(|words| self.string(&words))
     }
 
-    fn reward_use(&mut self, nodes: &mut Nodes<'_>) -> Option<ScenarioStmtKind> {
+    fn reward_use(&mut self, nodes: &mut CstNodes<'_>) -> Option<ScenarioStmtKind> {
         let node = nodes.next()?;
         let what = match node.as_rule() {
             Rule::script => RewardUseKind::Script(self.script(node)?),
             Rule::reference => RewardUseKind::Named(self.reference(node)?),
             _ => {
-                let mut inner = Nodes::of(node);
+                let mut inner = CstNodes::of(node);
                 let name = inner.want(Rule::ident).map(|name| self.ident(&name))?;
                 let body = inner.want(Rule::reward_body)?;
                 RewardUseKind::Inline { name, body: self.reward_body(body) }
             }
         };
         let label = self.label(nodes);
-        let weight = nodes.want(Rule::weight).and_then(|weight| Nodes::of(weight).seek(Rule::factor));
+        let weight = nodes.want(Rule::weight).and_then(|weight| CstNodes::of(weight).seek(Rule::factor));
         Some(ScenarioStmtKind::Reward(RewardUse { what, label, weight: weight.map(|weight| self.expr(weight)) }))
     }
 
-    fn end(&mut self, node: Node<'_>) -> Option<EndStmt> {
+    fn end(&mut self, node: CstNode<'_>) -> Option<EndStmt> {
         let limit = node.as_rule() == Rule::end_limit;
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         if limit {
             return nodes.seek(Rule::sum).map(|limit| EndStmt::Limit(self.expr(limit)));
         }
         let verdict = nodes.want(Rule::verdict).map(|verdict| self.ident(&verdict));
         let label = nodes.want(Rule::reference).and_then(|label| self.reference(label));
-        let condition = match nodes.want(Rule::trigger).and_then(|trigger| Nodes::of(trigger).last()) {
+        let condition = match nodes.want(Rule::trigger).and_then(|trigger| CstNodes::of(trigger).last()) {
             Some(script) if script.as_rule() == Rule::script => Some(EndCondition::Script(self.script(script)?)),
             Some(condition) => Some(EndCondition::Expr(self.expr(condition))),
             None => None,

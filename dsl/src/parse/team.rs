@@ -1,6 +1,6 @@
 //! Teams, formations, players and places.
 
-use super::reader::{Node, Nodes, Reader};
+use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{Expr, Facing, Place, PlaceKind, PlayerStmt, Spanned, TeamStmt, TeamStmtKind};
 use crate::problem::Problem;
@@ -11,21 +11,21 @@ use setpiece_scenario::vocabulary::Role;
 
 impl Reader<'_> {
     /// The statements between a team's or formation's braces.
-    pub(super) fn team_body(&mut self, node: Node<'_>) -> Vec<TeamStmt> {
+    pub(super) fn team_body(&mut self, node: CstNode<'_>) -> Vec<TeamStmt> {
         self.list(node, Context::Team, Self::team_stmt, |span, _| TeamStmt { span, kind: TeamStmtKind::Broken })
     }
 
-    fn team_stmt(&mut self, node: Node<'_>, span: Span, _doc: String) -> TeamStmt {
+    fn team_stmt(&mut self, node: CstNode<'_>, span: Span, _doc: String) -> TeamStmt {
         let kind = node.into_inner().next().and_then(|node| self.team_stmt_kind(node));
         TeamStmt { span, kind: kind.unwrap_or(TeamStmtKind::Broken) }
     }
 
-    fn team_stmt_kind(&mut self, node: Node<'_>) -> Option<TeamStmtKind> {
+    fn team_stmt_kind(&mut self, node: CstNode<'_>) -> Option<TeamStmtKind> {
         let rule = node.as_rule();
         if rule == Rule::field {
             return self.field(node).map(TeamStmtKind::Field);
         }
-        let mut nodes = Nodes::of(node);
+        let mut nodes = CstNodes::of(node);
         Some(match rule {
             Rule::moved => {
                 nodes.eat(Rule::kw_place);
@@ -53,11 +53,11 @@ impl Reader<'_> {
         })
     }
 
-    fn role(&self, node: &Node<'_>) -> Option<Spanned<Role>> {
+    fn role(&self, node: &CstNode<'_>) -> Option<Spanned<Role>> {
         Role::from_name(node.as_str()).map(|role| Spanned { node: role, span: self.span(node) })
     }
 
-    fn count(&mut self, node: &Node<'_>) -> Option<Spanned<u32>> {
+    fn count(&mut self, node: &CstNode<'_>) -> Option<Spanned<u32>> {
         let span = self.span(node);
         let Ok(count) = node.as_str().parse() else {
             let text = node.as_str().get(..20).unwrap_or(node.as_str()).to_owned();
@@ -68,25 +68,25 @@ impl Reader<'_> {
     }
 
     /// What follows a player's role.
-    fn player_rest(&mut self, nodes: &mut Nodes<'_>, role: Spanned<Role>) -> PlayerStmt {
+    fn player_rest(&mut self, nodes: &mut CstNodes<'_>, role: Spanned<Role>) -> PlayerStmt {
         let place = nodes.want(Rule::place).and_then(|place| self.place(place));
         // Either may stand first.
         let jitter = self.jitter(nodes);
         let facing = nodes.want(Rule::facing).and_then(|facing| self.facing(facing));
         let jitter = jitter.or_else(|| self.jitter(nodes));
-        let when = nodes.want(Rule::player_when).and_then(|when| Nodes::of(when).seek(Rule::condition));
+        let when = nodes.want(Rule::player_when).and_then(|when| CstNodes::of(when).seek(Rule::condition));
         let when = when.map(|when| self.expr(when));
         PlayerStmt { name: None, count: None, role, place, facing, jitter, when, fields: self.take_fields(nodes) }
     }
 
     /// `jitter 1m`
-    pub(super) fn jitter(&mut self, nodes: &mut Nodes<'_>) -> Option<Expr> {
+    pub(super) fn jitter(&mut self, nodes: &mut CstNodes<'_>) -> Option<Expr> {
         let jitter = nodes.want(Rule::jitter)?;
-        Nodes::of(jitter).seek(Rule::length).map(|length| self.expr(length))
+        CstNodes::of(jitter).seek(Rule::length).map(|length| self.expr(length))
     }
 
-    fn facing(&mut self, node: Node<'_>) -> Option<Facing> {
-        let mut nodes = Nodes::of(node);
+    fn facing(&mut self, node: CstNode<'_>) -> Option<Facing> {
+        let mut nodes = CstNodes::of(node);
         nodes.eat(Rule::kw_facing);
         let away = nodes.eat(Rule::kw_away);
         let target = nodes.seek(Rule::direction).map(|target| self.expr(target))?;
@@ -94,7 +94,7 @@ impl Reader<'_> {
     }
 
     /// A place.
-    pub(super) fn place(&mut self, node: Node<'_>) -> Option<Place> {
+    pub(super) fn place(&mut self, node: CstNode<'_>) -> Option<Place> {
         let span = self.span(&node);
         let form = node.into_inner().next()?;
         let rule = form.as_rule();

@@ -39,7 +39,7 @@ pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
 pub(crate) use players::{AskedFor, Players};
 pub(crate) use rewards::{Because, Never, Rewards};
 pub(crate) use scenario::{Declared, Whole};
-pub(crate) use scope::{Before, Scopes, View};
+pub(crate) use scope::{BeforeOutside, Scopes, ViewOutside};
 pub(crate) use start::Starts;
 pub(crate) use syntax::{Hint, Syntax, UnitGuess};
 pub(crate) use types::{Instead, Operand, Types, Use, Verb};

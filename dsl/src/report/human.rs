@@ -41,7 +41,7 @@ struct Picture {
     severity: miette::Severity,
     message: String,
     help: Option<String>,
-    source: Option<Shown>,
+    source: Option<ShownSource>,
     labels: Vec<LabeledSpan>,
     notes: Vec<Picture>,
 }
@@ -49,7 +49,7 @@ struct Picture {
 impl Picture {
     fn of(problem: &Problem, sources: &Sources) -> Picture {
         let (words, place) = (problem.words(), problem.place());
-        let source = Shown::of(place.file, sources);
+        let source = ShownSource::of(place.file, sources);
         // Only labels that fit into one drawing share it.
         let primary_is_long = source.as_ref().is_some_and(|source| source.is_long_at(place.start as usize));
         let mut here = Vec::new();
@@ -81,7 +81,7 @@ impl Picture {
     fn note(label: &Label, sources: &Sources) -> Picture {
         let (message, bare) =
             (printable(&label.text, false).into_owned(), Label { span: label.span, text: String::new() });
-        let source = Shown::of(label.span.file, sources);
+        let source = ShownSource::of(label.span.file, sources);
         let labels = vec![span(&bare, source.as_ref(), true)];
         Picture {
             code: None,
@@ -115,16 +115,16 @@ fn steady(text: &Arc<str>) -> Arc<str> {
 
 /// A file as reports show it: whole lines, but of a very long one only what is near the mark.
 #[derive(Debug)]
-struct Shown {
+struct ShownSource {
     name: String,
     text: Arc<str>,
 }
 
-impl Shown {
-    fn of(file: FileId, sources: &Sources) -> Option<Shown> {
+impl ShownSource {
+    fn of(file: FileId, sources: &Sources) -> Option<ShownSource> {
         sources
             .get(file)
-            .map(|source| Shown { name: printable(&source.name, false).into(), text: steady(&source.text) })
+            .map(|source| ShownSource { name: printable(&source.name, false).into(), text: steady(&source.text) })
     }
 
     /// The line around an offset, without its end.
@@ -158,7 +158,7 @@ impl Shown {
     }
 }
 
-impl SourceCode for Shown {
+impl SourceCode for ShownSource {
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,
@@ -185,7 +185,7 @@ impl SourceCode for Shown {
     }
 }
 
-fn span(label: &Label, source: Option<&Shown>, primary: bool) -> LabeledSpan {
+fn span(label: &Label, source: Option<&ShownSource>, primary: bool) -> LabeledSpan {
     let text = (!label.text.is_empty()).then(|| printable(&label.text, false).into_owned());
     let range = label.span.start as usize..label.span.end as usize;
     let range = source.map_or(range.clone(), |source| source.mark(range));

@@ -9,14 +9,14 @@ use crate::problem::{Guess, Problem};
 pub(crate) const MAX_PARENTS: usize = 32;
 
 /// A link of a chain: the item, and the reference by which its child names it.
-pub(crate) type Chain<'a, T> = Vec<(&'a T, Option<&'a Ref>)>;
+pub(crate) type ParentChain<'a, T> = Vec<(&'a T, Option<&'a Ref>)>;
 
 /// A reward and its parents, the root first.
 pub(crate) fn reward_chain<'a>(
     library: &'a Library,
     reward: &'a RewardItem,
     problems: &mut Vec<Problem>,
-) -> Chain<'a, RewardItem> {
+) -> ParentChain<'a, RewardItem> {
     chain(
         library,
         reward,
@@ -35,7 +35,7 @@ pub(crate) fn formation_chain<'a>(
     library: &'a Library,
     formation: &'a FormationItem,
     problems: &mut Vec<Problem>,
-) -> Chain<'a, FormationItem> {
+) -> ParentChain<'a, FormationItem> {
     chain(
         library,
         formation,
@@ -57,8 +57,8 @@ pub(super) fn chain<'a, T>(
     extends: impl Fn(&'a T) -> Option<&'a Ref>,
     pick: impl Fn(&'a ItemKind) -> Option<&'a T>,
     problems: &mut Vec<Problem>,
-) -> Chain<'a, T> {
-    let mut chain: Chain<'a, T> = vec![(from, None)];
+) -> ParentChain<'a, T> {
+    let mut chain: ParentChain<'a, T> = vec![(from, None)];
     let mut at = from;
     while let Some(parent_ref) = extends(at) {
         let name = &parent_ref.name;

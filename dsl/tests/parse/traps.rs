@@ -2,7 +2,7 @@
 
 use super::{player, read, reported, reward, scenario, team};
 use setpiece_dsl::ast::{
-    BinaryOp, Domain, Expr, ExprKind, GiveStmt, GiveValue, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind,
+    Domain, Expr, ExprKind, GiveStmt, GiveValue, InfixOp, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind,
     TeamStmtKind,
 };
 use setpiece_dsl::parse::MAX_BRACKETS;
@@ -16,7 +16,7 @@ fn value(text: &str) -> Expr {
     }
 }
 
-fn operator(expr: &Expr) -> Option<BinaryOp> {
+fn operator(expr: &Expr) -> Option<InfixOp> {
     if let ExprKind::Binary(op, ..) = &expr.kind { Some(op.node) } else { None }
 }
 
@@ -71,7 +71,7 @@ fn p5_in_is_told_by_its_place() {
     match value("count(p in them where p.x > 0)").kind {
         ExprKind::Call { args, .. } => {
             let arg = args.first().expect("one argument");
-            assert!(operator(&arg.value) == Some(BinaryOp::In) && arg.filter.is_some() && arg.binder.is_none());
+            assert!(operator(&arg.value) == Some(InfixOp::In) && arg.filter.is_some() && arg.binder.is_none());
         }
         other => panic!("{other:?}"),
     }
@@ -98,7 +98,7 @@ fn p7_a_sign_on_the_next_line_goes_on() {
     let body = reward("give a\n -1");
     match body.first().map(|statement| &statement.kind) {
         Some(RewardStmtKind::Give(GiveStmt { value: GiveValue::Expr(value), .. })) => {
-            assert_eq!(operator(value), Some(BinaryOp::Sub));
+            assert_eq!(operator(value), Some(InfixOp::Sub));
         }
         other => panic!("{other:?}"),
     }
@@ -108,7 +108,7 @@ fn p7_a_sign_on_the_next_line_goes_on() {
 #[test]
 fn p8_words_are_read_whole() {
     let ratio = value("5m/sigma");
-    assert_eq!(operator(&ratio), Some(BinaryOp::Div));
+    assert_eq!(operator(&ratio), Some(InfixOp::Div));
     assert!(matches!(value("5m/s").kind, ExprKind::Number { unit: Some(Unit::MetrePerSecond), .. }));
     assert!(matches!(value("5ms").kind, ExprKind::Number { unit: Some(Unit::Millisecond), .. }));
     assert!(matches!(value("5km/h").kind, ExprKind::Number { unit: Some(Unit::KilometrePerHour), .. }));
@@ -229,8 +229,8 @@ fn p18_an_inline_reward_has_braces() {
 
 #[test]
 fn p19_not_binds_below_comparison_and_comparisons_do_not_chain() {
-    assert!(matches!(value("not p in q").kind, ExprKind::Unary(_, inner) if operator(&inner) == Some(BinaryOp::In)));
-    assert_eq!(operator(&value("-x in q")), Some(BinaryOp::In));
+    assert!(matches!(value("not p in q").kind, ExprKind::Unary(_, inner) if operator(&inner) == Some(InfixOp::In)));
+    assert_eq!(operator(&value("-x in q")), Some(InfixOp::In));
     for text in ["a < b < c", "a == b in c", "a < b + 1 < c and d"] {
         assert_eq!(reported(&format!("scenario s {{ let x = {text} }}")), ["SP0106 comparisons don't chain"], "{text}");
     }

@@ -14,12 +14,12 @@ use crate::in_place::clone_in_place;
 use crate::judge::known::{Given, Known};
 use crate::judge::machine::{Crew, Input, Machine, Registers};
 use crate::judge::script::{ScriptError, Scripts, Shelf};
-use crate::judge::view::{Sight, View};
+use crate::judge::view::{MatchView, Sight};
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::event::Event;
 use crate::state::{Match, PlayerId};
-use actor::{Actor, Mind};
+use actor::{Actor, BehaviorMind};
 use setpiece_scenario::vocabulary::{Action, Team};
 use setpiece_scenario::{Act, Ai, Behavior, Do, Node, Scenario};
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub struct Actors {
     known: Known,
     /// One per plan.
     regs: Vec<Registers>,
-    prev: View,
+    prev: MatchView,
     faults: u32,
 }
 
@@ -61,7 +61,7 @@ impl Actors {
             list,
             known: Known::new(scripts, scripted, Purpose::Behavior),
             regs: scenario.behaviors.iter().map(|plan| Registers::of(&plan.program)).collect(),
-            prev: View::EMPTY,
+            prev: MatchView::EMPTY,
             faults: 0,
         }
     }
@@ -87,7 +87,7 @@ impl Actors {
             return;
         }
         self.known.begin(given);
-        self.prev = View::of(game);
+        self.prev = MatchView::of(game);
         self.faults = 0;
         for actor in &mut self.list {
             actor.reset(&self.plans[actor.plan]);
@@ -117,7 +117,7 @@ impl Actors {
         if self.list.is_empty() {
             return Ok(());
         }
-        let now = View::of(game);
+        let now = MatchView::of(game);
         let scene = self.known.show(|| now, &self.prev, events);
         let (seed, index) = self.known.key();
         let plans = self.plans.clone();
@@ -139,7 +139,7 @@ impl Actors {
                 faults: &mut self.faults,
                 draws: None,
             };
-            let mut mind = Mind::new(machine, seed, index, id);
+            let mut mind = BehaviorMind::new(machine, seed, index, id);
             mind.see();
             let driven = game
                 .agents

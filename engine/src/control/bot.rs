@@ -21,7 +21,7 @@ pub mod support;
 pub mod taker;
 mod view;
 
-pub use view::View;
+pub use view::TeamView;
 
 use crate::state::player::{Aim, Intent};
 use crate::state::{Match, PlayerId};
@@ -50,7 +50,7 @@ pub fn think(game: &mut Match) {
         taker::think(game);
         return;
     }
-    let views = View::of_both(game);
+    let views = TeamView::of_both(game);
     for team in game.teams() {
         let view = &views[team.index()];
         let turn = (game.step + 2 * u32::from(team != game.play.early)) % ASSIGN_EVERY;
@@ -82,7 +82,7 @@ fn ai_of(game: &Match, id: PlayerId) -> Ai {
 }
 
 /// Stands, but plays a ball that comes. With the ball in hand, the player acts like any keeper.
-fn hold(game: &mut Match, view: &View, id: PlayerId) {
+fn hold(game: &mut Match, view: &TeamView, id: PlayerId) {
     if game.play.hands.is_some_and(|(keeper, _)| keeper == id) {
         on_ball::decide(game, view, id);
         return;
@@ -95,7 +95,7 @@ fn hold(game: &mut Match, view: &View, id: PlayerId) {
 }
 
 /// Decides for one player.
-fn decide(game: &mut Match, view: &View, id: PlayerId) {
+fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
     if game.player(id).body.lunge.is_some_and(|lunge| lunge.aim == Aim::Kick) {
         return;
     }
@@ -148,7 +148,7 @@ fn keep(game: &mut Match, id: PlayerId) {
 }
 
 /// Sends a player to a point of the own frame.
-pub fn send(game: &mut Match, view: &View, id: PlayerId, to: Vec2, speed: f32) {
+pub fn send(game: &mut Match, view: &TeamView, id: PlayerId, to: Vec2, speed: f32) {
     let to = to.clamp(Vec2::new(-54.5, -35.5), Vec2::new(54.5, 35.5)) * view.side;
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::ZERO;

@@ -31,17 +31,17 @@ const CLOSE_MPS: f32 = 4.6;
 
 /// What was under way before the bots decided, one bit per player.
 #[derive(Clone, Copy, Debug)]
-pub struct Before {
+pub struct BeforeBots {
     /// A kick was planned.
     armed: u32,
     /// The player was sliding.
     sliding: u32,
 }
 
-impl Before {
+impl BeforeBots {
     /// What is under way now.
-    pub fn of(game: &Match) -> Before {
-        let mut before = Before { armed: 0, sliding: 0 };
+    pub fn of(game: &Match) -> BeforeBots {
+        let mut before = BeforeBots { armed: 0, sliding: 0 };
         for id in game.squad.ids() {
             let body = &game.player(id).body;
             before.armed |= u32::from(body.kick.is_some()) << id.0;
@@ -53,7 +53,7 @@ impl Before {
 
 /// Records what everyone played by the bot has decided as a press, and what they would hold after
 /// it.
-pub fn record(game: &mut Match, before: &Before) {
+pub fn record(game: &mut Match, before: &BeforeBots) {
     for id in game.squad.ids() {
         let player = game.player(id);
         let acting = game.play.acting[id.index()];
@@ -78,7 +78,7 @@ pub struct Presses {
 }
 
 /// Expresses what the bot has just decided for a player who holds `held`.
-pub fn tell(game: &Match, before: &Before, id: PlayerId, held: u16) -> Presses {
+pub fn tell(game: &Match, before: &BeforeBots, id: PlayerId, held: u16) -> Presses {
     let press = |press| Presses { press, owed: None };
     let body = &game.player(id).body;
     let was = |what: u32| what & (1 << id.0) != 0;

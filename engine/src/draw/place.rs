@@ -18,7 +18,7 @@ const SLACK: f64 = 1.0e-3;
 
 /// What can be wrong with a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fault {
+pub(super) enum PlaceFault {
     /// A place, velocity or heading is NaN.
     Number,
     /// The ball is off the pitch.
@@ -32,17 +32,18 @@ pub(super) enum Fault {
     Bounds,
 }
 
-impl Fault {
-    pub(super) const ALL: [Fault; 5] = [Fault::Number, Fault::Ball, Fault::Player, Fault::Gap, Fault::Bounds];
+impl PlaceFault {
+    pub(super) const ALL: [PlaceFault; 5] =
+        [PlaceFault::Number, PlaceFault::Ball, PlaceFault::Player, PlaceFault::Gap, PlaceFault::Bounds];
 
     /// The requirement in words.
     pub(super) const fn words(self) -> &'static str {
         match self {
-            Fault::Number => "every place, velocity and heading is a number",
-            Fault::Ball => "the ball lies on the pitch",
-            Fault::Player => "every player stands on the pitch",
-            Fault::Gap => "players placed at random keep 0.6 m from others, but for who may overlap",
-            Fault::Bounds => {
+            PlaceFault::Number => "every place, velocity and heading is a number",
+            PlaceFault::Ball => "the ball lies on the pitch",
+            PlaceFault::Player => "every player stands on the pitch",
+            PlaceFault::Gap => "players placed at random keep 0.6 m from others, but for who may overlap",
+            PlaceFault::Bounds => {
                 "the ball's height, speed and spin, and players' speeds and headings are within their bounds"
             }
         }
@@ -51,23 +52,23 @@ impl Fault {
 
 impl Drawer {
     /// What is wrong with the places of this attempt, if anything.
-    pub(super) fn misplaced(&self, scenario: &Scenario, roster: &Roster) -> Option<Fault> {
+    pub(super) fn misplaced(&self, scenario: &Scenario, roster: &Roster) -> Option<PlaceFault> {
         let start = &scenario.start;
         let ball = self.point((start.ball.x, start.ball.y));
         let number = |reg| self.optional(reg).is_finite();
         let ball_moves = [start.ball.velocity, start.ball.spin].map(|vector| self.vector(vector).is_finite());
         if !ball.is_finite() || !number(start.ball.height) || ball_moves.contains(&false) {
-            return Some(Fault::Number);
+            return Some(PlaceFault::Number);
         }
         if !on_pitch(ball) {
-            return Some(Fault::Ball);
+            return Some(PlaceFault::Ball);
         }
         if !self.is_ball_bounded(scenario) {
-            return Some(Fault::Bounds);
+            return Some(PlaceFault::Bounds);
         }
         let layouts = start.kickoff.iter().flat_map(|kickoff| &kickoff.places);
         if layouts.flat_map(|at| [at.kicking, at.receiving]).any(|at| self.point(at).is_nan()) {
-            return Some(Fault::Number);
+            return Some(PlaceFault::Number);
         }
         // The earlier players: where they stand, whether that was drawn, and whether others may
         // stand there too.
@@ -78,14 +79,14 @@ impl Drawer {
                 let at = self.point((own.x, own.y));
                 let velocity = own.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity));
                 if !at.is_finite() || !velocity.is_finite() || !number(own.heading) {
-                    return Some(Fault::Number);
+                    return Some(PlaceFault::Number);
                 }
                 if !on_pitch(at) {
-                    return Some(Fault::Player);
+                    return Some(PlaceFault::Player);
                 }
                 let speed = f64::from(velocity.length());
                 if speed > PLAYER_SPEED_MAX_MPS + SLACK || self.optional(own.heading).abs() > HEADING_MAX_RAD {
-                    return Some(Fault::Bounds);
+                    return Some(PlaceFault::Bounds);
                 }
                 let random = self.is_random(own.x) || self.is_random(own.y);
                 // Two fixed places may coincide, because the author wrote them.
@@ -93,7 +94,7 @@ impl Drawer {
                     (random || other_random) && !(slot.overlap || other_overlap) && at.distance(other) < MIN_GAP_M
                 });
                 if crowded {
-                    return Some(Fault::Gap);
+                    return Some(PlaceFault::Gap);
                 }
                 placed.push((at, random, slot.overlap));
             }

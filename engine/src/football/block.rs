@@ -13,11 +13,11 @@ pub const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
 const DRAW_M: f32 = 50.0;
 
 /// A point that attracts players, and its strength from 0 to 1.
-pub type Draw = (f32, f32);
+pub type Attraction = (f32, f32);
 
 /// A team's block.
 #[derive(Clone, Copy, Debug)]
-pub struct Block {
+pub struct TeamBlock {
     /// x of the rearmost and the foremost slot, metres.
     pub depth: [f32; 2],
     /// Half the block's width, metres.
@@ -25,16 +25,16 @@ pub struct Block {
     /// y of the block's middle, metres.
     pub middle_y: f32,
     /// The x that attracts players near it.
-    pub towards_x: Draw,
+    pub towards_x: Attraction,
     /// The y that attracts players near it.
-    pub towards_y: Draw,
+    pub towards_y: Attraction,
     /// The point that attracts everybody near it.
     pub towards: (Vec2, f32),
     /// The slot x that attracts midfielders.
-    pub midfield: Draw,
+    pub midfield: Attraction,
 }
 
-impl Block {
+impl TeamBlock {
     /// The place of a slot on the pitch.
     pub fn place(&self, slot: Vec2) -> Vec2 {
         let [back, front] = self.depth;

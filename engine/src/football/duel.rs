@@ -17,7 +17,7 @@ use setpiece_scenario::vocabulary::{EventKind, Role};
 ///
 /// Measured of GRF's motions: how soon they touch, how long they last, and where. How far off the
 /// ball may be is fitted to how often a player who walks straight at a defender loses it.
-struct Motion {
+struct ReachMotion {
     /// The lowest speed for this motion, m/s.
     from_mps: f32,
     /// Ticks until the foot arrives, and until the player is free again.
@@ -33,12 +33,12 @@ struct Motion {
     stops: bool,
 }
 
-const fn motion(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32; 2], off: [f32; 2]) -> Motion {
-    Motion { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1], stops: false }
+const fn motion(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32; 2], off: [f32; 2]) -> ReachMotion {
+    ReachMotion { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1], stops: false }
 }
 
 /// Pokes, fastest first.
-const POKES: [Motion; 5] = [
+const POKES: [ReachMotion; 5] = [
     motion(SPRINTS_FROM_MPS, [12, 39], [0.77, 0.0], [0.47, 0.17]),
     motion(DRIBBLES_FROM_MPS, [9, 26], [0.61, 0.0], [0.56, 0.26]),
     motion(DRIBBLES_FROM_MPS, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
@@ -46,18 +46,18 @@ const POKES: [Motion; 5] = [
     motion(0.0, [15, 35], [0.0, 1.05], [0.59, 0.41]),
 ];
 /// Ways to take the ball along.
-const TAKES: [Motion; 4] = [
+const TAKES: [ReachMotion; 4] = [
     motion(SPRINTS_FROM_MPS, [12, 24], [0.2, 0.0], [0.42, 0.15]),
     motion(DRIBBLES_FROM_MPS, [20, 47], [0.45, 0.0], [0.3, 0.25]),
     motion(DRIBBLES_FROM_MPS, [10, 29], [0.0, 0.0], [0.35, 0.3]),
     motion(0.0, [13, 55], [0.45, 0.0], [0.45, 0.32]),
 ];
 /// Stops a ball that rolls towards the player, long before it arrives. (GRF's.)
-const TRAP: Motion = Motion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
+const TRAP: ReachMotion = ReachMotion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
 /// A carrier's ball that they have again no sooner than this is stopped like one that nobody has, seconds. (GRF's.)
 const LOOSE_S: f32 = 0.4;
 /// Kicks at a ball that a rival still dribbles. (Measured of GRF's motions.)
-const KICKS: [Motion; 3] = [
+const KICKS: [ReachMotion; 3] = [
     motion(WALKS_FROM_MPS, [41, 69], [0.25, 0.0], [0.35, 0.3]),
     motion(DRIBBLES_FROM_MPS, [27, 61], [0.2, 0.0], [0.35, 0.3]),
     motion(0.0, [35, 73], [0.6, 0.0], [0.35, 0.3]),
@@ -207,7 +207,7 @@ fn comes_late(game: &Match, id: PlayerId, player: &Player, carrier: &Player) -> 
 }
 
 /// Reaches for the ball in a way, if that meets it where it will be.
-fn lunges(game: &mut Match, id: PlayerId, way: &Motion, aim: Aim, seen: bool) -> bool {
+fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim, seen: bool) -> bool {
     let ball = ball_in(game, seen, way.ticks as u32);
     let player = &mut game.players[id.index()];
     if ball.z >= LOW_M || !reaches(player, ball.truncate(), way) {
@@ -233,7 +233,7 @@ fn unseen(game: &Match, ticks: u32) -> Vec3 {
 }
 
 /// Whether the foot's place is near enough to the ball.
-fn reaches(player: &Player, ball: Vec2, way: &Motion) -> bool {
+fn reaches(player: &Player, ball: Vec2, way: &ReachMotion) -> bool {
     let run = if way.from_mps > 0.0 { player.vel.normalize_or(player.body.facing) } else { player.body.facing };
     let kept = if way.stops { STOPPING } else { 1.0 };
     let to_ball = ball - player.pos - player.vel * (kept * way.ticks as f32 * 0.01);

@@ -4,7 +4,7 @@
 //! 4-3-3. A set piece stretches that block over a part of the pitch and draws it towards the ball.
 //! All coordinates are in the team's own frame; the team attacks towards +x.
 
-use crate::football::block::{Block, HALF};
+use crate::football::block::{HALF, TeamBlock};
 use crate::math;
 use crate::state::Match;
 use glam::Vec2;
@@ -97,11 +97,11 @@ fn keep_off(place: Vec2, ball: Vec2, least_m: f32) -> Vec2 {
     if away.length_squared() < least_m * least_m { ball + away.normalize_or(Vec2::NEG_X) * least_m } else { place }
 }
 
-fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> Block {
+fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
     let x = |x: f32| x.clamp(-HALF.x, HALF.x);
     // 0 at the own goal line, 1 at the opponents'.
     let up = ((ball.x / HALF.x).clamp(-1.0, 1.0) + 1.0) * 0.5;
-    let plain = Block {
+    let plain = TeamBlock {
         depth: [-0.7 * HALF.x, 0.7 * HALF.x],
         half_width: 0.7 * HALF.y,
         middle_y: 0.0,
@@ -112,45 +112,45 @@ fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> Block {
     };
     match mode {
         GameMode::Normal | GameMode::KickOff => plain,
-        GameMode::GoalKick if own => Block { depth: [-0.5 * HALF.x, 0.2 * HALF.x], ..plain },
-        GameMode::GoalKick => Block { depth: [-0.4 * HALF.x, 0.1 * HALF.x], ..plain },
+        GameMode::GoalKick if own => TeamBlock { depth: [-0.5 * HALF.x, 0.2 * HALF.x], ..plain },
+        GameMode::GoalKick => TeamBlock { depth: [-0.4 * HALF.x, 0.1 * HALF.x], ..plain },
         GameMode::Corner => {
             let towards = (ball * Vec2::new(0.95, 0.1), 0.9);
-            let corner = Block { half_width: 0.6 * HALF.y, towards, ..plain };
+            let corner = TeamBlock { half_width: 0.6 * HALF.y, towards, ..plain };
             let y = 0.1 * ball.y;
             if own {
                 let depth = [0.2 * HALF.x, 0.96 * HALF.x];
                 let (towards_x, towards_y) = ((0.85 * depth[1], 0.7), (y, 0.7));
-                Block { depth, towards_x, towards_y, midfield: (0.8, 0.5), ..corner }
+                TeamBlock { depth, towards_x, towards_y, midfield: (0.8, 0.5), ..corner }
             } else {
                 let depth = [-0.98 * HALF.x, -0.5 * HALF.x];
                 let (towards_x, towards_y) = ((0.94 * depth[0], 0.8), (y, 0.9));
-                Block { depth, towards_x, towards_y, midfield: (-0.8, 0.7), ..corner }
+                TeamBlock { depth, towards_x, towards_y, midfield: (-0.8, 0.7), ..corner }
             }
         }
         GameMode::ThrowIn => {
             let half_width = 0.75 * HALF.y;
-            let near = Block { half_width, middle_y: 0.25 * ball.y, towards: (ball, 0.7), ..plain };
+            let near = TeamBlock { half_width, middle_y: 0.25 * ball.y, towards: (ball, 0.7), ..plain };
             let back = x(ball.x - 30.0);
             if own {
                 let (towards_x, towards_y) = ((x(ball.x + 4.0), 0.4), (0.996 * ball.y, 0.6));
-                Block { depth: [back, x(ball.x + 20.0)], towards_x, towards_y, ..near }
+                TeamBlock { depth: [back, x(ball.x + 20.0)], towards_x, towards_y, ..near }
             } else {
                 let (towards_x, towards_y) = ((x(ball.x - 16.0), 0.2), (0.95 * ball.y, 0.5));
-                Block { depth: [back, x(ball.x + 15.0)], towards_x, towards_y, ..near }
+                TeamBlock { depth: [back, x(ball.x + 15.0)], towards_x, towards_y, ..near }
             }
         }
         GameMode::FreeKick => {
-            let around = Block { towards: (ball, 0.4), ..plain };
+            let around = TeamBlock { towards: (ball, 0.4), ..plain };
             if own {
-                Block {
+                TeamBlock {
                     depth: [HALF.x * 0.7 * (up - 1.0), HALF.x * (0.3 + 0.7 * up)],
                     towards_x: (x(ball.x + 10.0), 0.5 + 0.2 * up),
                     towards_y: (0.4 * ball.y, 0.6 + 0.2 * up),
                     ..around
                 }
             } else {
-                Block {
+                TeamBlock {
                     depth: [-HALF.x * (1.0 - 0.6 * up), x(-HALF.x * (0.5 - 0.8 * up))],
                     towards_x: (x(ball.x - 20.0), 0.6 - 0.4 * up),
                     towards_y: (0.2 * ball.y, 0.8 - 0.4 * up),
@@ -159,13 +159,13 @@ fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> Block {
             }
         }
         GameMode::Penalty => {
-            let wide = Block { half_width: 0.8 * HALF.y, ..plain };
+            let wide = TeamBlock { half_width: 0.8 * HALF.y, ..plain };
             if own {
                 let depth = [x(ball.x - 50.0), x(ball.x + 10.0)];
-                Block { depth, towards_x: (ball.x, 0.6), towards_y: (0.0, 0.8), ..wide }
+                TeamBlock { depth, towards_x: (ball.x, 0.6), towards_y: (0.0, 0.8), ..wide }
             } else {
                 let depth = [x(ball.x - 11.0), x(ball.x + 20.0)];
-                Block { depth, towards_x: (ball.x, 1.0), towards_y: (0.0, 1.0), ..wide }
+                TeamBlock { depth, towards_x: (ball.x, 1.0), towards_y: (0.0, 1.0), ..wide }
             }
         }
     }

@@ -40,20 +40,20 @@ const BACK_SPRINTING: f32 = -0.7;
 const ON: f32 = 0.7;
 
 /// A stumble, or a fall that is run out of: its length, ticks, and its final speed, m/s.
-struct Motion(u8, f32);
+struct StumbleMotion(u8, f32);
 
-const STANDING: Motion = Motion(30, 0.7);
-const HELD_UP: Motion = Motion(25, 3.3);
-const HELD_UP_SPRINTING: Motion = Motion(49, 3.4);
-const ASIDE: Motion = Motion(36, 4.2);
-const ASIDE_SPRINTING: Motion = Motion(91, 4.8);
-const PUSHED_ON: Motion = Motion(46, 6.6);
-const FALLEN: Motion = Motion(60, 4.2);
-const FALLEN_SPRINTING: Motion = Motion(96, 1.2);
+const STANDING: StumbleMotion = StumbleMotion(30, 0.7);
+const HELD_UP: StumbleMotion = StumbleMotion(25, 3.3);
+const HELD_UP_SPRINTING: StumbleMotion = StumbleMotion(49, 3.4);
+const ASIDE: StumbleMotion = StumbleMotion(36, 4.2);
+const ASIDE_SPRINTING: StumbleMotion = StumbleMotion(91, 4.8);
+const PUSHED_ON: StumbleMotion = StumbleMotion(46, 6.6);
+const FALLEN: StumbleMotion = StumbleMotion(60, 4.2);
+const FALLEN_SPRINTING: StumbleMotion = StumbleMotion(96, 1.2);
 
 /// How a collision ends for one of the two players.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Outcome {
+enum MeetingOutcome {
     Stands,
     Stumbles,
     Falls,
@@ -75,7 +75,7 @@ pub fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], contac
 }
 
 /// How a collision ends for a player.
-fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f32) -> Outcome {
+fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f32) -> MeetingOutcome {
     let from = (player.pos - other.pos).normalize_or_zero();
     let turned = 0.5 - 0.5 * player.body.facing.dot(from);
     let ball = game.play.forecast.at(game.tick + 1).truncate();
@@ -91,11 +91,11 @@ fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f
         + (1.0 - ball.distance(player.pos) / BALL_M).max(0.0);
     let share = counts / (5.0 + BALANCE + DEPTH);
     if share > FALLS {
-        Outcome::Falls
+        MeetingOutcome::Falls
     } else if share > STUMBLES {
-        Outcome::Stumbles
+        MeetingOutcome::Stumbles
     } else {
-        Outcome::Stands
+        MeetingOutcome::Stands
     }
 }
 
@@ -106,11 +106,11 @@ fn pace(mps: f32) -> f32 {
 }
 
 /// Lets a player stumble or fall over another.
-fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerId, outcome: Outcome) {
+fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerId, outcome: MeetingOutcome) {
     let (player, other) = (*game.player(id), *game.player(by));
     let worse = match player.body.pose {
-        Pose::Up => outcome > Outcome::Stands,
-        Pose::Stumbling { .. } => outcome > Outcome::Stumbles && player.body.pose_ticks < FALLEN.0,
+        Pose::Up => outcome > MeetingOutcome::Stands,
+        Pose::Stumbling { .. } => outcome > MeetingOutcome::Stumbles && player.body.pose_ticks < FALLEN.0,
         Pose::Sliding | Pose::Down | Pose::Diving => false,
     };
     if !worse {
@@ -118,13 +118,13 @@ fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerI
     }
     let push = (player.pos - other.pos).normalize_or_zero() + player.vel * OWN_RUN + other.vel * OTHER_RUN;
     let cos = push.normalize_or_zero().dot(player.body.facing);
-    let (speed, falls) = (player.vel.length(), outcome == Outcome::Falls);
+    let (speed, falls) = (player.vel.length(), outcome == MeetingOutcome::Falls);
     let tripped = &mut game.players[id.index()];
     tripped.body.lunge = None;
     if let Some(kick) = &mut tripped.body.kick {
         kick.swing = None;
     }
-    let Motion(ticks, mps) = match (falls, speed >= SPRINTS_FROM_MPS) {
+    let StumbleMotion(ticks, mps) = match (falls, speed >= SPRINTS_FROM_MPS) {
         (true, true) => FALLEN_SPRINTING,
         (true, false) => FALLEN,
         (false, _) => stumble(speed, cos),
@@ -139,7 +139,7 @@ fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerI
 }
 
 /// How a player stumbles who is pushed backwards or onwards.
-fn stumble(speed: f32, cos: f32) -> Motion {
+fn stumble(speed: f32, cos: f32) -> StumbleMotion {
     let sprints = speed >= SPRINTS_FROM_MPS;
     if speed < DRIBBLES_FROM_MPS {
         STANDING

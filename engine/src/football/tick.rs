@@ -5,7 +5,7 @@ use crate::football::{
     separation, slide, touch, whistle,
 };
 use crate::laps::Phase;
-use crate::physics::{self, Body, Contact, Scratch};
+use crate::physics::{self, BallObstacle, Contact, Scratch};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::{Match, PlayerId, Squad};
@@ -92,7 +92,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
 }
 
 /// The bodies among those nearby that a free, fast ball may meet in this tick.
-fn near_bodies(game: &Match, near: Squad) -> ArrayVec<Body, BODIES_MAX> {
+fn near_bodies(game: &Match, near: Squad) -> ArrayVec<BallObstacle, BODIES_MAX> {
     let mut bodies = ArrayVec::new();
     let ball = game.ball;
     if ball.vel.length_squared() < 25.0 || ball.pos.z > 2.3 || game.controller().is_some() {
@@ -109,7 +109,7 @@ fn near_bodies(game: &Match, near: Squad) -> ArrayVec<Body, BODIES_MAX> {
         let planned = game.play.save[id.team().index()].is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
         let by_hand = planned && player.role == Role::GK && foul::in_box(flat, id.team());
         if !lately && !by_hand {
-            bodies.push(Body { id: id.0, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
+            bodies.push(BallObstacle { id: id.0, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
         }
     }
     bodies

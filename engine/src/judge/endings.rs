@@ -2,7 +2,7 @@
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
-use crate::judge::script::{Done, Memory, Perspective, Scene, ScriptError, Scripts, Shelf};
+use crate::judge::script::{Done, HookScene, Memory, Perspective, ScriptError, Scripts, Shelf};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 use crate::state::event::{Event, Events};
@@ -100,7 +100,7 @@ impl EndingJudge {
         &mut self,
         game: &Match,
         input: &Input<'_>,
-        scene: Option<(&Scripts, &Arc<Scene>)>,
+        scene: Option<(&Scripts, &Arc<HookScene>)>,
     ) -> Result<Option<Outcome>, ScriptError> {
         self.machine(input).run();
         for (which, ending) in self.endings.list.iter().enumerate() {

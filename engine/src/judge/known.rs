@@ -2,8 +2,8 @@
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
-use crate::judge::script::{Scene, Scripts, Shelf};
-use crate::judge::view::{Sight, View};
+use crate::judge::script::{HookScene, Scripts, Shelf};
+use crate::judge::view::{MatchView, Sight};
 use crate::random::{Purpose, Stream};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::event::Event;
@@ -32,7 +32,7 @@ pub struct Known {
     purpose: Purpose,
     params: Vec<f64>,
     /// What scripts may read, with their parameters and their stream; none if no script runs.
-    scene: Option<Arc<Scene>>,
+    scene: Option<Arc<HookScene>>,
     lets: Vec<f64>,
     seed: u64,
     index: u64,
@@ -58,7 +58,14 @@ impl Known {
         (self.seed, self.index) = (seed, index);
         self.scene = self.scripted.then(|| {
             let random = Stream::new(seed, index, self.purpose);
-            Arc::new(Scene::new(View::EMPTY, View::EMPTY, &[], self.scripts.params(params), random, self.key()))
+            Arc::new(HookScene::new(
+                MatchView::EMPTY,
+                MatchView::EMPTY,
+                &[],
+                self.scripts.params(params),
+                random,
+                self.key(),
+            ))
         });
     }
 
@@ -92,7 +99,7 @@ impl Known {
     }
 
     /// The input of a program, as seen from a side, without events.
-    pub fn input<'a>(&'a self, now: Sight<'a>, prev: &'a View, us: Team) -> Input<'a> {
+    pub fn input<'a>(&'a self, now: Sight<'a>, prev: &'a MatchView, us: Team) -> Input<'a> {
         Input {
             now: Some(now),
             prev: Some(Sight::Kept(prev)),
@@ -109,7 +116,12 @@ impl Known {
     ///
     /// A script may keep in its memory what it was shown, and a clone of the environment shares it.
     /// The next step then gets a new scene.
-    pub fn show(&mut self, now: impl FnOnce() -> View, prev: &View, events: &[Event]) -> Option<Arc<Scene>> {
+    pub fn show(
+        &mut self,
+        now: impl FnOnce() -> MatchView,
+        prev: &MatchView,
+        events: &[Event],
+    ) -> Option<Arc<HookScene>> {
         let scene = self.scene.as_mut()?;
         match Arc::get_mut(scene) {
             Some(scene) => scene.show(now(), prev, events),

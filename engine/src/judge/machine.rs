@@ -16,7 +16,7 @@ use crate::state::PlayerId;
 use crate::state::event::Event;
 use fold::Folding;
 pub use plan::Plan;
-use plan::{ALWAYS, Loop, Op, Step};
+use plan::{ALWAYS, Loop, Op, PlanStep};
 pub use setpiece_scenario::operators::truth;
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::program::PAY_MAX;
@@ -176,7 +176,7 @@ impl<const W: usize> Machine<'_, W> {
     }
 
     /// Runs instructions in order.
-    fn block(&mut self, steps: &[Step], event: Option<&Event>) {
+    fn block(&mut self, steps: &[PlanStep], event: Option<&Event>) {
         let plan = self.plan;
         for step in steps {
             match step.op {
@@ -225,19 +225,19 @@ impl<const W: usize> Machine<'_, W> {
     }
 
     #[inline]
-    fn all(&mut self, step: &Step, value: f64) {
+    fn all(&mut self, step: &PlanStep, value: f64) {
         self.regs[step.at as usize] = [value; W];
     }
 
     #[inline]
-    fn one(&mut self, step: &Step, f: impl Fn(f64) -> f64) {
+    fn one(&mut self, step: &PlanStep, f: impl Fn(f64) -> f64) {
         let a = self.regs[step.a as usize];
         self.regs[step.at as usize] =
             if W == 1 || !step.uniform { array::from_fn(|lane| f(a[lane])) } else { [f(a[0]); W] };
     }
 
     #[inline]
-    fn two(&mut self, step: &Step, op: BinaryOp) {
+    fn two(&mut self, step: &PlanStep, op: BinaryOp) {
         let (a, b) = (&self.regs[step.a as usize], &self.regs[step.b as usize]);
         self.regs[step.at as usize] = if W == 1 || !step.uniform {
             array::from_fn(|lane| op.apply(a[lane], b[lane]))
@@ -246,14 +246,14 @@ impl<const W: usize> Machine<'_, W> {
         };
     }
 
-    fn select(&mut self, step: &Step) {
+    fn select(&mut self, step: &PlanStep) {
         let [c, a, b] = [step.a, step.b, step.c].map(|reg| self.regs[reg as usize]);
         self.regs[step.at as usize] = array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] });
     }
 
     /// The rare instructions.
     #[inline(never)]
-    fn rare(&mut self, step: &Step, instr: &Instr, event: Option<&Event>) {
+    fn rare(&mut self, step: &PlanStep, instr: &Instr, event: Option<&Event>) {
         self.regs[step.at as usize] =
             if W == 1 || !step.uniform { self.pure::<W>(instr, event) } else { [self.pure::<1>(instr, event)[0]; W] };
     }
@@ -310,7 +310,7 @@ impl<const W: usize> Machine<'_, W> {
     }
 
     #[inline]
-    fn give(&mut self, step: &Step) {
+    fn give(&mut self, step: &PlanStep) {
         let (allowed, value) = (self.allowed(step.c), self.regs[step.b as usize]);
         let term = &mut self.terms[step.a as usize];
         for lane in 0..W {
@@ -325,7 +325,7 @@ impl<const W: usize> Machine<'_, W> {
     }
 
     #[inline]
-    fn assign(&mut self, step: &Step) {
+    fn assign(&mut self, step: &PlanStep) {
         let (allowed, value) = (self.allowed(step.c), self.regs[step.b as usize]);
         let cell = &mut self.cells[step.a as usize];
         for lane in 0..W {

@@ -9,11 +9,11 @@ mod lanes;
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
-use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts, Shelf};
+use crate::judge::script::{Argument, HookScene, Memory, Perspective, ScriptError, Scripts, Shelf};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
-use lanes::{Lanes, Stage};
+use lanes::{LaneStage, Lanes};
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Reward, RewardBody, RewardHook};
@@ -75,7 +75,7 @@ struct Judged {
 }
 
 /// The agents of a team, in their order.
-type Side = ArrayVec<Judged, TEAM_MAX>;
+type TeamAgents = ArrayVec<Judged, TEAM_MAX>;
 
 impl RewardJudge {
     /// Prepares rewards for this many agents.
@@ -171,8 +171,8 @@ impl RewardJudge {
                 let Some(lanes) = lanes else { continue };
                 let input = Input { us: *team, ..*input };
                 lanes.clear();
-                lanes.run(&players(side), &input, Stage::Init, &mut self.faults);
-                lanes.run(&players(side), &input, Stage::Silent, &mut self.faults);
+                lanes.run(&players(side), &input, LaneStage::Init, &mut self.faults);
+                lanes.run(&players(side), &input, LaneStage::Silent, &mut self.faults);
             }
         }
         self.clear_step();
@@ -202,7 +202,7 @@ impl RewardJudge {
         &mut self,
         game: &Match,
         input: &Input<'_>,
-        scene: Option<(&Scripts, &Arc<Scene>)>,
+        scene: Option<(&Scripts, &Arc<HookScene>)>,
     ) -> Result<(), ScriptError> {
         self.clear_step();
         let rewards = self.rewards.clone();
@@ -222,8 +222,8 @@ impl RewardJudge {
     }
 
     /// The agents of each team.
-    fn sides(&self, game: &Match) -> [Side; 2] {
-        let mut sides = [Side::new(), Side::new()];
+    fn sides(&self, game: &Match) -> [TeamAgents; 2] {
+        let mut sides = [TeamAgents::new(), TeamAgents::new()];
         for (agent, slot) in game.agents.iter().take(self.n_agents).enumerate() {
             let me = slot.player.filter(|player| game.players[player.index()].active);
             // A team has no more agents than players.
@@ -237,9 +237,9 @@ impl RewardJudge {
         &mut self,
         which: usize,
         hooks: &[RewardHook],
-        side: &Side,
+        side: &TeamAgents,
         input: &Input<'_>,
-        scene: Option<(&Scripts, &Arc<Scene>)>,
+        scene: Option<(&Scripts, &Arc<HookScene>)>,
     ) -> Result<(), ScriptError> {
         let n_all = self.names.len();
         let state = &mut self.states[which];
@@ -249,7 +249,7 @@ impl RewardJudge {
                 state.call(hook, side, lanes, scripts, scene)?;
             }
         }
-        lanes.run(&players(side), input, Stage::Step, &mut self.faults);
+        lanes.run(&players(side), input, LaneStage::Step, &mut self.faults);
         for (lane, judged) in side.iter().enumerate() {
             let at = judged.agent * n_all + state.first_term;
             lanes.paid(lane, &mut self.terms[at..at + state.n_terms]);
@@ -279,10 +279,10 @@ impl HookState {
     fn call(
         &mut self,
         hook: &RewardHook,
-        side: &Side,
+        side: &TeamAgents,
         lanes: &mut Lanes,
         scripts: &Scripts,
-        scene: &Arc<Scene>,
+        scene: &Arc<HookScene>,
     ) -> Result<(), ScriptError> {
         let arguments: Vec<Argument<'_>> = hook
             .args
@@ -307,7 +307,7 @@ impl HookState {
 }
 
 /// The agents' players.
-fn players(side: &Side) -> ArrayVec<Option<PlayerId>, TEAM_MAX> {
+fn players(side: &TeamAgents) -> ArrayVec<Option<PlayerId>, TEAM_MAX> {
     side.iter().map(|judged| judged.me).collect()
 }
 

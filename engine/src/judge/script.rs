@@ -18,12 +18,12 @@ mod host;
 mod place;
 
 pub(crate) use api::Shelf;
-pub use api::{Argument, Member, Perspective, Scene, Subject, functions, members};
+pub use api::{Argument, HookScene, Member, Perspective, Subject, functions, members};
 pub use check::{ScriptFault, ScriptFaultKind, check_script};
 
-use api::{Sight, events_of};
+use api::{ShownState, events_of};
 use budget::Edits;
-use call::Code;
+use call::CompiledScript;
 use place::hook_position;
 use rhai::{Array, Dynamic, EvalAltResult, FuncArgs};
 use setpiece_scenario::pitch::PLAYERS_MAX;
@@ -109,7 +109,7 @@ struct Compiled {
     /// Where its text begins in its file.
     at: (u32, u32),
     source: String,
-    code: Code,
+    code: CompiledScript,
     /// Maps places in the code back to the source.
     edits: Edits,
     uses_me: bool,
@@ -155,7 +155,7 @@ impl Scripts {
                 source: script.source.clone(),
                 uses_me: check::mentions_me(&ast),
                 reads_events: [REWARD, DONE].iter().any(|hook| check::mentions_events(&ast, hook)),
-                code: Code::of(host::engine().compile(counted).map_err(unread)?),
+                code: CompiledScript::of(host::engine().compile(counted).map_err(unread)?),
                 edits,
             })
         };
@@ -195,7 +195,7 @@ impl Scripts {
     pub fn reward(
         &self,
         script: u32,
-        scene: &Arc<Scene>,
+        scene: &Arc<HookScene>,
         perspective: Perspective,
         arguments: &[Argument<'_>],
         memory: &mut Memory,
@@ -217,7 +217,7 @@ impl Scripts {
     pub fn done(
         &self,
         script: u32,
-        scene: &Arc<Scene>,
+        scene: &Arc<HookScene>,
         perspective: Perspective,
         memory: &mut Memory,
     ) -> Result<Done, ScriptError> {
@@ -239,7 +239,7 @@ impl Scripts {
     pub fn act(
         &self,
         script: u32,
-        scene: &Arc<Scene>,
+        scene: &Arc<HookScene>,
         perspective: Perspective,
         arguments: &[Argument<'_>],
         memory: &mut Memory,
@@ -248,7 +248,7 @@ impl Scripts {
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Action::Idle) };
         let own = (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
         let seen = own.as_ref().unwrap_or(scene);
-        let now = Sight::now(seen, perspective);
+        let now = ShownState::now(seen, perspective);
         compiled.begin(&now, memory)?;
         let called = compiled.call(HOOK, (now.ctx(), now.me(), now.clone()), memory, seen);
         if let Some(own) = &own {
@@ -270,17 +270,17 @@ impl Scripts {
         &self,
         script: u32,
         hook: &str,
-        scene: &Arc<Scene>,
+        scene: &Arc<HookScene>,
         (perspective, arguments): (Perspective, &[Argument<'_>]),
         memory: &mut Memory,
     ) -> Result<Dynamic, ScriptError> {
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Dynamic::UNIT) };
         let own = (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
         let seen = own.as_ref().unwrap_or(scene);
-        let now = Sight::now(seen, perspective);
+        let now = ShownState::now(seen, perspective);
         compiled.begin(&now, memory)?;
         let events = if compiled.reads_events { events_of(&now) } else { Array::new() };
-        let arguments = (now.ctx(), now.clone(), Sight::prev(seen, perspective), events);
+        let arguments = (now.ctx(), now.clone(), ShownState::prev(seen, perspective), events);
         let called = compiled.call(hook, arguments, memory, seen);
         if let Some(own) = &own {
             scene.take_random(own);
@@ -288,7 +288,7 @@ impl Scripts {
         called
     }
 
-    fn wrong_type(&self, script: u32, hook: &str, expected: &str, found: &str, scene: &Scene) -> ScriptError {
+    fn wrong_type(&self, script: u32, hook: &str, expected: &str, found: &str, scene: &HookScene) -> ScriptError {
         let message = format!("expected {expected}, found {}", host::type_words(found));
         match self.list.get(script as usize) {
             Some(compiled) => compiled.error(hook, None, message, scene),
@@ -308,7 +308,7 @@ impl Scripts {
 
 impl Compiled {
     /// Calls the `reset` hook before the first hook of an episode.
-    fn begin(&self, now: &Sight, memory: &mut Memory) -> Result<(), ScriptError> {
+    fn begin(&self, now: &ShownState, memory: &mut Memory) -> Result<(), ScriptError> {
         if std::mem::replace(&mut memory.begun, true) || !self.resets {
             return Ok(());
         }
@@ -321,7 +321,7 @@ impl Compiled {
         hook: &str,
         arguments: impl FuncArgs,
         memory: &mut Memory,
-        scene: &Scene,
+        scene: &HookScene,
     ) -> Result<Dynamic, ScriptError> {
         let value = self.code.call(hook, arguments, &mut memory.this);
         let ended = budget::end(&mut memory.this);
@@ -337,12 +337,12 @@ impl Compiled {
         called
     }
 
-    fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &Scene) -> ScriptError {
+    fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &HookScene) -> ScriptError {
         let (position, message) = host::explain(error);
         self.error(hook, position.map(|place| self.edits.original(place)), message, scene)
     }
 
-    fn error(&self, hook: &str, position: Option<(usize, usize)>, message: String, scene: &Scene) -> ScriptError {
+    fn error(&self, hook: &str, position: Option<(usize, usize)>, message: String, scene: &HookScene) -> ScriptError {
         let (line, column) = position.unwrap_or_else(|| hook_position(&self.source, hook));
         let (first_line, first_column) = (self.at.0.max(1) as usize, self.at.1.max(1) as usize);
         let column = if line == 1 { column + first_column - 1 } else { column };

@@ -166,8 +166,8 @@ fn what_a_program_looks_back_at_is_kept() {
     game.players[11].fatigue = 0.5;
     for &field in Field::ALL {
         let program = Program { code: vec![Instr::Load { field, of: None, when: When::Prev }], ..Program::default() };
-        let mut view = View::EMPTY;
-        view.keep(&game, Memory::of(&program));
+        let mut view = MatchView::EMPTY;
+        view.keep(&game, ViewMemory::of(&program));
         for of in [0.0, 1.0, 11.0] {
             let (kept, live) = (Sight::Kept(&view).load(field, of), Sight::Live(&game).load(field, of));
             assert!(kept == live || kept.is_nan() && live.is_nan(), "{field:?} of {of}: {kept} {live}");

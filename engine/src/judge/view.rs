@@ -34,7 +34,7 @@ pub struct PlayerView {
 
 /// The readable data of a match; world frame, SI.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct View {
+pub struct MatchView {
     /// The ball's centre, metres.
     pub ball: [f32; 3],
     /// The ball's velocity, m/s.
@@ -57,9 +57,9 @@ pub struct View {
     pub limit_steps: Option<u32>,
 }
 
-impl View {
+impl MatchView {
     /// An empty pitch, for programs that run before the match.
-    pub const EMPTY: View = View {
+    pub const EMPTY: MatchView = MatchView {
         ball: [0.0; 3],
         ball_vel: [0.0; 3],
         owner: None,
@@ -83,9 +83,9 @@ impl View {
     };
 
     /// The view of a match's current state.
-    pub fn of(game: &Match) -> View {
+    pub fn of(game: &Match) -> MatchView {
         let players = std::array::from_fn(|i| PlayerView::of(game, PlayerId(i as u8)));
-        let mut view = View { players, ..View::EMPTY };
+        let mut view = MatchView { players, ..MatchView::EMPTY };
         view.keep_but_players(game);
         for player in game.agents.iter().filter_map(|agent| agent.player) {
             view.players[player.index()].controlled = true;
@@ -93,34 +93,35 @@ impl View {
         view
     }
 
-    /// Writes or reads the parts that [`Memory`] names; the rest is never read later.
+    /// Writes or reads the parts that [`ViewMemory`] names; the rest is never read later.
     pub(crate) fn archive(
         &mut self,
         name: &str,
-        memory: Memory,
+        memory: ViewMemory,
         archive: &mut Archive<'_>,
     ) -> Result<(), SnapshotError> {
         match memory {
-            Memory::Nothing => Ok(()),
-            Memory::ButPlayers => {
+            ViewMemory::Nothing => Ok(()),
+            ViewMemory::ButPlayers => {
                 // The limit is the match's, which a reset has shown.
-                let View { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps } = *self;
+                let MatchView { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps } =
+                    *self;
                 let mut kept = (ball, ball_vel, owner, possession, score, mode, dead, step);
                 archive.value(name, &mut kept)?;
                 let (ball, ball_vel, owner, possession, score, mode, dead, step) = kept;
-                *self = View { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps };
+                *self = MatchView { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps };
                 Ok(())
             }
-            Memory::All => archive.value(name, self),
+            ViewMemory::All => archive.value(name, self),
         }
     }
 
-    /// Copies the parts of a match that [`Memory`] names, and leaves the rest.
-    pub fn keep(&mut self, game: &Match, memory: Memory) {
+    /// Copies the parts of a match that [`ViewMemory`] names, and leaves the rest.
+    pub fn keep(&mut self, game: &Match, memory: ViewMemory) {
         match memory {
-            Memory::Nothing => {}
-            Memory::ButPlayers => self.keep_but_players(game),
-            Memory::All => *self = View::of(game),
+            ViewMemory::Nothing => {}
+            ViewMemory::ButPlayers => self.keep_but_players(game),
+            ViewMemory::All => *self = MatchView::of(game),
         }
     }
 
@@ -146,7 +147,7 @@ impl View {
 
 /// How much of a state is remembered until the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Memory {
+pub enum ViewMemory {
     /// Nothing: no program reads it.
     #[default]
     Nothing,
@@ -156,16 +157,16 @@ pub enum Memory {
     All,
 }
 
-impl Memory {
+impl ViewMemory {
     /// The parts of the last state that a program reads.
-    pub fn of(program: &Program) -> Memory {
+    pub fn of(program: &Program) -> ViewMemory {
         let of = |instr: &Instr| match instr {
             Instr::Load { field, when: When::Prev, .. } => match (field, field.subject()) {
                 // The line depends on players.
-                (_, Owner::Player) | (Field::OffsideLine, _) => Memory::All,
-                _ => Memory::ButPlayers,
+                (_, Owner::Player) | (Field::OffsideLine, _) => ViewMemory::All,
+                _ => ViewMemory::ButPlayers,
             },
-            _ => Memory::Nothing,
+            _ => ViewMemory::Nothing,
         };
         program.code.iter().map(of).max().unwrap_or_default()
     }
@@ -177,7 +178,7 @@ pub enum Sight<'a> {
     /// The current match.
     Live(&'a Match),
     /// A copy.
-    Kept(&'a View),
+    Kept(&'a MatchView),
 }
 
 impl Sight<'_> {

@@ -1,6 +1,6 @@
 //! `egocentric`: what a player sees from their own place.
 
-use super::frame::Frame;
+use super::frame::SideFrame;
 use super::layout::{FAR_M, OTHER, OTHERS};
 use super::{ObserveError, check_size, slot};
 use crate::football::offside;
@@ -29,10 +29,10 @@ pub fn egocentric(game: &Match, agent: usize, team: usize, out: &mut [f32]) -> R
     check_size(out.len(), size(team))?;
     out.fill(0.0);
     let Some(id) = slot.player.filter(|id| game.player(*id).active) else { return Ok(()) };
-    let frame = Frame { game, us: slot.team };
+    let frame = SideFrame { game, us: slot.team };
     let me = game.player(id);
     let side = slot.team.side() as f32;
-    let mut pen = Pen { out, at: 0 };
+    let mut pen = NumberPen { out, at: 0 };
     let unit = X_SCALE_M as f32;
     let goal = Vec2::new(HALF_LENGTH_M as f32, 0.0);
     let own = me.pos * side;
@@ -98,12 +98,12 @@ pub fn size(team: usize) -> usize {
 }
 
 /// Writes one number after the other, each clamped to ± its bound.
-struct Pen<'a> {
+struct NumberPen<'a> {
     out: &'a mut [f32],
     at: usize,
 }
 
-impl Pen<'_> {
+impl NumberPen<'_> {
     fn one(&mut self, value: f32, bound: f32) {
         if let Some(out) = self.out.get_mut(self.at) {
             // Adding 0 folds -0.0.

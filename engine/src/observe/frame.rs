@@ -7,12 +7,12 @@ use setpiece_scenario::vocabulary::Team;
 
 /// A match seen from one side.
 #[derive(Clone, Copy)]
-pub(super) struct Frame<'a> {
+pub(super) struct SideFrame<'a> {
     pub(super) game: &'a Match,
     pub(super) us: Team,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> SideFrame<'a> {
     /// Both teams, the own one first.
     pub(super) fn teams(self) -> [Team; 2] {
         [self.us, self.us.other()]

@@ -1,6 +1,6 @@
 //! The raw observation: GRF's dictionary as a struct.
 
-use super::frame::Frame;
+use super::frame::SideFrame;
 use super::{ObserveError, slot};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
@@ -62,7 +62,7 @@ pub struct Raw {
 pub fn raw(game: &Match, agent: usize) -> Result<Raw, ObserveError> {
     let slot = slot(game, agent)?;
     let mut raw = raw_of(game, slot.team);
-    let frame = Frame { game, us: slot.team };
+    let frame = SideFrame { game, us: slot.team };
     raw.active = number(slot.player.and_then(|player| frame.place(player)));
     raw.sticky_actions = std::array::from_fn(|bit| u8::from(slot.sticky >> bit & 1 == 1));
     if game.agents.iter().filter(|other| other.team == slot.team).count() == 1 {
@@ -73,7 +73,7 @@ pub fn raw(game: &Match, agent: usize) -> Result<Raw, ObserveError> {
 
 /// The raw observation of a side without an agent: no player is `active`, nothing is held.
 pub fn raw_of(game: &Match, us: Team) -> Raw {
-    let frame = Frame { game, us };
+    let frame = SideFrame { game, us };
     let owner = frame.owner();
     let [left, right] = frame.teams().map(|team| side(frame, team));
     let spin = game.ball.spin.to_array().map(|rad_s| f64::from(rad_s) / 1000.0 / STEPS_PER_S);
@@ -95,7 +95,7 @@ pub fn raw_of(game: &Match, us: Team) -> Raw {
     }
 }
 
-fn side(frame: Frame<'_>, team: Team) -> RawTeam {
+fn side(frame: SideFrame<'_>, team: Team) -> RawTeam {
     let mut side = RawTeam::default();
     for (_, player) in frame.roster(team) {
         side.places.push(frame.place_of(player.pos));
@@ -110,7 +110,7 @@ fn side(frame: Frame<'_>, team: Team) -> RawTeam {
 }
 
 /// The own player who has the ball, or the one nearest to it.
-fn designated(frame: Frame<'_>) -> Option<PlayerId> {
+fn designated(frame: SideFrame<'_>) -> Option<PlayerId> {
     if let Some(owner) = frame.game.owner.filter(|owner| owner.team() == frame.us) {
         return Some(owner);
     }

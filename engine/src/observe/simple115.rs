@@ -1,6 +1,6 @@
 //! `simple115v2`, with or without the held keys, and its predecessor `simple115`.
 
-use super::frame::Frame;
+use super::frame::SideFrame;
 use super::layout::{SIMPLE115, SIMPLE115_STICKY};
 use super::{ObserveError, check_size, slot};
 use crate::state::{AgentSlot, Match};
@@ -39,7 +39,7 @@ pub(super) fn write_v2(
 ) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), expected)?;
-    let frame = Frame { game, us: slot.team };
+    let frame = SideFrame { game, us: slot.team };
     let (out, held) = out.split_at_mut(SIMPLE115);
     out.fill(0.0);
     for (block, team) in frame.teams().into_iter().enumerate() {
@@ -68,7 +68,7 @@ pub(super) fn write_v2(
 pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), SIMPLE115)?;
-    let frame = Frame { game, us: slot.team };
+    let frame = SideFrame { game, us: slot.team };
     out.fill(0.0);
     out[..8 * TEAM_MAX].fill(MISSING);
     let mut at = 0;
@@ -89,7 +89,7 @@ pub fn simple115(game: &Match, agent: usize, out: &mut [f32]) -> Result<(), Obse
 }
 
 /// Writes what follows the players in both layouts.
-fn write_ball_and_modes(game: &Match, frame: Frame<'_>, slot: AgentSlot, out: &mut [f32]) {
+fn write_ball_and_modes(game: &Match, frame: SideFrame<'_>, slot: AgentSlot, out: &mut [f32]) {
     write(&mut out[88..91], &frame.ball(), &[2.0, 1.5, 100.0]);
     out[90] = out[90].max(0.0);
     write(&mut out[91..94], &frame.ball_stride(), &[1.0, 1.0, 10.0]);

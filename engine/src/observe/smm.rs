@@ -1,6 +1,6 @@
 //! The super mini map: a small picture with four planes.
 
-use super::frame::Frame;
+use super::frame::SideFrame;
 use super::{ObserveError, check_size, slot};
 use crate::state::Match;
 
@@ -34,7 +34,7 @@ pub fn smm(game: &Match, agent: usize, width: usize, height: usize, out: &mut [u
     let slot = slot(game, agent)?;
     check_size(out.len(), smm_size(width, height))?;
     out.fill(0);
-    let frame = Frame { game, us: slot.team };
+    let frame = SideFrame { game, us: slot.team };
     let mut mark = |[x, y]: [f64; 2], plane: usize| {
         let column = pixel((x + X_EDGE) / (2.0 * X_EDGE), width);
         let row = pixel((y + Y_EDGE) / (2.0 * Y_EDGE), height);

@@ -2,7 +2,7 @@
 //! always right.
 
 use super::Ball;
-use super::Body;
+use super::BallObstacle;
 use super::constants::{BALL_RADIUS, BODY_RADIUS, NEAR, TICK_S};
 use super::scene::{BODIES_MAX, GOAL_BOUNDS};
 use arrayvec::ArrayVec;
@@ -24,9 +24,9 @@ pub(super) fn near_goal(ball: &Ball) -> bool {
 }
 
 /// The bodies that the ball can meet within a tick, nearest first, at most [`BODIES_MAX`].
-pub(super) fn near_bodies(ball: &Ball, bodies: &[Body]) -> ArrayVec<Body, BODIES_MAX> {
+pub(super) fn near_bodies(ball: &Ball, bodies: &[BallObstacle]) -> ArrayVec<BallObstacle, BODIES_MAX> {
     const REACH: f32 = BALL_RADIUS + BODY_RADIUS + NEAR;
-    let mut found: ArrayVec<(f32, Body), BODIES_MAX> = ArrayVec::new();
+    let mut found: ArrayVec<(f32, BallObstacle), BODIES_MAX> = ArrayVec::new();
     for body in bodies {
         let lowest = ball.pos.z.min(ball.pos.z + ball.vel.z * TICK_S);
         if lowest > body.height_m + BALL_RADIUS + NEAR {

@@ -60,7 +60,7 @@ impl Default for Workspace {
 
 /// What a collider is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum ColliderPart {
     Frame,
     Net,
     /// A body, by its place in the tick's list.
@@ -69,7 +69,7 @@ pub(super) enum Part {
 
 /// The parts of rapier's state that a tick changes and that must be restored before the next tick.
 #[derive(Clone)]
-pub(super) struct World {
+pub(super) struct RapierWorld {
     pub(super) islands: IslandManager,
     pub(super) broad_phase: BroadPhaseBvh,
     pub(super) narrow_phase: NarrowPhase,
@@ -80,10 +80,10 @@ pub(super) struct World {
     pub(super) bodies: [Option<RigidBodyHandle>; BODIES_MAX],
 }
 
-impl World {
+impl RapierWorld {
     /// Builds the world with room for this many bodies, stepped once so that its trees and lists
     /// are laid out.
-    pub(super) fn template(bodies: usize, workspace: &mut Workspace) -> World {
+    pub(super) fn template(bodies: usize, workspace: &mut Workspace) -> RapierWorld {
         let mut rigid = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
         let goal = rigid.insert(RigidBodyBuilder::fixed());
@@ -108,7 +108,7 @@ impl World {
                 handle
             })
         });
-        let mut world = World {
+        let mut world = RapierWorld {
             islands: IslandManager::new(),
             broad_phase: BroadPhaseBvh::new(),
             narrow_phase: NarrowPhase::new(),
@@ -123,7 +123,7 @@ impl World {
     }
 
     /// Restores the template's state, part by part: that costs half as much as a whole clone.
-    pub(super) fn restore(&mut self, template: &World) {
+    pub(super) fn restore(&mut self, template: &RapierWorld) {
         self.islands.clone_from(&template.islands);
         self.broad_phase.clone_from(&template.broad_phase);
         self.narrow_phase.clone_from(&template.narrow_phase);
@@ -154,11 +154,11 @@ impl World {
     }
 
     /// The part that a collider belongs to.
-    pub(super) fn part(&self, collider: ColliderHandle) -> Option<Part> {
+    pub(super) fn part(&self, collider: ColliderHandle) -> Option<ColliderPart> {
         match self.colliders.get(collider)?.user_data {
-            FRAME => Some(Part::Frame),
-            NET => Some(Part::Net),
-            data => Some(Part::Body(usize::try_from(data.checked_sub(BODY)?).ok()?)),
+            FRAME => Some(ColliderPart::Frame),
+            NET => Some(ColliderPart::Net),
+            data => Some(ColliderPart::Body(usize::try_from(data.checked_sub(BODY)?).ok()?)),
         }
     }
 }

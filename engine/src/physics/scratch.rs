@@ -6,8 +6,8 @@
 
 use super::Ball;
 use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
-use super::scene::{BODIES_MAX, Part, Workspace, World};
-use super::{Body, Contact};
+use super::scene::{BODIES_MAX, ColliderPart, RapierWorld, Workspace};
+use super::{BallObstacle, Contact};
 use crate::laps::Laps;
 use glam::{Vec2, Vec3};
 
@@ -16,8 +16,8 @@ use glam::{Vec2, Vec3};
 ///
 /// Its contents never affect what a tick computes.
 pub struct Scratch {
-    templates: [World; BODIES_MAX + 1],
-    live: World,
+    templates: [RapierWorld; BODIES_MAX + 1],
+    live: RapierWorld,
     workspace: Workspace,
     laps: Laps,
     rigid: u64,
@@ -38,7 +38,8 @@ impl Scratch {
 impl Default for Scratch {
     fn default() -> Scratch {
         let mut workspace = Workspace::default();
-        let templates: [World; BODIES_MAX + 1] = std::array::from_fn(|bodies| World::template(bodies, &mut workspace));
+        let templates: [RapierWorld; BODIES_MAX + 1] =
+            std::array::from_fn(|bodies| RapierWorld::template(bodies, &mut workspace));
         Scratch { live: templates[0].clone(), templates, workspace, laps: Laps::default(), rigid: 0 }
     }
 }
@@ -50,7 +51,7 @@ impl std::fmt::Debug for Scratch {
 }
 
 /// What happened to the ball in a tick of rigid contact.
-pub(super) struct Touch {
+pub(super) struct RigidTouch {
     /// The strongest contact.
     pub(super) contact: Contact,
     /// Whether some contact holds the ball up.
@@ -68,7 +69,7 @@ fn turned(v: Vec3) -> Vec3 {
 impl Scratch {
     /// Moves the ball along its velocity over one tick, rebounding off whatever is hard. At most
     /// [`BODIES_MAX`] bodies.
-    pub(super) fn meet(&mut self, ball: &mut Ball, bodies: &[Body]) -> Option<Touch> {
+    pub(super) fn meet(&mut self, ball: &mut Ball, bodies: &[BallObstacle]) -> Option<RigidTouch> {
         let before = *ball;
         let touch = self.carry(ball, bodies)?;
         if touch.squeezed {
@@ -76,12 +77,12 @@ impl Scratch {
             // body gives way.
             *ball = before;
             let against = self.carry(ball, &[]);
-            return Some(Touch { held_up: against.is_some_and(|t| t.held_up), ..touch });
+            return Some(RigidTouch { held_up: against.is_some_and(|t| t.held_up), ..touch });
         }
         Some(touch)
     }
 
-    fn carry(&mut self, ball: &mut Ball, bodies: &[Body]) -> Option<Touch> {
+    fn carry(&mut self, ball: &mut Ball, bodies: &[BallObstacle]) -> Option<RigidTouch> {
         let bodies = &bodies[..bodies.len().min(BODIES_MAX)];
         // On the halfway line the ball's direction decides.
         let left_half = ball.pos.x < 0.0 || ball.pos.x == 0.0 && ball.vel.x < 0.0;
@@ -113,7 +114,7 @@ impl Scratch {
         }
     }
 
-    fn place_body(&mut self, place: usize, body: &Body, left_half: bool) {
+    fn place_body(&mut self, place: usize, body: &BallObstacle, left_half: bool) {
         let turn = |v: Vec2| if left_half { -v } else { v };
         let Some(handle) = self.live.bodies[place] else { return };
         if let Some(proxy) = self.live.rigid.get_mut(handle) {
@@ -123,7 +124,7 @@ impl Scratch {
     }
 
     /// The contacts of the tick just simulated.
-    fn touch(&self, bodies: &[Body]) -> Option<Touch> {
+    fn touch(&self, bodies: &[BallObstacle]) -> Option<RigidTouch> {
         let world = &self.live;
         let mut strongest = 0.0;
         let mut contact = None;
@@ -139,18 +140,18 @@ impl Scratch {
             let other = if ball_first { pair.collider2 } else { pair.collider1 };
             let Some(part) = world.part(other) else { continue };
             let met = match part {
-                Part::Frame => Some(Contact::Woodwork),
-                Part::Net => Some(Contact::Net),
-                Part::Body(place) => bodies.get(place).map(|body| Contact::Body(body.id)),
+                ColliderPart::Frame => Some(Contact::Woodwork),
+                ColliderPart::Net => Some(Contact::Net),
+                ColliderPart::Body(place) => bodies.get(place).map(|body| Contact::Body(body.id)),
             };
-            by_body |= matches!(part, Part::Body(_));
-            by_goal |= !matches!(part, Part::Body(_));
+            by_body |= matches!(part, ColliderPart::Body(_));
+            by_goal |= !matches!(part, ColliderPart::Body(_));
             if impulse > strongest {
                 strongest = impulse;
                 contact = met;
             }
         }
-        contact.map(|contact| Touch { contact, held_up, squeezed: by_body && by_goal })
+        contact.map(|contact| RigidTouch { contact, held_up, squeezed: by_body && by_goal })
     }
 }
 

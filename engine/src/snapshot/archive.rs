@@ -6,7 +6,7 @@
 //! Parts check how their values fit together.
 
 use super::error::SnapshotError;
-use super::walk::{Found, walk};
+use super::walk::{NumberPlace, walk};
 use postcard::ser_flavors::Flavor;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -14,10 +14,10 @@ use std::fmt;
 
 /// A stream of values being written to bytes or read from them.
 pub(crate) struct Archive<'a> {
-    way: Way<'a>,
+    way: ArchiveWay<'a>,
 }
 
-enum Way<'a> {
+enum ArchiveWay<'a> {
     Out(Vec<u8>),
     In(&'a [u8]),
 }
@@ -25,17 +25,17 @@ enum Way<'a> {
 impl<'a> Archive<'a> {
     /// Starts writing, after some bytes.
     pub(super) fn writing(bytes: Vec<u8>) -> Archive<'a> {
-        Archive { way: Way::Out(bytes) }
+        Archive { way: ArchiveWay::Out(bytes) }
     }
 
     /// Starts reading.
     pub(super) fn reading(bytes: &'a [u8]) -> Archive<'a> {
-        Archive { way: Way::In(bytes) }
+        Archive { way: ArchiveWay::In(bytes) }
     }
 
     /// Whether this archive reads.
     pub(crate) fn is_reading(&self) -> bool {
-        matches!(self.way, Way::In(_))
+        matches!(self.way, ArchiveWay::In(_))
     }
 
     /// Writes two parts in the other order than they are archived in: `first` is called when `second` has been, and
@@ -53,7 +53,7 @@ impl<'a> Archive<'a> {
         let mut behind = Archive::writing(Vec::new());
         second(context, &mut behind)?;
         first(context, self)?;
-        if let Way::Out(bytes) = &mut self.way {
+        if let ArchiveWay::Out(bytes) = &mut self.way {
             bytes.extend_from_slice(&behind.into_bytes());
         }
         Ok(())
@@ -62,22 +62,22 @@ impl<'a> Archive<'a> {
     /// The bytes, including those that were there before.
     pub(super) fn into_bytes(self) -> Vec<u8> {
         match self.way {
-            Way::Out(bytes) => bytes,
-            Way::In(_) => Vec::new(),
+            ArchiveWay::Out(bytes) => bytes,
+            ArchiveWay::In(_) => Vec::new(),
         }
     }
 
     /// The bytes not yet read.
     pub(super) fn rest(&self) -> &'a [u8] {
         match self.way {
-            Way::Out(_) => &[],
-            Way::In(rest) => rest,
+            ArchiveWay::Out(_) => &[],
+            ArchiveWay::In(rest) => rest,
         }
     }
 
     /// Writes a value; no-op while reading.
     pub(super) fn put<T: Serialize + ?Sized>(&mut self, name: &str, value: &T) -> Result<(), SnapshotError> {
-        if let Way::Out(bytes) = &mut self.way {
+        if let ArchiveWay::Out(bytes) = &mut self.way {
             let behind = Growing(std::mem::take(bytes));
             *bytes =
                 postcard::serialize_with_flavor(value, behind).map_err(|why| fault(format_args!("{name}"), why))?;
@@ -105,10 +105,10 @@ impl<'a> Archive<'a> {
     fn read_at<T: Serialize + DeserializeOwned>(&mut self, name: fmt::Arguments<'_>) -> Result<T, SnapshotError> {
         let (value, rest) = postcard::take_from_bytes::<T>(self.rest()).map_err(|why| fault(name, why))?;
         walk(&value).map_err(|fault| {
-            let Found { place, why } = fault.found();
+            let NumberPlace { place, why } = fault.found();
             SnapshotError::damaged(format!("{name}{place}"), why)
         })?;
-        self.way = Way::In(rest);
+        self.way = ArchiveWay::In(rest);
         Ok(value)
     }
 

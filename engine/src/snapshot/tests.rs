@@ -1,5 +1,5 @@
 use crate::football::kick;
-use crate::judge::View;
+use crate::judge::MatchView;
 use crate::snapshot::{SNAPSHOT_VERSION, match_bytes};
 use crate::state::play::{Advantage, Flight, Restart, Save, SetPiece};
 use crate::state::player::{Intent, KickKind, KickPlan, Swing};
@@ -69,7 +69,7 @@ fn the_layout_is_that_of_the_version() {
     let mut found = BTreeSet::new();
     for (name, value) in [
         ("match", serde_json::to_value(&game).unwrap()),
-        ("view", serde_json::to_value(View::of(&game)).unwrap()),
+        ("view", serde_json::to_value(MatchView::of(&game)).unwrap()),
         ("statistics", serde_json::to_value(Statistics::begin(&game)).unwrap()),
         ("event", serde_json::to_value(event(EventKind::Goal, Some(Team::Left), Some(0))).unwrap()),
     ] {

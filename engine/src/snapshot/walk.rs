@@ -17,49 +17,49 @@ const COUNT_MAX: u32 = 1 << 30;
 const NEVER: &[&str] = &["limit_steps", "at_tick", "from_tick", "node"];
 
 /// Finds an impossible number in a value.
-pub(super) fn walk(value: &impl Serialize) -> Result<(), Fault> {
+pub(super) fn walk(value: &impl Serialize) -> Result<(), NumberFault> {
     value.serialize(Walk { key: "" })
 }
 
 /// An impossible number. It is boxed because nearly every value is valid and the result should be
 /// small.
 #[derive(Debug)]
-pub(super) struct Fault(Box<Found>);
+pub(super) struct NumberFault(Box<NumberPlace>);
 
-/// The content of a [`Fault`].
+/// The content of a [`NumberFault`].
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct NumberPlace {
     /// Its place within the value: `.players[3].pos[0]`.
     pub(super) place: String,
     /// What is wrong with it.
     pub(super) why: String,
 }
 
-impl Fault {
+impl NumberFault {
     #[cold]
-    fn at(mut self, step: impl Display) -> Fault {
+    fn at(mut self, step: impl Display) -> NumberFault {
         self.0.place.insert_str(0, &step.to_string());
         self
     }
 
     /// What and where.
-    pub(super) fn found(self) -> Found {
+    pub(super) fn found(self) -> NumberPlace {
         *self.0
     }
 }
 
-impl Display for Fault {
+impl Display for NumberFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", self.0.place, self.0.why)
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for NumberFault {}
 
-impl ser::Error for Fault {
+impl ser::Error for NumberFault {
     #[cold]
-    fn custom<T: Display>(message: T) -> Fault {
-        Fault(Box::new(Found { place: String::new(), why: message.to_string() }))
+    fn custom<T: Display>(message: T) -> NumberFault {
+        NumberFault(Box::new(NumberPlace { place: String::new(), why: message.to_string() }))
     }
 }
 
@@ -73,31 +73,31 @@ struct Walk {
 struct Parts(usize);
 
 impl Parts {
-    fn next<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+    fn next<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), NumberFault> {
         let at = self.0;
         self.0 += 1;
         value.serialize(Walk { key: "" }).map_err(|fault| fault.at(format_args!("[{at}]")))
     }
 }
 
-fn named<T: Serialize + ?Sized>(key: &'static str, value: &T) -> Result<(), Fault> {
+fn named<T: Serialize + ?Sized>(key: &'static str, value: &T) -> Result<(), NumberFault> {
     value.serialize(Walk { key }).map_err(|fault| fault.at(format_args!(".{key}")))
 }
 
 macro_rules! free {
     ($($method:ident: $type:ty),+ $(,)?) => {
-        $(fn $method(self, _: $type) -> Result<(), Fault> { Ok(()) })+
+        $(fn $method(self, _: $type) -> Result<(), NumberFault> { Ok(()) })+
     };
 }
 
 impl Serializer for Walk {
     type Ok = ();
-    type Error = Fault;
+    type Error = NumberFault;
     type SerializeSeq = Parts;
     type SerializeTuple = Parts;
     type SerializeTupleStruct = Parts;
     type SerializeTupleVariant = Parts;
-    type SerializeMap = Impossible<(), Fault>;
+    type SerializeMap = Impossible<(), NumberFault>;
     type SerializeStruct = Parts;
     type SerializeStructVariant = Parts;
 
@@ -107,21 +107,21 @@ impl Serializer for Walk {
         serialize_unit_struct: &'static str,
     }
 
-    fn serialize_i32(self, value: i32) -> Result<(), Fault> {
+    fn serialize_i32(self, value: i32) -> Result<(), NumberFault> {
         self.serialize_u32(value.unsigned_abs())
     }
 
-    fn serialize_u32(self, value: u32) -> Result<(), Fault> {
+    fn serialize_u32(self, value: u32) -> Result<(), NumberFault> {
         if value <= COUNT_MAX || (value == u32::MAX && NEVER.contains(&self.key)) {
             Ok(())
         } else {
-            Err(Fault::custom(format_args!("is {value}")))
+            Err(NumberFault::custom(format_args!("is {value}")))
         }
     }
 
-    fn serialize_f32(self, value: f32) -> Result<(), Fault> {
+    fn serialize_f32(self, value: f32) -> Result<(), NumberFault> {
         // NaN fails this comparison too.
-        if value.abs() <= FLOAT_MAX { Ok(()) } else { Err(Fault::custom(format_args!("is {value}"))) }
+        if value.abs() <= FLOAT_MAX { Ok(()) } else { Err(NumberFault::custom(format_args!("is {value}"))) }
     }
 
     /// The same as for writing a snapshot, so that the walk covers what is written.
@@ -130,7 +130,7 @@ impl Serializer for Walk {
     }
 
     /// Bytes are floats: see [`crate::floats`].
-    fn serialize_bytes(self, bytes: &[u8]) -> Result<(), Fault> {
+    fn serialize_bytes(self, bytes: &[u8]) -> Result<(), NumberFault> {
         let floats = bytes.as_chunks().0.iter().map(|float| f32::from_le_bytes(*float));
         // Checks all at once first, because they are nearly always valid.
         if floats.clone().fold(true, |sound, value| sound & (value.abs() <= FLOAT_MAX)) {
@@ -140,23 +140,23 @@ impl Serializer for Walk {
         floats.into_iter().try_for_each(|value| parts.next(&value))
     }
 
-    fn serialize_none(self) -> Result<(), Fault> {
+    fn serialize_none(self) -> Result<(), NumberFault> {
         Ok(())
     }
 
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<(), Fault> {
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<(), NumberFault> {
         value.serialize(self)
     }
 
-    fn serialize_unit(self) -> Result<(), Fault> {
+    fn serialize_unit(self) -> Result<(), NumberFault> {
         Ok(())
     }
 
-    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Result<(), Fault> {
+    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Result<(), NumberFault> {
         Ok(())
     }
 
-    fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _: &'static str, value: &T) -> Result<(), Fault> {
+    fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _: &'static str, value: &T) -> Result<(), NumberFault> {
         value.serialize(self)
     }
 
@@ -166,35 +166,41 @@ impl Serializer for Walk {
         _: u32,
         _: &'static str,
         value: &T,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), NumberFault> {
         value.serialize(self)
     }
 
-    fn serialize_seq(self, _: Option<usize>) -> Result<Parts, Fault> {
+    fn serialize_seq(self, _: Option<usize>) -> Result<Parts, NumberFault> {
         Ok(Parts(0))
     }
 
-    fn serialize_tuple(self, _: usize) -> Result<Parts, Fault> {
+    fn serialize_tuple(self, _: usize) -> Result<Parts, NumberFault> {
         Ok(Parts(0))
     }
 
-    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Parts, Fault> {
+    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Parts, NumberFault> {
         Ok(Parts(0))
     }
 
-    fn serialize_tuple_variant(self, _: &'static str, _: u32, _: &'static str, _: usize) -> Result<Parts, Fault> {
+    fn serialize_tuple_variant(self, _: &'static str, _: u32, _: &'static str, _: usize) -> Result<Parts, NumberFault> {
         Ok(Parts(0))
     }
 
-    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, Fault> {
-        Err(Fault::custom("is a map"))
+    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, NumberFault> {
+        Err(NumberFault::custom("is a map"))
     }
 
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Parts, Fault> {
+    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Parts, NumberFault> {
         Ok(Parts(0))
     }
 
-    fn serialize_struct_variant(self, _: &'static str, _: u32, _: &'static str, _: usize) -> Result<Parts, Fault> {
+    fn serialize_struct_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        _: &'static str,
+        _: usize,
+    ) -> Result<Parts, NumberFault> {
         Ok(Parts(0))
     }
 }
@@ -203,13 +209,13 @@ macro_rules! elements {
     ($($kind:ident)+) => {$(
         impl ser::$kind for Parts {
             type Ok = ();
-            type Error = Fault;
+            type Error = NumberFault;
 
-            fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+            fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), NumberFault> {
                 self.next(value)
             }
 
-            fn end(self) -> Result<(), Fault> {
+            fn end(self) -> Result<(), NumberFault> {
                 Ok(())
             }
         }
@@ -222,13 +228,13 @@ macro_rules! fields {
     ($($kind:ident)+) => {$(
         impl ser::$kind for Parts {
             type Ok = ();
-            type Error = Fault;
+            type Error = NumberFault;
 
-            fn serialize_field<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+            fn serialize_field<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), NumberFault> {
                 self.next(value)
             }
 
-            fn end(self) -> Result<(), Fault> {
+            fn end(self) -> Result<(), NumberFault> {
                 Ok(())
             }
         }
@@ -241,13 +247,13 @@ macro_rules! named_fields {
     ($($kind:ident)+) => {$(
         impl ser::$kind for Parts {
             type Ok = ();
-            type Error = Fault;
+            type Error = NumberFault;
 
-            fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), Fault> {
+            fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), NumberFault> {
                 named(key, value)
             }
 
-            fn end(self) -> Result<(), Fault> {
+            fn end(self) -> Result<(), NumberFault> {
                 Ok(())
             }
         }

@@ -2,19 +2,19 @@
 //! replacing them.
 
 use super::keys::action;
-use super::limits::Measured;
-use super::recorded::{File, Row, Topic, Values};
+use super::limits::RecordedFigure;
+use super::recorded::{RecordedFile, RecordedRow, Topic, Values};
 use super::topics;
-use super::trace::View;
+use super::trace::TraceMoment;
 use crate::figure::{Figure, Section};
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::BufRead;
 
 /// A step as `lab/record` writes it: ball and its velocity; owning team, owner and `game_mode`;
 /// places of both teams; keys; the agents' players; score.
-type Step = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
+type RecordedStep = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
 
 /// Options of `lab recorded`.
 #[derive(Debug, clap::Args)]
@@ -32,7 +32,7 @@ pub(crate) struct RecordedArgs {
 }
 
 /// Sets figures of traces beside the file's, writes them in their place, or makes one of both.
-pub(crate) fn recorded(args: &RecordedArgs) -> Result<(), Failure> {
+pub(crate) fn recorded(args: &RecordedArgs) -> Result<(), LabError> {
     let RecordedArgs { file, traces, .. } = args;
     let topic = topics().find(|topic| topic.file == file).ok_or_else(|| format!("no topic has `{file}`"))?;
     let recorded = topic.recorded()?;
@@ -48,12 +48,12 @@ pub(crate) fn recorded(args: &RecordedArgs) -> Result<(), Failure> {
 }
 
 /// The figures of every row that has traces.
-fn read(topic: &Topic, file: &File, traces: &str) -> Result<BTreeMap<usize, Values>, Failure> {
+fn read(topic: &Topic, file: &RecordedFile, traces: &str) -> Result<BTreeMap<usize, Values>, LabError> {
     let text = std::fs::File::open(traces).map_err(|why| format!("{traces}: {why}"))?;
     let mut values: BTreeMap<usize, Values> = BTreeMap::new();
     for line in std::io::BufReader::new(text).lines() {
         let line = line.map_err(|why| format!("{traces}: {why}"))?;
-        let (number, steps): (usize, Vec<Step>) =
+        let (number, steps): (usize, Vec<RecordedStep>) =
             serde_json::from_str(&line).map_err(|why| format!("{traces}: {why}"))?;
         let row = file.rows.get(number).ok_or_else(|| topic.named(format!("no row {number}")))?;
         let trace = views(file, row, steps).map_err(|why| topic.named(why))?;
@@ -63,13 +63,13 @@ fn read(topic: &Topic, file: &File, traces: &str) -> Result<BTreeMap<usize, Valu
 }
 
 /// The views of an episode.
-fn views(file: &File, row: &Row, steps: Vec<Step>) -> Result<Vec<View>, Failure> {
+fn views(file: &RecordedFile, row: &RecordedRow, steps: Vec<RecordedStep>) -> Result<Vec<TraceMoment>, LabError> {
     let roles = file.scene(row)?.roles()?;
-    let mut trace: Vec<View> = Vec::new();
+    let mut trace: Vec<TraceMoment> = Vec::new();
     for (ball, (owner, who, mode), teams, pressed, active, score) in steps {
         let [x, y, z, vx, vy] = ball;
         let before = trace.last().map(|view| view.ball);
-        trace.push(View {
+        trace.push(TraceMoment {
             ball: [x, y, z],
             vel: [vx, vy],
             speed: before.map_or(0.0, |[fx, fy, _]| (x - fx).hypot(y - fy) * 10.0),
@@ -87,7 +87,7 @@ fn views(file: &File, row: &Row, steps: Vec<Step>) -> Result<Vec<View>, Failure>
 }
 
 /// The figures of the traces that are outside the limits of the stored ones.
-fn compared(topic: &Topic, file: &File, values: &BTreeMap<usize, Values>) -> String {
+fn compared(topic: &Topic, file: &RecordedFile, values: &BTreeMap<usize, Values>) -> String {
     let mut section = Section::new(6, topic.name, topic.file);
     for (number, values) in values {
         for (what, parts) in topic.compare(&file.rows[*number], values) {
@@ -108,8 +108,8 @@ fn compared(topic: &Topic, file: &File, values: &BTreeMap<usize, Values>) -> Str
 fn write<'a>(
     topic: &Topic,
     values: &BTreeMap<usize, Values>,
-    before: impl Fn(usize) -> Option<&'a Row>,
-) -> Result<(), Failure> {
+    before: impl Fn(usize) -> Option<&'a RecordedRow>,
+) -> Result<(), LabError> {
     let text = std::fs::read_to_string(topic.path()).map_err(|why| topic.named(why))?;
     let (head, rows) = text.split_once("\"rows\": [\n").ok_or_else(|| topic.named("no rows, one a line"))?;
     let mut written = format!("{head}\"rows\": [\n");
@@ -127,10 +127,10 @@ fn write<'a>(
 }
 
 /// The figures of a row in the file's format.
-fn figures(topic: &Topic, values: &Values, before: Option<&Row>) -> String {
+fn figures(topic: &Topic, values: &Values, before: Option<&RecordedRow>) -> String {
     let mut parts = Vec::new();
     for ((name, kind), of) in topic.columns.iter().zip(values) {
-        let mut all = Measured::of(*kind, of);
+        let mut all = RecordedFigure::of(*kind, of);
         if let Some(before) = before {
             all = match before.figures.get(*name) {
                 Some(before) => all.with(*kind, before),

@@ -1,7 +1,7 @@
 //! An agent dribbles at one or two defenders: what happens at contact and after it.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, apart, pace, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, apart, pace, yes};
 
 /// Within this distance of a defender they are in contact, metres.
 const CONTACT_M: f64 = 1.0;
@@ -10,26 +10,26 @@ const JOCKEY_M: f64 = 8.0;
 /// Steps of jockeying for a mean.
 const JOCKEY_STEPS: usize = 5;
 
-const COLUMNS: [Column; 19] = [
-    ("contact", Kind::Share),
-    ("jockey_m", Kind::Metres),
-    ("furthest_x", Kind::Place),
-    ("lost", Kind::Share),
-    ("lost_step", Kind::Steps),
-    ("contact_step", Kind::Steps),
-    ("contact_x", Kind::Place),
-    ("ours_5", Kind::Share),
-    ("theirs_5", Kind::Share),
-    ("ours_10", Kind::Share),
-    ("theirs_10", Kind::Share),
-    ("ball_before", Kind::Speed),
-    ("ball_at", Kind::Speed),
-    ("ball_after", Kind::Speed),
-    ("me_before", Kind::Speed),
-    ("me_at", Kind::Speed),
-    ("me_after", Kind::Speed),
-    ("foul", Kind::Share),
-    ("goal", Kind::Share),
+const COLUMNS: [FigureColumn; 19] = [
+    ("contact", FigureKind::Share),
+    ("jockey_m", FigureKind::Metres),
+    ("furthest_x", FigureKind::Place),
+    ("lost", FigureKind::Share),
+    ("lost_step", FigureKind::Steps),
+    ("contact_step", FigureKind::Steps),
+    ("contact_x", FigureKind::Place),
+    ("ours_5", FigureKind::Share),
+    ("theirs_5", FigureKind::Share),
+    ("ours_10", FigureKind::Share),
+    ("theirs_10", FigureKind::Share),
+    ("ball_before", FigureKind::Speed),
+    ("ball_at", FigureKind::Speed),
+    ("ball_after", FigureKind::Speed),
+    ("me_before", FigureKind::Speed),
+    ("me_at", FigureKind::Speed),
+    ("me_after", FigureKind::Speed),
+    ("foul", FigureKind::Share),
+    ("goal", FigureKind::Share),
 ];
 
 const GROUPS: [Group; 5] = [
@@ -44,7 +44,7 @@ const GROUPS: [Group; 5] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "contact", file: "grf_contact.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let mut jockeyed = Vec::new();
     let mut contact = None;
     let mut lost = None;

@@ -1,7 +1,7 @@
 //! Kicks requested by a receiver before the pass arrives.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, first, leaves, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, first, leaves, yes};
 use setpiece::scenario::vocabulary::Action;
 
 /// A ball this near to the receiver has arrived, metres.
@@ -15,16 +15,16 @@ const FASTER_MPS: f64 = 3.0;
 /// Steps over which the largest height is taken.
 const PEAK_STEPS: usize = 12;
 
-const COLUMNS: [Column; 9] = [
-    ("pressed", Kind::Share),
-    ("owned", Kind::Share),
-    ("kicked", Kind::Share),
-    ("kick_step", Kind::Steps),
-    ("after_arrival", Kind::Steps),
-    ("speed", Kind::Speed),
-    ("degrees", Kind::Degrees),
-    ("peak", Kind::Height),
-    ("goal", Kind::Share),
+const COLUMNS: [FigureColumn; 9] = [
+    ("pressed", FigureKind::Share),
+    ("owned", FigureKind::Share),
+    ("kicked", FigureKind::Share),
+    ("kick_step", FigureKind::Steps),
+    ("after_arrival", FigureKind::Steps),
+    ("speed", FigureKind::Speed),
+    ("degrees", FigureKind::Degrees),
+    ("peak", FigureKind::Height),
+    ("goal", FigureKind::Share),
 ];
 
 const GROUPS: [Group; 3] = [
@@ -37,8 +37,8 @@ const GROUPS: [Group; 3] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "early kick", file: "grf_early_kicks.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
-    let pressed = |view: &View| [Action::Shot, Action::ShortPass, Action::HighPass].contains(&view.pressed[1]);
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
+    let pressed = |view: &TraceMoment| [Action::Shot, Action::ShortPass, Action::HighPass].contains(&view.pressed[1]);
     let (Some(left), Some(key)) = (leaves(trace), first(trace, 1, pressed)) else {
         let mut none = vec![None; COLUMNS.len()];
         none[0] = Some(0.0);
@@ -60,7 +60,7 @@ fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
 }
 
 /// The steps in which a pass that left in a step arrives at the receiver, and is kicked on.
-pub(super) fn struck(trace: &[View], left: usize, receiver: usize) -> (Option<usize>, Option<usize>) {
+pub(super) fn struck(trace: &[TraceMoment], left: usize, receiver: usize) -> (Option<usize>, Option<usize>) {
     let arrives = first(trace, left, |view| view.ball_from(view.teams[0][receiver]) < ARRIVED_M);
     let kick = arrives.and_then(|arrives| {
         let before = &trace[left.max(arrives - 1)];
@@ -76,6 +76,6 @@ pub(super) fn struck(trace: &[View], left: usize, receiver: usize) -> (Option<us
 }
 
 /// The largest height of a kicked ball.
-pub(super) fn peak(trace: &[View], step: usize) -> f64 {
+pub(super) fn peak(trace: &[TraceMoment], step: usize) -> f64 {
     trace[step..trace.len().min(step + PEAK_STEPS)].iter().map(|view| view.ball[2]).fold(0.0, f64::max)
 }

@@ -3,25 +3,25 @@
 
 use super::early_kicks::{peak, struck};
 use super::kicks::is_kick;
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, first, leaves, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, first, leaves, yes};
 
 /// A ball kicked within this many steps of its arrival was not trapped.
 const AT_ONCE_STEPS: usize = 3;
 /// The receiver's index in the team.
 const RECEIVER: usize = 2;
 
-const COLUMNS: [Column; 10] = [
-    ("passed", Kind::Share),
-    ("arrived", Kind::Share),
-    ("arrive_step", Kind::Steps),
-    ("struck", Kind::Share),
-    ("first_time", Kind::Share),
-    ("after", Kind::Steps),
-    ("speed", Kind::Speed),
-    ("degrees", Kind::Way),
-    ("peak", Kind::Height),
-    ("goal", Kind::Share),
+const COLUMNS: [FigureColumn; 10] = [
+    ("passed", FigureKind::Share),
+    ("arrived", FigureKind::Share),
+    ("arrive_step", FigureKind::Steps),
+    ("struck", FigureKind::Share),
+    ("first_time", FigureKind::Share),
+    ("after", FigureKind::Steps),
+    ("speed", FigureKind::Speed),
+    ("degrees", FigureKind::Way),
+    ("peak", FigureKind::Height),
+    ("goal", FigureKind::Share),
 ];
 
 const GROUPS: [Group; 3] = [
@@ -34,7 +34,7 @@ const GROUPS: [Group; 3] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "first time", file: "grf_first_time.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let key = first(trace, 1, |view| is_kick(view.pressed[0]));
     let left = key.and_then(|key| leaves(&trace[key - 1..]).map(|left| left + key - 1));
     let (arrives, kick) = left.map_or((None, None), |left| struck(trace, left, RECEIVER));

@@ -1,18 +1,18 @@
 //! The first touch of a pass.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, first, leaves, pace, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, first, leaves, pace, yes};
 
-const COLUMNS: [Column; 9] = [
-    ("left", Kind::Share),
-    ("got", Kind::Share),
-    ("own_step", Kind::Steps),
-    ("arrives_mps", Kind::Speed),
-    ("ball_1", Kind::Metres),
-    ("ball_3", Kind::Metres),
-    ("kept_5", Kind::Share),
-    ("ball_mps_3", Kind::Speed),
-    ("me_mps_3", Kind::Speed),
+const COLUMNS: [FigureColumn; 9] = [
+    ("left", FigureKind::Share),
+    ("got", FigureKind::Share),
+    ("own_step", FigureKind::Steps),
+    ("arrives_mps", FigureKind::Speed),
+    ("ball_1", FigureKind::Metres),
+    ("ball_3", FigureKind::Metres),
+    ("kept_5", FigureKind::Share),
+    ("ball_mps_3", FigureKind::Speed),
+    ("me_mps_3", FigureKind::Speed),
 ];
 
 const GROUPS: [Group; 4] = [
@@ -26,7 +26,7 @@ const GROUPS: [Group; 4] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "first touch", file: "grf_first_touch.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let mut figures = vec![None; COLUMNS.len()];
     let left = leaves(trace);
     figures[0] = Some(yes(left.is_some()));

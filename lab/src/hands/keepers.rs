@@ -1,22 +1,22 @@
 //! A keeper against long, diagonal and close shots of a sprinting agent.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, apart, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, apart, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
 /// A free ball faster than this has been shot, m/s.
 const SHOT_MPS: f64 = 15.0;
 
-const COLUMNS: [Column; 9] = [
-    ("shot", Kind::Share),
-    ("goal", Kind::Share),
-    ("held", Kind::Share),
-    ("wide", Kind::Share),
-    ("corner", Kind::Share),
-    ("leaves", Kind::Steps),
-    ("degrees", Kind::Degrees),
-    ("speed", Kind::Speed),
-    ("keeper_m", Kind::Metres),
+const COLUMNS: [FigureColumn; 9] = [
+    ("shot", FigureKind::Share),
+    ("goal", FigureKind::Share),
+    ("held", FigureKind::Share),
+    ("wide", FigureKind::Share),
+    ("corner", FigureKind::Share),
+    ("leaves", FigureKind::Steps),
+    ("degrees", FigureKind::Degrees),
+    ("speed", FigureKind::Speed),
+    ("keeper_m", FigureKind::Metres),
 ];
 
 const GROUPS: [Group; 3] = [
@@ -29,14 +29,14 @@ const GROUPS: [Group; 3] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "keeper", file: "grf_keepers.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let Some(key) = first(trace, 1, |view| view.pressed[0] == Action::Shot) else {
         let mut none = vec![None; COLUMNS.len()];
         none[0] = Some(0.0);
         return none;
     };
     let end = &trace[trace.len() - 1];
-    let on = |view: &View| view.mode == 0 && view.score == trace[0].score;
+    let on = |view: &TraceMoment| view.mode == 0 && view.score == trace[0].score;
     let leaves = first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && on(view));
     let speed = |from: usize| {
         let after = trace[from..trace.len().min(from + 4)].iter().filter(|view| on(view));

@@ -1,7 +1,7 @@
 //! The keys of an agent: a list of keys, each pressed every step until a condition holds.
 
-use super::trace::{View, apart};
-use crate::pitch::Failure;
+use super::trace::{TraceMoment, apart};
+use crate::pitch::LabError;
 use setpiece::scenario::vocabulary::Action;
 
 /// The eight directions, from the right via the top.
@@ -28,15 +28,15 @@ enum Until {
 }
 
 /// The presses of one agent.
-pub(super) type Plan = Vec<Phase>;
+pub(super) type KeyPlan = Vec<KeyPhase>;
 
 /// A key and how long it is pressed.
 #[derive(Clone, Debug, serde::Deserialize)]
-pub(super) struct Phase(String, Until);
+pub(super) struct KeyPhase(String, Until);
 
 /// An agent working through a plan.
 pub(super) struct Keys<'a> {
-    plan: &'a [Phase],
+    plan: &'a [KeyPhase],
     agent: usize,
     /// 0 left, 1 right.
     team: usize,
@@ -50,20 +50,20 @@ pub(super) struct Keys<'a> {
 
 impl<'a> Keys<'a> {
     /// At the start of a plan.
-    pub(super) fn new(plan: &'a [Phase], agent: usize, team: usize, mirrored: bool) -> Keys<'a> {
+    pub(super) fn new(plan: &'a [KeyPhase], agent: usize, team: usize, mirrored: bool) -> Keys<'a> {
         Keys { plan, agent, team, mirrored, at: 0, pressed: 0, held: None, sprints: false }
     }
 
     /// The key of the next step.
-    pub(super) fn press(&mut self, view: &View) -> Result<Action, Failure> {
-        while let Some(Phase(_, until)) = self.plan.get(self.at) {
+    pub(super) fn press(&mut self, view: &TraceMoment) -> Result<Action, LabError> {
+        while let Some(KeyPhase(_, until)) = self.plan.get(self.at) {
             if self.at + 1 == self.plan.len() || !self.holds(until, view)? {
                 break;
             }
             self.at += 1;
             self.pressed = 0;
         }
-        let Phase(key, _) = self.plan.get(self.at).ok_or("an agent without keys")?;
+        let KeyPhase(key, _) = self.plan.get(self.at).ok_or("an agent without keys")?;
         self.pressed += 1;
         let side = if self.team == 0 { 1.0 } else { -1.0 };
         let me = view.player(self.agent, self.team);
@@ -96,7 +96,7 @@ impl<'a> Keys<'a> {
     }
 
     /// Whether a condition holds.
-    fn holds(&self, until: &Until, view: &View) -> Result<bool, Failure> {
+    fn holds(&self, until: &Until, view: &TraceMoment) -> Result<bool, LabError> {
         let words = match until {
             Until::Steps(steps) => return Ok(self.pressed >= *steps),
             Until::Words(words) => words,
@@ -122,7 +122,7 @@ impl<'a> Keys<'a> {
 }
 
 /// The action of a recorded key.
-pub(super) fn action(key: &str) -> Result<Action, Failure> {
+pub(super) fn action(key: &str) -> Result<Action, LabError> {
     Ok(match key {
         "idle" => Action::Idle,
         "long_pass" => Action::LongPass,

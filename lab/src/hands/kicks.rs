@@ -1,7 +1,7 @@
 //! A kick and the keys that follow it.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
 /// A ball faster than this has been kicked, m/s.
@@ -11,12 +11,12 @@ const STEPS: usize = 18;
 /// Steps over which the largest speed is taken.
 const SPEED_STEPS: usize = 4;
 
-const COLUMNS: [Column; 5] = [
-    ("kicked", Kind::Share),
-    ("when", Kind::Steps),
-    ("speed", Kind::Speed),
-    ("degrees", Kind::Way),
-    ("peak", Kind::Height),
+const COLUMNS: [FigureColumn; 5] = [
+    ("kicked", FigureKind::Share),
+    ("when", FigureKind::Steps),
+    ("speed", FigureKind::Speed),
+    ("degrees", FigureKind::Way),
+    ("peak", FigureKind::Height),
 ];
 
 const GROUPS: [Group; 1] = [("the kick", &["kicked", "when", "speed", "degrees", "peak"])];
@@ -30,13 +30,13 @@ pub(super) fn is_kick(action: Action) -> bool {
     [Action::Shot, Action::ShortPass, Action::LongPass, Action::HighPass].contains(&action)
 }
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     figures(trace, STEPS)
 }
 
 /// Whether and when the first requested kick leaves within this many steps, its speed, direction
 /// and height.
-pub(super) fn figures(trace: &[View], steps: usize) -> Vec<Option<f64>> {
+pub(super) fn figures(trace: &[TraceMoment], steps: usize) -> Vec<Option<f64>> {
     let key = first(trace, 1, |view| is_kick(view.pressed[0]));
     let until = trace.len().min(key.unwrap_or_default() + steps + 1);
     let kick = key.and_then(|key| first(&trace[..until], key, |view| view.owner == -1 && view.velocity() > KICKED_MPS));

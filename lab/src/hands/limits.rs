@@ -1,6 +1,6 @@
 //! The tolerance between our figures and recorded ones.
 
-use crate::figure::Part;
+use crate::figure::FigurePart;
 use crate::pitch::{deviation, mean};
 
 /// Rows in which fewer of their episodes have a value say too little.
@@ -9,7 +9,7 @@ pub(super) const FEWEST: u64 = 5;
 /// What a figure measures. It decides the tolerance in addition to the random error of the two
 /// means.
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum FigureKind {
     /// A share of the episodes.
     Share,
     /// A share of an episode's steps: ±0.05.
@@ -34,73 +34,73 @@ pub(super) enum Kind {
 
 /// A figure as recorded; without a mean if no episode has a value.
 #[derive(serde::Deserialize)]
-pub(super) struct Measured {
+pub(super) struct RecordedFigure {
     pub(super) mean: Option<f64>,
     pub(super) sd: Option<f64>,
     pub(super) n: u64,
 }
 
-impl Measured {
+impl RecordedFigure {
     /// The figure from these episodes' values.
-    pub(super) fn of(kind: Kind, values: &[f64]) -> Measured {
+    pub(super) fn of(kind: FigureKind, values: &[f64]) -> RecordedFigure {
         let some = !values.is_empty();
         let [mean, sd] = [kind.mean(values), kind.deviation(values)].map(|it| Some(it).filter(|_| some));
-        Measured { mean, sd, n: values.len() as u64 }
+        RecordedFigure { mean, sd, n: values.len() as u64 }
     }
 
     /// Combines these episodes with others.
-    pub(super) fn with(self, kind: Kind, other: &Measured) -> Measured {
+    pub(super) fn with(self, kind: FigureKind, other: &RecordedFigure) -> RecordedFigure {
         let (Some(mean), Some(theirs)) = (self.mean, other.mean) else {
-            return if self.mean.is_some() { self } else { Measured { ..*other } };
+            return if self.mean.is_some() { self } else { RecordedFigure { ..*other } };
         };
         let apart = match kind {
-            Kind::Way => wrapped(theirs - mean),
+            FigureKind::Way => wrapped(theirs - mean),
             _ => theirs - mean,
         };
         let (n, m) = (self.n as f64, other.n as f64);
         let squares = |sd: Option<f64>, n: f64| sd.unwrap_or_default().powi(2) * (n - 1.0);
         let sum = squares(self.sd, n) + squares(other.sd, m) + apart * apart * n * m / (n + m);
         let sd = (sum / (n + m - 1.0)).sqrt();
-        Measured { mean: Some(mean + apart * m / (n + m)), sd: Some(sd), n: self.n + other.n }
+        RecordedFigure { mean: Some(mean + apart * m / (n + m)), sd: Some(sd), n: self.n + other.n }
     }
 }
 
 /// Compares our figure with theirs.
-pub(super) fn part(name: &str, kind: Kind, theirs: &Measured, ours: &[f64]) -> Option<Part> {
+pub(super) fn part(name: &str, kind: FigureKind, theirs: &RecordedFigure, ours: &[f64]) -> Option<FigurePart> {
     let middle = theirs.mean?;
     let n = ours.len().max(1) as u64;
     // Events that a few episodes happen not to show aren't impossible: adds one to their total.
-    let least = if let Kind::Count = kind { (middle + 1.0 / theirs.n as f64).sqrt() } else { 0.0 };
+    let least = if let FigureKind::Count = kind { (middle + 1.0 / theirs.n as f64).sqrt() } else { 0.0 };
     let chance = 1.96 * theirs.sd.unwrap_or_default().max(least) * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
     let give = match kind {
-        Kind::Share => share_give(middle, theirs.n, n),
-        Kind::Part => 0.05 + chance,
-        Kind::Count => 0.25 + chance,
-        Kind::Steps => 1.0 + chance,
-        Kind::Speed => 0.08 * middle + chance,
-        Kind::Degrees | Kind::Way => 3.0 + chance,
-        Kind::Height => (0.25 * middle).max(0.3) + chance,
-        Kind::Metres => (0.08 * middle).max(0.5) + chance,
-        Kind::Place => 0.03 + chance,
+        FigureKind::Share => share_give(middle, theirs.n, n),
+        FigureKind::Part => 0.05 + chance,
+        FigureKind::Count => 0.25 + chance,
+        FigureKind::Steps => 1.0 + chance,
+        FigureKind::Speed => 0.08 * middle + chance,
+        FigureKind::Degrees | FigureKind::Way => 3.0 + chance,
+        FigureKind::Height => (0.25 * middle).max(0.3) + chance,
+        FigureKind::Metres => (0.08 * middle).max(0.5) + chance,
+        FigureKind::Place => 0.03 + chance,
     };
     let ours = match kind {
-        Kind::Way => middle + wrapped(kind.mean(ours) - middle),
+        FigureKind::Way => middle + wrapped(kind.mean(ours) - middle),
         _ => mean(ours),
     };
-    Some(Part::around(name, middle, give, ours))
+    Some(FigurePart::around(name, middle, give, ours))
 }
 
-impl Kind {
+impl FigureKind {
     /// The mean of some values.
     pub(super) fn mean(self, of: &[f64]) -> f64 {
-        let Kind::Way = self else { return mean(of) };
+        let FigureKind::Way = self else { return mean(of) };
         let along = |part: fn(f64) -> f64| of.iter().map(|way| part(way.to_radians())).sum::<f64>();
         along(f64::sin).atan2(along(f64::cos)).to_degrees()
     }
 
     /// Their standard deviation.
     pub(super) fn deviation(self, of: &[f64]) -> f64 {
-        let Kind::Way = self else { return deviation(of) };
+        let FigureKind::Way = self else { return deviation(of) };
         let middle = self.mean(of);
         // Around a middle of 0 the deviations are the same as around the circle.
         let off: Vec<f64> = of.iter().map(|way| wrapped(way - middle)).collect();
@@ -125,14 +125,14 @@ pub(super) fn share_give(share: f64, theirs: u64, ours: u64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Kind, Measured};
+    use super::{FigureKind, RecordedFigure};
 
     #[test]
     fn two_recordings_together_are_one_of_all_their_episodes() {
-        for kind in [Kind::Steps, Kind::Way] {
+        for kind in [FigureKind::Steps, FigureKind::Way] {
             let all = [170.0, 178.0, 175.0, 179.0, 168.0, 176.0, 171.0];
-            let together = Measured::of(kind, &all[..3]).with(kind, &Measured::of(kind, &all[3..]));
-            let whole = Measured::of(kind, &all);
+            let together = RecordedFigure::of(kind, &all[..3]).with(kind, &RecordedFigure::of(kind, &all[3..]));
+            let whole = RecordedFigure::of(kind, &all);
             assert_eq!(together.n, whole.n);
             assert!((together.mean.unwrap_or_default() - whole.mean.unwrap_or_default()).abs() < 0.1);
             assert!((together.sd.unwrap_or_default() - whole.sd.unwrap_or_default()).abs() < 0.1);

@@ -1,13 +1,13 @@
 //! Rows of recorded scenes in the common form: scene, keys, and figures that are means over
 //! jittered starts.
 
-use super::keys::Plan;
-pub(super) use super::limits::Kind;
-use super::limits::{FEWEST, Measured, part};
-use super::stage::Scene;
-use super::trace::{Take, View, play};
-use crate::figure::{Part, Section};
-use crate::pitch::Failure;
+use super::keys::KeyPlan;
+pub(super) use super::limits::FigureKind;
+use super::limits::{FEWEST, RecordedFigure, part};
+use super::stage::RecordedScene;
+use super::trace::{Take, TraceMoment, play};
+use crate::figure::{FigurePart, Section};
+use crate::pitch::LabError;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// Episodes of every row.
 const EPISODES: u64 = 48;
 /// A figure's name and kind.
-pub(super) type Column = (&'static str, Kind);
+pub(super) type FigureColumn = (&'static str, FigureKind);
 
 /// Related figures that form one row of the report: their meaning, and the columns.
 pub(super) type Group = (&'static str, &'static [&'static str]);
@@ -26,31 +26,31 @@ pub(super) struct Topic {
     pub(super) name: &'static str,
     /// In `lab/data`.
     pub(super) file: &'static str,
-    pub(super) columns: &'static [Column],
+    pub(super) columns: &'static [FigureColumn],
     /// Every column once, in groups.
     pub(super) groups: &'static [Group],
     /// The figures of an episode in the order of the columns.
-    pub(super) read: fn(&[View], &Row) -> Vec<Option<f64>>,
+    pub(super) read: fn(&[TraceMoment], &RecordedRow) -> Vec<Option<f64>>,
 }
 
 /// A file as recorded.
 #[derive(serde::Deserialize)]
-pub(super) struct File {
-    scenes: BTreeMap<String, Scene>,
-    plans: BTreeMap<String, Vec<Plan>>,
-    pub(super) rows: Vec<Row>,
+pub(super) struct RecordedFile {
+    scenes: BTreeMap<String, RecordedScene>,
+    plans: BTreeMap<String, Vec<KeyPlan>>,
+    pub(super) rows: Vec<RecordedRow>,
 }
 
-impl File {
+impl RecordedFile {
     /// The scene of a row.
-    pub(super) fn scene(&self, row: &Row) -> Result<&Scene, Failure> {
+    pub(super) fn scene(&self, row: &RecordedRow) -> Result<&RecordedScene, LabError> {
         self.scenes.get(&row.scene).ok_or_else(|| format!("no scene `{}`", row.scene))
     }
 }
 
 /// A row as recorded.
 #[derive(serde::Deserialize)]
-pub(super) struct Row {
+pub(super) struct RecordedRow {
     pub(super) scene: String,
     pub(super) plan: String,
     #[serde(default = "one")]
@@ -64,7 +64,7 @@ pub(super) struct Row {
     #[serde(default)]
     pub(super) event: String,
     /// One entry per column.
-    pub(super) figures: BTreeMap<String, Measured>,
+    pub(super) figures: BTreeMap<String, RecordedFigure>,
 }
 
 fn one() -> f64 {
@@ -80,7 +80,7 @@ pub(super) type Values = Vec<Vec<f64>>;
 
 impl Topic {
     /// The topic's file as recorded.
-    pub(super) fn recorded(&self) -> Result<File, Failure> {
+    pub(super) fn recorded(&self) -> Result<RecordedFile, LabError> {
         let text = std::fs::read_to_string(self.path()).map_err(|why| self.named(why))?;
         serde_json::from_str(&text).map_err(|why| self.named(why))
     }
@@ -91,12 +91,12 @@ impl Topic {
     }
 
     /// An error in the topic's file.
-    pub(super) fn named(&self, why: impl Display) -> Failure {
+    pub(super) fn named(&self, why: impl Display) -> LabError {
         format!("lab/data/{}: {why}", self.file)
     }
 
     /// Adds the figures of an episode to those of its row.
-    pub(super) fn add(&self, values: &mut Values, trace: &[View], row: &Row) {
+    pub(super) fn add(&self, values: &mut Values, trace: &[TraceMoment], row: &RecordedRow) {
         values.resize(self.columns.len(), Vec::new());
         for (values, value) in values.iter_mut().zip((self.read)(trace, row)) {
             values.extend(value);
@@ -104,7 +104,7 @@ impl Topic {
     }
 
     /// The rows of the report for a recorded row: our figures and the recorded ones.
-    pub(super) fn compare(&self, row: &Row, values: &Values) -> Vec<(String, Vec<Part>)> {
+    pub(super) fn compare(&self, row: &RecordedRow, values: &Values) -> Vec<(String, Vec<FigurePart>)> {
         let about = match [row.left, row.right] {
             [left, right] if left != one() => format!(", difficulties {left} and {right}"),
             [_, right] if right != usual() => format!(", difficulty {right}"),
@@ -133,7 +133,7 @@ impl Topic {
 }
 
 /// Measures every row of a topic.
-pub(super) fn measure(section: &mut Section, topic: &Topic, count: Option<u64>) -> Result<(), Failure> {
+pub(super) fn measure(section: &mut Section, topic: &Topic, count: Option<u64>) -> Result<(), LabError> {
     let file = topic.recorded()?;
     for row in &file.rows {
         let take = Take {

@@ -1,7 +1,7 @@
 //! Running with the ball: the first steps of a sprint, turns, stops.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, apart, first, pace};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, apart, first, pace};
 use crate::pitch::mean;
 use setpiece::scenario::vocabulary::Action;
 
@@ -14,19 +14,19 @@ const STANDS_MPS: f64 = 0.1;
 /// How many steps after the key are checked.
 const STEPS: usize = 60;
 
-const COLUMNS: [Column; 12] = [
-    ("mps_2", Kind::Speed),
-    ("mps_3", Kind::Speed),
-    ("mps_4", Kind::Speed),
-    ("mps_5", Kind::Speed),
-    ("mps_6", Kind::Speed),
-    ("mps_8", Kind::Speed),
-    ("mps_11", Kind::Speed),
-    ("mps_16", Kind::Speed),
-    ("turned", Kind::Steps),
-    ("fast", Kind::Steps),
-    ("stopped", Kind::Steps),
-    ("way_m", Kind::Metres),
+const COLUMNS: [FigureColumn; 12] = [
+    ("mps_2", FigureKind::Speed),
+    ("mps_3", FigureKind::Speed),
+    ("mps_4", FigureKind::Speed),
+    ("mps_5", FigureKind::Speed),
+    ("mps_6", FigureKind::Speed),
+    ("mps_8", FigureKind::Speed),
+    ("mps_11", FigureKind::Speed),
+    ("mps_16", FigureKind::Speed),
+    ("turned", FigureKind::Steps),
+    ("fast", FigureKind::Steps),
+    ("stopped", FigureKind::Steps),
+    ("way_m", FigureKind::Metres),
 ];
 
 const GROUPS: [Group; 4] = [
@@ -40,7 +40,7 @@ const GROUPS: [Group; 4] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "with the ball", file: "grf_runs.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let mut figures = vec![None; COLUMNS.len()];
     let me = trace[0].active[0];
     let (key, way) = match row.plan.rsplit(' ').next() {

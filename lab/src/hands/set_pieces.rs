@@ -1,7 +1,7 @@
 //! Set pieces: who takes them, when play resumes, and what an agent sees meanwhile.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, apart, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, apart, first, yes};
 use crate::pitch::mean;
 use setpiece::scenario::vocabulary::Role;
 
@@ -12,23 +12,23 @@ const SPEED_STEPS: usize = 5;
 /// Faster than any kick: the ball was placed, m/s.
 const PLACED_MPS: f64 = 60.0;
 
-const COLUMNS: [Column; 16] = [
-    ("awarded", Kind::Share),
-    ("in_mode", Kind::Share),
-    ("resumed", Kind::Steps),
-    ("moved", Kind::Steps),
-    ("ownerless", Kind::Share),
-    ("agent_takes", Kind::Share),
-    ("taker_keeper", Kind::Share),
-    ("taker_defender", Kind::Share),
-    ("taker_midfielder", Kind::Share),
-    ("taker_forward", Kind::Share),
-    ("taker_m", Kind::Metres),
-    ("waiter_m", Kind::Metres),
-    ("ball_speed", Kind::Speed),
-    ("kept", Kind::Share),
-    ("first_right", Kind::Share),
-    ("first_own", Kind::Steps),
+const COLUMNS: [FigureColumn; 16] = [
+    ("awarded", FigureKind::Share),
+    ("in_mode", FigureKind::Share),
+    ("resumed", FigureKind::Steps),
+    ("moved", FigureKind::Steps),
+    ("ownerless", FigureKind::Share),
+    ("agent_takes", FigureKind::Share),
+    ("taker_keeper", FigureKind::Share),
+    ("taker_defender", FigureKind::Share),
+    ("taker_midfielder", FigureKind::Share),
+    ("taker_forward", FigureKind::Share),
+    ("taker_m", FigureKind::Metres),
+    ("waiter_m", FigureKind::Metres),
+    ("ball_speed", FigureKind::Speed),
+    ("kept", FigureKind::Share),
+    ("first_right", FigureKind::Share),
+    ("first_own", FigureKind::Steps),
 ];
 
 const GROUPS: [Group; 5] = [
@@ -55,7 +55,7 @@ fn mode_of(scene: &str) -> usize {
     }
 }
 
-fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let mode = mode_of(&row.scene);
     let begins = first(trace, 1, |view| if mode == 0 { view.score != trace[0].score } else { view.mode != 0 });
     let Some(begins) = begins.filter(|step| trace[*step].mode == mode) else {
@@ -66,7 +66,7 @@ fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
     let spot = [trace[begins].ball[0], trace[begins].ball[1]];
     let resumed = if mode == 0 { None } else { first(trace, begins, |view| view.mode == 0) };
     let moved = first(trace, begins + 1, |view| apart([view.ball[0], view.ball[1]], spot) > 1.0);
-    let share = |from: usize, to: usize, holds: &dyn Fn(&View) -> bool| {
+    let share = |from: usize, to: usize, holds: &dyn Fn(&TraceMoment) -> bool| {
         let of: Vec<f64> = trace[from..to.max(from)].iter().map(|view| yes(holds(view))).collect();
         (!of.is_empty()).then(|| mean(&of))
     };

@@ -1,7 +1,7 @@
 //! Shots of a sprinting agent: place, held direction, presses, keeper.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
 /// A free ball faster than this has been shot, m/s.
@@ -9,13 +9,13 @@ const SHOT_MPS: f64 = 15.0;
 /// Steps over which the largest speed is taken.
 const SPEED_STEPS: usize = 4;
 
-const COLUMNS: [Column; 6] = [
-    ("goal", Kind::Share),
-    ("wide", Kind::Share),
-    ("lost", Kind::Share),
-    ("leaves", Kind::Steps),
-    ("degrees", Kind::Degrees),
-    ("speed", Kind::Speed),
+const COLUMNS: [FigureColumn; 6] = [
+    ("goal", FigureKind::Share),
+    ("wide", FigureKind::Share),
+    ("lost", FigureKind::Share),
+    ("leaves", FigureKind::Steps),
+    ("degrees", FigureKind::Degrees),
+    ("speed", FigureKind::Speed),
 ];
 
 const GROUPS: [Group; 2] =
@@ -25,10 +25,10 @@ const GROUPS: [Group; 2] =
 pub(super) const TOPIC: Topic =
     Topic { name: "shot", file: "grf_shots_held.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let end = &trace[trace.len() - 1];
     let key = first(trace, 1, |view| view.pressed[0] == Action::Shot);
-    let plays = |view: &View| view.mode == 0 && view.score == trace[0].score;
+    let plays = |view: &TraceMoment| view.mode == 0 && view.score == trace[0].score;
     let struck =
         key.and_then(|key| first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && plays(view)));
     let speed = |from: usize| {

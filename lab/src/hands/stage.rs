@@ -1,17 +1,17 @@
 //! A recorded scene's start: everybody's place in each episode, as a scenario's text.
 
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use setpiece::scenario::vocabulary::Role;
 use std::fmt::Write as _;
 
 /// A player as recorded: role, x, y in the frame of the pitch, flags.
-type Placed = (String, f64, f64, String);
+type RecordedPlayer = (String, f64, f64, String);
 
 /// A scene as recorded.
 #[derive(Clone, Debug, serde::Deserialize)]
-pub(super) struct Scene {
-    left: Vec<Placed>,
-    right: Vec<Placed>,
+pub(super) struct RecordedScene {
+    left: Vec<RecordedPlayer>,
+    right: Vec<RecordedPlayer>,
     ball: [f64; 2],
     /// Largest offset of an episode's start.
     #[serde(default)]
@@ -32,7 +32,7 @@ fn yes() -> bool {
     true
 }
 
-impl Scene {
+impl RecordedScene {
     /// The number of agents, those of the left team first.
     pub(super) fn agents(&self) -> [usize; 2] {
         self.agents
@@ -44,8 +44,8 @@ impl Scene {
     }
 
     /// The roles of both teams' players.
-    pub(super) fn roles(&self) -> Result<[Vec<Role>; 2], Failure> {
-        let of = |players: &[Placed]| {
+    pub(super) fn roles(&self) -> Result<[Vec<Role>; 2], LabError> {
+        let of = |players: &[RecordedPlayer]| {
             let roles =
                 players.iter().map(|(name, ..)| Role::from_name(name).ok_or_else(|| format!("no role `{name}`")));
             roles.collect::<Result<Vec<_>, _>>()

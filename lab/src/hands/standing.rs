@@ -1,7 +1,7 @@
 //! Shots of a standing player without a held direction, with and without a keeper.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, apart, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, apart, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
 /// A free ball faster than this has been shot, m/s.
@@ -9,13 +9,13 @@ const SHOT_MPS: f64 = 15.0;
 /// Steps over which the largest speed is taken.
 const SPEED_STEPS: usize = 4;
 
-const COLUMNS: [Column; 6] = [
-    ("goal", Kind::Share),
-    ("wide", Kind::Share),
-    ("held", Kind::Share),
-    ("leaves", Kind::Steps),
-    ("speed", Kind::Speed),
-    ("keeper_m", Kind::Metres),
+const COLUMNS: [FigureColumn; 6] = [
+    ("goal", FigureKind::Share),
+    ("wide", FigureKind::Share),
+    ("held", FigureKind::Share),
+    ("leaves", FigureKind::Steps),
+    ("speed", FigureKind::Speed),
+    ("keeper_m", FigureKind::Metres),
 ];
 
 const GROUPS: [Group; 2] =
@@ -25,10 +25,10 @@ const GROUPS: [Group; 2] =
 pub(super) const TOPIC: Topic =
     Topic { name: "standing shot", file: "grf_standing_shots.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let end = &trace[trace.len() - 1];
     let Some(key) = first(trace, 1, |view| view.pressed[0] == Action::Shot) else { return vec![None; COLUMNS.len()] };
-    let plays = |view: &View| view.mode == 0 && view.score == trace[0].score;
+    let plays = |view: &TraceMoment| view.mode == 0 && view.score == trace[0].score;
     let struck = first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && plays(view));
     let speed = |from: usize| {
         let after = trace[from..trace.len().min(from + SPEED_STEPS)].iter().filter(|view| plays(view));

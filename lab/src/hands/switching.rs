@@ -1,22 +1,22 @@
 //! Which player the agent controls, and when it switches.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, first, yes};
 use crate::pitch::mean;
 use setpiece::scenario::vocabulary::Action;
 
-const COLUMNS: [Column; 11] = [
-    ("happened", Kind::Share),
-    ("switch", Kind::Share),
-    ("switch_step", Kind::Steps),
-    ("to_nearest", Kind::Share),
-    ("to_owner", Kind::Share),
-    ("new_m", Kind::Metres),
-    ("changes", Kind::Steps),
-    ("nearest", Kind::Share),
-    ("keeper", Kind::Share),
-    ("owner_step", Kind::Steps),
-    ("leave_step", Kind::Steps),
+const COLUMNS: [FigureColumn; 11] = [
+    ("happened", FigureKind::Share),
+    ("switch", FigureKind::Share),
+    ("switch_step", FigureKind::Steps),
+    ("to_nearest", FigureKind::Share),
+    ("to_owner", FigureKind::Share),
+    ("new_m", FigureKind::Metres),
+    ("changes", FigureKind::Steps),
+    ("nearest", FigureKind::Share),
+    ("keeper", FigureKind::Share),
+    ("owner_step", FigureKind::Steps),
+    ("leave_step", FigureKind::Steps),
 ];
 
 const GROUPS: [Group; 4] = [
@@ -30,7 +30,7 @@ const GROUPS: [Group; 4] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "switching", file: "grf_switching.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let event = match row.event.as_str() {
         "kick" => {
             first(trace, 2, |view| [Action::ShortPass, Action::LongPass, Action::HighPass].contains(&view.pressed[0]))
@@ -44,14 +44,15 @@ fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
         none[0] = Some(0.0);
         return none;
     };
-    let nearest = |view: &View| view.nearest(0, [view.ball[0], view.ball[1]], |player| player > 0);
+    let nearest = |view: &TraceMoment| view.nearest(0, [view.ball[0], view.ball[1]], |player| player > 0);
     let before = trace[event - 1].active[0];
     let other = row.event == "kick";
     let owner = first(trace, event, |view| view.owner == 0 && !(other && view.who == before));
     let switch = first(trace, event, |view| view.active[0] != before);
     let new = switch.map(|step| (&trace[step], trace[step].active[0]));
     let rest = &trace[event..];
-    let share = |holds: &dyn Fn(&View) -> bool| Some(mean(&rest.iter().map(|v| yes(holds(v))).collect::<Vec<_>>()));
+    let share =
+        |holds: &dyn Fn(&TraceMoment) -> bool| Some(mean(&rest.iter().map(|v| yes(holds(v))).collect::<Vec<_>>()));
     let changes = trace[event - 1..].windows(2).filter(|pair| pair[0].active[0] != pair[1].active[0]).count();
     let steps = |step: Option<usize>| step.map(|step| (step - event) as f64);
     vec![

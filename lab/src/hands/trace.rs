@@ -1,8 +1,8 @@
 //! An episode step by step, as an agent of Google Research Football sees it.
 
-use super::keys::{Keys, Plan};
-use super::stage::Scene;
-use crate::pitch::{Failure, Trial, script};
+use super::keys::{KeyPlan, Keys};
+use super::stage::RecordedScene;
+use crate::pitch::{LabError, Trial, script};
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::vocabulary::{Action, Role, Team};
 
@@ -17,7 +17,7 @@ const TURNING: u32 = 30;
 
 /// One moment; metres in the frame of the pitch, y towards the bottom.
 #[derive(Clone, Debug)]
-pub(super) struct View {
+pub(super) struct TraceMoment {
     /// Place of the ball; the last is its height.
     pub(super) ball: [f64; 3],
     /// Its current horizontal velocity, m/s.
@@ -42,8 +42,8 @@ pub(super) struct View {
     pub(super) score: [u16; 2],
 }
 
-impl View {
-    fn of(game: &Match, pressed: Vec<Action>, before: Option<&View>) -> View {
+impl TraceMoment {
+    fn of(game: &Match, pressed: Vec<Action>, before: Option<&TraceMoment>) -> TraceMoment {
         let ball = game.ball.pos.to_array().map(f64::from);
         let team = |team| {
             let ids = game.squad.of(team).ids();
@@ -53,7 +53,7 @@ impl View {
         let (right, right_roles) = team(Team::Right);
         let mode = game.mode.index();
         let owner = game.owner.filter(|_| !OWNERLESS.contains(&mode));
-        View {
+        TraceMoment {
             ball,
             vel: game.ball.vel.truncate().to_array().map(f64::from),
             speed: before.map_or(0.0, |b| (ball[0] - b.ball[0]).hypot(ball[1] - b.ball[1]) * 10.0),
@@ -106,18 +106,18 @@ pub(super) fn yes(holds: bool) -> f64 {
 }
 
 /// The first step from one on in which a condition holds.
-pub(super) fn first(trace: &[View], from: usize, holds: impl Fn(&View) -> bool) -> Option<usize> {
+pub(super) fn first(trace: &[TraceMoment], from: usize, holds: impl Fn(&TraceMoment) -> bool) -> Option<usize> {
     trace.iter().enumerate().skip(from).find(|(_, view)| holds(view)).map(|(step, _)| step)
 }
 
 /// The first step in which a kicked ball is under way: nobody owns it, and it moved faster than 9
 /// m/s.
-pub(super) fn leaves(trace: &[View]) -> Option<usize> {
+pub(super) fn leaves(trace: &[TraceMoment]) -> Option<usize> {
     first(trace, 1, |view| view.owner == -1 && view.speed > 9.0)
 }
 
 /// The speed of a left player in the step to this one, m/s.
-pub(super) fn pace(trace: &[View], step: usize, player: usize) -> Option<f64> {
+pub(super) fn pace(trace: &[TraceMoment], step: usize, player: usize) -> Option<f64> {
     let before = trace.get(step.checked_sub(1)?)?;
     Some(apart(trace.get(step)?.teams[0][player], before.teams[0][player]) * 10.0)
 }
@@ -129,15 +129,15 @@ pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// The settings of one episode.
 pub(super) struct Take<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) plans: &'a [Plan],
+    pub(super) scene: &'a RecordedScene,
+    pub(super) plans: &'a [KeyPlan],
     pub(super) difficulty: [f64; 2],
     pub(super) steps: u32,
     pub(super) stop: &'a [String],
 }
 
 /// Plays an episode: the start, then every step.
-pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> {
+pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<TraceMoment>, LabError> {
     let mut trial = Trial::new(script(&take.scene.source(episode, take.difficulty))?, episode)?;
     let left = take.scene.agents()[0];
     let mirrored = take.scene.mirrored(episode);
@@ -147,7 +147,7 @@ pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> 
         .enumerate()
         .map(|(agent, plan)| Keys::new(plan, agent, usize::from(agent >= left), mirrored))
         .collect();
-    let mut trace = vec![View::of(trial.state(), Vec::new(), None)];
+    let mut trace = vec![TraceMoment::of(trial.state(), Vec::new(), None)];
     let mut waiting = 0;
     for _ in 0..take.steps {
         let view = &trace[trace.len() - 1];
@@ -160,7 +160,7 @@ pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> 
         if !trial.step_all(&actions)? {
             break;
         }
-        let next = View::of(trial.state(), actions, Some(view));
+        let next = TraceMoment::of(trial.state(), actions, Some(view));
         waiting = if next.mode == 0 { 0 } else { waiting + 1 };
         trace.push(next);
         if stops(&trace, take.stop)? {
@@ -171,7 +171,7 @@ pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<View>, Failure> 
 }
 
 /// The drop-in's press for an agent while a set piece waits for too long.
-fn hurried(view: &View, agent: usize, team: usize, waiting: u32) -> Action {
+fn hurried(view: &TraceMoment, agent: usize, team: usize, waiting: u32) -> Action {
     if waiting == STALLED {
         return Action::ShortPass;
     }
@@ -183,7 +183,7 @@ fn hurried(view: &View, agent: usize, team: usize, waiting: u32) -> Action {
 }
 
 /// Whether an episode stops here.
-fn stops(trace: &[View], words: &[String]) -> Result<bool, Failure> {
+fn stops(trace: &[TraceMoment], words: &[String]) -> Result<bool, LabError> {
     let now = trace.len() - 1;
     for words in words {
         let (word, number) = words.split_once(' ').unwrap_or((words, "0"));

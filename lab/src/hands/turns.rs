@@ -1,7 +1,7 @@
 //! Turns with the ball, an opponent near.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, apart, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, apart, first, yes};
 use setpiece::scenario::vocabulary::Action;
 
 /// A slower player has no direction, m/s.
@@ -9,14 +9,14 @@ const MOVES_MPS: f64 = 1.5;
 /// A turn is done within this angle of the new direction, degrees.
 const TURNED_DEG: f64 = 25.0;
 
-const COLUMNS: [Column; 7] = [
-    ("had", Kind::Share),
-    ("foe_m", Kind::Metres),
-    ("lost", Kind::Share),
-    ("kept_5", Kind::Share),
-    ("kept_15", Kind::Share),
-    ("turn_step", Kind::Steps),
-    ("turn_owned", Kind::Share),
+const COLUMNS: [FigureColumn; 7] = [
+    ("had", FigureKind::Share),
+    ("foe_m", FigureKind::Metres),
+    ("lost", FigureKind::Share),
+    ("kept_5", FigureKind::Share),
+    ("kept_15", FigureKind::Share),
+    ("turn_step", FigureKind::Steps),
+    ("turn_owned", FigureKind::Share),
 ];
 
 const GROUPS: [Group; 3] = [
@@ -39,7 +39,7 @@ fn turn(plan: &str) -> (Action, f64) {
     }
 }
 
-fn read(trace: &[View], row: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let (key, way) = turn(&row.plan);
     let begins = first(trace, 1, |view| view.pressed[0] == key).filter(|step| trace[step - 1].owner == 0);
     let Some(begins) = begins else {

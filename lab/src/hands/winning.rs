@@ -1,17 +1,17 @@
 //! An agent wins the ball from a bot, and races a bot for a loose ball.
 
-use super::recorded::{Column, Group, Kind, Row, Topic};
-use super::trace::{View, apart, first, yes};
+use super::recorded::{FigureColumn, FigureKind, Group, RecordedRow, Topic};
+use super::trace::{TraceMoment, apart, first, yes};
 
-const COLUMNS: [Column; 8] = [
-    ("first_ours", Kind::Share),
-    ("first_step", Kind::Steps),
-    ("won", Kind::Share),
-    ("won_step", Kind::Steps),
-    ("foul", Kind::Share),
-    ("goal", Kind::Share),
-    ("out", Kind::Share),
-    ("nearest_m", Kind::Metres),
+const COLUMNS: [FigureColumn; 8] = [
+    ("first_ours", FigureKind::Share),
+    ("first_step", FigureKind::Steps),
+    ("won", FigureKind::Share),
+    ("won_step", FigureKind::Steps),
+    ("foul", FigureKind::Share),
+    ("goal", FigureKind::Share),
+    ("out", FigureKind::Share),
+    ("nearest_m", FigureKind::Metres),
 ];
 
 const GROUPS: [Group; 4] = [
@@ -25,7 +25,7 @@ const GROUPS: [Group; 4] = [
 pub(super) const TOPIC: Topic =
     Topic { name: "winning the ball", file: "grf_winning.json", columns: &COLUMNS, groups: &GROUPS, read };
 
-fn read(trace: &[View], _: &Row) -> Vec<Option<f64>> {
+fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let owned = first(trace, 1, |view| view.owner >= 0);
     let theirs = first(trace, 1, |view| view.owner == 1);
     let won = theirs.and_then(|from| first(trace, from, |view| view.owner == 0));

@@ -1,20 +1,20 @@
 //! Matches of Google Research Football's bots, as counted by `lab/record/matches.py`.
 
-use crate::figure::{Part, short};
-use crate::pitch::{Failure, deviation, mean};
+use crate::figure::{FigurePart, short};
+use crate::pitch::{LabError, deviation, mean};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A match: its difficulties and all counts, by name.
-type Match = BTreeMap<String, f64>;
+type MatchCounts = BTreeMap<String, f64>;
 
 /// Reads the matches between these difficulties.
-pub(super) fn matches(left: f64, right: f64) -> Result<Vec<Match>, Failure> {
+pub(super) fn matches(left: f64, right: f64) -> Result<Vec<MatchCounts>, LabError> {
     const FILE: &str = "grf_bot_matches.jsonl";
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(FILE);
     let text = std::fs::read_to_string(path).map_err(|why| format!("lab/data/{FILE}: {why}"))?;
     let all = text.lines().map(|line| serde_json::from_str(line).map_err(|why| format!("lab/data/{FILE}: {why}")));
-    let mut of = all.collect::<Result<Vec<Match>, Failure>>()?;
+    let mut of = all.collect::<Result<Vec<MatchCounts>, LabError>>()?;
     of.retain(|one| one.get("left") == Some(&left) && one.get("right") == Some(&right));
     Ok(of)
 }
@@ -31,7 +31,7 @@ pub(super) enum Give {
 }
 
 /// Compares a count of ours, the mean over this many matches, with theirs.
-pub(super) fn part(theirs: &[Match], name: &str, give: Give, ours: f64, matches: usize) -> Part {
+pub(super) fn part(theirs: &[MatchCounts], name: &str, give: Give, ours: f64, matches: usize) -> FigurePart {
     let of: Vec<f64> = theirs.iter().filter_map(|one| one.get(name).copied()).collect();
     let (middle, n) = (mean(&of), of.len() as f64);
     // Events that a few matches happen not to show aren't impossible: adds one to their total.
@@ -42,7 +42,7 @@ pub(super) fn part(theirs: &[Match], name: &str, give: Give, ours: f64, matches:
         Give::Share => 0.05,
         Give::Measure => 0.15 * middle,
     };
-    let mut part = Part::around(name, middle, tolerance + chance, ours);
+    let mut part = FigurePart::around(name, middle, tolerance + chance, ours);
     part.range[0] = part.range[0].max(0.0);
     part.theirs = format!("{} ± {}", short(middle), short(deviation(&of) / n.sqrt()));
     part

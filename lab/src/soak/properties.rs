@@ -7,8 +7,8 @@ mod law;
 mod tests;
 mod waiting;
 
-use crate::pitch::Failure;
-use film::Film;
+use crate::pitch::LabError;
+use film::TickMemory;
 use setpiece::engine::environment::Scratch;
 use setpiece::engine::state::Match;
 use setpiece::engine::state::event::Event;
@@ -38,24 +38,24 @@ pub(super) struct Step<'a> {
 /// The memory from step to step.
 pub(super) struct Witness {
     before: Match,
-    film: Film,
+    film: TickMemory,
     waiting: Waiting,
 }
 
 /// An error unless a condition holds.
-fn must(holds: bool, why: impl FnOnce() -> String) -> Result<(), Failure> {
+fn must(holds: bool, why: impl FnOnce() -> String) -> Result<(), LabError> {
     if holds { Ok(()) } else { Err(why()) }
 }
 
 impl Witness {
     /// Begins at a start.
-    pub(super) fn new(start: &Match) -> Result<Witness, Failure> {
+    pub(super) fn new(start: &Match) -> Result<Witness, LabError> {
         bodies::sound(start)?;
-        Ok(Witness { before: start.clone(), film: Film::default(), waiting: Waiting::default() })
+        Ok(Witness { before: start.clone(), film: TickMemory::default(), waiting: Waiting::default() })
     }
 
     /// Checks a step.
-    pub(super) fn see(&mut self, step: &Step, scratch: &mut Scratch) -> Result<Seen, Failure> {
+    pub(super) fn see(&mut self, step: &Step, scratch: &mut Scratch) -> Result<Seen, LabError> {
         use EventKind::{Corner, FreeKick, Goal, GoalKick, Kickoff, Penalty, RedCard, ThrowIn, YellowCard};
         for game in [step.judged, step.after] {
             bodies::sound(game)?;

@@ -1,10 +1,10 @@
 //! The banner that says that a goal fell, a flag went up, a card was shown.
 
-use crate::canvas::Canvas;
+use crate::canvas::Raster;
 use crate::color::{ACCENTS, INK, PANEL, RED_CARD, YELLOW_CARD};
 use crate::math::{Vec2, smooth};
 use crate::scene::{News, NewsKind, Scene};
-use crate::text::{Digits, Style};
+use crate::text::{Digits, Lettering};
 
 /// How long a banner stays, steps.
 const STAYS_STEPS: u32 = 25;
@@ -12,7 +12,7 @@ const STAYS_STEPS: u32 = 25;
 const COMES_STEPS: f32 = 2.0;
 
 /// Draws the most important news that is recent.
-pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, unit: f32) {
+pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, unit: f32) {
     let recent = scene.news.iter().filter(|news| news.age_steps < STAYS_STEPS);
     // Of equals, the latest.
     let Some(news) = recent.max_by_key(|news| (news.kind, std::cmp::Reverse(news.age_steps))) else { return };
@@ -21,7 +21,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, unit: f32) {
     strip(canvas, *news, unit, open);
 }
 
-fn strip(canvas: &mut Canvas<'_>, news: News, unit: f32, open: f32) {
+fn strip(canvas: &mut Raster<'_>, news: News, unit: f32, open: f32) {
     let words = match news.kind {
         NewsKind::Goal => "GOAL!",
         NewsKind::Offside => "OFFSIDE",
@@ -31,8 +31,8 @@ fn strip(canvas: &mut Canvas<'_>, news: News, unit: f32, open: f32) {
     };
     let goal = news.kind == NewsKind::Goal;
     let accent = ACCENTS[news.team.index()];
-    let style = Style::bold(if goal { 42.0 } else { 26.0 } * unit, INK);
-    let small = Style::bold(style.size * 0.62, [20, 20, 24]);
+    let style = Lettering::bold(if goal { 42.0 } else { 26.0 } * unit, INK);
+    let small = Lettering::bold(style.size * 0.62, [20, 20, 24]);
     let number = news.number.map(|number| Digits::new(u32::from(number), 1));
     let (pad, high) = (style.size * 0.75, style.size * 2.0);
     let badge = if number.is_some() { high * 0.82 } else { 0.0 };
@@ -64,7 +64,7 @@ fn strip(canvas: &mut Canvas<'_>, news: News, unit: f32, open: f32) {
     if let Some(number) = number {
         let at = Vec2::new(end.x - pad * 0.5 - badge * 0.5, middle.y);
         canvas.disc(at, badge * 0.4, accent, 1.0);
-        let ink = if news.team.index() == 0 { small } else { Style { color: INK, ..small } };
+        let ink = if news.team.index() == 0 { small } else { Lettering { color: INK, ..small } };
         ink.centre(canvas, number.as_str(), at);
     }
 }

@@ -1,12 +1,12 @@
 //! The whole pitch in small.
 
-use crate::canvas::Canvas;
+use crate::canvas::Raster;
 use crate::color::{BALL, LINE, kit};
 use crate::math::{Vec2, ground, space};
 use crate::scene::{Pitch, Scene};
 
 /// Draws it at the bottom, in the middle.
-pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, pitch: &Pitch, unit: f32) {
+pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, pitch: &Pitch, unit: f32) {
     let field = Vec2::new(pitch.length_m, pitch.width_m);
     let scale = (206.0 * unit / field.x).min(150.0 * unit / field.y);
     let half = field * (0.5 * scale);

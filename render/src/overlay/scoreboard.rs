@@ -1,18 +1,18 @@
 //! Teams with their colours, score, clock, and the set piece that is waiting.
 
-use crate::canvas::Canvas;
+use crate::canvas::Raster;
 use crate::color::{ACCENTS, FAINT, INK, PANEL};
 use crate::math::{Vec2, within};
 use crate::scene::Scene;
-use crate::text::{Digits, Style};
+use crate::text::{Digits, Lettering};
 
 /// Most letters of a team's name.
 const LETTERS: usize = 12;
 
 /// Draws the board at the top left.
-pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, unit: f32) {
+pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, unit: f32) {
     let (left, top, high) = (34.0 * unit, 28.0 * unit, 40.0 * unit);
-    let (name, bold) = (Style::bold(17.0 * unit, INK), Style::bold(19.0 * unit, PANEL));
+    let (name, bold) = (Lettering::bold(17.0 * unit, INK), Lettering::bold(19.0 * unit, PANEL));
     let middle = top + high * 0.5;
     let (pad, bar) = (16.0 * unit, 7.0 * unit);
     let names = [short(&scene.names[0]), short(&scene.names[1])];
@@ -51,11 +51,11 @@ fn short(name: &str) -> &str {
     name.char_indices().nth(LETTERS).map_or(name, |(end, _)| &name[..end])
 }
 
-fn scores_width(style: &Style, score: &[Digits; 2]) -> f32 {
+fn scores_width(style: &Lettering, score: &[Digits; 2]) -> f32 {
     style.width(score[0].as_str()) + style.width(score[1].as_str()) + style.size * 1.5
 }
 
-fn write_score(canvas: &mut Canvas<'_>, style: &Style, score: &[Digits; 2], middle: Vec2) {
+fn write_score(canvas: &mut Raster<'_>, style: &Lettering, score: &[Digits; 2], middle: Vec2) {
     let gap = style.size * 0.75;
     let top = middle.y - style.size * 0.5;
     let first = score[0].as_str();
@@ -66,10 +66,10 @@ fn write_score(canvas: &mut Canvas<'_>, style: &Style, score: &[Digits; 2], midd
 }
 
 /// Minutes and seconds.
-fn clock(canvas: &mut Canvas<'_>, seconds: f32, middle: Vec2, unit: f32) {
+fn clock(canvas: &mut Raster<'_>, seconds: f32, middle: Vec2, unit: f32) {
     let seconds = within(seconds, 0.0, 599_999.0) as u32;
     let (minutes, seconds) = (Digits::new(seconds / 60, 2), Digits::new(seconds % 60, 2));
-    let style = Style::plain(18.0 * unit, INK);
+    let style = Lettering::plain(18.0 * unit, INK);
     let half = 5.0 * unit;
     let top = middle.y - style.size * 0.5;
     style.write(canvas, minutes.as_str(), Vec2::new(middle.x - half - style.width(minutes.as_str()), top));
@@ -79,12 +79,12 @@ fn clock(canvas: &mut Canvas<'_>, seconds: f32, middle: Vec2, unit: f32) {
     }
 }
 
-fn set_piece(canvas: &mut Canvas<'_>, scene: &Scene, corner: Vec2, unit: f32) {
+fn set_piece(canvas: &mut Raster<'_>, scene: &Scene, corner: Vec2, unit: f32) {
     let words = scene.mode.caption();
     if words.is_empty() {
         return;
     }
-    let style = Style::plain(14.0 * unit, INK);
+    let style = Lettering::plain(14.0 * unit, INK);
     let (high, pad, bar) = (28.0 * unit, 12.0 * unit, 5.0 * unit);
     let size = Vec2::new(style.width(words) + 2.0 * pad + bar, high);
     canvas.panel(corner, corner + size, 3.0 * unit, PANEL, 0.86);

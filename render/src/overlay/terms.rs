@@ -1,10 +1,10 @@
 //! The terms of a step's reward, as far as they paid something.
 
-use crate::canvas::Canvas;
+use crate::canvas::Raster;
 use crate::color::{FAINT, INK, PANEL};
 use crate::math::{Vec2, within};
 use crate::scene::Scene;
-use crate::text::{Digits, Style};
+use crate::text::{Digits, Lettering};
 
 /// Most rows, and most letters of a name.
 const ROWS: usize = 8;
@@ -14,7 +14,7 @@ const GAIN: [u8; 3] = [126, 211, 133];
 const LOSS: [u8; 3] = [255, 130, 120];
 
 /// Draws them at the top right.
-pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, unit: f32) {
+pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, unit: f32) {
     let paid = || scene.rewards.iter().filter(|term| term.value != 0.0).take(ROWS);
     let count = paid().count();
     if count == 0 {
@@ -26,7 +26,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, unit: f32) {
     canvas.panel(corner, corner + size, 5.0 * unit, PANEL, 0.86);
     for (i, term) in paid().enumerate() {
         let y = corner.y + 7.0 * unit + (i as f32 + 0.5) * line;
-        let style = Style::plain(11.0 * unit, INK);
+        let style = Lettering::plain(11.0 * unit, INK);
         let end = term.name.char_indices().nth(LETTERS).map_or(term.name.len(), |(end, _)| end);
         style.write(canvas, &term.name[..end], Vec2::new(corner.x + 12.0 * unit, y - style.size * 0.5));
         let ink = if term.value > 0.0 {
@@ -36,12 +36,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, scene: &Scene, unit: f32) {
         } else {
             FAINT
         };
-        value(canvas, term.value, Vec2::new(corner.x + size.x - 12.0 * unit, y), Style { color: ink, ..style });
+        value(canvas, term.value, Vec2::new(corner.x + size.x - 12.0 * unit, y), Lettering { color: ink, ..style });
     }
 }
 
 /// A number with a sign and three decimals, from the right.
-fn value(canvas: &mut Canvas<'_>, value: f32, end: Vec2, style: Style) {
+fn value(canvas: &mut Raster<'_>, value: f32, end: Vec2, style: Lettering) {
     let thousandths = (within(value.abs(), 0.0, 999_999.0) * 1000.0 + 0.5) as u32;
     let (whole, part) = (Digits::new(thousandths / 1000, 1), Digits::new(thousandths % 1000, 3));
     let mut x = end.x;

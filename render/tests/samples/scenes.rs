@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each of them uses some")]
 
 use setpiece_render::Scene;
-use setpiece_render::scene::{Id, Mode, News, NewsKind, Player, Posture, Role, Side, Term};
+use setpiece_render::scene::{Id, Mode, News, NewsKind, Posture, Role, ScenePlayer, Side, Term};
 
 /// Where the left team stands in open play, and who is who; the right team mirrors it.
 const LINEUP: [(Role, f32, f32); 11] = [
@@ -20,7 +20,7 @@ const LINEUP: [(Role, f32, f32); 11] = [
 ];
 
 /// A player of the line-up, moved along.
-fn player(team: Side, slot: usize, shift: f32) -> Player {
+fn player(team: Side, slot: usize, shift: f32) -> ScenePlayer {
     let (role, x, y) = LINEUP[slot];
     let sign = if team == Side::Left { 1.0 } else { -1.0 };
     let x = if role == Role::GK { x } else { x + shift * sign };
@@ -29,19 +29,19 @@ fn player(team: Side, slot: usize, shift: f32) -> Player {
     let half = [0.2, 1.4, -3.0, -0.9, 0.5, 6.0, -0.3, 2.2, -1.6, 0.05, -0.6][(slot * 3 + team.index() * 5) % 11];
     let (x_way, y_way) = ((1.0 - half * half) / (1.0 + half * half), 2.0 * half / (1.0 + half * half));
     let vel = if role == Role::GK { [0.0; 2] } else { [run * x_way, run * y_way] };
-    Player {
+    ScenePlayer {
         id: Id { team, slot: slot as u8 },
         number: [1, 3, 4, 5, 2, 6, 8, 10, 11, 9, 7][slot],
         role,
         pos: [x * sign, y * sign],
         vel,
         facing: if role == Role::GK { [sign, 0.0] } else { [x_way, y_way] },
-        ..Player::default()
+        ..ScenePlayer::default()
     }
 }
 
 /// Everyone, with the play shifted along x.
-pub(crate) fn squads(shift: f32) -> Vec<Player> {
+pub(crate) fn squads(shift: f32) -> Vec<ScenePlayer> {
     let team = |team, shift| (0..11).map(move |slot| player(team, slot, shift));
     team(Side::Left, shift).chain(team(Side::Right, -shift)).collect()
 }
@@ -52,7 +52,7 @@ fn base(step: u32, shift: f32, ball: [f32; 3]) -> Scene {
     scene
 }
 
-fn at(scene: &mut Scene, index: usize, pos: [f32; 2], vel: [f32; 2]) -> &mut Player {
+fn at(scene: &mut Scene, index: usize, pos: [f32; 2], vel: [f32; 2]) -> &mut ScenePlayer {
     let player = &mut scene.players[index];
     player.pos = pos;
     player.vel = vel;

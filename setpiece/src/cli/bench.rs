@@ -4,7 +4,7 @@ use super::FINE;
 use super::out::{Out, StyledText};
 use super::playing::AgentName;
 use crate::Error;
-use crate::bench::{BenchOptions, Measured, ONCE_NAMES, Observation, measure, once, phases, scaling};
+use crate::bench::{BenchObservation, BenchOptions, Measured, ONCE_NAMES, measure, once, phases, scaling};
 use crate::engine::environment::EnvironmentOptions;
 use crate::files::{SOURCE_MAX_BYTES, into_text, read_file};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
@@ -40,8 +40,8 @@ pub(crate) struct BenchArgs {
     #[arg(short, long, value_enum, default_value_t = ObservationName::Simple115v2)]
     observation: ObservationName,
     /// The output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = BenchFormat::Text)]
+    format: BenchFormat,
     /// Compare with an earlier output of `--format jsonl` on this machine: the ratio of steps per
     /// CPU-second
     #[arg(long, value_name = "FILE")]
@@ -59,7 +59,7 @@ enum ObservationName {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum BenchFormat {
     /// A table
     Text,
     /// One JSON object per line, for `--against`
@@ -68,7 +68,7 @@ enum Format {
 
 /// A line of the table.
 #[derive(Serialize, Deserialize, Clone, Debug)]
-struct Row {
+struct BenchRow {
     scenario: String,
     threads: usize,
     matches: usize,
@@ -92,10 +92,11 @@ struct Row {
     once_microseconds: BTreeMap<String, f64>,
 }
 
-impl Row {
-    fn compares_with(&self, other: &Row) -> bool {
-        let key =
-            |row: &Row| (row.scenario.clone(), row.threads, row.matches, row.observation.clone(), row.agent.clone());
+impl BenchRow {
+    fn compares_with(&self, other: &BenchRow) -> bool {
+        let key = |row: &BenchRow| {
+            (row.scenario.clone(), row.threads, row.matches, row.observation.clone(), row.agent.clone())
+        };
         key(self) == key(other)
     }
 }
@@ -131,9 +132,9 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
                 duration: Duration::from_secs_f64(args.seconds),
                 agent: args.agent.agent(),
                 observation: match args.observation {
-                    ObservationName::None => Observation::None,
-                    ObservationName::Simple115v2 => Observation::Simple115v2,
-                    ObservationName::Smm => Observation::Smm,
+                    ObservationName::None => BenchObservation::None,
+                    ObservationName::Simple115v2 => BenchObservation::Simple115v2,
+                    ObservationName::Smm => BenchObservation::Smm,
                 },
                 seed: 0,
                 environment: EnvironmentOptions::default(),
@@ -152,13 +153,13 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
             }
             let earlier = before.iter().find(|earlier| row.compares_with(earlier));
             row.ratio = earlier.map(|earlier| row.steps_per_cpu_second / earlier.steps_per_cpu_second);
-            if args.format == Format::Jsonl {
+            if args.format == BenchFormat::Jsonl {
                 out.line(serde_json::to_string(&row).unwrap_or_default());
             }
             rows.push(row);
         }
     }
-    if args.format == Format::Text {
+    if args.format == BenchFormat::Text {
         print(&rows, args.against.is_some(), (&observation, &agent), out);
     }
     if let Some(path) = &args.against
@@ -172,8 +173,8 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
     Ok(FINE)
 }
 
-fn row(scenario: &str, options: &BenchOptions, measured: &Measured, words: (&str, &str)) -> Row {
-    Row {
+fn row(scenario: &str, options: &BenchOptions, measured: &Measured, words: (&str, &str)) -> BenchRow {
+    BenchRow {
         scenario: scenario.to_owned(),
         threads: options.threads,
         matches: options.matches,
@@ -189,7 +190,7 @@ fn row(scenario: &str, options: &BenchOptions, measured: &Measured, words: (&str
     }
 }
 
-fn print(rows: &[Row], compared: bool, words: (&str, &str), out: &Out) {
+fn print(rows: &[BenchRow], compared: bool, words: (&str, &str), out: &Out) {
     let (observation, agent) = words;
     out.line(format!("agent {agent} · observation {observation} · resets included"));
     out.line("");
@@ -215,13 +216,13 @@ fn print(rows: &[Row], compared: bool, words: (&str, &str), out: &Out) {
             row.scenario, row.threads, row.matches, row.steps_per_second, row.steps_per_cpu_second
         ));
     }
-    let alone: Vec<&Row> = rows.iter().filter(|row| row.threads == 1).collect();
+    let alone: Vec<&BenchRow> = rows.iter().filter(|row| row.threads == 1).collect();
     times(&alone, "µs a step", &crate::engine::laps::Phase::NAMED.map(|(_, name)| name), |row| &row.microseconds, out);
     times(&alone, "µs each time", &ONCE_NAMES, |row| &row.once_microseconds, out);
 }
 
 /// A table of microseconds by name.
-fn times(rows: &[&Row], title: &str, names: &[&str], of: impl Fn(&Row) -> &BTreeMap<String, f64>, out: &Out) {
+fn times(rows: &[&BenchRow], title: &str, names: &[&str], of: impl Fn(&BenchRow) -> &BTreeMap<String, f64>, out: &Out) {
     if rows.is_empty() {
         return;
     }
@@ -236,7 +237,7 @@ fn times(rows: &[&Row], title: &str, names: &[&str], of: impl Fn(&Row) -> &BTree
 }
 
 /// The rows of an earlier run.
-fn read(path: &Path) -> Result<Vec<Row>, Error> {
+fn read(path: &Path) -> Result<Vec<BenchRow>, Error> {
     let text = into_text(read_file(path, SOURCE_MAX_BYTES)?, path)?;
     let row = |line: &str| {
         serde_json::from_str(line).map_err(|why| Error::File {

@@ -1,6 +1,6 @@
 //! Printing: text to standard output, problems to standard error, in colour if wanted.
 
-use super::Colour;
+use super::ColourChoice;
 use crate::drawing::Paint;
 use crate::dsl::report::{Format, printable, render};
 use crate::dsl::{problem::Problem, source::Sources};
@@ -20,11 +20,11 @@ pub(crate) struct Out {
 
 impl Out {
     /// Uses colour as requested; `auto` checks the terminal and `NO_COLOR`.
-    pub(crate) fn new(colour: Colour, allow_outside: bool) -> Out {
+    pub(crate) fn new(colour: ColourChoice, allow_outside: bool) -> Out {
         let wanted = |terminal: bool| match colour {
-            Colour::Always => true,
-            Colour::Never => false,
-            Colour::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+            ColourChoice::Always => true,
+            ColourChoice::Never => false,
+            ColourChoice::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
         };
         Out {
             stdout_colour: wanted(std::io::stdout().is_terminal()),

@@ -32,15 +32,15 @@ pub(crate) struct RunArgs {
     #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
     threads: Option<u16>,
     /// The output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = RunFormat::Text)]
+    format: RunFormat,
     /// Run again whenever the file, or one it imports, changes
     #[arg(short, long, conflicts_with = "format")]
     watch: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
+pub(crate) enum RunFormat {
     /// A table
     Text,
     /// One JSON object
@@ -60,8 +60,8 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
         return Err(error);
     }
     match args.format {
-        Format::Json => out.line(summary::json(&loaded.scenario, &options, &summary)),
-        Format::Text => summary::print(&loaded.scenario, &options, &summary, out)?,
+        RunFormat::Json => out.line(summary::json(&loaded.scenario, &options, &summary)),
+        RunFormat::Text => summary::print(&loaded.scenario, &options, &summary, out)?,
     }
     if let Some(error) = first_error(&summary) {
         out.error(&error);

@@ -22,7 +22,7 @@ struct Report<'a> {
     episodes: usize,
     seed: u64,
     outcomes: BTreeMap<&'a str, u32>,
-    score: Score,
+    score: MeanScore,
     mean_return: f64,
     mean_length: f64,
     success_rate: f64,
@@ -36,7 +36,7 @@ struct Report<'a> {
 
 /// Mean goals.
 #[derive(serde::Serialize)]
-struct Score {
+struct MeanScore {
     left: f64,
     right: f64,
 }
@@ -53,7 +53,7 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
         episodes: summary.episodes.len(),
         seed: options.seed,
         outcomes,
-        score: Score { left, right },
+        score: MeanScore { left, right },
         mean_return: summary.mean_return,
         mean_length: summary.mean_length,
         success_rate: summary.success_rate,

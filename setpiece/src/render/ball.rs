@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, at};
 use super::colours::{BALL, DARK, SHADOW, faded};
 use super::people;
-use super::scene::Scene;
+use super::scene::SheetScene;
 use super::text::{Style, width};
 use super::view::View;
 use crate::scenario::pitch::BALL_RADIUS_M;
@@ -20,7 +20,7 @@ const GROWTH: f32 = 0.055;
 const TOLD_M: f32 = 0.5;
 
 /// Draws the ball of the last scene and its trail.
-pub fn draw(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene]) {
+pub fn draw(canvas: &mut Canvas<'_>, view: &View, scenes: &[SheetScene]) {
     let Some(now) = scenes.last() else { return };
     let radius = view.length(RADIUS_M).max(RADIUS_LEAST);
     trail(canvas, view, scenes, radius);
@@ -41,18 +41,18 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene]) {
 }
 
 /// The height above its place at rest, metres.
-fn height_m(scene: &Scene) -> f32 {
+fn height_m(scene: &SheetScene) -> f32 {
     (scene.ball[2] - BALL_RADIUS_M as f32).max(0.0)
 }
 
 /// Where it is drawn: above its shadow, but never beyond the picture's upper edge.
-fn lifted(view: &View, scene: &Scene) -> Point {
+fn lifted(view: &View, scene: &SheetScene) -> Point {
     let middle = view.point(scene.ball[0], scene.ball[1] - LIFT * height_m(scene));
     at(middle.x, middle.y.max(view.length(1.0)))
 }
 
 /// The path through the air, and its shadow on the grass.
-fn trail(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene], radius: f32) {
+fn trail(canvas: &mut Canvas<'_>, view: &View, scenes: &[SheetScene], radius: f32) {
     if scenes.iter().any(|scene| height_m(scene) > TOLD_M) {
         let ground: Vec<Point> = scenes.iter().map(|scene| view.point(scene.ball[0], scene.ball[1])).collect();
         canvas.tail(&ground, radius * 0.8, SHADOW);

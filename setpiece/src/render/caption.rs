@@ -4,7 +4,7 @@ use super::canvas::{Canvas, at};
 use super::colours::{FAINT, GOAL, INK, shirt};
 use super::film::Film;
 use super::people;
-use super::scene::Scene;
+use super::scene::SheetScene;
 use super::text::{Style, fitted, width};
 use super::words::{self, DECISIVE, Piece, Sentence, waiting};
 use crate::engine::state::PlayerId;
@@ -23,7 +23,7 @@ const NOTABLE: u32 = 30;
 /// The caption of a moment.
 pub struct Caption<'a> {
     film: &'a Film,
-    scene: &'a Scene,
+    scene: &'a SheetScene,
     size: f32,
     room: f32,
     sentences: Vec<Sentence>,
@@ -36,7 +36,7 @@ impl<'a> Caption<'a> {
     /// - `size`, `room`: of the text and of its place, pixels. What doesn't fit is only counted,
     ///   starting with the least important.
     /// - `events`: what happened since the last frame.
-    pub fn new(film: &'a Film, scene: &'a Scene, size: f32, room: f32, events: &[Event]) -> Caption<'a> {
+    pub fn new(film: &'a Film, scene: &'a SheetScene, size: f32, room: f32, events: &[Event]) -> Caption<'a> {
         let mut caption = Caption { film, scene, size, room, sentences: words::tell(events), dropped: 0 };
         while caption.lines() > LINES_MAX {
             let least = caption.sentences.iter().enumerate().min_by_key(|(_, sentence)| sentence.weight);
@@ -114,7 +114,7 @@ pub fn score(canvas: &mut Canvas<'_>, end: Point, size: f32, score: [u16; 2]) {
 }
 
 /// Who has the ball, or who takes which set piece.
-fn ball_of(scene: &Scene) -> Vec<Piece> {
+fn ball_of(scene: &SheetScene) -> Vec<Piece> {
     match (waiting(scene.mode), scene.owner, scene.possession) {
         (Some(what), Some(taker), _) => vec![Piece::Text(what), Piece::Player(taker)],
         (Some(what), None, Some(team)) => vec![Piece::Text(what), Piece::Team(team)],

@@ -1,6 +1,6 @@
 //! A played episode, kept scene by scene.
 
-use super::scene::Scene;
+use super::scene::SheetScene;
 use crate::Error;
 use crate::engine::batch::{EpisodeError, Policy, ReadyMade, STEPS_MAX};
 use crate::engine::control::agents::Agent;
@@ -41,7 +41,7 @@ pub struct Film {
     pub origin: String,
     /// The start and the result of every step. A step in which play was stopped has two scenes: the
     /// stop, and the restart.
-    pub scenes: Vec<Scene>,
+    pub scenes: Vec<SheetScene>,
     /// The events, each with the scene that shows it best.
     pub events: Vec<(usize, Event)>,
     /// Everybody's label, by [`PlayerId::index`]: their name, else their role.
@@ -124,7 +124,7 @@ impl Film {
             name: scenario.name.clone(),
             title: scenario.title().to_owned(),
             origin,
-            scenes: vec![Scene::of(environment.state(), true)],
+            scenes: vec![SheetScene::of(environment.state(), true)],
             events: Vec::new(),
             names: names(scenario),
             keepers: keepers(scenario),
@@ -137,11 +137,11 @@ impl Film {
         let (judged, now) = (environment.judged_state(), environment.state());
         let stop = self.scenes.len();
         let stopped = !std::ptr::eq::<Match>(judged, now);
-        self.scenes.push(Scene::of(judged, false));
+        self.scenes.push(SheetScene::of(judged, false));
         // A restart after the end isn't part of the episode.
         let goes_on = stopped && environment.is_running();
         if goes_on {
-            self.scenes.push(Scene::of(now, true));
+            self.scenes.push(SheetScene::of(now, true));
         }
         for event in environment.events() {
             let of_restart = goes_on && event.qualifier.is_none() && is_award(event.kind);

@@ -4,7 +4,7 @@
 
 use super::canvas::{Canvas, at};
 use super::colours::{AGENT, CARD_YELLOW, Colour, DARK, SHADOW, faded, shirt};
-use super::scene::{Person, Scene};
+use super::scene::{Person, SheetScene};
 use super::text::Style;
 use super::view::View;
 use crate::engine::state::PlayerId;
@@ -16,7 +16,7 @@ const RADIUS_M: f32 = 0.98;
 const RADIUS_LEAST: f32 = 8.5;
 
 /// Draws everyone on the pitch, the owner of the ball last.
-pub fn draw(canvas: &mut Canvas<'_>, view: &View, scene: &Scene) {
+pub fn draw(canvas: &mut Canvas<'_>, view: &View, scene: &SheetScene) {
     let mut people: Vec<&Person> = scene.people.iter().collect();
     people.sort_by_key(|person| (person.pose == Pose::Up, scene.owner == Some(person.id)));
     for person in people {
@@ -25,7 +25,7 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View, scene: &Scene) {
 }
 
 /// Draws everyone's trail to their place in the last scene.
-pub fn draw_trails(canvas: &mut Canvas<'_>, view: &View, scenes: &[Scene]) {
+pub fn draw_trails(canvas: &mut Canvas<'_>, view: &View, scenes: &[SheetScene]) {
     let Some(now) = scenes.last() else { return };
     for person in &now.people {
         let places = scenes.iter().filter_map(|scene| scene.person(person.id));
@@ -50,7 +50,7 @@ fn number(canvas: &mut Canvas<'_>, middle: Point, radius: f32, id: PlayerId, col
     canvas.write_centred(&id.in_team().to_string(), middle, Style::bold(radius * 1.32, colour));
 }
 
-fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &Scene) {
+fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &SheetScene) {
     let shirt = shirt(person.id.team(), person.keeper);
     let (middle, radius) = (view.point(person.pos[0], person.pos[1]), radius(view));
     let edge = (radius * 0.16).max(1.2);
@@ -108,7 +108,7 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &Scene) 
 }
 
 /// The place of a number: in the middle, or a little aside if the ball would hide it.
-fn beside_ball(middle: Point, radius: f32, view: &View, scene: &Scene) -> Point {
+fn beside_ball(middle: Point, radius: f32, view: &View, scene: &SheetScene) -> Point {
     let ball = view.point(scene.ball[0], scene.ball[1]);
     let (x, y) = (middle.x - ball.x, middle.y - ball.y);
     let away = x.hypot(y);

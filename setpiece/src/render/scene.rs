@@ -7,7 +7,7 @@ use crate::scenario::vocabulary::{GameMode, Role};
 
 /// A moment of a match.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
+pub struct SheetScene {
     /// Steps since the episode's start.
     pub step: u32,
     /// Steps on the match's clock.
@@ -49,11 +49,11 @@ pub struct Person {
     pub pose: Pose,
 }
 
-impl Scene {
+impl SheetScene {
     /// Copies a match's current state.
-    pub fn of(game: &Match, placed: bool) -> Scene {
+    pub fn of(game: &Match, placed: bool) -> SheetScene {
         let everyone = Team::ALL.iter().flat_map(|team| game.team(*team));
-        Scene {
+        SheetScene {
             step: game.step,
             clock_steps: game.elapsed_at_start + game.step,
             score: game.score,

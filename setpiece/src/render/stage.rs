@@ -1,7 +1,7 @@
 //! A scene in a picture: the pitch, trails, players, the ball.
 
 use super::canvas::Canvas;
-use super::scene::Scene;
+use super::scene::SheetScene;
 use super::view::{Region, View};
 use super::{ball, people, pitch};
 use tiny_skia::PixmapMut;
@@ -14,7 +14,7 @@ pub const TRAIL_STEPS: usize = 12;
 /// - `moments`: in order, at most one step apart. Trails begin at the last placement.
 /// - `region`: what is shown, over the whole width; the picture should have its
 ///   [`aspect`](Region::aspect).
-pub fn draw(pixels: PixmapMut<'_>, moments: &[Scene], region: Region) {
+pub fn draw(pixels: PixmapMut<'_>, moments: &[SheetScene], region: Region) {
     let Some(now) = moments.last() else { return };
     let view = View::new(region, pixels.width());
     let mut canvas = Canvas { pixels };
@@ -26,7 +26,7 @@ pub fn draw(pixels: PixmapMut<'_>, moments: &[Scene], region: Region) {
 }
 
 /// The moments that lead to the last one without a jump.
-fn way(moments: &[Scene]) -> &[Scene] {
+fn way(moments: &[SheetScene]) -> &[SheetScene] {
     let first = moments.iter().rposition(|scene| scene.placed).unwrap_or(0);
     let first = first.max(moments.len().saturating_sub(TRAIL_STEPS + 1));
     moments.get(first..).unwrap_or_default()

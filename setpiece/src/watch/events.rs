@@ -18,7 +18,7 @@ const END_MAX: Duration = Duration::from_secs(1);
 
 /// Listens to the events of some folders.
 #[derive(Debug)]
-pub(super) struct Events {
+pub(super) struct FileEvents {
     /// The source of events; none if the system grants none.
     watcher: Option<RecommendedWatcher>,
     /// Receives at most one message for any number of events; disconnected once the thread has
@@ -39,8 +39,8 @@ struct Folder {
 /// Distinguishes a folder from another one of the same name: device, file, and creation time.
 type Identity = (u64, u64, Option<SystemTime>);
 
-impl Events {
-    pub(super) fn new() -> Events {
+impl FileEvents {
+    pub(super) fn new() -> FileEvents {
         let (sender, heard) = sync_channel(1);
         let watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
             if event.map_or(true, |event| is_change(event.kind)) {
@@ -49,7 +49,7 @@ impl Events {
             }
         });
         let process = std::process::id();
-        Events { watcher: watcher.ok(), heard, folders: BTreeMap::new(), process }
+        FileEvents { watcher: watcher.ok(), heard, folders: BTreeMap::new(), process }
     }
 
     /// Watches exactly the folders of these files and of their links' targets. Returns whether all
@@ -100,7 +100,7 @@ impl Events {
 }
 
 /// Waits for the thread; afterwards its descriptors are closed.
-impl Drop for Events {
+impl Drop for FileEvents {
     fn drop(&mut self) {
         let is_alive = self.is_alive();
         let Some(watcher) = self.watcher.take() else { return };
@@ -163,14 +163,14 @@ mod tests {
     const QUIET: Duration = Duration::from_millis(100);
 
     /// Whether a wait ends before its time.
-    fn ends_early(events: &Events, timeout: Duration) -> bool {
+    fn ends_early(events: &FileEvents, timeout: Duration) -> bool {
         let begun = Instant::now();
         events.wait(timeout);
         begun.elapsed() < timeout
     }
 
     /// Drops pending events.
-    fn settle(events: &Events) {
+    fn settle(events: &FileEvents) {
         while ends_early(events, QUIET) {}
     }
 
@@ -183,7 +183,7 @@ mod tests {
         let (file, link) = (real.join("a.pitch"), shown.join("a.pitch"));
         std::fs::write(&file, "one").unwrap();
         std::os::unix::fs::symlink(&file, &link).unwrap();
-        let mut events = Events::new();
+        let mut events = FileEvents::new();
         assert!(events.follow([link.as_path()].into_iter()));
         std::fs::read(&file).unwrap();
         assert!(!ends_early(&events, QUIET), "reading");
@@ -208,7 +208,7 @@ mod tests {
         let (sender, heard) = sync_channel(1);
         drop(sender);
         let (folders, process) = (BTreeMap::new(), std::process::id());
-        let mut events = Events { watcher: None, heard, folders, process };
+        let mut events = FileEvents { watcher: None, heard, folders, process };
         assert!(!events.follow([Path::new("a.pitch")].into_iter()));
         assert!(!ends_early(&events, QUIET));
     }

@@ -83,7 +83,7 @@ pub(super) fn check(breaches: &mut Vec<String>) -> Result<(), String> {
     if !output.status.success() {
         return Err(format!("git ls-files failed: {}", String::from_utf8_lossy(&output.stderr).trim()));
     }
-    let mut found: BTreeMap<&str, Found> = BTreeMap::new();
+    let mut found: BTreeMap<&str, WordCounts> = BTreeMap::new();
     for path in String::from_utf8_lossy(&output.stdout).split('\0') {
         let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
         if !TEXTS.contains(&ending) || EXEMPT.contains(&path) || !root().join(path).is_file() {
@@ -101,7 +101,7 @@ pub(super) fn check(breaches: &mut Vec<String>) -> Result<(), String> {
                 found.worst()
             )),
             found => {
-                let total = found.map_or(0, Found::total);
+                let total = found.map_or(0, WordCounts::total);
                 if total < *most {
                     println!("tidy: {name} holds {total} banned words of {most}: lower its row in tidy/words.rs");
                 }
@@ -113,9 +113,9 @@ pub(super) fn check(breaches: &mut Vec<String>) -> Result<(), String> {
 
 /// The counts of one folder's files.
 #[derive(Default)]
-struct Found(Vec<(usize, String)>);
+struct WordCounts(Vec<(usize, String)>);
 
-impl Found {
+impl WordCounts {
     fn add(&mut self, path: &str, count: usize) {
         if count > 0 {
             self.0.push((count, path.to_owned()));

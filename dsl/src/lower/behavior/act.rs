@@ -1,6 +1,6 @@
 //! `do …`: primitives, calls of behaviours, scripts.
 
-use super::Writer;
+use super::BehaviorWriter;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Behaviors, Kind, Names};
@@ -9,7 +9,7 @@ use setpiece_scenario::pitch::{LONGEST_S, STEPS_PER_S};
 use setpiece_scenario::vocabulary::{Field, Primitive};
 use setpiece_scenario::{Act, BinaryOp, Do, Node, Reg, Then, UnaryOp, Watch, When};
 
-impl<'w> Writer<'_, 'w> {
+impl<'w> BehaviorWriter<'_, 'w> {
     pub(super) fn do_stmt(&mut self, stmt: &'w DoStmt) {
         let (name, args, span) = match &stmt.what {
             DoWhat::Named { name, args, span } => (name, args.as_slice(), *span),

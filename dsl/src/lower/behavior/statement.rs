@@ -1,15 +1,15 @@
 //! Statements of a behaviour: blocks, loops, choices, what is remembered.
 
-use super::{State, Writer};
+use super::{BehaviorWriter, State};
 use crate::ast::{BehaviorStmt, BehaviorStmtKind, Binding as Let, Chance, Expr, Ident, RepeatHow};
 use crate::check::types::Ty;
 use crate::lower::param;
-use crate::lower::value::{Binding, Scope, Value};
+use crate::lower::value::{LocalName, Scope, Value};
 use crate::problem::Problem;
 use crate::problem::facts::{Behaviors, Names, Scopes, Types};
 use setpiece_scenario::{BinaryOp, Distribution, Node, Reg, Then, UnaryOp, Watch};
 
-impl<'w> Writer<'_, 'w> {
+impl<'w> BehaviorWriter<'_, 'w> {
     /// Declares the states at the top of a behaviour and sets them.
     pub(super) fn find_states(&mut self, statements: &'w [BehaviorStmt]) {
         for statement in statements {
@@ -41,7 +41,7 @@ impl<'w> Writer<'_, 'w> {
         let ty = kept.ty;
         self.nodes.push(Node::Let(cells.iter().copied().zip(regs).collect()));
         self.lower.check_hides_local(&state.name.node, state.name.span, &self.around);
-        self.lower.scope.bind(&state.name.node, Binding::Value(kept));
+        self.lower.scope.bind(&state.name.node, LocalName::Value(kept));
         self.states.push(State { name: &state.name.node, cells, ty });
     }
 
@@ -142,7 +142,7 @@ impl<'w> Writer<'_, 'w> {
         let is_state = self.states.iter().any(|state| state.name == binding.name.node);
         let around = if is_state { &self.lower.scope } else { &self.around };
         self.lower.check_hides_local(&binding.name.node, binding.name.span, around);
-        self.lower.scope.bind(&binding.name.node, Binding::Value(frozen));
+        self.lower.scope.bind(&binding.name.node, LocalName::Value(frozen));
     }
 
     fn assign(&mut self, name: &'w Ident, value: &'w Expr) {

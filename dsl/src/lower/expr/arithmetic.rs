@@ -12,8 +12,8 @@ use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 use std::rc::Rc;
 
 impl<'w> Lower<'_, 'w> {
-    pub(super) fn unary(&mut self, op: ast::UnaryOp, inner: &'w Expr) -> Value<'w> {
-        if op == ast::UnaryOp::Not {
+    pub(super) fn unary(&mut self, op: ast::PrefixOp, inner: &'w Expr) -> Value<'w> {
+        if op == ast::PrefixOp::Not {
             let reg = self.condition(inner);
             return Value::one(Ty::Bool, self.code.unary(UnaryOp::Not, reg));
         }
@@ -25,7 +25,7 @@ impl<'w> Lower<'_, 'w> {
         if !is_number && !matches!(value.ty, Ty::Point | Ty::Vector | Ty::Velocity) {
             return self.fail(self.mismatch(value.ty, Ty::Number, inner.span));
         }
-        if op == ast::UnaryOp::Plus {
+        if op == ast::PrefixOp::Plus {
             return value;
         }
         let negated: Vec<Reg> = value.regs().into_iter().map(|reg| self.code.unary(UnaryOp::Neg, reg)).collect();
@@ -37,8 +37,8 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    pub(super) fn binary(&mut self, op: &'w Spanned<ast::BinaryOp>, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
-        use ast::BinaryOp as Op;
+    pub(super) fn binary(&mut self, op: &'w Spanned<ast::InfixOp>, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
+        use ast::InfixOp as Op;
         match op.node {
             Op::And | Op::Or => {
                 let x = self.condition(a);
@@ -62,20 +62,20 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// How `A or b` is written where `b` is no condition, but goes on with the end of A: `goal by left or right`.
-    fn shared(&self, op: ast::BinaryOp, a: &Expr, b: &Expr, ty: Ty) -> Option<String> {
+    fn shared(&self, op: ast::InfixOp, a: &Expr, b: &Expr, ty: Ty) -> Option<String> {
         let last = match &a.kind {
-            ExprKind::Binary(inner, _, last) if matches!(inner.node, ast::BinaryOp::And | ast::BinaryOp::Or) => last,
+            ExprKind::Binary(inner, _, last) if matches!(inner.node, ast::InfixOp::And | ast::InfixOp::Or) => last,
             _ => a,
         };
-        let is_or = op == ast::BinaryOp::Or;
+        let is_or = op == ast::InfixOp::Or;
         let (word, sign) = if is_or { ("or", '|') } else { ("and", '&') };
         let part = match &last.kind {
             ExprKind::Event(event) if matches!(ty, Ty::Team | Ty::Player) => event.by.as_ref()?.span,
-            ExprKind::Binary(op, _, region) if op.node == ast::BinaryOp::In && ty == Ty::Region => {
+            ExprKind::Binary(op, _, region) if op.node == ast::InfixOp::In && ty == Ty::Region => {
                 let (region, other) = (self.world.text(region.span), self.world.text(b.span));
                 return Some(format!("{region} {sign} {other}"));
             }
-            ExprKind::Binary(op, _, part) if matches!(op.node, ast::BinaryOp::Eq | ast::BinaryOp::Ne) => part.span,
+            ExprKind::Binary(op, _, part) if matches!(op.node, ast::InfixOp::Eq | ast::InfixOp::Ne) => part.span,
             _ => return None,
         };
         let to = |end: u32| Span { end, ..last.span };
@@ -212,7 +212,7 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn order(&mut self, op: ast::BinaryOp, a: &'w Expr, b: &'w Expr) -> Value<'w> {
+    fn order(&mut self, op: ast::InfixOp, a: &'w Expr, b: &'w Expr) -> Value<'w> {
         let (x, y) = (self.expr(a), self.expr(b));
         if x.is_error() || y.is_error() {
             return Value::error();
@@ -222,9 +222,9 @@ impl<'w> Lower<'_, 'w> {
             _ => return self.disagree(&x, &y, a, b, Verb::Compare),
         }
         let code = match op {
-            ast::BinaryOp::Lt => BinaryOp::Lt,
-            ast::BinaryOp::Le => BinaryOp::Le,
-            ast::BinaryOp::Gt => BinaryOp::Gt,
+            ast::InfixOp::Lt => BinaryOp::Lt,
+            ast::InfixOp::Le => BinaryOp::Le,
+            ast::InfixOp::Gt => BinaryOp::Gt,
             _ => BinaryOp::Ge,
         };
         let (p, q) = (self.reg(&x), self.reg(&y));

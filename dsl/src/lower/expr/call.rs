@@ -1,6 +1,6 @@
 //! Calls: how arguments meet parameters, and who is called.
 
-use super::super::value::{Binding, Frame, Scope, Value};
+use super::super::value::{LiteralFrame, LocalName, Scope, Value};
 use super::super::{Lower, param};
 use crate::ast::{Arg, Expr, FnItem, Ident, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
@@ -88,7 +88,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// Calls a `region`: it lies in the world's frame, whoever calls it; a region of the scenario sees its values.
     fn call_region(&mut self, item: &'w FnItem, args: &'w [Arg], span: Span, of_scenario: bool) -> Value<'w> {
-        let mut scope = Scope::new(of_scenario, Frame::World);
+        let mut scope = Scope::new(of_scenario, LiteralFrame::World);
         self.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
         self.turn_angles(&item.params, &mut scope);
         let value =
@@ -102,14 +102,14 @@ impl<'w> Lower<'_, 'w> {
             return;
         }
         for decl in params {
-            if let Some(Binding::Expr { now: Some(value), .. }) = scope.find(&decl.name.node).cloned()
+            if let Some(LocalName::Expr { now: Some(value), .. }) = scope.find(&decl.name.node).cloned()
                 && value.ty == Ty::ANGLE
             {
                 let read = self.reg(&value);
                 let world = self.turned_angle(read);
                 let turned = self.in_frame(scope.frame, |lower| lower.turned_angle(world));
                 self.world.mark_used(decl.name.span);
-                scope.bind(&decl.name.node, Binding::Value(Value::one(Ty::ANGLE, turned)));
+                scope.bind(&decl.name.node, LocalName::Value(Value::one(Ty::ANGLE, turned)));
             }
         }
     }
@@ -130,7 +130,7 @@ impl<'w> Lower<'_, 'w> {
         let required = 0;
         let Some(given) = self.arguments(callee, args, span, &names, required) else {
             for param in params {
-                scope.bind(&param.name.node, Binding::Value(Value::error()));
+                scope.bind(&param.name.node, LocalName::Value(Value::error()));
             }
             return;
         };
@@ -139,7 +139,7 @@ impl<'w> Lower<'_, 'w> {
             let declared = param.ty.as_ref().map(|ty| param::declared_type(self.world, ty));
             let (expr, home) = match (given, &param.default) {
                 (Some(expr), _) => (expr, self.scope.clone()),
-                (None, Some(default)) => (default, Scope::new(false, Frame::World)),
+                (None, Some(default)) => (default, Scope::new(false, LiteralFrame::World)),
                 (None, None) => {
                     self.report(Problem::new(
                         span,
@@ -149,7 +149,7 @@ impl<'w> Lower<'_, 'w> {
                             form: Form::Named,
                         },
                     ));
-                    scope.bind(&param.name.node, Binding::Value(Value::error()));
+                    scope.bind(&param.name.node, LocalName::Value(Value::error()));
                     continue;
                 }
             };
@@ -168,14 +168,14 @@ impl<'w> Lower<'_, 'w> {
             // What a wrong argument would do further on is no news.
             let wrong = self.world.found() > found;
             let value = value.map(|value| if wrong { Value::error() } else { value });
-            scope.bind(&param.name.node, Binding::Expr { expr, scope: home, ty, now: value, at: param.name.span });
+            scope.bind(&param.name.node, LocalName::Expr { expr, scope: home, ty, now: value, at: param.name.span });
         }
     }
 
     /// The type that a parameter's default has, for numbers.
     fn default_type(&mut self, param: &'w ParamDecl) -> Option<Ty> {
         let default = param.default.as_ref()?;
-        let home = Scope::new(false, Frame::World);
+        let home = Scope::new(false, LiteralFrame::World);
         let value = self.world.tentatively(|| self.within(home, |lower| lower.expr(default)));
         match value.ty {
             // `= 1` leaves open whether whole numbers are meant.
@@ -190,7 +190,7 @@ impl<'w> Lower<'_, 'w> {
         if value.ty.dim().is_none() {
             return;
         }
-        let home = Scope::new(false, Frame::World);
+        let home = Scope::new(false, LiteralFrame::World);
         let (least, greatest) = self.within(home, |lower| (lower.expr(low), lower.expr(high)));
         let (least, greatest) = (self.reg(&least), self.reg(&greatest));
         let (Some(least), Some(greatest)) = (self.code.constant_of(least), self.code.constant_of(greatest)) else {

@@ -2,7 +2,7 @@
 
 use super::super::builder::OpenLoop;
 use super::super::value::{Repr, Value};
-use super::super::{Lower, Stage};
+use super::super::{Lower, ProgramStage};
 use crate::ast::{EventExpr, Expr};
 use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Kind, Names, Scopes, Types};
@@ -80,7 +80,7 @@ impl<'w> Lower<'_, 'w> {
             });
             return None;
         }
-        if matches!(self.stage, Stage::Observation) {
+        if matches!(self.stage, ProgramStage::Observation) {
             self.report(Problem::new(event.span, Scopes::ObservationShowsState));
             return None;
         }

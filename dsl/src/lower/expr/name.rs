@@ -1,11 +1,11 @@
 //! Names: of locals, the scenario, the file, and the language itself, in this order.
 
-use super::super::value::{Binding, Frame, Repr, Scope, SetValue, Value};
-use super::super::{Lower, Stage};
+use super::super::value::{LiteralFrame, LocalName, Repr, Scope, SetValue, Value};
+use super::super::{Lower, ProgramStage};
 use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::facts::{Before, Chance, Names, Outside, Scopes, Types, Use, View};
+use crate::problem::facts::{BeforeOutside, Chance, Names, Outside, Scopes, Types, Use, ViewOutside};
 use crate::problem::{Code, Guess, Problem};
 use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
@@ -36,7 +36,7 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         let mut candidates = self.names_in_sight(span);
-        if matches!(self.stage, Stage::Reward | Stage::Ending) {
+        if matches!(self.stage, ProgramStage::Reward | ProgramStage::Ending) {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
         if let Some(fact) = self.of_the_scenario(name) {
@@ -53,9 +53,9 @@ impl<'w> Lower<'_, 'w> {
             return None;
         }
         let from = match self.stage {
-            Stage::Behavior(_) => Outside::Behavior,
-            Stage::Reward | Stage::Init => Outside::Reward,
-            Stage::Ending => Outside::Ending,
+            ProgramStage::Behavior(_) => Outside::Behavior,
+            ProgramStage::Reward | ProgramStage::Init => Outside::Reward,
+            ProgramStage::Ending => Outside::Ending,
             _ => Outside::Elsewhere,
         };
         Some(Names::OfTheScenario { name: name.to_owned(), from, is_player })
@@ -65,10 +65,10 @@ impl<'w> Lower<'_, 'w> {
         self.world.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
     }
 
-    pub(crate) fn local(&mut self, name: &str, binding: Binding<'w>, span: Span) -> Value<'w> {
+    pub(crate) fn local(&mut self, name: &str, binding: LocalName<'w>, span: Span) -> Value<'w> {
         let value = match binding {
-            Binding::Value(value) => value,
-            Binding::State { cells, before, ty, at } => {
+            LocalName::Value(value) => value,
+            LocalName::State { cells, before, ty, at } => {
                 self.world.mark_used(at);
                 match self.when {
                     When::Now => {
@@ -78,7 +78,7 @@ impl<'w> Lower<'_, 'w> {
                     When::Prev => Value::of_regs(ty, &before),
                 }
             }
-            Binding::Expr { expr, scope, ty, now, at } => {
+            LocalName::Expr { expr, scope, ty, now, at } => {
                 self.world.mark_used(at);
                 let known = now.filter(|_| self.when == When::Now);
                 known.unwrap_or_else(|| {
@@ -135,7 +135,7 @@ impl<'w> Lower<'_, 'w> {
             && let Some(region) = world.flat.regions.get(at)
         {
             world.mark_used(region.name.span);
-            let scope = Scope::new(true, Frame::World);
+            let scope = Scope::new(true, LiteralFrame::World);
             let value = self.inline(region.name.span, span, |lower| {
                 lower.within(scope, |lower| lower.want(&region.body, Ty::Region))
             });
@@ -163,7 +163,7 @@ impl<'w> Lower<'_, 'w> {
         Some(match &found.item.kind {
             ItemKind::Const(binding) => self.constant_item(binding, span),
             ItemKind::Region(region) if region.params.is_empty() => {
-                let scope = Scope::new(false, Frame::World);
+                let scope = Scope::new(false, LiteralFrame::World);
                 let at = region.name.span;
                 let value =
                     self.inline(at, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
@@ -173,7 +173,7 @@ impl<'w> Lower<'_, 'w> {
             ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value(Some(Use::Called))),
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
-            ItemKind::Reward(_) if matches!(self.stage, Stage::Record(_) | Stage::Ending) => {
+            ItemKind::Reward(_) if matches!(self.stage, ProgramStage::Record(_) | ProgramStage::Ending) => {
                 self.fail(no_value(Some(Use::Recorded)))
             }
             ItemKind::Behavior(_) => self.fail(no_value(Some(Use::Given))),
@@ -183,9 +183,9 @@ impl<'w> Lower<'_, 'w> {
 
     fn constant_item(&mut self, binding: &'w crate::ast::Binding, span: Span) -> Value<'w> {
         let ty = binding.ty.as_ref().map(|ty| super::super::param::declared_type(self.world, ty));
-        let scope = Scope::new(false, Frame::World);
+        let scope = Scope::new(false, LiteralFrame::World);
         // Whoever reads it, a constant is computed before anything else is known.
-        let outer = (std::mem::replace(&mut self.stage, Stage::Constant), self.team.take());
+        let outer = (std::mem::replace(&mut self.stage, ProgramStage::Constant), self.team.take());
         let value = self.inline(binding.name.span, span, |lower| {
             lower.within(scope, |lower| match ty {
                 Some(ty) => lower.want(&binding.value, ty),
@@ -256,9 +256,9 @@ impl<'w> Lower<'_, 'w> {
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
         let why = match (&self.stage, name) {
-            (Stage::Ending | Stage::Record(_), "us" | "them") => View::BothTeams,
-            (Stage::Init, _) => View::BeforeFirstStep,
-            _ => View::OutsideRewards,
+            (ProgramStage::Ending | ProgramStage::Record(_), "us" | "them") => ViewOutside::BothTeams,
+            (ProgramStage::Init, _) => ViewOutside::BeforeFirstStep,
+            _ => ViewOutside::OutsideRewards,
         };
         self.fail(Problem::new(span, Scopes::NoView { name: name.to_owned(), why }))
     }
@@ -283,9 +283,9 @@ impl<'w> Lower<'_, 'w> {
             return Some(self.code.load(field, of, self.when));
         }
         let by = match self.stage {
-            Stage::Constant => Before::Constant,
-            Stage::Init => Before::State,
-            _ => Before::Start,
+            ProgramStage::Constant => BeforeOutside::Constant,
+            ProgramStage::Init => BeforeOutside::State,
+            _ => BeforeOutside::Start,
         };
         self.report(Problem::new(span, Scopes::NotYetKnown { name: name.to_owned(), by }));
         None
@@ -308,7 +308,7 @@ impl<'w> Lower<'_, 'w> {
             known.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
             known.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
         }
-        if matches!(self.stage, Stage::Record(_)) {
+        if matches!(self.stage, ProgramStage::Record(_)) {
             known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
         let values = |kind: &ItemKind| {

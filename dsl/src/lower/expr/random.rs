@@ -2,7 +2,7 @@
 
 use super::super::behavior::Draw;
 use super::super::value::Value;
-use super::super::{Lower, Stage};
+use super::super::{Lower, ProgramStage};
 use crate::ast::{Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Chance, Implied};
@@ -16,20 +16,20 @@ const SHUFFLED_MAX: usize = 64;
 impl<'w> Lower<'_, 'w> {
     /// Reports a draw that stands outside the start.
     fn may_draw(&self, function: Function, span: Span) -> bool {
-        if matches!(self.stage, Stage::Start(_)) {
+        if matches!(self.stage, ProgramStage::Start(_)) {
             return true;
         }
-        if matches!(self.stage, Stage::Behavior(_)) {
+        if matches!(self.stage, ProgramStage::Behavior(_)) {
             return self.may_draw_now(function, span);
         }
-        let is_constant = matches!(self.stage, Stage::Constant);
+        let is_constant = matches!(self.stage, ProgramStage::Constant);
         self.report(Problem::new(span, Chance::NoDrawHere { function: function.name(), is_constant }));
         false
     }
 
     /// Reports a draw of a behaviour that belongs to no statement: it would happen in every step.
     fn may_draw_now(&self, function: Function, span: Span) -> bool {
-        if matches!(self.stage, Stage::Behavior(Some(_))) && !self.code.in_loop() {
+        if matches!(self.stage, ProgramStage::Behavior(Some(_))) && !self.code.in_loop() {
             return true;
         }
         self.report(Problem::new(span, Chance::NoDrawNow { function: function.name() }));
@@ -221,7 +221,7 @@ impl<'w> Lower<'_, 'w> {
     /// `alternate(a, b)`: `a` in even episodes, `b` in odd ones.
     fn alternate(&mut self, given: &[&'w Expr], span: Span) -> Value<'w> {
         let &[a, b] = given else { return Value::error() };
-        if matches!(self.stage, Stage::Constant) {
+        if matches!(self.stage, ProgramStage::Constant) {
             return self.fail(Problem::new(span, Chance::AlternateInConstant));
         }
         let (x, y) = (self.expr(a), self.expr(b));
@@ -235,7 +235,7 @@ impl<'w> Lower<'_, 'w> {
     pub(crate) fn random(&mut self, from: Distribution) -> Reg {
         let ordinal = self.streams.next_draw();
         let key = stream_key(self.streams.drawing(), ordinal);
-        if let Stage::Behavior(Some(draws)) = &mut self.stage {
+        if let ProgramStage::Behavior(Some(draws)) = &mut self.stage {
             let (cell, count) = (self.code.new_cell(), self.code.new_cell());
             draws.push(Draw { cell, count, key, from });
             return self.code.cell(cell);

@@ -1,7 +1,7 @@
 //! Players as a group: `count(p in them where …)`, `nearest`, `pressed`, and the aggregates.
 
-use super::super::value::{Binding, Repr, SetValue, Value};
-use super::super::{Lower, Stage};
+use super::super::value::{LocalName, Repr, SetValue, Value};
+use super::super::{Lower, ProgramStage};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Chance, Scopes};
@@ -47,7 +47,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// `min_gap(players)`: the least distance between two of some players at the start.
     pub(super) fn min_gap(&mut self, set: &'w Expr, span: Span) -> Value<'w> {
-        if !matches!(self.stage, Stage::Start(_)) {
+        if !matches!(self.stage, ProgramStage::Start(_)) {
             return self.fail(Problem::new(span, Scopes::GapInMatch));
         }
         let Some(set) = self.want_set(set) else { return Value::error() };
@@ -98,7 +98,7 @@ impl<'w> Lower<'_, 'w> {
                 Calls::WhichPlayers { function: name, signature: signature(function.doc()).to_owned() },
             ));
         };
-        if matches!(self.stage, Stage::Start(_)) {
+        if matches!(self.stage, ProgramStage::Start(_)) {
             return self.aggregate_start(function, &parts, span);
         }
         if !self.players_known(span, name) {
@@ -109,7 +109,7 @@ impl<'w> Lower<'_, 'w> {
         let outer = self.scope.clone();
         if let Some((name, at)) = parts.name {
             self.check_hides_local(name, at, &outer);
-            self.scope.bind(name, Binding::Value(Value::one(Ty::Player, open.element())));
+            self.scope.bind(name, LocalName::Value(Value::one(Ty::Player, open.element())));
         }
         let filter = parts.filter.map(|filter| self.condition(filter));
         let value = parts.value.map(|value| (self.expr(value), value));
@@ -142,7 +142,7 @@ impl<'w> Lower<'_, 'w> {
             let outer = self.scope.clone();
             if let Some((name, at)) = parts.name {
                 self.check_hides_local(name, at, &outer);
-                self.scope.bind(name, Binding::Value(Value::one(Ty::Player, id)));
+                self.scope.bind(name, LocalName::Value(Value::one(Ty::Player, id)));
             }
             let filter = parts.filter.map(|filter| self.condition(filter));
             let value = parts.value.map(|value| (self.expr(value), value));
@@ -295,7 +295,7 @@ fn take_apart(function: Function, arg: &Arg) -> Option<Comprehension<'_>> {
         return None;
     }
     match &arg.value.kind {
-        ExprKind::Binary(op, name, set) if op.node == ast::BinaryOp::In => match &name.kind {
+        ExprKind::Binary(op, name, set) if op.node == ast::InfixOp::In => match &name.kind {
             ExprKind::Name(word) => {
                 Some(Comprehension { value: None, name: Some((word, name.span)), set, filter: arg.filter.as_ref() })
             }

@@ -1,7 +1,7 @@
 //! Operators over time: evaluated once per step, outside every loop, whatever guards their use.
 
 use super::super::value::Value;
-use super::super::{Lower, Stage};
+use super::super::{Lower, ProgramStage};
 use crate::ast::{Expr, Span};
 use crate::check::types::Ty;
 use crate::problem::Problem;
@@ -18,7 +18,7 @@ impl<'w> Lower<'_, 'w> {
             (F::Delta, &[e]) => self.delta(e, span),
             (F::Closing, &[a, b]) => self.closing(a, b, span),
             (F::Potential, &[e, gamma]) => self.potential(e, gamma, span),
-            _ if matches!(self.stage, Stage::Observation) => {
+            _ if matches!(self.stage, ProgramStage::Observation) => {
                 self.fail(Problem::new(span, Scopes::ObservationRemembersNothing { function: function.name() }))
             }
             _ if self.when == When::Prev => {
@@ -127,7 +127,7 @@ impl<'w> Lower<'_, 'w> {
             self.before(a, span);
             return Value::error();
         }
-        debug_assert!(!matches!(self.stage, Stage::Start(_)));
+        debug_assert!(!matches!(self.stage, ProgramStage::Start(_)));
         let now = apart(self);
         self.when = When::Prev;
         let before = apart(self);

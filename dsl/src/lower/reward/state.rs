@@ -1,11 +1,11 @@
 //! What a reward remembers: its states, and the names that it gives.
 
-use super::Written;
-use super::writer::Writer;
+use super::WrittenReward;
+use super::writer::RewardWriter;
 use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, RewardUseKind, Span};
 use crate::check::types::Ty;
-use crate::lower::value::{Binding, Scope, Value};
-use crate::lower::{Lower, Stage, World, param};
+use crate::lower::value::{LocalName, Scope, Value};
+use crate::lower::{Lower, ProgramStage, World, param};
 use crate::problem::facts::{Names, Types};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::{Reg, When};
@@ -20,7 +20,7 @@ pub(super) fn states<'w>(statements: &[&'w RewardStmt]) -> Vec<&'w Let> {
 }
 
 /// Reports a name that a reward gives to two things: a child may give a parent's parameter another default.
-pub(super) fn check_names(world: &World<'_>, written: &Written<'_>) {
+pub(super) fn check_names(world: &World<'_>, written: &WrittenReward<'_>) {
     let params = written.links.iter().flat_map(|(link, _)| &link.params).map(|param| &param.name);
     let mut known: Vec<&Ident> = params.collect();
     let statements = written.statements();
@@ -83,7 +83,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// Makes a state known to the statements.
     pub(super) fn bind_state(&mut self, state: &'w Let, cells: Vec<u32>, before: Vec<Reg>, ty: Ty) {
-        let binding = Binding::State { cells: cells.into(), before: before.into(), ty, at: state.name.span };
+        let binding = LocalName::State { cells: cells.into(), before: before.into(), ty, at: state.name.span };
         self.check_hides(&state.name.node, state.name.span, &self.scope);
         self.scope.bind(&state.name.node, binding);
     }
@@ -92,12 +92,12 @@ impl<'w> Lower<'_, 'w> {
     ///
     /// The record's program keeps the reward's states itself: it has the reward's statements without its payments.
     pub(crate) fn state_of_reward(&mut self, name: &str, of: Span, member: &'w Ident) -> Option<Value<'w>> {
-        let Stage::Record(remembered) = &self.stage else { return None };
+        let ProgramStage::Record(remembered) = &self.stage else { return None };
         let (_, used, stmt) = self.world.flat.rewards.iter().find(|(known, ..)| known == name)?;
         let known = remembered.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
         let scope = known.unwrap_or_else(|| {
             let scope = self.remember(used, stmt.span);
-            if let Stage::Record(remembered) = &mut self.stage {
+            if let ProgramStage::Record(remembered) = &mut self.stage {
                 remembered.rewards.push((name.to_owned(), scope.clone()));
             }
             scope
@@ -109,10 +109,10 @@ impl<'w> Lower<'_, 'w> {
             }
             return Some(Value::error());
         };
-        if let Some(state @ Binding::State { .. }) = scope.find(&member.node).cloned() {
+        if let Some(state @ LocalName::State { .. }) = scope.find(&member.node).cloned() {
             return Some(self.local(&member.node, state, of.to(member.span)));
         }
-        let is_state = |name: &&str| matches!(scope.find(name), Some(Binding::State { .. }));
+        let is_state = |name: &&str| matches!(scope.find(name), Some(LocalName::State { .. }));
         let states: Vec<&str> = scope.names().into_iter().filter(is_state).collect();
         let guess = if states.is_empty() { Guess::default() } else { Guess::similar_or_all(&member.node, &states) };
         let fact = Names::NoStateOfReward { reward: name.to_owned(), name: member.node.clone(), guess };
@@ -125,7 +125,7 @@ impl<'w> Lower<'_, 'w> {
         let loops = self.code.leave_loops();
         // Where both teams have agents, or none, it is kept for each of them.
         let for_each = self.side_with_agents().is_none();
-        if let Stage::Record(remembered) = &mut self.stage {
+        if let ProgramStage::Record(remembered) = &mut self.stage {
             remembered.per_agent |= for_each;
         }
         let us = self.side_with_agents().map(|team| self.code.constant(team.index() as f64));
@@ -135,10 +135,10 @@ impl<'w> Lower<'_, 'w> {
         let statements = written.statements();
         let states = states(&statements);
 
-        let record = std::mem::replace(&mut self.stage, Stage::Init);
+        let record = std::mem::replace(&mut self.stage, ProgramStage::Init);
         self.scope = written.bind(self);
         let firsts: Vec<Value<'w>> = states.iter().map(|state| self.first_value(state)).collect();
-        self.stage = Stage::Reward;
+        self.stage = ProgramStage::Reward;
         self.scope = written.bind(self);
         // Cells begin at 0: another first value is put there in the first step.
         let begun = self.code.new_cell();
@@ -161,7 +161,7 @@ impl<'w> Lower<'_, 'w> {
             self.bind_state(state, cells, before, first.ty);
         }
         let with_states = self.scope.clone();
-        Writer::write(self, &statements, None, false, Vec::new());
+        RewardWriter::write(self, &statements, None, false, Vec::new());
         let one = self.code.constant(1.0);
         self.code.assign(begun, one, None);
         self.stage = record;

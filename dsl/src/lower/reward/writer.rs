@@ -5,7 +5,7 @@ use crate::ast::{
 };
 use crate::check::types::Ty;
 use crate::lower::script::embed;
-use crate::lower::value::Binding;
+use crate::lower::value::LocalName;
 use crate::lower::{Lower, param};
 use crate::problem::facts::{Assigned, Names, Never, Rewards, Scopes};
 use crate::problem::{Code, Guess, Problem};
@@ -15,7 +15,7 @@ use setpiece_scenario::{BinaryOp, Fold, FoldKind, Instr, Reg, RewardHook, UnaryO
 use std::collections::BTreeMap;
 
 /// What a step program pays into, and which scripts it asks.
-pub(super) struct Written {
+pub(super) struct WrittenProgram {
     /// The labels of the terms.
     pub(super) terms: Vec<String>,
     /// The scripts; their arguments in registers of the builder.
@@ -23,7 +23,7 @@ pub(super) struct Written {
 }
 
 /// Writes the step program.
-pub(super) struct Writer<'l, 'c, 'w> {
+pub(super) struct RewardWriter<'l, 'c, 'w> {
     lower: &'l mut Lower<'c, 'w>,
     terms: Vec<String>,
     /// Where each label stands among them.
@@ -41,15 +41,15 @@ pub(super) struct Writer<'l, 'c, 'w> {
     unlabelled: usize,
 }
 
-impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
+impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     fn new(
         lower: &'l mut Lower<'c, 'w>,
         weight: Option<Reg>,
         pays: bool,
         params: Vec<&'w ParamDecl>,
-    ) -> Writer<'l, 'c, 'w> {
+    ) -> RewardWriter<'l, 'c, 'w> {
         let (terms, places, hooks) = (Vec::new(), BTreeMap::new(), Vec::new());
-        Writer { lower, terms, places, hooks, params, weight, pays, guard: None, never: None, unlabelled: 0 }
+        RewardWriter { lower, terms, places, hooks, params, weight, pays, guard: None, never: None, unlabelled: 0 }
     }
 
     /// Writes the statements, for what their names are bound to in the present scope; gives what it pays into.
@@ -59,8 +59,8 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         weight: Option<Reg>,
         pays: bool,
         params: Vec<&'w ParamDecl>,
-    ) -> Written {
-        let mut writer = Writer::new(lower, weight, pays, params);
+    ) -> WrittenProgram {
+        let mut writer = RewardWriter::new(lower, weight, pays, params);
         // The step's `let`s come first, top to bottom: they see no assignment of this step.
         for statement in statements {
             if let RewardStmtKind::Let(binding) = &statement.kind {
@@ -70,7 +70,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         for statement in statements {
             writer.statement(statement, true);
         }
-        Written { terms: writer.terms, hooks: writer.hooks }
+        WrittenProgram { terms: writer.terms, hooks: writer.hooks }
     }
 
     /// Writes a reward that is a script: it pays into the first term.
@@ -79,7 +79,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         script: &'w ScriptRef,
         weight: Option<Reg>,
     ) -> Vec<RewardHook> {
-        let mut writer = Writer::new(lower, weight, true, Vec::new());
+        let mut writer = RewardWriter::new(lower, weight, true, Vec::new());
         let value = writer.script(script);
         let value = writer.weighted(value);
         writer.lower.code.give(0, value, None);
@@ -97,10 +97,10 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         let at = binding.name.span;
         lower.check_hides(&binding.name.node, at, &lower.scope);
         // A `let` that takes a state's name has been reported.
-        if matches!(lower.scope.find(&binding.name.node), Some(Binding::State { .. })) {
+        if matches!(lower.scope.find(&binding.name.node), Some(LocalName::State { .. })) {
             return;
         }
-        lower.scope.bind(&binding.name.node, Binding::Expr { expr: &binding.value, scope, ty, now: Some(value), at });
+        lower.scope.bind(&binding.name.node, LocalName::Expr { expr: &binding.value, scope, ty, now: Some(value), at });
     }
 
     fn statement(&mut self, statement: &'w RewardStmt, is_top: bool) {
@@ -312,7 +312,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
     }
 
     fn assign(&mut self, name: &'w Ident, value: &'w Expr) {
-        let Some(Binding::State { cells, ty, .. }) = self.lower.scope.find(&name.node).cloned() else {
+        let Some(LocalName::State { cells, ty, .. }) = self.lower.scope.find(&name.node).cloned() else {
             self.not_a_state(name);
             self.lower.expr(value);
             return;
@@ -329,7 +329,7 @@ impl<'l, 'c, 'w> Writer<'l, 'c, 'w> {
         }
         let known = self.lower.scope.bindings();
         let states: Vec<&str> =
-            known.iter().filter(|(_, bound)| matches!(bound, Binding::State { .. })).map(|(name, _)| *name).collect();
+            known.iter().filter(|(_, bound)| matches!(bound, LocalName::State { .. })).map(|(name, _)| *name).collect();
         let (is, guess) = if known.contains_key(name.node.as_str()) {
             (Assigned::ValueOfReward, Guess::default())
         } else {

@@ -38,7 +38,7 @@ pub(super) fn check_places(
         for (index, place) in situation.iter().enumerate() {
             let Some(player) = lower.world.roster.get(index) else { continue };
             let (shown, span) = (player.shown(), player.place_span());
-            if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == Known::Later {
+            if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == KnownStart::Later {
                 on_pitch.push((within(lower, *place, (RIM_X_M, RIM_Y_M)), span));
             }
         }
@@ -67,7 +67,7 @@ pub(super) fn check_places(
 fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, span: Span) {
     let aside = if kind == StartKind::ThrowIn { NEAR_M } else { 0.0 };
     let limit = (HALF_LENGTH_M, HALF_WIDTH_M + aside);
-    if check_on_pitch(lower, place, limit, "the ball", span) == Known::Later {
+    if check_on_pitch(lower, place, limit, "the ball", span) == KnownStart::Later {
         let inside = within(lower, place, limit);
         lower.imply(inside, &Implied::BallOnPitch, Some(span));
     }
@@ -105,12 +105,12 @@ fn situations(lower: &Lower<'_, '_>, places: &[(Reg, Reg)]) -> Vec<Situation> {
 }
 
 #[derive(PartialEq, Eq)]
-enum Known {
+enum KnownStart {
     Now,
     Later,
 }
 
-fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), what: &str, span: Span) -> Known {
+fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), what: &str, span: Span) -> KnownStart {
     let (x, y) = (lower.interval(place.0), lower.interval(place.1));
     // What is drawn up to the rim and beyond is never drawn on the rim.
     let beyond = |low: f64, high: f64, limit: f64| low > limit || (low >= limit && high > low);
@@ -129,10 +129,10 @@ fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), w
                 size: (2.0 * HALF_LENGTH_M, 2.0 * HALF_WIDTH_M),
             },
         ));
-        return Known::Now;
+        return KnownStart::Now;
     }
     let within = |axis: Option<(f64, f64)>, limit: f64| axis.is_some_and(|(low, high)| low >= -limit && high <= limit);
-    if within(x, limit.0) && within(y, limit.1) { Known::Now } else { Known::Later }
+    if within(x, limit.0) && within(y, limit.1) { KnownStart::Now } else { KnownStart::Later }
 }
 
 fn within(lower: &mut Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64)) -> Reg {

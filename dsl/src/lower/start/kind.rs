@@ -4,7 +4,7 @@ use crate::ast::{Ident, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
 use crate::lower::Lower;
 use crate::lower::mirror::Mirror;
-use crate::lower::value::{Frame, Scope};
+use crate::lower::value::{LiteralFrame, Scope};
 use crate::problem::facts::{Kind, Names, Starts};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M};
@@ -52,7 +52,7 @@ impl Lower<'_, '_> {
             self.report(Problem::new(team.span, Starts::OpenForATeam { kind: kind.span }));
         }
         self.check_ball_statement(found, kind, at.as_ref().map(|at| at.span));
-        let scope = Scope::new(true, Frame::World);
+        let scope = Scope::new(true, LiteralFrame::World);
         let team = team.as_ref().map(|team| {
             let outer = self.team.take();
             let reg = self.within(scope, |lower| lower.drawing("start", |lower| lower.want_reg(team, Ty::Team)));
@@ -116,7 +116,7 @@ impl Lower<'_, '_> {
             && has_place(kind)
         {
             let outer = self.team.take();
-            let scope = Scope::new(true, Frame::World);
+            let scope = Scope::new(true, LiteralFrame::World);
             let place = self.within(scope, |lower| lower.drawing("ball", |lower| lower.want_point(at)));
             self.team = outer;
             self.check_place_of_start(kind, team, place, at.span);

@@ -1,6 +1,6 @@
 //! The lists of statements and the words with which their statements begin.
 
-use crate::habit::Place;
+use crate::habit::HabitPlace;
 use setpiece_grammar::Rule;
 
 /// A list of statements.
@@ -50,14 +50,14 @@ impl Context {
     }
 
     /// Where habits are met in it.
-    pub(super) const fn place(self) -> Place {
+    pub(super) const fn place(self) -> HabitPlace {
         match self {
-            Context::File => Place::File,
-            Context::Scenario => Place::Scenario,
-            Context::Team => Place::Team,
-            Context::Reward => Place::Reward,
-            Context::Behavior => Place::Behavior,
-            Context::Fields => Place::Fields,
+            Context::File => HabitPlace::File,
+            Context::Scenario => HabitPlace::Scenario,
+            Context::Team => HabitPlace::Team,
+            Context::Reward => HabitPlace::Reward,
+            Context::Behavior => HabitPlace::Behavior,
+            Context::Fields => HabitPlace::Fields,
         }
     }
 

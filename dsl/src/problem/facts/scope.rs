@@ -12,20 +12,20 @@ facts! {
             say("`own` needs a team", "no team is known here")
                 .help("use it in a `team`, a `formation` or a `reward`; elsewhere write world coordinates"),
         /// `us`, `me` and their like where nobody's view is taken.
-        NoView { name: String, why: View } = Code::WrongScope =>
+        NoView { name: String, why: ViewOutside } = Code::WrongScope =>
             say(format!("`{name}` has no meaning here"), "whose view is it?").help(match why {
-                View::BothTeams => "both teams have agents, or none: write `left` or `right`",
-                View::BeforeFirstStep => BEFORE_THE_FIRST_STEP,
-                View::OutsideRewards => {
+                ViewOutside::BothTeams => "both teams have agents, or none: write `left` or `right`",
+                ViewOutside::BeforeFirstStep => BEFORE_THE_FIRST_STEP,
+                ViewOutside::OutsideRewards => {
                     "write `left`, `right` or a player's name; `us`, `them` and `me` belong to rewards"
                 }
             }),
         /// A value of the match before it begins.
-        NotYetKnown { name: String, by: Before } = Code::WrongScope => {
+        NotYetKnown { name: String, by: BeforeOutside } = Code::WrongScope => {
             let (what, help) = match by {
-                Before::Constant => ("a constant", IN_A_REWARD),
-                Before::State => ("a state's first value", BEFORE_THE_FIRST_STEP),
-                Before::Start => ("the start", IN_A_REWARD),
+                BeforeOutside::Constant => ("a constant", IN_A_REWARD),
+                BeforeOutside::State => ("a state's first value", BEFORE_THE_FIRST_STEP),
+                BeforeOutside::Start => ("the start", IN_A_REWARD),
             };
             say(format!("`{name}` is known only while the match runs"), format!("{what} is computed before")).help(help)
         },
@@ -102,7 +102,7 @@ const BEFORE_THE_FIRST_STEP: &str =
 
 /// Why nobody's view is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum View {
+pub(crate) enum ViewOutside {
     /// Not one team alone has agents.
     BothTeams,
     /// States begin before anybody has acted.
@@ -113,7 +113,7 @@ pub(crate) enum View {
 
 /// What is computed before the match.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Before {
+pub(crate) enum BeforeOutside {
     /// A constant.
     Constant,
     /// The first value of a state.

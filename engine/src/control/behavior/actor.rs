@@ -1,9 +1,9 @@
 //! One player's progress through the nodes of their behaviour.
 
-use super::perform::{Step, Wish, perform};
+use super::perform::{Wish, WishStep, perform};
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{DrawKey, Machine, truth};
-use crate::judge::script::{Argument, Memory, Perspective, Scene, ScriptError, Scripts, Shelf};
+use crate::judge::script::{Argument, HookScene, Memory, Perspective, ScriptError, Scripts, Shelf};
 use crate::judge::view::player_index;
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
@@ -38,9 +38,9 @@ clone_in_place! {
 #[derive(Debug)]
 pub struct Thread {
     player: PlayerId,
-    at: Frame,
+    at: NodeProgress,
     /// What was interrupted, innermost last.
-    interrupted: Vec<Frame>,
+    interrupted: Vec<NodeProgress>,
     /// Steps so far.
     steps: u32,
     /// The last step in which each watch redirected the player; at most once per step.
@@ -55,7 +55,7 @@ clone_in_place! {
 
 /// A node and how far it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct Frame {
+pub struct NodeProgress {
     /// The node.
     pub node: u32,
     /// Steps spent on it.
@@ -64,9 +64,9 @@ pub struct Frame {
     pub pressed: bool,
 }
 
-impl Frame {
-    fn at(node: u32) -> Frame {
-        Frame { node, ..Frame::default() }
+impl NodeProgress {
+    fn at(node: u32) -> NodeProgress {
+        NodeProgress { node, ..NodeProgress::default() }
     }
 }
 
@@ -79,7 +79,7 @@ impl Actor {
         });
         let thread = Thread {
             player,
-            at: Frame::default(),
+            at: NodeProgress::default(),
             interrupted: Vec::with_capacity(behavior.watches.len()),
             steps: 0,
             turned: vec![0; behavior.watches.len()],
@@ -99,7 +99,7 @@ impl Actor {
                 }
             }
         }
-        self.thread.at = Frame::default();
+        self.thread.at = NodeProgress::default();
         self.thread.interrupted.clear();
         self.thread.steps = 0;
         self.thread.turned.fill(0);
@@ -119,7 +119,7 @@ impl Actor {
 }
 
 /// The values that a behaviour sees in a step.
-pub struct Mind<'a> {
+pub struct BehaviorMind<'a> {
     machine: Machine<'a>,
     /// Whether a cell was written since the registers were computed.
     stale: bool,
@@ -128,10 +128,10 @@ pub struct Mind<'a> {
     player: PlayerId,
 }
 
-impl<'a> Mind<'a> {
+impl<'a> BehaviorMind<'a> {
     /// Creates the values of a player; see [`Self::see`].
-    pub fn new(machine: Machine<'a>, seed: u64, index: u64, player: PlayerId) -> Mind<'a> {
-        Mind { machine, stale: false, seed, index, player }
+    pub fn new(machine: Machine<'a>, seed: u64, index: u64, player: PlayerId) -> BehaviorMind<'a> {
+        BehaviorMind { machine, stale: false, seed, index, player }
     }
 
     /// Computes every value of the step.
@@ -198,9 +198,9 @@ impl Thread {
     pub fn step(
         &mut self,
         plan: &Behavior,
-        mind: &mut Mind<'_>,
+        mind: &mut BehaviorMind<'_>,
         game: &Match,
-        scene: Option<(&Scripts, &Arc<Scene>)>,
+        scene: Option<(&Scripts, &Arc<HookScene>)>,
     ) -> Result<Action, ScriptError> {
         let first = self.steps == 0;
         self.steps += 1;
@@ -236,22 +236,22 @@ impl Thread {
                     if mind.truth(*when) {
                         self.next();
                     } else {
-                        self.at = Frame::at(*otherwise);
+                        self.at = NodeProgress::at(*otherwise);
                     }
                 }
-                Node::Jump(to) => self.at = Frame::at(*to),
+                Node::Jump(to) => self.at = NodeProgress::at(*to),
                 Node::Mark(cell) => {
                     mind.machine.cells[*cell as usize] = [f64::from(self.steps)];
                     self.next();
                 }
                 Node::Loop { to, mark } => {
                     let [began] = mind.machine.cells[*mark as usize];
-                    self.at = Frame::at(*to);
+                    self.at = NodeProgress::at(*to);
                     if began == f64::from(self.steps) {
                         return Ok(Action::Idle);
                     }
                 }
-                Node::Return => self.at = self.interrupted.pop().unwrap_or(Frame::at(u32::MAX)),
+                Node::Return => self.at = self.interrupted.pop().unwrap_or(NodeProgress::at(u32::MAX)),
                 Node::Finish { from, to } => self.leave(*from, *to),
             }
         }
@@ -259,11 +259,11 @@ impl Thread {
     }
 
     fn next(&mut self) {
-        self.at = Frame::at(self.at.node + 1);
+        self.at = NodeProgress::at(self.at.node + 1);
     }
 
     /// Sets the states before anything reads them.
-    fn begin(&mut self, plan: &Behavior, mind: &mut Mind<'_>) {
+    fn begin(&mut self, plan: &Behavior, mind: &mut BehaviorMind<'_>) {
         while let Some(node) = plan.nodes.get(self.at.node as usize) {
             match node {
                 Node::Let(pairs) => mind.write(pairs, false),
@@ -276,7 +276,7 @@ impl Thread {
 
     /// Lets the first watch that holds redirect the player, each at most once per step. Returns
     /// whether one did.
-    fn look_out(&mut self, plan: &Behavior, mind: &mut Mind<'_>) -> bool {
+    fn look_out(&mut self, plan: &Behavior, mind: &mut BehaviorMind<'_>) -> bool {
         let (here, now) = (self.at.node, self.steps);
         let mut open = plan.watches.iter().zip(&mut self.turned);
         let holds = |(watch, turned): &(&Watch, &mut u32)| {
@@ -287,7 +287,7 @@ impl Thread {
         match watch.then {
             Then::Interrupt(body) if self.interrupted.len() < plan.watches.len() => {
                 self.interrupted.push(self.at);
-                self.at = Frame::at(body);
+                self.at = NodeProgress::at(body);
             }
             Then::Interrupt(_) => {}
             Then::Leave => self.leave(watch.from, watch.to),
@@ -300,16 +300,16 @@ impl Thread {
         while self.interrupted.last().is_some_and(|frame| (from..to).contains(&frame.node)) {
             self.interrupted.pop();
         }
-        self.at = Frame::at(to);
+        self.at = NodeProgress::at(to);
     }
 
     /// Runs an action of a `do`; `None` once it has ended.
     fn act(
         &mut self,
         doing: &Do,
-        mind: &mut Mind<'_>,
+        mind: &mut BehaviorMind<'_>,
         game: &Match,
-        scene: Option<(&Scripts, &Arc<Scene>)>,
+        scene: Option<(&Scripts, &Arc<HookScene>)>,
     ) -> Result<Option<Action>, ScriptError> {
         if doing.until.is_some_and(|until| mind.truth(until)) {
             return Ok(None);
@@ -340,7 +340,8 @@ impl Thread {
                 let arguments: Vec<Argument<'_>> = args
                     .iter()
                     .map(|arg| {
-                        let value = |mind: &mut Mind<'_>, i: usize| arg.regs.get(i).map_or(0.0, |reg| mind.value(*reg));
+                        let value =
+                            |mind: &mut BehaviorMind<'_>, i: usize| arg.regs.get(i).map_or(0.0, |reg| mind.value(*reg));
                         Argument { name: &arg.name, ty: arg.ty, values: [value(mind, 0), value(mind, 1)] }
                     })
                     .collect();
@@ -353,12 +354,12 @@ impl Thread {
             }
         };
         match perform(game, self.player, wish, doing.sprint, &mut self.at) {
-            Step::Act(action) => {
+            WishStep::Act(action) => {
                 self.at.steps += 1;
                 Ok(Some(action))
             }
-            Step::Ended => Ok(None),
-            Step::Impossible => {
+            WishStep::Ended => Ok(None),
+            WishStep::Impossible => {
                 *mind.machine.faults += 1;
                 Ok(None)
             }

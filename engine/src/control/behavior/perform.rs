@@ -1,6 +1,6 @@
 //! What a primitive presses in a step, and when it ends.
 
-use super::actor::Frame;
+use super::actor::NodeProgress;
 use super::steer::{Gait, rest, towards};
 use crate::control::driver::may_play;
 use crate::control::{agents, sticky};
@@ -59,7 +59,7 @@ pub enum Wish {
 
 /// The result of a wish in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum WishStep {
     /// The player presses this.
     Act(Action),
     /// It is done, or can't be done.
@@ -69,22 +69,24 @@ pub enum Step {
 }
 
 /// The next press of a wish.
-pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut Frame) -> Step {
+pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut NodeProgress) -> WishStep {
     let body = Legs { game, id, held: game.play.acting[id.index()].sticky, sprint };
     match wish {
         Wish::MoveTo(to) => body.to(to, Gait::Run),
-        Wish::Run(angle) if angle.is_nan() => Step::Impossible,
-        Wish::Run(angle) => Step::Act(body.along(Vec2::new(libm::cosf(angle), libm::sinf(angle)) * 100.0, Gait::Run)),
-        Wish::DribbleTo(_) if !has_claim(game, id) => Step::Ended,
+        Wish::Run(angle) if angle.is_nan() => WishStep::Impossible,
+        Wish::Run(angle) => {
+            WishStep::Act(body.along(Vec2::new(libm::cosf(angle), libm::sinf(angle)) * 100.0, Gait::Run))
+        }
+        Wish::DribbleTo(_) if !has_claim(game, id) => WishStep::Ended,
         Wish::DribbleTo(to) => body.to(to, Gait::Dribble),
         Wish::Pass(kick, mate) => body.pass(kick, mate, frame),
         Wish::Shoot(at) => body.shoot(at, frame),
         Wish::Tackle => body.tackle(frame),
         Wish::Slide => body.slide(frame),
         Wish::Mark(who) => body.mark(who),
-        Wish::Press => Step::Act(body.press()),
-        Wish::Hold => Step::Act(rest(body.held)),
-        Wish::Bot => Step::Act(Action::BuiltinAi),
+        Wish::Press => WishStep::Act(body.press()),
+        Wish::Hold => WishStep::Act(rest(body.held)),
+        Wish::Bot => WishStep::Act(Action::BuiltinAi),
     }
 }
 
@@ -115,40 +117,40 @@ impl Legs<'_> {
         towards(self.held, way * self.id.team().side() as f32, gait)
     }
 
-    fn to(&self, to: Vec2, gait: Gait) -> Step {
+    fn to(&self, to: Vec2, gait: Gait) -> WishStep {
         let way = to - self.pos();
         if way.is_nan() {
-            Step::Impossible
+            WishStep::Impossible
         } else if way.length() < THERE_M {
-            Step::Ended
+            WishStep::Ended
         } else {
-            Step::Act(self.along(way, gait))
+            WishStep::Act(self.along(way, gait))
         }
     }
 
     /// After a kick has been requested, waits for it.
-    fn swinging(&self, frame: &Frame) -> Option<Step> {
+    fn swinging(&self, frame: &NodeProgress) -> Option<WishStep> {
         let waits = self.game.player(self.id).body.kick.is_some();
         match (frame.pressed, waits) {
-            (true, true) => Some(Step::Act(Action::Idle)),
-            (true, false) => Some(Step::Ended),
-            (false, _) => (!has_claim(self.game, self.id)).then_some(Step::Ended),
+            (true, true) => Some(WishStep::Act(Action::Idle)),
+            (true, false) => Some(WishStep::Ended),
+            (false, _) => (!has_claim(self.game, self.id)).then_some(WishStep::Ended),
         }
     }
 
-    fn pass(&self, kick: Action, mate: Option<PlayerId>, frame: &mut Frame) -> Step {
+    fn pass(&self, kick: Action, mate: Option<PlayerId>, frame: &mut NodeProgress) -> WishStep {
         let mate = mate.filter(|mate| *mate != self.id && mate.team() == self.id.team());
-        let Some(mate) = mate.filter(|mate| self.game.player(*mate).active) else { return Step::Ended };
+        let Some(mate) = mate.filter(|mate| self.game.player(*mate).active) else { return WishStep::Ended };
         if let Some(step) = self.swinging(frame) {
             return step;
         }
         let way = (self.game.player(mate).pos - self.pos()) * self.id.team().side() as f32;
         let direction = agents::direction_action(way);
-        Step::Act(self.aimed(direction, kick, frame))
+        WishStep::Act(self.aimed(direction, kick, frame))
     }
 
     /// Holds the direction first, then kicks.
-    fn aimed(&self, direction: Action, kick: Action, frame: &mut Frame) -> Action {
+    fn aimed(&self, direction: Action, kick: Action, frame: &mut NodeProgress) -> Action {
         if self.held & (1 << (direction.index() - Action::Left.index())) == 0 {
             return direction;
         }
@@ -156,7 +158,7 @@ impl Legs<'_> {
         kick
     }
 
-    fn shoot(&self, at: Option<Vec2>, frame: &mut Frame) -> Step {
+    fn shoot(&self, at: Option<Vec2>, frame: &mut NodeProgress) -> WishStep {
         if let Some(step) = self.swinging(frame) {
             return step;
         }
@@ -165,14 +167,14 @@ impl Legs<'_> {
         let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
         let meant = at.unwrap_or(goal);
         if meant.is_nan() {
-            return Step::Impossible;
+            return WishStep::Impossible;
         }
         let off = |dir: Option<Vec2>| shot::aim_of(from, side, dir.map(|dir| dir * side)).distance(meant);
         let held = sticky::direction(self.held);
         // Without a point, anything between the posts will do.
         if at.is_none() && off(held) < GOAL_HALF_WIDTH_M as f32 {
             frame.pressed = true;
-            return Step::Act(Action::Shot);
+            return WishStep::Act(Action::Shot);
         }
         let mut best: Option<(f32, Action)> = None;
         for index in Action::Left.index()..=Action::BottomLeft.index() {
@@ -187,13 +189,13 @@ impl Legs<'_> {
             // Holding nothing means the middle of the goal.
             Some((least, _)) if off(None) <= least => {
                 if held.is_some() {
-                    return Step::Act(Action::ReleaseDirection);
+                    return WishStep::Act(Action::ReleaseDirection);
                 }
                 frame.pressed = true;
-                Step::Act(Action::Shot)
+                WishStep::Act(Action::Shot)
             }
-            Some((_, direction)) => Step::Act(self.aimed(direction, Action::Shot, frame)),
-            None => Step::Ended,
+            Some((_, direction)) => WishStep::Act(self.aimed(direction, Action::Shot, frame)),
+            None => WishStep::Ended,
         }
     }
 
@@ -208,20 +210,20 @@ impl Legs<'_> {
         self.along(way, if way.length() > HURRY_M { Gait::Sprint } else { Gait::Run })
     }
 
-    fn tackle(&self, frame: &Frame) -> Step {
+    fn tackle(&self, frame: &NodeProgress) -> WishStep {
         let ours = self.owner().is_some_and(|owner| owner.team() == self.id.team());
-        if ours || frame.steps >= TACKLE_STEPS { Step::Ended } else { Step::Act(self.to_ball()) }
+        if ours || frame.steps >= TACKLE_STEPS { WishStep::Ended } else { WishStep::Act(self.to_ball()) }
     }
 
-    fn slide(&self, frame: &mut Frame) -> Step {
+    fn slide(&self, frame: &mut NodeProgress) -> WishStep {
         let up = self.game.player(self.id).is_up();
         match (frame.pressed, up) {
-            (true, true) => Step::Ended,
-            (_, false) => Step::Act(Action::Idle),
-            (false, true) if has_claim(self.game, self.id) => Step::Ended,
+            (true, true) => WishStep::Ended,
+            (_, false) => WishStep::Act(Action::Idle),
+            (false, true) if has_claim(self.game, self.id) => WishStep::Ended,
             (false, true) => {
                 frame.pressed = true;
-                Step::Act(Action::Sliding)
+                WishStep::Act(Action::Sliding)
             }
         }
     }
@@ -233,8 +235,10 @@ impl Legs<'_> {
         }
     }
 
-    fn mark(&self, who: Option<PlayerId>) -> Step {
-        let Some(who) = who.filter(|who| *who != self.id && self.game.player(*who).active) else { return Step::Ended };
+    fn mark(&self, who: Option<PlayerId>) -> WishStep {
+        let Some(who) = who.filter(|who| *who != self.id && self.game.player(*who).active) else {
+            return WishStep::Ended;
+        };
         let rival = self.game.player(who);
         let goal = Vec2::new(-(HALF_LENGTH_M as f32) * self.id.team().side() as f32, 0.0);
         let ahead = rival.pos + rival.vel * MARK_AHEAD_S;
@@ -242,7 +246,7 @@ impl Legs<'_> {
         let way = spot - self.pos();
         let (distance, speed) = (way.length(), rival.vel.length());
         let gait = if distance > HURRY_M || speed > RUN_MPS { Gait::Sprint } else { Gait::Run };
-        Step::Act(if distance > AT_MARK_M {
+        WishStep::Act(if distance > AT_MARK_M {
             self.along(way, gait)
         } else if speed > STROLL_MPS {
             // In place: moves as the marked opponent does.

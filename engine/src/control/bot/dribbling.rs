@@ -4,7 +4,7 @@
 use crate::control::bot::formation::mindset;
 use crate::control::bot::off_ball;
 use crate::control::bot::support::Forces;
-use crate::control::bot::{GOAL, View};
+use crate::control::bot::{GOAL, TeamView};
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -26,7 +26,7 @@ const TO_MIDDLE: f32 = 0.28;
 const FORCE_MPS: f32 = 20.8;
 
 /// The velocity that a player wants with the ball, world m/s. `shy`: how much opponents count.
-pub fn way(game: &Match, view: &View, id: PlayerId, shy: f32) -> Vec2 {
+pub fn way(game: &Match, view: &TeamView, id: PlayerId, shy: f32) -> Vec2 {
     let player = game.player(id);
     let own = player.pos * view.side;
     let mut forces = Forces::at(own + player.vel * view.side * AHEAD_S);

@@ -4,9 +4,9 @@
 //! decides how its place follows the ball. Players swap slots if that brings the team to its places
 //! sooner. (All figures are GRF's.)
 
-use crate::control::bot::View;
+use crate::control::bot::TeamView;
 use crate::control::bot::matching::matching;
-use crate::football::block::{Block, HALF};
+use crate::football::block::{HALF, TeamBlock};
 use crate::math::{self, mix, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -21,7 +21,7 @@ const SWAP_AHEAD_S: f32 = 0.5;
 
 /// How a team wants its block, with and without the ball.
 #[derive(Clone, Copy)]
-struct Wish {
+struct BlockWish {
     /// Shares of the block's depth and width.
     depth: f32,
     width: f32,
@@ -35,8 +35,10 @@ struct Wish {
     drawn: f32,
 }
 
-const ATTACK: Wish = Wish { depth: 0.868, width: 0.948, back: 0.04, midfield: 0.828, by_side: 0.176, drawn: 0.826 };
-const DEFENCE: Wish = Wish { depth: 0.71, width: 0.84, back: 0.08, midfield: 0.776, by_side: 0.332, drawn: 0.938 };
+const ATTACK: BlockWish =
+    BlockWish { depth: 0.868, width: 0.948, back: 0.04, midfield: 0.828, by_side: 0.176, drawn: 0.826 };
+const DEFENCE: BlockWish =
+    BlockWish { depth: 0.71, width: 0.84, back: 0.08, midfield: 0.776, by_side: 0.332, drawn: 0.938 };
 /// How strongly midfielders follow.
 const MIDFIELD_KEEN: f32 = 0.35;
 
@@ -52,7 +54,7 @@ pub fn mindset(role: Role) -> f32 {
 }
 
 /// A role's wishes, with the ball and without.
-fn wishes(role: Role) -> [Wish; 2] {
+fn wishes(role: Role) -> [BlockWish; 2] {
     let (mut attack, mut defence) = (ATTACK, DEFENCE);
     match role {
         Role::CB => attack.width = 1.0,
@@ -70,7 +72,7 @@ fn wishes(role: Role) -> [Wish; 2] {
 }
 
 /// Assigns the slots again, so that everyone's way to theirs is short. (GRF's.)
-pub fn swap_slots(game: &mut Match, view: &View) {
+pub fn swap_slots(game: &mut Match, view: &TeamView) {
     let mut field = [PlayerId(0); TEAM_MAX];
     let mut ways = [[0i32; TEAM_MAX]; TEAM_MAX];
     let mut count = 0;
@@ -114,7 +116,7 @@ pub struct Outlook {
 
 impl Outlook {
     /// Computes how a player sees the game.
-    pub fn of(game: &Match, view: &View, id: PlayerId) -> Outlook {
+    pub fn of(game: &Match, view: &TeamView, id: PlayerId) -> Outlook {
         let action = view.action_at(game);
         let urgent = 1.0 - share(action.distance(game.player(id).pos * view.side), 2.0, 30.0);
         let mean = |seconds: f32| view.means.over(seconds) * view.side;
@@ -134,7 +136,7 @@ impl Outlook {
     }
 
     /// The player's place in the block if they fill the slot and role of `fills`.
-    pub fn place(&self, game: &Match, view: &View, fills: PlayerId) -> Vec2 {
+    pub fn place(&self, game: &Match, view: &TeamView, fills: PlayerId) -> Vec2 {
         let Outlook { ball, attacks, side_x, focus, draws } = *self;
         let filled = game.player(fills);
         let [attack, defence] = wishes(filled.role);
@@ -152,7 +154,7 @@ impl Outlook {
         let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
         let follows = share(ball.x / HALF.x, -0.8, 0.8);
         let midfield = 0.7 * both(attack.midfield, defence.midfield) + 0.3 * follows;
-        let block = Block {
+        let block = TeamBlock {
             depth: [back, front],
             half_width: width * HALF.y,
             middle_y,

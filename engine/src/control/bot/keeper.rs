@@ -1,7 +1,7 @@
 //! The keeper's feet: where they stand, and when they come out. (Their hands are in
 //! `football::keeper`.)
 
-use crate::control::bot::{GOAL, View, on_ball, press, send};
+use crate::control::bot::{GOAL, TeamView, on_ball, press, send};
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::math::share;
 use crate::state::player::{Intent, Pose};
@@ -43,7 +43,7 @@ const GAINS_MPS: f32 = 0.5;
 const FAR_LEAD_S: f32 = 3.0;
 
 /// Decides for a keeper without the ball. False if they should go for it like anyone else.
-pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
+pub fn stands(game: &mut Match, view: &TeamView, id: PlayerId) -> bool {
     let player = *game.player(id);
     if player.body.pose == Pose::Diving {
         return true;
@@ -73,7 +73,7 @@ pub fn stands(game: &mut Match, view: &View, id: PlayerId) -> bool {
 /// The keeper stands on the line that halves the goal as seen from the ball: just in front of the
 /// goal line, or further up while the own team has the ball. They come all the way out to an
 /// opponent that no teammate can stop any more, unless a second opponent waits for that.
-fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
+fn post(game: &Match, view: &TeamView, id: PlayerId) -> (Vec2, f32) {
     let keeper = game.player(id).pos * view.side;
     if let Some(spot) = in_the_way(game, view, id) {
         return (spot, SPRINT_MPS);
@@ -111,7 +111,7 @@ fn post(game: &Match, view: &View, id: PlayerId) -> (Vec2, f32) {
 
 /// The nearest point on the path of a ball bound for goal, own frame; none for any other ball. A
 /// ball dribbled towards the goal counts too. (GRF's.)
-fn in_the_way(game: &Match, view: &View, id: PlayerId) -> Option<Vec2> {
+fn in_the_way(game: &Match, view: &TeamView, id: PlayerId) -> Option<Vec2> {
     let player = game.player(id);
     let at = |ticks: u32| game.play.forecast.at(game.tick + ticks).truncate() * view.side;
     let (ball, soon) = (at(1), at(COURSE_TICKS));
@@ -152,14 +152,14 @@ fn shooting_m(place: Vec2, from_m: f32) -> f32 {
 
 /// The distance of the nearest outfield teammate from the point at which an opponent could shoot,
 /// metres.
-fn nearest_mate_m(game: &Match, view: &View, id: PlayerId, place: Vec2, left_m: f32) -> f32 {
+fn nearest_mate_m(game: &Match, view: &TeamView, id: PlayerId, place: Vec2, left_m: f32) -> f32 {
     let point = place + (-GOAL - place).normalize_or_zero() * left_m;
     let mates = game.team(view.team).filter(|(mate, _)| *mate != id);
     mates.fold(f32::MAX, |least, (_, mate)| least.min(((mate.pos + mate.vel * 0.24) * view.side).distance(point)))
 }
 
 /// How much a second opponent near the goal keeps the keeper on the line, 0..0.7.
-fn second_danger(game: &Match, view: &View, id: PlayerId, rival: PlayerId, left_m: f32) -> f32 {
+fn second_danger(game: &Match, view: &TeamView, id: PlayerId, rival: PlayerId, left_m: f32) -> f32 {
     let others = game.team(view.team.other()).filter(|(other, _)| *other != rival);
     let place_of = |other: &Player| (other.pos + other.vel * MEET_S) * view.side;
     let near = others
@@ -175,7 +175,7 @@ fn second_danger(game: &Match, view: &View, id: PlayerId, rival: PlayerId, left_
 /// Whether a free ball is the keeper's: it was passed to them, or they surely reach it before the
 /// others. The required lead depends on where the ball is: out of the box hands don't help and the
 /// goal is empty. A keeper without teammates has nobody else.
-fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
+fn comes_out(game: &Match, view: &TeamView, id: PlayerId) -> bool {
     if game.controller().is_some() {
         return false;
     }
@@ -184,7 +184,7 @@ fn comes_out(game: &Match, view: &View, id: PlayerId) -> bool {
     }
     let player = game.player(id);
     let meet = player.body.meet * view.side;
-    let rivals = View::soonest(game, view.team.other());
+    let rivals = TeamView::soonest(game, view.team.other());
     let mates =
         game.team(view.team).filter(|(mate, _)| *mate != id).fold(f32::MAX, |least, (_, p)| least.min(p.body.meet_s));
     let lone = game.team(view.team).count() == 1;

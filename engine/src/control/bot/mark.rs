@@ -1,7 +1,7 @@
 //! Defending without the ball: the most dangerous opponents are marked, and the back line keeps its
 //! line. (All figures are GRF's.)
 
-use crate::control::bot::{GOAL, View};
+use crate::control::bot::{GOAL, TeamView};
 use crate::math::share;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -34,7 +34,7 @@ const CAUTION_M: f32 = 4.0;
 const LINE_ZONE_M: f32 = 2.0;
 
 /// Assigns a marker to each of the most dangerous opponents, including the one with the ball.
-pub fn assign(game: &mut Match, view: &View) {
+pub fn assign(game: &mut Match, view: &TeamView) {
     game.each(game.squad.of(view.team), |player| player.body.mind.mark = None);
     let carrier = view.rival(game);
     let aim = Vec2::new(2.0 - GOAL.x, 0.0) * 0.8 + view.ball * 0.2;
@@ -63,7 +63,7 @@ fn best(of: impl Iterator<Item = PlayerId>, worth: impl Fn(PlayerId) -> f32) -> 
 
 /// How well a player would mark an opponent, 0..1: best if the opponent is in front of them, not
 /// far to the side.
-fn worth(game: &Match, view: &View, id: PlayerId, rival: PlayerId) -> f32 {
+fn worth(game: &Match, view: &TeamView, id: PlayerId, rival: PlayerId) -> f32 {
     let soon = |id: PlayerId| {
         let player = game.player(id);
         (player.pos + player.vel * 0.1) * view.side
@@ -85,7 +85,7 @@ fn worth(game: &Match, view: &View, id: PlayerId, rival: PlayerId) -> f32 {
 
 /// Where a player goes to mark their opponent, given the place, own frame, where they would be
 /// otherwise.
-pub fn post(game: &Match, view: &View, id: PlayerId, place: Vec2) -> Vec2 {
+pub fn post(game: &Match, view: &TeamView, id: PlayerId, place: Vec2) -> Vec2 {
     let player = game.player(id);
     let Some(rival) = player.body.mind.mark else { return place };
     let other = game.player(rival);
@@ -112,7 +112,7 @@ pub fn post(game: &Match, view: &View, id: PlayerId, place: Vec2) -> Vec2 {
 
 /// The line, own frame x, metres, behind which nobody falls back, so that opponents are offside. It
 /// retreats with the ball, the opponent on it and the teammates behind it.
-pub fn trap_x(game: &Match, view: &View) -> f32 {
+pub fn trap_x(game: &Match, view: &TeamView) -> f32 {
     let side = view.side;
     let from_m = LINE_M + LINE_DARING_M * view.daring;
     let yields_m = 20.0 + 10.0 * (1.0 - view.daring);
@@ -140,7 +140,7 @@ pub fn trap_x(game: &Match, view: &View) -> f32 {
 }
 
 /// Moves a place onto the line.
-pub fn hold_line(view: &View, place: Vec2) -> Vec2 {
+pub fn hold_line(view: &TeamView, place: Vec2) -> Vec2 {
     let zone = view.trap_x + LINE_ZONE_M;
     if place.x >= zone {
         return place;

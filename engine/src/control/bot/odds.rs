@@ -1,6 +1,6 @@
 //! How likely a ball reaches the place that it is played to. (GRF's figures.)
 
-use crate::control::bot::View;
+use crate::control::bot::TeamView;
 use crate::football::pace::SPRINT_MPS;
 use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
@@ -37,7 +37,7 @@ pub fn free_space(game: &Match, team: Team, point: Vec2, seconds: f32) -> f32 {
 }
 
 /// How likely a pass reaches a teammate, 0..1.
-pub fn of_pass(game: &Match, view: &View, id: PlayerId, mate: PlayerId, kind: KickKind) -> f32 {
+pub fn of_pass(game: &Match, view: &TeamView, id: PlayerId, mate: PlayerId, kind: KickKind) -> f32 {
     let (player, other) = (game.player(id), game.player(mate));
     let distance = other.pos.distance(player.pos);
     if kind == KickKind::High && distance < LOFTED_M {
@@ -52,7 +52,7 @@ pub fn of_pass(game: &Match, view: &View, id: PlayerId, mate: PlayerId, kind: Ki
 
 /// How likely a ball to a point of the own frame gets there, 0..1. `speed`: how much faster it is
 /// than a pass.
-pub fn of_way(game: &Match, view: &View, id: PlayerId, to: Vec2, kind: KickKind, speed: f32) -> f32 {
+pub fn of_way(game: &Match, view: &TeamView, id: PlayerId, to: Vec2, kind: KickKind, speed: f32) -> f32 {
     let player = game.player(id);
     let from = (player.pos + player.vel * 0.12) * view.side;
     let way = to - from;

@@ -2,7 +2,7 @@
 //! the opponent that they mark. (GRF's figures.)
 
 use crate::control::bot::formation::{Outlook, mindset};
-use crate::control::bot::{View, mark, send, support};
+use crate::control::bot::{TeamView, mark, send, support};
 use crate::football::pace::SPRINT_MPS;
 use crate::math::{self, ease, share};
 use crate::state::player::Intent;
@@ -35,7 +35,7 @@ fn manner(role: Role) -> Manner {
 }
 
 /// Sends a player to where they play without the ball.
-pub fn place(game: &mut Match, view: &View, id: PlayerId) {
+pub fn place(game: &mut Match, view: &TeamView, id: PlayerId) {
     let player = *game.player(id);
     let own = player.pos * view.side;
     let manner = manner(player.role);
@@ -78,7 +78,7 @@ pub fn pace(wanted_mps: f32) -> f32 {
 
 /// The speed of a player far from the action, m/s: slower the less it concerns them, and when
 /// tired.
-fn lazily(game: &Match, view: &View, id: PlayerId, wanted_mps: f32) -> f32 {
+fn lazily(game: &Match, view: &TeamView, id: PlayerId, wanted_mps: f32) -> f32 {
     let player = game.player(id);
     let fresh = 1.0 - player.fatigue;
     let (near_m, far_m) = (20.0 * (0.8 * fresh + 0.2), 65.0 * (0.5 * fresh + 0.5));

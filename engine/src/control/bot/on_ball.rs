@@ -1,7 +1,7 @@
 //! With the ball: pass, shoot, clear or run on. (The figures are GRF's unless they say otherwise.)
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::{GOAL, View, dribbling, odds};
+use crate::control::bot::{GOAL, TeamView, dribbling, odds};
 use crate::football::pace::SPRINT_MPS;
 use crate::football::{kick, noise, touch};
 use crate::math::{self, ease, share};
@@ -13,7 +13,7 @@ use setpiece_scenario::vocabulary::{Role, Stat};
 
 /// What to do.
 #[derive(Clone, Copy, Debug)]
-enum Act {
+enum OnBallChoice {
     Shoot(Vec2),
     Pass(PlayerId, KickKind),
     Clear,
@@ -60,7 +60,7 @@ const SETS_OFF_MPS: f32 = 2.8;
 const MIND_TICKS: i32 = 80;
 
 /// Decides for the player on the ball.
-pub fn decide(game: &mut Match, view: &View, id: PlayerId) {
+pub fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
     if let Some((keeper, since)) = game.play.hands
         && keeper == id
     {
@@ -92,7 +92,7 @@ fn is_decided(game: &Match, id: PlayerId) -> bool {
 }
 
 /// Decides for the player who will have the ball soon.
-pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
+pub fn before_touch(game: &mut Match, view: &TeamView, id: PlayerId) {
     let body = &game.player(id).body;
     let rests = (game.tick as i32) < body.ready_at;
     if is_decided(game, id) || game.play.led[view.team.index()] || body.meet_s > AHEAD_S || rests {
@@ -106,19 +106,19 @@ pub fn before_touch(game: &mut Match, view: &View, id: PlayerId) {
 
 /// Chooses what to do instead of running on: defenders in a hurry clear, then a player with a
 /// better placed teammate passes, then a player near the goal shoots.
-fn choose(game: &mut Match, view: &View, id: PlayerId) -> Option<Act> {
+fn choose(game: &mut Match, view: &TeamView, id: PlayerId) -> Option<OnBallChoice> {
     let pass = best_pass(game, view, id);
     if must_clear(game, view, id, pass.map_or(0.0, |(odds, ..)| odds)) {
-        return Some(Act::Clear);
+        return Some(OnBallChoice::Clear);
     }
     if let Some((_, mate, kind)) = pass {
-        return Some(Act::Pass(mate, kind));
+        return Some(OnBallChoice::Pass(mate, kind));
     }
-    shot(game, view, id).map(Act::Shoot)
+    shot(game, view, id).map(OnBallChoice::Shoot)
 }
 
 /// How well a player is placed for the ball, with this weight on nearness to the goal.
-fn placed(game: &Match, view: &View, id: PlayerId, nearness: f32) -> f32 {
+fn placed(game: &Match, view: &TeamView, id: PlayerId, nearness: f32) -> f32 {
     let player = game.player(id);
     let ahead = player.pos + Vec2::new(0.5 * SPRINT_MPS * view.side, 0.0);
     let away = (GOAL - player.pos * view.side).length() / (2.0 * GOAL.x);
@@ -142,7 +142,7 @@ fn had_s(game: &Match, id: PlayerId) -> f32 {
 }
 
 /// The best pass: its odds, receiver and kind. None if running on is better.
-fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, KickKind)> {
+fn best_pass(game: &Match, view: &TeamView, id: PlayerId) -> Option<(f32, PlayerId, KickKind)> {
     let player = game.player(id);
     let mind = mindset(game.player(player.body.mind.fills).role);
     let nearness = NEARNESS[0] + NEARNESS[1] * mind;
@@ -183,7 +183,7 @@ fn best_pass(game: &Match, view: &View, id: PlayerId) -> Option<(f32, PlayerId, 
 
 /// Whether a defender should clear the ball, given the odds of their best pass: a rival reaches it
 /// about as soon as they do. Nearer to the goal, a later rival is enough.
-fn must_clear(game: &Match, view: &View, id: PlayerId, pass: f32) -> bool {
+fn must_clear(game: &Match, view: &TeamView, id: PlayerId, pass: f32) -> bool {
     let player = game.player(id);
     let filled = game.player(player.body.mind.fills);
     if mindset(filled.role) >= 0.25 {
@@ -201,7 +201,7 @@ fn must_clear(game: &Match, view: &View, id: PlayerId, pass: f32) -> bool {
 }
 
 /// Where to shoot at, own frame. None from places where nobody would shoot.
-fn shot(game: &mut Match, view: &View, id: PlayerId) -> Option<Vec2> {
+fn shot(game: &mut Match, view: &TeamView, id: PlayerId) -> Option<Vec2> {
     let player = *game.player(id);
     let own = player.pos * view.side;
     let from = Vec2::new(GOAL.x - SHOOTS_FROM_M, 0.0).distance(own);
@@ -222,11 +222,11 @@ fn shot(game: &mut Match, view: &View, id: PlayerId) -> Option<Vec2> {
 }
 
 /// Turns the choice into a kick.
-fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
+fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
     let (kind, mate) = match act {
-        Act::Shoot(_) => (KickKind::Shot, None),
-        Act::Pass(mate, kind) => (kind, Some(mate)),
-        Act::Clear => (KickKind::Clear, None),
+        OnBallChoice::Shoot(_) => (KickKind::Shot, None),
+        OnBallChoice::Pass(mate, kind) => (kind, Some(mate)),
+        OnBallChoice::Clear => (KickKind::Clear, None),
     };
     if game.player(id).body.kick.is_some_and(|plan| plan.kind == kind && plan.mate == mate) {
         return;
@@ -238,17 +238,17 @@ fn perform(game: &mut Match, view: &View, id: PlayerId, act: Act) {
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
     match act {
-        Act::Shoot(point) => {
+        OnBallChoice::Shoot(point) => {
             let far = share((GOAL - body.meet * view.side).length(), 0.0, 32.0);
             let most = 0.6 + 0.4 * far;
             let luck = noise::bot_roll(game);
             let plan = KickPlan { point: Some(point * view.side), power: (0.7 + 0.3 * luck) * most, ..shot };
             game.players[id.index()].body.kick = Some(plan);
         }
-        Act::Pass(mate, kind) => {
+        OnBallChoice::Pass(mate, kind) => {
             body.kick = Some(KickPlan { until, mate: Some(mate), ..kick::planned(kind, from) });
         }
-        Act::Clear => {
+        OnBallChoice::Clear => {
             let facing = body.facing * view.side;
             let wide = math::sign_or(facing.y, 1.0);
             let away = Vec2::new(0.8 * facing.x, facing.y).normalize_or_zero() + Vec2::new(0.7, 0.5 * wide);
@@ -268,7 +268,7 @@ fn rest_ticks(game: &Match, id: PlayerId) -> u32 {
 }
 
 /// Lets the keeper release the ball: soon if a teammate is free, at the latest after four seconds.
-fn release(game: &mut Match, view: &View, id: PlayerId, since: u32) {
+fn release(game: &mut Match, view: &TeamView, id: PlayerId, since: u32) {
     game.players[id.index()].body.intent = Intent::Stand;
     let held_ticks = game.tick.saturating_sub(since);
     if held_ticks < 120 || game.player(id).body.kick.is_some() {

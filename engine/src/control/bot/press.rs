@@ -1,7 +1,7 @@
 //! Going for the ball, free or an opponent's.
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::{GOAL, View, off_ball, on_ball};
+use crate::control::bot::{GOAL, TeamView, off_ball, on_ball};
 use crate::football::pace::SPRINT_MPS;
 use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};
@@ -57,7 +57,7 @@ pub enum Pursuit {
 /// Decides whether a player goes for the ball. (GRF's.) If the ball is the team's to have, its
 /// first player goes. For an opponent's ball it is the nearest two, if they are near enough and
 /// mark nobody.
-pub fn pursuit(game: &Match, view: &View, id: PlayerId) -> Pursuit {
+pub fn pursuit(game: &Match, view: &TeamView, id: PlayerId) -> Pursuit {
     if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
         return Pursuit::Fetch;
     }
@@ -106,7 +106,7 @@ fn chance(game: &Match, id: PlayerId, rival: PlayerId) -> f32 {
 }
 
 /// Goes for a ball that is the team's to have.
-pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
+pub fn fetch(game: &mut Match, view: &TeamView, id: PlayerId) {
     let player = *game.player(id);
     let way = on_ball::set_off(game, id).unwrap_or((player.body.meet - player.pos).clamp_length_max(2.0));
     let body = &mut game.players[id.index()].body;
@@ -117,7 +117,7 @@ pub fn fetch(game: &mut Match, view: &View, id: PlayerId) {
 
 /// Goes for an opponent's ball. A player straight in front of the opponent waits in their place
 /// instead. (GRF's.)
-pub fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
+pub fn hunt(game: &mut Match, view: &TeamView, id: PlayerId, rival: PlayerId) {
     let carrier = *game.player(rival);
     let own = game.player(id).pos * view.side;
     let place = carrier.pos * view.side;
@@ -142,7 +142,7 @@ pub fn hunt(game: &mut Match, view: &View, id: PlayerId, rival: PlayerId) {
 }
 
 /// Whether the ball of an opponent is about to come to a player.
-pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
+pub fn is_met(game: &Match, view: &TeamView, id: PlayerId) -> bool {
     let Some(rival) = view.owner.filter(|owner| owner.team() != view.team) else { return false };
     let (player, carrier) = (game.player(id), game.player(rival));
     let ball = game.play.forecast.at(game.tick + MEETS_TICKS);
@@ -156,7 +156,7 @@ pub fn is_met(game: &Match, view: &View, id: PlayerId) -> bool {
 }
 
 /// Meets a ball that comes with an opponent.
-pub fn meet(game: &mut Match, view: &View, id: PlayerId) {
+pub fn meet(game: &mut Match, view: &TeamView, id: PlayerId) {
     let body = &mut game.players[id.index()].body;
     body.kick = None;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
@@ -173,7 +173,7 @@ fn hunt_m(game: &Match, player: &Player) -> f32 {
 
 /// Where a defender runs who sees a running carrier's back, own frame: past the carrier's shoulder.
 /// None if they are beside the carrier.
-fn alongside(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
+fn alongside(view: &TeamView, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let place = carrier.pos * view.side;
     let way = (-GOAL - place).normalize_or(Vec2::NEG_X);
     let from = own - place;
@@ -191,7 +191,7 @@ fn stands(carrier: &Player) -> bool {
 
 /// Where a player runs if a standing carrier is between them and the ball, own frame: round the
 /// carrier.
-fn around(view: &View, own: Vec2, carrier: &Player) -> Option<Vec2> {
+fn around(view: &TeamView, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let middle = carrier.pos * view.side;
     let from = own - middle;
     let way = (view.ball - middle).try_normalize()?;

@@ -1,7 +1,7 @@
 //! Supporting the player on the ball: forces draw a player to their place and to the ball, and push
 //! them away from opponents and teammates. (GRF's figures.)
 
-use crate::control::bot::View;
+use crate::control::bot::TeamView;
 use crate::control::bot::formation::mindset;
 use crate::football::block::HALF;
 use crate::football::pace::SPRINT_MPS;
@@ -84,7 +84,7 @@ impl Forces {
 }
 
 /// Where a player supports, own frame, given their place in the block.
-pub fn place(game: &Match, view: &View, id: PlayerId, base: Vec2) -> Vec2 {
+pub fn place(game: &Match, view: &TeamView, id: PlayerId, base: Vec2) -> Vec2 {
     let player = game.player(id);
     let role = game.player(player.body.mind.fills).role;
     let mind = mindset(role);
@@ -157,7 +157,7 @@ fn may_run(role: Role, nearness: f32) -> bool {
 
 /// Chooses who supports the player on the ball. In a team with at most one agent it also chooses
 /// who runs forward.
-pub fn assign(game: &mut Match, view: &View) {
+pub fn assign(game: &mut Match, view: &TeamView) {
     let Some(main) = game.play.chaser[view.team.index()] else { return };
     let place = game.player(main).pos;
     if game.step.is_multiple_of(HELPER_EVERY) {

@@ -18,7 +18,7 @@ const WHOLE_MATCH_STEPS: f32 = 3000.0;
 
 /// What a team's bots know of the game in a step.
 #[derive(Clone, Copy, Debug)]
-pub struct View {
+pub struct TeamView {
     /// The team.
     pub team: Team,
     /// +1 if the team attacks towards +x.
@@ -49,19 +49,19 @@ pub struct View {
     pub board: Board,
 }
 
-impl View {
+impl TeamView {
     /// Computes what both teams know now.
-    pub fn of_both(game: &Match) -> [View; 2] {
+    pub fn of_both(game: &Match) -> [TeamView; 2] {
         let (board, means) = (Board::of(game), game.play.recent.ball_means(game.ball.pos.truncate()));
-        [Team::Left, Team::Right].map(|team| View::of(game, team, board, means))
+        [Team::Left, Team::Right].map(|team| TeamView::of(game, team, board, means))
     }
 
     /// Computes what a team knows now.
-    fn of(game: &Match, team: Team, board: Board, means: BallMeans) -> View {
+    fn of(game: &Match, team: Team, board: Board, means: BallMeans) -> TeamView {
         let side = team.side() as f32;
         let owner = game.on_ball();
-        let soonest = [team, team.other()].map(|team| View::soonest(game, team));
-        let mut view = View {
+        let soonest = [team, team.other()].map(|team| TeamView::soonest(game, team));
+        let mut view = TeamView {
             team,
             side,
             ball: game.ball.pos.truncate() * side,
@@ -107,7 +107,7 @@ impl View {
         }
         let ball = game.play.forecast.at(game.tick + 30).truncate();
         let far = share(ball.distance(game.player(id).pos), 2.0, 14.0);
-        let calm = |team| View::soonest(game, team).min(60.0) + 1.5;
+        let calm = |team| TeamView::soonest(game, team).min(60.0) + 1.5;
         let now = calm(self.team.other()) / calm(self.team);
         now + (self.nearness - now) * far * far
     }
@@ -123,7 +123,7 @@ impl View {
         match game.possession {
             Some(team) => team == self.team,
             // Nobody has had it yet: the team that will be there first.
-            None => View::soonest(game, self.team) <= View::soonest(game, self.team.other()),
+            None => TeamView::soonest(game, self.team) <= TeamView::soonest(game, self.team.other()),
         }
     }
 }

@@ -7,9 +7,9 @@ use setpiece_scenario::{BinaryOp, Fold, Instr, Over, Program, Reg, UnaryOp, When
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
     /// Instructions that depend only on parameters and `let`s: run once per episode.
-    pub(super) once: Vec<Step>,
+    pub(super) once: Vec<PlanStep>,
     /// The others: run in every step.
-    pub(super) each_step: Vec<Step>,
+    pub(super) each_step: Vec<PlanStep>,
     /// The instructions without an [`Op`] of their own.
     pub(super) rare: Vec<Instr>,
     pub(super) loops: Vec<Loop>,
@@ -17,7 +17,7 @@ pub struct Plan {
 
 /// An instruction, small and flat, so that one jump reaches its code.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(super) struct PlanStep {
     pub(super) op: Op,
     /// Whether every lane has the same value there, so that one is enough.
     pub(super) uniform: bool,
@@ -81,13 +81,13 @@ pub(super) const ALWAYS: u32 = u32::MAX;
 pub(super) struct Loop {
     pub(super) over: Over,
     pub(super) fold: Fold,
-    pub(super) body: Vec<Step>,
+    pub(super) body: Vec<PlanStep>,
 }
 
 impl Plan {
     /// Prepares a verified program.
     pub fn of(program: &Program) -> Plan {
-        let mut reader = Reader {
+        let mut reader = ProgramReader {
             code: &program.code,
             uniform: vec![false; program.code.len()],
             open: Vec::new(),
@@ -106,7 +106,7 @@ impl Plan {
 }
 
 /// Reads a program, including nested loops.
-struct Reader<'a> {
+struct ProgramReader<'a> {
     code: &'a [Instr],
     uniform: Vec<bool>,
     /// The loops around the current instruction.
@@ -114,9 +114,9 @@ struct Reader<'a> {
     plan: Plan,
 }
 
-impl Reader<'_> {
+impl ProgramReader<'_> {
     /// The step of an instruction, and the index of the next one.
-    fn step(&mut self, at: usize) -> (Step, usize) {
+    fn step(&mut self, at: usize) -> (PlanStep, usize) {
         let instr = &self.code[at];
         let Instr::Each(each) = instr else {
             self.uniform[at] = self.is_uniform(instr);
@@ -139,12 +139,12 @@ impl Reader<'_> {
         self.open.pop();
         self.uniform[at] = uniform;
         self.plan.loops.push(Loop { over: each.over.clone(), fold: each.fold.clone(), body });
-        let step = Step { op: Op::Loop, uniform, at: at as u32, a: self.plan.loops.len() as u32 - 1, b: 0, c: 0 };
+        let step = PlanStep { op: Op::Loop, uniform, at: at as u32, a: self.plan.loops.len() as u32 - 1, b: 0, c: 0 };
         (step, end)
     }
 
     /// The step of an instruction that isn't a loop.
-    fn simple(&mut self, instr: &Instr, at: usize) -> Step {
+    fn simple(&mut self, instr: &Instr, at: usize) -> PlanStep {
         let guard = |guard: &Option<Reg>| guard.map_or(ALWAYS, |guard| guard.0);
         let (op, a, b, c) = match instr {
             Instr::Binary(op, a, b) if two(*op).is_some() => (two(*op).unwrap_or(Op::Add), a.0, b.0, 0),
@@ -174,7 +174,7 @@ impl Reader<'_> {
                 (op, self.plan.rare.len() as u32 - 1, 0, 0)
             }
         };
-        Step { op, uniform: self.uniform[at], at: at as u32, a, b, c }
+        PlanStep { op, uniform: self.uniform[at], at: at as u32, a, b, c }
     }
 
     fn is_uniform(&self, instr: &Instr) -> bool {

@@ -1,4 +1,4 @@
-use crate::judge::View;
+use crate::judge::MatchView;
 use crate::testing::{Code, event, run, view};
 use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Team};
 use setpiece_scenario::*;
@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 fn value(build: impl FnOnce(&mut Code) -> Reg) -> f64 {
     let mut code = Code::default();
     let reg = build(&mut code);
-    run(&code.program, &View::EMPTY, &View::EMPTY, &[], &mut [0.0; 4], false).regs[reg.index()]
+    run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, &[], &mut [0.0; 4], false).regs[reg.index()]
 }
 
 fn binary(op: BinaryOp, a: f64, b: f64) -> f64 {
@@ -99,9 +99,9 @@ fn effects_of_nan_do_nothing_and_are_counted() {
     let guard = Some(code.number(0.0));
     code.push(Instr::Give { term: 0, value: x, guard });
     let mut cells = [5.0];
-    let left = run(&code.program, &View::EMPTY, &View::EMPTY, &[], &mut cells, false);
+    let left = run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, &[], &mut cells, false);
     assert_eq!((left.terms[0], left.terms[1], left.faults, cells[0]), (0.0, 1.0, 2, 5.0));
-    let silent = run(&code.program, &View::EMPTY, &View::EMPTY, &[], &mut cells, true);
+    let silent = run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, &[], &mut cells, true);
     assert_eq!((silent.terms[1], silent.faults, cells[0]), (0.0, 0, 5.0));
 }
 
@@ -115,7 +115,11 @@ fn series(conditions: &[[bool; 2]], build: impl FnOnce(&mut Code, Reg, Reg) -> R
     let mut cells = [0.0; 2];
     let mut values = Vec::new();
     for (step, [first, second]) in conditions.iter().enumerate() {
-        let now = View { ball: [0.0, 0.0, f32::from(*first)], ball_vel: [0.0, 0.0, f32::from(*second)], ..View::EMPTY };
+        let now = MatchView {
+            ball: [0.0, 0.0, f32::from(*first)],
+            ball_vel: [0.0, 0.0, f32::from(*second)],
+            ..MatchView::EMPTY
+        };
         values.push(run(&code.program, &now, &now, &[], &mut cells, step == 0).regs[reg.index()]);
     }
     values
@@ -173,7 +177,10 @@ fn loads_read_now_and_prev() {
     let now = code.load(Field::BallX);
     let prev = code.push(Instr::Load { field: Field::BallX, of: None, when: When::Prev });
     let delta = code.binary(BinaryOp::Sub, now, prev);
-    let (a, b) = (View { ball: [3.0, 0.0, 0.0], ..View::EMPTY }, View { ball: [1.0, 0.0, 0.0], ..View::EMPTY });
+    let (a, b) = (
+        MatchView { ball: [3.0, 0.0, 0.0], ..MatchView::EMPTY },
+        MatchView { ball: [1.0, 0.0, 0.0], ..MatchView::EMPTY },
+    );
     assert_eq!(run(&code.program, &a, &b, &[], &mut [], false).regs[delta.index()], 2.0);
 }
 
@@ -247,7 +254,7 @@ fn counted(filter: EventFilter, events: &[crate::state::event::Event]) -> f64 {
     code.number(1.0);
     let fold = Fold { kind: FoldKind::Count, value: None, guard: None };
     let each = code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 0, fold })));
-    run(&code.program, &View::EMPTY, &View::EMPTY, events, &mut [], false).regs[each.index()]
+    run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, events, &mut [], false).regs[each.index()]
 }
 
 #[test]

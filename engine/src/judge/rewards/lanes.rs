@@ -10,7 +10,7 @@ use std::array;
 
 /// The program of a reward to run.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
+pub(super) enum LaneStage {
     /// The initial values.
     Init,
     /// The start state, for instructions that look back later. Nothing is paid.
@@ -23,11 +23,11 @@ pub(super) enum Stage {
 #[derive(Debug)]
 pub(super) enum Lanes {
     /// For one agent.
-    One(Box<Memory<1>>),
+    One(Box<LaneMemory<1>>),
     /// For up to four.
-    Four(Box<Memory<4>>),
+    Four(Box<LaneMemory<4>>),
     /// For up to a whole team; the number of lanes is even.
-    Twelve(Box<Memory<12>>),
+    Twelve(Box<LaneMemory<12>>),
 }
 
 impl Clone for Lanes {
@@ -51,7 +51,7 @@ impl Clone for Lanes {
 
 /// Registers, cells and terms, lane by lane.
 #[derive(Debug)]
-pub(super) struct Memory<const W: usize> {
+pub(super) struct LaneMemory<const W: usize> {
     init: Registers<W>,
     step: Registers<W>,
     cells: Vec<[f64; W]>,
@@ -59,16 +59,16 @@ pub(super) struct Memory<const W: usize> {
 }
 
 clone_in_place! {
-    Memory<const W: usize> { init, step, cells, terms }
+    LaneMemory<const W: usize> { init, step, cells, terms }
 }
 
 impl Lanes {
     /// Creates memory for this many agents.
     pub(super) fn new(init: &Program, step: &Program, n_terms: usize, n_agents: usize) -> Lanes {
         match n_agents {
-            0..=1 => Lanes::One(Box::new(Memory::new(init, step, n_terms))),
-            2..=4 => Lanes::Four(Box::new(Memory::new(init, step, n_terms))),
-            _ => Lanes::Twelve(Box::new(Memory::new(init, step, n_terms))),
+            0..=1 => Lanes::One(Box::new(LaneMemory::new(init, step, n_terms))),
+            2..=4 => Lanes::Four(Box::new(LaneMemory::new(init, step, n_terms))),
+            _ => Lanes::Twelve(Box::new(LaneMemory::new(init, step, n_terms))),
         }
     }
 
@@ -100,7 +100,7 @@ impl Lanes {
     }
 
     /// Runs a program of the reward for the agents' players.
-    pub(super) fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: Stage, faults: &mut u32) {
+    pub(super) fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: LaneStage, faults: &mut u32) {
         match self {
             Lanes::One(memory) => memory.run(players, input, stage, faults),
             Lanes::Four(memory) => memory.run(players, input, stage, faults),
@@ -136,9 +136,9 @@ impl Lanes {
     }
 }
 
-impl<const W: usize> Memory<W> {
-    fn new(init: &Program, step: &Program, n_terms: usize) -> Memory<W> {
-        Memory {
+impl<const W: usize> LaneMemory<W> {
+    fn new(init: &Program, step: &Program, n_terms: usize) -> LaneMemory<W> {
+        LaneMemory {
             init: Registers::of(init),
             step: Registers::of(step),
             cells: vec![[0.0; W]; step.cells as usize],
@@ -146,11 +146,11 @@ impl<const W: usize> Memory<W> {
         }
     }
 
-    fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: Stage, faults: &mut u32) {
+    fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: LaneStage, faults: &mut u32) {
         self.terms.fill([0.0; W]);
-        let (plan, regs) = if stage == Stage::Init { &mut self.init } else { &mut self.step }.parts();
+        let (plan, regs) = if stage == LaneStage::Init { &mut self.init } else { &mut self.step }.parts();
         let mut machine = Machine {
-            input: Input { silent: stage == Stage::Silent, ..*input },
+            input: Input { silent: stage == LaneStage::Silent, ..*input },
             crew: Crew {
                 players: array::from_fn(|lane| player_number(players.get(lane).copied().flatten())),
                 seated: array::from_fn(|lane| lane < players.len()),
@@ -162,7 +162,7 @@ impl<const W: usize> Memory<W> {
             faults,
             draws: None,
         };
-        if stage != Stage::Step {
+        if stage != LaneStage::Step {
             machine.begin();
         }
         machine.run();

@@ -1,6 +1,6 @@
 use super::*;
 use crate::football::begin;
-use crate::judge::{Sight, View};
+use crate::judge::{MatchView, Sight};
 use crate::state::event::Event;
 use crate::testing::{checkpoints, event, scenario, scoring};
 use setpiece_scenario::vocabulary::{EventKind, Role};
@@ -9,7 +9,7 @@ use setpiece_scenario::vocabulary::{EventKind, Role};
 struct Bench {
     judge: RewardJudge,
     game: Match,
-    prev: View,
+    prev: MatchView,
 }
 
 impl Bench {
@@ -28,8 +28,8 @@ impl Bench {
         let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
         let game = begin::blank(&drawn);
         let scripts = Scripts::compile(&scenario).unwrap();
-        let mut bench = Bench { judge: RewardJudge::new(rewards.into(), &scripts, 3), game, prev: View::EMPTY };
-        bench.prev = View::of(&bench.game);
+        let mut bench = Bench { judge: RewardJudge::new(rewards.into(), &scripts, 3), game, prev: MatchView::EMPTY };
+        bench.prev = MatchView::of(&bench.game);
         let input = input(&bench.prev, &bench.prev, &[]);
         bench.judge.reset(&bench.game, &input);
         bench
@@ -40,14 +40,14 @@ impl Bench {
         let (x, y) = setpiece_scenario::pitch::to_metres(ball.0, ball.1);
         self.game.ball.pos = glam::Vec3::new(x as f32, y as f32, 0.11);
         self.game.owner = owner.map(PlayerId);
-        let now = View::of(&self.game);
+        let now = MatchView::of(&self.game);
         self.judge.step(&self.game, &input(&now, &self.prev, events), None).unwrap();
         self.prev = now;
         self.judge.paid().to_vec()
     }
 }
 
-fn input<'a>(now: &'a View, prev: &'a View, events: &'a [Event]) -> Input<'a> {
+fn input<'a>(now: &'a MatchView, prev: &'a MatchView, events: &'a [Event]) -> Input<'a> {
     let us = Team::Left;
     let (now, prev) = (Some(Sight::Kept(now)), Some(Sight::Kept(prev)));
     Input { now, prev, events, params: &[], lets: &[], index: 0, us, silent: false }

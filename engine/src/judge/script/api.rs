@@ -17,7 +17,7 @@ pub use table::{Member, Subject, members};
 
 use crate::judge::script::Params;
 use crate::judge::script::budget::count_operations;
-use crate::judge::view::{PlayerView, View, player_index, team_of_number};
+use crate::judge::view::{MatchView, PlayerView, player_index, team_of_number};
 use crate::random::Stream;
 use crate::state::PlayerId;
 use crate::state::event::Event;
@@ -28,9 +28,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The data that the hooks of one step share.
 #[derive(Debug)]
-pub struct Scene {
-    now: View,
-    prev: View,
+pub struct HookScene {
+    now: MatchView,
+    prev: MatchView,
     events: Vec<Event>,
     params: Params,
     random: Mutex<Stream>,
@@ -40,14 +40,21 @@ pub struct Scene {
     pub index: u64,
 }
 
-impl Scene {
+impl HookScene {
     /// The scene of a step; `key` is the episode's seed and index.
-    pub fn new(now: View, prev: View, events: &[Event], params: Params, random: Stream, key: (u64, u64)) -> Scene {
-        Scene { now, prev, events: events.to_vec(), params, random: Mutex::new(random), seed: key.0, index: key.1 }
+    pub fn new(
+        now: MatchView,
+        prev: MatchView,
+        events: &[Event],
+        params: Params,
+        random: Stream,
+        key: (u64, u64),
+    ) -> HookScene {
+        HookScene { now, prev, events: events.to_vec(), params, random: Mutex::new(random), seed: key.0, index: key.1 }
     }
 
     /// Switches to another step.
-    pub fn show(&mut self, now: View, prev: &View, events: &[Event]) {
+    pub fn show(&mut self, now: MatchView, prev: &MatchView, events: &[Event]) {
         (self.now, self.prev) = (now, *prev);
         self.events.clear();
         self.events.extend_from_slice(events);
@@ -55,25 +62,25 @@ impl Scene {
 
     /// Creates a scene of another step that continues this one's random numbers.
     #[must_use]
-    pub fn followed_by(&self, now: View, prev: &View, events: &[Event]) -> Scene {
-        Scene::new(now, *prev, events, self.params.clone(), self.random(), (self.seed, self.index))
+    pub fn followed_by(&self, now: MatchView, prev: &MatchView, events: &[Event]) -> HookScene {
+        HookScene::new(now, *prev, events, self.params.clone(), self.random(), (self.seed, self.index))
     }
 
     /// The same scene with a behaviour's arguments in `ctx.params`.
     #[must_use]
-    pub fn with_arguments(self: &Arc<Scene>, perspective: Perspective, arguments: &[Argument<'_>]) -> Scene {
-        let sight = Sight::now(self, perspective);
+    pub fn with_arguments(self: &Arc<HookScene>, perspective: Perspective, arguments: &[Argument<'_>]) -> HookScene {
+        let sight = ShownState::now(self, perspective);
         let mut params = (*self.params).clone();
         params.extend(arguments.iter().map(|argument| (argument.name.into(), sight.argument(argument))));
         let key = (self.seed, self.index);
-        Scene {
+        HookScene {
             params: Arc::new(params),
-            ..Scene::new(self.now, self.prev, &self.events, Params::default(), self.random(), key)
+            ..HookScene::new(self.now, self.prev, &self.events, Params::default(), self.random(), key)
         }
     }
 
     /// Continues the random numbers of another scene.
-    pub fn take_random(&self, from: &Scene) {
+    pub fn take_random(&self, from: &HookScene) {
         *self.random.lock().unwrap_or_else(PoisonError::into_inner) = from.random();
     }
 
@@ -112,30 +119,30 @@ pub struct Perspective {
 
 /// `now` or `prev`.
 #[derive(Clone)]
-pub(super) struct Sight {
-    scene: Arc<Scene>,
+pub(super) struct ShownState {
+    scene: Arc<HookScene>,
     perspective: Perspective,
     past: bool,
 }
 
 /// `ctx`.
 #[derive(Clone)]
-pub(super) struct Ctx(Sight);
+pub(super) struct Ctx(ShownState);
 /// The ball.
 #[derive(Clone)]
-pub(super) struct Ball(Sight);
+pub(super) struct SeenBall(ShownState);
 /// A player.
 #[derive(Clone)]
-pub(super) struct Player(Sight, PlayerId);
+pub(super) struct SeenPlayer(ShownState, PlayerId);
 /// `us` or `them`.
 #[derive(Clone)]
-pub(super) struct Side(Sight, Team);
+pub(super) struct SeenTeam(ShownState, Team);
 /// The score.
 #[derive(Clone)]
-pub(super) struct Score(Sight);
+pub(super) struct SeenScore(ShownState);
 /// An event.
 #[derive(Clone)]
-pub(super) struct Happening(Sight, Event);
+pub(super) struct SeenEvent(ShownState, Event);
 /// A place; world metres, shown in the reader's frame.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Point {
@@ -148,20 +155,20 @@ pub(super) struct Vector {
     own: [f64; 2],
 }
 
-impl Sight {
-    pub(super) fn now(scene: &Arc<Scene>, perspective: Perspective) -> Sight {
-        Sight { scene: scene.clone(), perspective, past: false }
+impl ShownState {
+    pub(super) fn now(scene: &Arc<HookScene>, perspective: Perspective) -> ShownState {
+        ShownState { scene: scene.clone(), perspective, past: false }
     }
 
-    pub(super) fn prev(scene: &Arc<Scene>, perspective: Perspective) -> Sight {
-        Sight { scene: scene.clone(), perspective, past: true }
+    pub(super) fn prev(scene: &Arc<HookScene>, perspective: Perspective) -> ShownState {
+        ShownState { scene: scene.clone(), perspective, past: true }
     }
 
     pub(super) fn ctx(&self) -> Ctx {
         Ctx(self.clone())
     }
 
-    pub(super) fn scene(&self) -> &Scene {
+    pub(super) fn scene(&self) -> &HookScene {
         &self.scene
     }
 
@@ -183,7 +190,7 @@ impl Sight {
         }
     }
 
-    fn view(&self) -> &View {
+    fn view(&self) -> &MatchView {
         if self.past { &self.scene.prev } else { &self.scene.now }
     }
 
@@ -216,12 +223,15 @@ impl Sight {
 
     /// A player, or `()` for nobody.
     fn somebody(&self, id: Option<PlayerId>) -> Dynamic {
-        id.map_or(Dynamic::UNIT, |id| Dynamic::from(Player(self.clone(), id)))
+        id.map_or(Dynamic::UNIT, |id| Dynamic::from(SeenPlayer(self.clone(), id)))
     }
 
     fn players(&self, team: Option<Team>) -> Dynamic {
-        let list: Array =
-            self.view().on_pitch(team).map(|(id, _)| Dynamic::from(Player(self.clone(), PlayerId(id as u8)))).collect();
+        let list: Array = self
+            .view()
+            .on_pitch(team)
+            .map(|(id, _)| Dynamic::from(SeenPlayer(self.clone(), PlayerId(id as u8))))
+            .collect();
         // Making the list is work. If no operations are left, the next one fails.
         count_operations(list.len() as u64 / 2);
         list.into()
@@ -236,21 +246,42 @@ impl Point {
 }
 
 /// This step's events, as an array.
-pub(super) fn events_of(now: &Sight) -> Array {
-    now.scene.events.iter().map(|event| Dynamic::from(Happening(now.clone(), *event))).collect()
+pub(super) fn events_of(now: &ShownState) -> Array {
+    now.scene.events.iter().map(|event| Dynamic::from(SeenEvent(now.clone(), *event))).collect()
+}
+
+/// Gives every type that scripts see the name by which reports call it.
+macro_rules! names_of_types {
+    ($($of:ty: $name:literal),+ $(,)?) => {
+        fn register_types(engine: &mut Engine) {
+            $(engine.register_type_with_name::<$of>($name);)+
+        }
+
+        /// The name of a type of the interface, by its Rust name.
+        pub(super) fn type_name(rust_name: &str) -> Option<&'static str> {
+            $(if rust_name == std::any::type_name::<$of>() {
+                return Some($name);
+            })+
+            None
+        }
+    };
+}
+
+names_of_types! {
+    ShownState: "state of the match",
+    Ctx: "context",
+    SeenBall: "ball",
+    SeenPlayer: "player",
+    SeenTeam: "team",
+    SeenScore: "score",
+    SeenEvent: "event",
+    Point: "point",
+    Vector: "vector",
 }
 
 /// Registers types, getters and functions.
 pub(super) fn register(engine: &mut Engine) {
-    engine.register_type_with_name::<Sight>("state of the match");
-    engine.register_type_with_name::<Ctx>("context");
-    engine.register_type_with_name::<Ball>("ball");
-    engine.register_type_with_name::<Player>("player");
-    engine.register_type_with_name::<Side>("team");
-    engine.register_type_with_name::<Score>("score");
-    engine.register_type_with_name::<Happening>("event");
-    engine.register_type_with_name::<Point>("point");
-    engine.register_type_with_name::<Vector>("vector");
+    register_types(engine);
     getters::register(engine);
     functions::register(engine);
 }

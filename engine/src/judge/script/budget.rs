@@ -39,7 +39,7 @@ pub(super) const COUNTED: &str = "setpiece_counted";
 const WORKED: &str = "setpiece_worked";
 pub(super) const RESERVED: &[&str] = &[COUNTED, WORKED];
 
-type Failable<T> = Result<T, Box<EvalAltResult>>;
+pub(crate) type Failable<T> = Result<T, Box<EvalAltResult>>;
 
 thread_local! {
     /// Operations that the current call may still use.
@@ -81,13 +81,13 @@ pub(super) enum Why {
 
 /// What ends a call, and where. (Rhai itself loses the place.)
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Over {
+pub(super) struct Overspent {
     pub(super) why: Why,
     pub(super) place: Option<(usize, usize)>,
 }
 
 fn over(why: Why, at: Position) -> Failable<()> {
-    let over = Over { why, place: host::line_column(at) };
+    let over = Overspent { why, place: host::line_column(at) };
     Err(EvalAltResult::ErrorTerminated(Dynamic::from(over), at).into())
 }
 

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 
 /// A callable script.
 #[derive(Debug)]
-pub(super) struct Code {
+pub(super) struct CompiledScript {
     ast: AST,
     /// Its bytecode; none if a part needs the tree walker.
     program: Option<Program<'static>>,
@@ -20,13 +20,13 @@ thread_local! {
     static MACHINE: RefCell<Option<Vm<'static>>> = const { RefCell::new(None) };
 }
 
-impl Code {
-    pub(super) fn of(ast: AST) -> Code {
+impl CompiledScript {
+    pub(super) fn of(ast: AST) -> CompiledScript {
         let program = Compiler::new().compile(&ast);
         // A closure outlives its machine's frame, and parts that aren't lowered are found by name.
         // Both need the tree walker.
         let whole = program.residual_count() == 0 && !program.makes_fn_pointers();
-        Code { ast, program: whole.then_some(program) }
+        CompiledScript { ast, program: whole.then_some(program) }
     }
 
     /// Forces the tree walker.

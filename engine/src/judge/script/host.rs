@@ -1,6 +1,6 @@
 //! The process's one Rhai engine: what a script may use, and how much.
 
-use super::budget::{BYTES_PER_OPERATION, OPERATIONS_MAX, Over, Why};
+use super::budget::{BYTES_PER_OPERATION, OPERATIONS_MAX, Overspent, Why};
 use super::{api, budget};
 use rhai::packages::{
     ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage, BasicStringPackage,
@@ -151,15 +151,15 @@ pub(super) fn to_number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
 
 /// The total content of a script's memory.
 #[derive(Default)]
-struct Held {
+struct MemorySize {
     elements: usize,
     entries: usize,
     bytes: usize,
     levels: usize,
-    scenes: Vec<*const api::Scene>,
+    scenes: Vec<*const api::HookScene>,
 }
 
-impl Held {
+impl MemorySize {
     /// Adds a value; stops if the total is too large.
     fn add(&mut self, value: &Dynamic, level: usize) -> Result<(), String> {
         self.levels = self.levels.max(level);
@@ -202,7 +202,7 @@ impl Held {
     fn scenes_within(mut self, bytes: usize) -> Result<(), String> {
         self.scenes.sort_unstable();
         self.scenes.dedup();
-        let max = (bytes / size_of::<api::Scene>()).max(SCENES_LEAST);
+        let max = (bytes / size_of::<api::HookScene>()).max(SCENES_LEAST);
         if self.scenes.len() > max {
             return Err(format!(
                 "`this` holds what was shown in more than {max} steps: keep the numbers that are needed of it"
@@ -216,7 +216,7 @@ impl Held {
 /// are passed on, not those that grow in place. A value that was shown to the script keeps its
 /// whole step, which counts towards these bytes.
 pub(super) fn check_size(memory: &Dynamic, bytes: usize) -> Result<(), String> {
-    let mut held = Held::default();
+    let mut held = MemorySize::default();
     held.add(memory, 0)?;
     held.scenes_within(bytes)
 }
@@ -240,7 +240,9 @@ pub(super) fn explain(error: Box<EvalAltResult>) -> (Option<(usize, usize)>, Str
             }
             other => {
                 let known = match &other {
-                    EvalAltResult::ErrorTerminated(token, _) => token.read_lock::<Over>().and_then(|over| over.place),
+                    EvalAltResult::ErrorTerminated(token, _) => {
+                        token.read_lock::<Overspent>().and_then(|over| over.place)
+                    }
                     _ => None,
                 };
                 let place = known.or(here).or(place);
@@ -260,7 +262,7 @@ fn words_of_size(words: &str) -> String {
 
 fn runtime_message(error: EvalAltResult) -> String {
     match error {
-        EvalAltResult::ErrorTerminated(token, _) if token.is::<Over>() => match token.cast::<Over>().why {
+        EvalAltResult::ErrorTerminated(token, _) if token.is::<Overspent>() => match token.cast::<Overspent>().why {
             Why::Size => format!(
                 "more than {OPERATIONS_MAX} operations in one call: work on values counts by their size, \
                  {BYTES_PER_OPERATION} bytes to an operation"
@@ -303,7 +305,10 @@ pub(super) fn type_words(name: &str) -> String {
         "i64" => "a whole number".to_owned(),
         "f64" => "a number".to_owned(),
         "string" | "map" | "array" | "bool" | "char" => format!("a {name}"),
-        other => format!("`{}`", tidy(other)),
+        other => match api::type_name(other) {
+            Some(name) => format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }),
+            None => format!("`{}`", tidy(other)),
+        },
     }
 }
 

@@ -7,7 +7,7 @@ use crate::testing::{event, scenario, view};
 use setpiece_scenario::Script;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team};
 
-fn scene(events: &[Event]) -> Arc<Scene> {
+fn scene(events: &[Event]) -> Arc<HookScene> {
     let prev = view([0.0, 0.0], [20.0, 0.0], [0.0, 0.0, 0.11]);
     let mut now = view([27.2, 8.36], [30.2, 12.36], [27.2, -8.36, 0.5]);
     now.owner = Some(PlayerId(1));
@@ -17,7 +17,7 @@ fn scene(events: &[Event]) -> Arc<Scene> {
     now.players[1].vel = [3.0, 4.0];
     let mut params = rhai::Map::new();
     params.insert("width".into(), 4.5.into());
-    Arc::new(Scene::new(now, prev, events, Arc::new(params), Stream::new(1, 2, Purpose::Script), (1, 2)))
+    Arc::new(HookScene::new(now, prev, events, Arc::new(params), Stream::new(1, 2, Purpose::Script), (1, 2)))
 }
 
 fn scripts(source: &str) -> Scripts {
@@ -99,7 +99,11 @@ fn whole_numbers_serve_where_numbers_do() {
     near(pay("clamp(7, 0, 5) + clamp(now.ball.x, 0, 1) + clamp(0.5, 0.0, 1)"), 6.0);
     near(pay("smoothstep(0, 1, now.ball.x) + smoothstep(0, 10, 5)"), 1.0);
     near(pay("distance(now.point(1, 0), now.point(0.5, 0))"), 27.2);
-    assert!(fail("clamp(now.ball, 0, 1)").message.contains("expected a number, found `Ball`"));
+    assert!(fail("clamp(now.ball, 0, 1)").message.contains("expected a number, found a ball"));
+    let found = fail("nearest(now.us.players, 3.0)").message;
+    assert!(found.contains("expected a player, a point or the ball, found a number"), "{found}");
+    let found = fail("distance(now.ball, now.score)").message;
+    assert!(!found.contains("Seen"), "{found}");
     let racing = fail("now.them.players.filter(|p| p.x > now.ball.x).len()");
     assert!(racing.message.contains("a closure reads the variable"), "{racing}");
     near(pay("let all = now.them.players; all.filter(|p| p.x > now.ball.x).len()"), 1.0);

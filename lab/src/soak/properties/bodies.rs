@@ -1,7 +1,7 @@
 //! All numbers are finite, and players and ball are where they can be.
 
 use super::must;
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use setpiece::engine::physics::lines::{OUT_X, OUT_Y};
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
@@ -13,7 +13,7 @@ const BALL_MPS: f32 = 60.0;
 const PLAYER_MPS: f32 = 12.0;
 
 /// Checks any single state.
-pub(super) fn sound(game: &Match) -> Result<(), Failure> {
+pub(super) fn sound(game: &Match) -> Result<(), LabError> {
     ball(game)?;
     for i in (0..PLAYERS_MAX).filter(|&i| game.players[i].active) {
         must(game.squad.has(PlayerId(i as u8)), || format!("player {i} is nobody"))?;
@@ -30,7 +30,7 @@ pub(super) fn sound(game: &Match) -> Result<(), Failure> {
     agents(game)
 }
 
-fn ball(game: &Match) -> Result<(), Failure> {
+fn ball(game: &Match) -> Result<(), LabError> {
     let ball = game.ball;
     must(ball.pos.is_finite() && ball.vel.is_finite() && ball.spin.is_finite(), || format!("the ball: {ball:?}"))?;
     must(ball.pos.z >= 0.1099, || format!("the ball is in the ground: {ball:?}"))?;
@@ -39,7 +39,7 @@ fn ball(game: &Match) -> Result<(), Failure> {
     must(inside || game.dead, || format!("the ball is out at {:?} and play goes on", ball.pos))
 }
 
-fn player(game: &Match, i: usize) -> Result<(), Failure> {
+fn player(game: &Match, i: usize) -> Result<(), LabError> {
     let player = &game.players[i];
     let (x, y) = (RIM_X_M as f32 + 0.001, RIM_Y_M as f32 + 0.001);
     let finite = player.pos.is_finite() && player.vel.is_finite() && player.heading_rad.is_finite();
@@ -52,7 +52,7 @@ fn player(game: &Match, i: usize) -> Result<(), Failure> {
 }
 
 /// Every agent has a player of its team, each a different one. It has none only if nobody is left.
-fn agents(game: &Match) -> Result<(), Failure> {
+fn agents(game: &Match) -> Result<(), LabError> {
     let mut taken = 0u32;
     for (slot, agent) in game.agents.iter().enumerate() {
         let Some(id) = agent.player else { continue };
@@ -65,7 +65,7 @@ fn agents(game: &Match) -> Result<(), Failure> {
 }
 
 /// Nobody appears, nobody changes teams, and agents stay the same.
-pub(super) fn hold(before: &Match, judged: &Match) -> Result<(), Failure> {
+pub(super) fn hold(before: &Match, judged: &Match) -> Result<(), LabError> {
     for i in 0..PLAYERS_MAX {
         let (was, is) = (&before.players[i], &judged.players[i]);
         must(was.active || !is.active, || format!("player {i} has appeared"))?;

@@ -1,7 +1,7 @@
 //! Checks a step tick by tick: nothing passes through anything, nothing jumps.
 
 use super::{Step, must};
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use glam::{Vec2, Vec3};
 use setpiece::engine::control;
 use setpiece::engine::environment::Scratch;
@@ -38,13 +38,13 @@ const NET_M: f32 = 0.2;
 /// The memory from tick to tick: which players have been apart since they were placed, one bit
 /// each.
 #[derive(Debug, Default)]
-pub(super) struct Film {
+pub(super) struct TickMemory {
     apart: [u32; PLAYERS_MAX],
 }
 
-impl Film {
+impl TickMemory {
     /// Plays a step again and checks each of its ticks. The result must be the same.
-    pub(super) fn watch(&mut self, before: &Match, step: &Step, scratch: &mut Scratch) -> Result<(), Failure> {
+    pub(super) fn watch(&mut self, before: &Match, step: &Step, scratch: &mut Scratch) -> Result<(), LabError> {
         let mut game = before.clone();
         let mut events = Events::new();
         // A player that an agent has switched away from is the bot's for this step, even if
@@ -62,12 +62,12 @@ impl Film {
         }
         same(&game, step.judged)?;
         if step.judged.dead {
-            *self = Film::default();
+            *self = TickMemory::default();
         }
         Ok(())
     }
 
-    pub(super) fn tick(&mut self, was: &Match, now: &Match) -> Result<(), Failure> {
+    pub(super) fn tick(&mut self, was: &Match, now: &Match) -> Result<(), LabError> {
         ball(was, now)?;
         for i in (0..PLAYERS_MAX).filter(|&i| was.players[i].active && now.players[i].active) {
             player(i, was.players[i].pos, now.players[i].pos)?;
@@ -80,7 +80,7 @@ impl Film {
 
     /// Two players on their feet don't run through each other: however far a crowd presses them
     /// together, they never swap sides.
-    pub(super) fn pair(&mut self, was: &Match, now: &Match, i: usize, j: usize) -> Result<(), Failure> {
+    pub(super) fn pair(&mut self, was: &Match, now: &Match, i: usize, j: usize) -> Result<(), LabError> {
         let between = |game: &Match| game.players[j].pos - game.players[i].pos;
         let (from, to) = (between(was), between(now));
         let up = [i, j].iter().all(|&k| now.players[k].body.pose == Pose::Up);
@@ -96,7 +96,7 @@ impl Film {
 }
 
 /// Whether a step played again has the same result.
-fn same(again: &Match, judged: &Match) -> Result<(), Failure> {
+fn same(again: &Match, judged: &Match) -> Result<(), LabError> {
     must(again.ball == judged.ball && again.score == judged.score, || "the ball went another way".to_owned())?;
     for (i, (a, b)) in again.players.iter().zip(&judged.players).enumerate() {
         must((a.pos, a.vel, a.active) == (b.pos, b.vel, b.active), || format!("player {i} went another way"))?;
@@ -106,7 +106,7 @@ fn same(again: &Match, judged: &Match) -> Result<(), Failure> {
 
 /// A free ball flies. It may meet frame and nets from outside, and enters the goal only through its
 /// mouth.
-fn ball(was: &Match, now: &Match) -> Result<(), Failure> {
+fn ball(was: &Match, now: &Match) -> Result<(), LabError> {
     let (from, to) = (was.ball.pos, now.ball.pos);
     let held = |game: &Match| game.play.hands.is_some() || game.play.set_piece.is_some();
     let scored = now.score != was.score;
@@ -182,7 +182,7 @@ fn between(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f32 {
 }
 
 /// A player runs; they never jump, and never pass through nets.
-fn player(i: usize, from: Vec2, to: Vec2) -> Result<(), Failure> {
+fn player(i: usize, from: Vec2, to: Vec2) -> Result<(), LabError> {
     let way = from.distance(to);
     must(way <= STRIDE_M, || format!("player {i} has jumped {way} m: {from} to {to}"))?;
     if to.x.abs() < GOAL_X - 1.0 || to.y.abs() > POST_Y + 1.0 {
@@ -203,7 +203,7 @@ fn player(i: usize, from: Vec2, to: Vec2) -> Result<(), Failure> {
 }
 
 /// Opponents keep out of the centre circle until a kick-off has been taken.
-fn circle(now: &Match) -> Result<(), Failure> {
+fn circle(now: &Match) -> Result<(), LabError> {
     let Some(team) = now.play.kick_off.filter(|_| now.rule(Rule::KickoffCircle)) else { return Ok(()) };
     for (i, player) in now.players.iter().enumerate() {
         let keeps = !player.active || PlayerId(i as u8).team() == team;

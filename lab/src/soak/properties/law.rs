@@ -1,7 +1,7 @@
 //! The clock, the score, cards, and which event belongs to which restart.
 
 use super::{Step, must};
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use setpiece::engine::football::whistle::event_of;
 use setpiece::engine::state::event::Event;
 use setpiece::engine::state::{Match, PlayerId};
@@ -19,7 +19,7 @@ const RULED_OUT: [(Rule, &[EventKind]); 6] = [
 ];
 
 /// Checks any single step.
-pub(super) fn hold(before: &Match, step: &Step) -> Result<(), Failure> {
+pub(super) fn hold(before: &Match, step: &Step) -> Result<(), LabError> {
     clock(before, step)?;
     score(before, step)?;
     cards(before, step)?;
@@ -41,7 +41,7 @@ fn count(events: &[Event], which: impl Fn(&Event) -> bool) -> usize {
 
 /// A step counts as one, with ten ticks if play isn't stopped. Half-time comes once and in time,
 /// full time at the limit.
-fn clock(before: &Match, step: &Step) -> Result<(), Failure> {
+fn clock(before: &Match, step: &Step) -> Result<(), LabError> {
     let Step { judged, after, events, .. } = step;
     must(judged.step == before.step + 1, || format!("step {} follows {}", judged.step, before.step))?;
     let ticks = judged.tick - before.tick;
@@ -69,7 +69,7 @@ fn clock(before: &Match, step: &Step) -> Result<(), Failure> {
 }
 
 /// The score only rises with a goal event of the team, by at most one per step.
-fn score(before: &Match, step: &Step) -> Result<(), Failure> {
+fn score(before: &Match, step: &Step) -> Result<(), LabError> {
     let Step { judged, after, events, .. } = step;
     for team in [Team::Left, Team::Right] {
         let goals = count(events, |event| event.kind == EventKind::Goal && event.team == Some(team));
@@ -87,7 +87,7 @@ fn score(before: &Match, step: &Step) -> Result<(), Failure> {
 
 /// Cards are never taken back and only rise with their event. The second yellow is red. Red removes
 /// a player for good, unless they are the last.
-fn cards(before: &Match, step: &Step) -> Result<(), Failure> {
+fn cards(before: &Match, step: &Step) -> Result<(), LabError> {
     let Step { judged, after, events, .. } = step;
     must(judged.squad == after.squad, || "a restart changed who takes part".to_owned())?;
     for i in 0..PLAYERS_MAX {
@@ -109,7 +109,7 @@ fn cards(before: &Match, step: &Step) -> Result<(), Failure> {
 }
 
 /// Nobody recovers except at half-time, and nobody tires if fatigue is off.
-fn tiredness(before: &Match, step: &Step) -> Result<(), Failure> {
+fn tiredness(before: &Match, step: &Step) -> Result<(), LabError> {
     let renewed = step.judged.play.second_half && !before.play.second_half;
     for (i, (was, is)) in before.players.iter().zip(&step.judged.players).enumerate() {
         let grows = is.fatigue >= was.fatigue && (step.judged.rule(Rule::Fatigue) || is.fatigue == was.fatigue);
@@ -130,7 +130,7 @@ fn is_restart(kind: EventKind) -> bool {
 }
 
 /// Play is only stopped by something that leads to a restart, at most once per step.
-fn stop(before: &Match, step: &Step) -> Result<(), Failure> {
+fn stop(before: &Match, step: &Step) -> Result<(), LabError> {
     use EventKind::{Corner, Foul, FreeKick, Goal, GoalKick, HalfTime, Handball, Kickoff, Offside, OutOfPlay, Penalty};
     let Step { judged, events, .. } = step;
     let awards = count(events, |event| is_restart(event.kind) && event.qualifier.is_none());
@@ -157,7 +157,7 @@ fn given_to(game: &Match, team: Team) -> Team {
 
 /// After a stop the ball lies where it was awarded, and the team that has it waits to play it.
 /// Without a stop nothing changes.
-fn restart(step: &Step) -> Result<(), Failure> {
+fn restart(step: &Step) -> Result<(), LabError> {
     let Step { judged, after, events, .. } = step;
     must(!after.dead && after.play.pending.is_none(), || "a restart is left over".to_owned())?;
     if let Some(set_piece) = after.play.set_piece {
@@ -181,7 +181,7 @@ fn restart(step: &Step) -> Result<(), Failure> {
 }
 
 /// A set piece is taken by its taker, once; nothing else ends it.
-fn taken(before: &Match, step: &Step) -> Result<(), Failure> {
+fn taken(before: &Match, step: &Step) -> Result<(), LabError> {
     let Step { judged, events, .. } = step;
     let of = |event: &&Event| event.qualifier == Some(Qualifier::Taken);
     let set_pieces: Vec<_> = events.iter().filter(of).filter(|event| event.kind != EventKind::Kickoff).collect();

@@ -29,8 +29,9 @@ struct Taken {
 }
 
 impl Taken {
-    fn hold(&self) -> Result<(), Failure> {
-        let mut witness = Witness { before: self.before.clone(), film: Film::default(), waiting: Waiting::default() };
+    fn hold(&self) -> Result<(), LabError> {
+        let mut witness =
+            Witness { before: self.before.clone(), film: TickMemory::default(), waiting: Waiting::default() };
         let step = Step { actions: &self.actions, judged: &self.judged, after: &self.after, events: &self.events };
         witness.see(&step, &mut Scratch::default()).map(|_| ())
     }
@@ -114,7 +115,7 @@ fn what_goes_through_something_is_seen() {
     let step = open(&steps(0));
     spoilt(&step, "went another way", |step| step.judged.ball.pos.x += 0.01);
     spoilt(&step, "player 5 went another way", |step| step.judged.players[5].pos.x += 0.01);
-    let film = |was: &Match, now: &Match| Film::default().tick(was, now);
+    let film = |was: &Match, now: &Match| TickMemory::default().tick(was, now);
     let (free, ball) = (step.before.clone(), |game: &Match, at: Vec3, vel: Vec3| {
         let mut game = game.clone();
         (game.ball.pos, game.ball.vel) = (at, vel);
@@ -161,7 +162,7 @@ fn what_goes_through_something_is_seen() {
 
     let pair = |there: Vec2, back: Vec2| {
         let at = |game: &Match, way: Vec2| man(&man(game, 7, Vec2::new(30.0, 38.0)), 8, Vec2::new(30.0, 38.0) + way);
-        let mut film = Film::default();
+        let mut film = TickMemory::default();
         film.pair(&at(&free, there), &at(&free, there), 7, 8).unwrap();
         film.pair(&at(&free, there), &at(&free, back), 7, 8).is_ok()
     };

@@ -1,7 +1,7 @@
 //! Nothing waits for longer than allowed.
 
 use super::{Step, must};
-use crate::pitch::Failure;
+use crate::pitch::LabError;
 use glam::Vec2;
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::scenario::Ai;
@@ -34,7 +34,7 @@ pub(super) struct Waiting {
 
 impl Waiting {
     /// Checks a step.
-    pub(super) fn hold(&mut self, step: &Step) -> Result<(), Failure> {
+    pub(super) fn hold(&mut self, step: &Step) -> Result<(), LabError> {
         let game = step.judged;
         if game.dead {
             *self = Waiting::default();

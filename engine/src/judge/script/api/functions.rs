@@ -1,11 +1,11 @@
 //! The functions of the interface, and all other functions that scripts can call.
 
-use super::super::budget::count_bytes;
-use super::super::host::to_number;
-use super::{Ball, Ctx, Happening, Player, Point, Side, Sight, Vector};
+use super::super::budget::{Failable, count_bytes};
+use super::super::host::{to_number, type_words};
+use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenTeam, ShownState, Vector};
 use crate::judge::machine;
 use crate::judge::view::PlayerView;
-use rhai::{Array, Dynamic, Engine, EvalAltResult, NativeCallContext};
+use rhai::{Array, Dynamic, Engine, NativeCallContext};
 use setpiece_scenario::EventFilter;
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier};
@@ -185,8 +185,6 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
 /// Bytes that reading one element of a list counts as.
 const ELEMENT_BYTES: usize = 64;
 
-type Failable<T> = Result<T, Box<EvalAltResult>>;
-
 pub(super) fn register(engine: &mut Engine) {
     engine.register_fn("random", |ctx: &mut Ctx| {
         let mut random = ctx.0.scene.random.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -200,18 +198,18 @@ pub(super) fn register(engine: &mut Engine) {
         libm::atan2(a.side * (b.metres[1] - a.metres[1]), a.side * (b.metres[0] - a.metres[0]))
     });
     engine.register_fn("nearest", nearest);
-    engine.register_fn("pressed", |player: Player, within: f64| player.nearest_opponent_m() < within);
-    engine.register_fn("pressed", |player: Player, within: i64| player.nearest_opponent_m() < within as f64);
-    engine.register_fn("speed", |player: Player| {
+    engine.register_fn("pressed", |player: SeenPlayer, within: f64| player.nearest_opponent_m() < within);
+    engine.register_fn("pressed", |player: SeenPlayer, within: i64| player.nearest_opponent_m() < within as f64);
+    engine.register_fn("speed", |player: SeenPlayer| {
         let [x, y] = player.view().vel.map(f64::from);
         libm::hypot(x, y)
     });
-    engine.register_fn("speed", |ball: Ball| {
+    engine.register_fn("speed", |ball: SeenBall| {
         let [x, y, z] = ball.0.view().ball_vel.map(f64::from);
         libm::sqrt(x * x + y * y + z * z)
     });
-    engine.register_fn("point", |now: &mut Sight, x: f64, y: f64| now.normalised(x, y));
-    engine.register_fn("point", |now: &mut Sight, x: Dynamic, y: Dynamic| -> Failable<Point> {
+    engine.register_fn("point", |now: &mut ShownState, x: f64, y: f64| now.normalised(x, y));
+    engine.register_fn("point", |now: &mut ShownState, x: Dynamic, y: Dynamic| -> Failable<Point> {
         Ok(now.normalised(to_number(&x)?, to_number(&y)?))
     });
     engine.register_fn("count", |context: NativeCallContext, events: &mut Array, words: &str| {
@@ -227,45 +225,45 @@ pub(super) fn register(engine: &mut Engine) {
 fn between(engine: &mut Engine, name: &str, f: fn(Point, Point) -> f64) {
     fn from<A: Placed>(engine: &mut Engine, name: &str, f: fn(Point, Point) -> f64) {
         engine.register_fn(name, move |a: &mut A, b: Point| f(a.place(), b));
-        engine.register_fn(name, move |a: &mut A, b: Player| f(a.place(), b.place()));
-        engine.register_fn(name, move |a: &mut A, b: Ball| f(a.place(), b.place()));
-        engine.register_fn(name, move |a: &mut A, b: Happening| f(a.place(), b.place()));
+        engine.register_fn(name, move |a: &mut A, b: SeenPlayer| f(a.place(), b.place()));
+        engine.register_fn(name, move |a: &mut A, b: SeenBall| f(a.place(), b.place()));
+        engine.register_fn(name, move |a: &mut A, b: SeenEvent| f(a.place(), b.place()));
     }
     from::<Point>(engine, name, f);
-    from::<Player>(engine, name, f);
-    from::<Ball>(engine, name, f);
-    from::<Happening>(engine, name, f);
+    from::<SeenPlayer>(engine, name, f);
+    from::<SeenBall>(engine, name, f);
+    from::<SeenEvent>(engine, name, f);
     // Anything else gets an error about what was expected. Rhai tries this form last.
     engine.register_fn(name, move |a: Dynamic, b: Dynamic| -> Failable<f64> { Ok(f(place(&a)?, place(&b)?)) });
 }
 
 /// Values are equal if they are the same thing, whenever they were read.
 fn register_equality(engine: &mut Engine) {
-    engine.register_fn("==", |a: Player, b: Player| a.1 == b.1);
-    engine.register_fn("!=", |a: Player, b: Player| a.1 != b.1);
-    engine.register_fn("==", |_: Player, (): ()| false);
-    engine.register_fn("!=", |_: Player, (): ()| true);
-    engine.register_fn("==", |(): (), _: Player| false);
-    engine.register_fn("!=", |(): (), _: Player| true);
-    engine.register_fn("==", |a: Side, b: Side| a.1 == b.1);
-    engine.register_fn("!=", |a: Side, b: Side| a.1 != b.1);
-    engine.register_fn("==", |word: &str, team: Side| team.is_called(word));
-    engine.register_fn("!=", |word: &str, team: Side| !team.is_called(word));
-    engine.register_fn("==", |team: Side, word: &str| team.is_called(word));
-    engine.register_fn("!=", |team: Side, word: &str| !team.is_called(word));
+    engine.register_fn("==", |a: SeenPlayer, b: SeenPlayer| a.1 == b.1);
+    engine.register_fn("!=", |a: SeenPlayer, b: SeenPlayer| a.1 != b.1);
+    engine.register_fn("==", |_: SeenPlayer, (): ()| false);
+    engine.register_fn("!=", |_: SeenPlayer, (): ()| true);
+    engine.register_fn("==", |(): (), _: SeenPlayer| false);
+    engine.register_fn("!=", |(): (), _: SeenPlayer| true);
+    engine.register_fn("==", |a: SeenTeam, b: SeenTeam| a.1 == b.1);
+    engine.register_fn("!=", |a: SeenTeam, b: SeenTeam| a.1 != b.1);
+    engine.register_fn("==", |word: &str, team: SeenTeam| team.is_called(word));
+    engine.register_fn("!=", |word: &str, team: SeenTeam| !team.is_called(word));
+    engine.register_fn("==", |team: SeenTeam, word: &str| team.is_called(word));
+    engine.register_fn("!=", |team: SeenTeam, word: &str| !team.is_called(word));
     engine.register_fn("==", |a: Point, b: Point| a == b);
     engine.register_fn("!=", |a: Point, b: Point| a != b);
     engine.register_fn("==", |a: Vector, b: Vector| a == b);
     engine.register_fn("!=", |a: Vector, b: Vector| a != b);
 }
 
-impl Side {
+impl SeenTeam {
     fn is_called(&self, word: &str) -> bool {
         word == if self.1 == self.0.perspective.us { "us" } else { "them" }
     }
 }
 
-impl Player {
+impl SeenPlayer {
     pub(super) fn view(&self) -> &PlayerView {
         self.0.player(self.1)
     }
@@ -298,20 +296,20 @@ impl Placed for Point {
     }
 }
 
-impl Placed for Player {
+impl Placed for SeenPlayer {
     fn place(&self) -> Point {
         self.point()
     }
 }
 
-impl Placed for Ball {
+impl Placed for SeenBall {
     fn place(&self) -> Point {
         let [x, y, _] = self.0.view().ball;
         self.0.point([x, y])
     }
 }
 
-impl Placed for Happening {
+impl Placed for SeenEvent {
     fn place(&self) -> Point {
         self.0.point([self.1.at.x, self.1.at.y])
     }
@@ -323,11 +321,11 @@ fn place(of: &Dynamic) -> Failable<Point> {
         of.read_lock::<T>().map(|it| it.place())
     }
     of_a::<Point>(of)
-        .or_else(|| of_a::<Player>(of))
-        .or_else(|| of_a::<Ball>(of))
-        .or_else(|| of_a::<Happening>(of))
+        .or_else(|| of_a::<SeenPlayer>(of))
+        .or_else(|| of_a::<SeenBall>(of))
+        .or_else(|| of_a::<SeenEvent>(of))
         .ok_or_else(|| {
-            let found = if of.is_unit() { "nobody" } else { of.type_name() };
+            let found = if of.is_unit() { "nobody".to_owned() } else { type_words(of.type_name()) };
             format!("expected a player, a point or the ball, found {found}").into()
         })
 }
@@ -343,7 +341,7 @@ fn nearest(context: NativeCallContext, players: &mut Array, to: Dynamic) -> Fail
     let to = place(&to)?;
     let mut best: Option<(f64, &Dynamic)> = None;
     for element in &*players {
-        if let Some(player) = element.read_lock::<Player>() {
+        if let Some(player) = element.read_lock::<SeenPlayer>() {
             let apart = apart_m(player.point(), to);
             if best.is_none_or(|best| apart < best.0) {
                 best = Some((apart, element));
@@ -365,7 +363,7 @@ fn count(context: &NativeCallContext, events: &Array, words: &str, team: Option<
     }
     let filter = EventFilter { kind, qualifier: qualifier.flatten(), by: None, to: None };
     let matching = events.iter().filter(|event| {
-        event.read_lock::<Happening>().is_some_and(|event| {
+        event.read_lock::<SeenEvent>().is_some_and(|event| {
             let of_team = |word: &str| match event.1.team {
                 None => false,
                 Some(team) => word == if team == event.0.perspective.us { "us" } else { "them" },

@@ -1,8 +1,8 @@
 //! The getters behind the names.
 
 use super::table::{Subject, members};
-use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
-use crate::judge::view::{self, View, remaining_s};
+use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenScore, SeenTeam, ShownState, Vector};
+use crate::judge::view::{self, MatchView, remaining_s};
 use rhai::{Dynamic, Engine};
 use setpiece_scenario::pitch::{HALF_LENGTH_M, STEPS_PER_S, X_SCALE_M};
 use setpiece_scenario::vocabulary::{Qualifier, Team};
@@ -75,14 +75,14 @@ fn ctx(name: &str) -> Option<Getter<Ctx>> {
     })
 }
 
-fn state(name: &str) -> Option<Getter<Sight>> {
+fn state(name: &str) -> Option<Getter<ShownState>> {
     Some(match name {
-        "ball" => |now| Dynamic::from(Ball(now.clone())),
-        "us" => |now| Dynamic::from(Side(now.clone(), now.perspective.us)),
-        "them" => |now| Dynamic::from(Side(now.clone(), now.perspective.us.other())),
+        "ball" => |now| Dynamic::from(SeenBall(now.clone())),
+        "us" => |now| Dynamic::from(SeenTeam(now.clone(), now.perspective.us)),
+        "them" => |now| Dynamic::from(SeenTeam(now.clone(), now.perspective.us.other())),
         "me" => |now| now.somebody(now.perspective.me),
         "players" => |now| now.players(None),
-        "score" => |now| Dynamic::from(Score(now.clone())),
+        "score" => |now| Dynamic::from(SeenScore(now.clone())),
         "possession" => |now| now.team_word(now.view().possession),
         "elapsed" => |now| (f64::from(now.view().step) / STEPS_PER_S).into(),
         "remaining" => |now| remaining_s(now.view().step, now.view().limit_steps).into(),
@@ -92,12 +92,12 @@ fn state(name: &str) -> Option<Getter<Sight>> {
     })
 }
 
-fn ball(name: &str) -> Option<Getter<Ball>> {
-    fn at(ball: &Ball) -> Point {
+fn ball(name: &str) -> Option<Getter<SeenBall>> {
+    fn at(ball: &SeenBall) -> Point {
         let [x, y, _] = ball.0.view().ball;
         ball.0.point([x, y])
     }
-    fn velocity(ball: &Ball) -> [f64; 2] {
+    fn velocity(ball: &SeenBall) -> [f64; 2] {
         let [x, y, _] = ball.0.view().ball_vel;
         [x, y].map(|speed| ball.0.side() * f64::from(speed))
     }
@@ -120,7 +120,7 @@ fn ball(name: &str) -> Option<Getter<Ball>> {
     })
 }
 
-fn player(name: &str) -> Option<Getter<Player>> {
+fn player(name: &str) -> Option<Getter<SeenPlayer>> {
     Some(match name {
         "at" => |player| Dynamic::from(player.point()),
         "x" => |player| player.point().own()[0].into(),
@@ -148,8 +148,8 @@ fn player(name: &str) -> Option<Getter<Player>> {
     })
 }
 
-fn team(name: &str) -> Option<Getter<Side>> {
-    fn view(team: &Side) -> &View {
+fn team(name: &str) -> Option<Getter<SeenTeam>> {
+    fn view(team: &SeenTeam) -> &MatchView {
         team.0.view()
     }
     Some(match name {
@@ -164,8 +164,8 @@ fn team(name: &str) -> Option<Getter<Side>> {
     })
 }
 
-fn score(name: &str) -> Option<Getter<Score>> {
-    fn goals(score: &Score, team: Team) -> Dynamic {
+fn score(name: &str) -> Option<Getter<SeenScore>> {
+    fn goals(score: &SeenScore, team: Team) -> Dynamic {
         whole(score.0.view().score[team.index()])
     }
     Some(match name {
@@ -175,7 +175,7 @@ fn score(name: &str) -> Option<Getter<Score>> {
     })
 }
 
-fn event(name: &str) -> Option<Getter<Happening>> {
+fn event(name: &str) -> Option<Getter<SeenEvent>> {
     Some(match name {
         "kind" => |event| event.1.kind.name().into(),
         "qualifier" => |event| event.1.qualifier.map_or("", Qualifier::name).into(),

@@ -4,11 +4,11 @@
 //! hook was shown (`this.last = now`) leads to its scene; scenes stand on a [`Shelf`] of their own, each once, so that
 //! what was one is one again. The shelf is handed along beside the archive of an episode.
 
-use super::{Ball, Ctx, Happening, Player, Point, Score, Side, Sight, Vector};
-use super::{Perspective, Scene};
+use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenScore, SeenTeam, ShownState, Vector};
+use super::{HookScene, Perspective};
 use crate::judge::script::host::MEMORIES_BYTES_MAX;
 use crate::judge::script::{Memory, host};
-use crate::judge::view::View;
+use crate::judge::view::MatchView;
 use crate::random::Stream;
 use crate::snapshot::{Archive, SnapshotError, bounded};
 use crate::state::PlayerId;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// The scenes that memories refer to, each after those that its own parameters refer to.
 #[derive(Debug, Default)]
 pub(crate) struct Shelf {
-    scenes: Vec<Arc<Scene>>,
+    scenes: Vec<Arc<HookScene>>,
     kept: Vec<KeptScene>,
     /// The number of values read, over all memories.
     n_read: usize,
@@ -33,12 +33,12 @@ const NODES_MAX: usize = 1 << 20;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct KeptScene {
-    now: View,
-    prev: View,
+    now: MatchView,
+    prev: MatchView,
     #[serde(deserialize_with = "bounded::<_, _, EVENTS_MAX>")]
     events: Vec<Event>,
     #[serde(deserialize_with = "bounded::<_, _, NODES_MAX>")]
-    params: Vec<Node>,
+    params: Vec<KeptValue>,
     random: Stream,
     seed: u64,
     index: u64,
@@ -46,7 +46,7 @@ struct KeptScene {
 
 /// A value, or a collection of the values before it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-enum Node {
+enum KeptValue {
     Nothing,
     Truth(bool),
     Whole(i64),
@@ -61,17 +61,17 @@ enum Node {
     RangeThrough(i64, i64),
     Point([f64; 2], f64),
     Vector([f64; 2]),
-    Shown(Shown, Eye),
+    Shown(ShownKind, Eye),
 }
 
 /// The values of a memory.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(transparent)]
-struct Nodes(#[serde(deserialize_with = "bounded::<_, _, NODES_MAX>")] Vec<Node>);
+struct KeptValues(#[serde(deserialize_with = "bounded::<_, _, NODES_MAX>")] Vec<KeptValue>);
 
 /// A value that is shown to a hook.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-enum Shown {
+enum ShownKind {
     State,
     Ctx,
     Ball,
@@ -105,7 +105,7 @@ impl Memory {
         archive: &mut Archive<'_>,
         shelf: &mut Shelf,
     ) -> Result<(), SnapshotError> {
-        let mut nodes = Nodes::default();
+        let mut nodes = KeptValues::default();
         if !archive.is_reading() {
             shelf.write(&self.this, &mut nodes.0).map_err(Unkept::within_this)?;
         }
@@ -124,7 +124,7 @@ impl Shelf {
     pub(crate) fn archive(
         &mut self,
         name: &str,
-        scene: &mut Option<Arc<Scene>>,
+        scene: &mut Option<Arc<HookScene>>,
         archive: &mut Archive<'_>,
     ) -> Result<(), SnapshotError> {
         let mut at = scene.as_ref().map(|scene| self.place(scene)).transpose().map_err(Unkept::within_this)?;
@@ -148,14 +148,14 @@ impl Shelf {
         Ok(())
     }
 
-    fn stage(&mut self, kept: KeptScene) -> Result<Scene, String> {
+    fn stage(&mut self, kept: KeptScene) -> Result<HookScene, String> {
         let params = self.read(kept.params)?.try_cast::<Map>().ok_or("has no parameters")?;
         let key = (kept.seed, kept.index);
-        Ok(Scene::new(kept.now, kept.prev, &kept.events, Arc::new(params), kept.random, key))
+        Ok(HookScene::new(kept.now, kept.prev, &kept.events, Arc::new(params), kept.random, key))
     }
 
     /// The index of a scene, which is added if it is new.
-    fn place(&mut self, scene: &Arc<Scene>) -> Result<u32, Unkept> {
+    fn place(&mut self, scene: &Arc<HookScene>) -> Result<u32, Unkept> {
         if let Some(at) = self.scenes.iter().position(|known| Arc::ptr_eq(known, scene)) {
             return Ok(at as u32);
         }
@@ -174,12 +174,12 @@ impl Shelf {
         Ok(self.scenes.len() as u32 - 1)
     }
 
-    fn scene(&self, at: u32) -> Result<Arc<Scene>, String> {
+    fn scene(&self, at: u32) -> Result<Arc<HookScene>, String> {
         self.scenes.get(at as usize).cloned().ok_or_else(|| format!("leads to scene {at}, which is not there"))
     }
 
     /// Appends a value as nodes.
-    fn write(&mut self, value: &Dynamic, nodes: &mut Vec<Node>) -> Result<(), Unkept> {
+    fn write(&mut self, value: &Dynamic, nodes: &mut Vec<KeptValue>) -> Result<(), Unkept> {
         if nodes.len() >= NODES_MAX {
             return Err(Unkept { place: String::new(), what: format!("more than {NODES_MAX} values") });
         }
@@ -190,7 +190,7 @@ impl Shelf {
             for (at, part) in list.iter().enumerate() {
                 self.write(part, nodes).map_err(|unkept| unkept.at(&format!("[{at}]")))?;
             }
-            nodes.push(Node::List(list.len() as u32));
+            nodes.push(KeptValue::List(list.len() as u32));
             return Ok(());
         }
         let node = plain(value).map_or_else(|| self.shown(value), Ok)?;
@@ -198,16 +198,16 @@ impl Shelf {
         Ok(())
     }
 
-    fn write_map(&mut self, map: &Map, nodes: &mut Vec<Node>) -> Result<(), Unkept> {
+    fn write_map(&mut self, map: &Map, nodes: &mut Vec<KeptValue>) -> Result<(), Unkept> {
         for (name, part) in map {
             self.write(part, nodes).map_err(|unkept| unkept.at(&format!(".{name}")))?;
         }
-        nodes.push(Node::Table(map.keys().map(ToString::to_string).collect()));
+        nodes.push(KeptValue::Table(map.keys().map(ToString::to_string).collect()));
         Ok(())
     }
 
     /// Encodes a value that was shown to a hook.
-    fn shown(&mut self, value: &Dynamic) -> Result<Node, Unkept> {
+    fn shown(&mut self, value: &Dynamic) -> Result<KeptValue, Unkept> {
         let Some((shown, sight)) = shown(value) else {
             let function = value.is::<FnPtr>();
             let what = if function { "a function".to_owned() } else { host::type_words(value.type_name()) };
@@ -215,11 +215,11 @@ impl Shelf {
         };
         let Perspective { us, me, agent } = sight.perspective;
         let scene = self.place(&sight.scene)?;
-        Ok(Node::Shown(shown, Eye { scene, us, me, agent: agent as u32, past: sight.past }))
+        Ok(KeptValue::Shown(shown, Eye { scene, us, me, agent: agent as u32, past: sight.past }))
     }
 
     /// Decodes a value from nodes.
-    fn read(&mut self, nodes: Vec<Node>) -> Result<Dynamic, String> {
+    fn read(&mut self, nodes: Vec<KeptValue>) -> Result<Dynamic, String> {
         self.n_read += nodes.len();
         if self.n_read > NODES_MAX {
             return Err(format!("makes more than {NODES_MAX} values of all memories"));
@@ -228,8 +228,8 @@ impl Shelf {
         let mut open: Vec<(Dynamic, usize)> = Vec::new();
         for node in nodes {
             let n_parts = match &node {
-                Node::List(n) => *n as usize,
-                Node::Table(names) => names.len(),
+                KeptValue::List(n) => *n as usize,
+                KeptValue::Table(names) => names.len(),
                 _ => 0,
             };
             let first = open.len().checked_sub(n_parts).ok_or("lacks parts of a list or map")?;
@@ -240,21 +240,21 @@ impl Shelf {
             }
             let mut parts = parts.into_iter().map(|(part, _)| part);
             let value = match node {
-                Node::List(_) => Dynamic::from_array(parts.collect()),
-                Node::Table(names) => Dynamic::from_map(
+                KeptValue::List(_) => Dynamic::from_array(parts.collect()),
+                KeptValue::Table(names) => Dynamic::from_map(
                     names.into_iter().zip(&mut parts).map(|(name, part)| (name.into(), part)).collect(),
                 ),
-                Node::Nothing => Dynamic::UNIT,
-                Node::Truth(truth) => truth.into(),
-                Node::Whole(whole) => Dynamic::from_int(whole),
-                Node::Number(number) => number.into(),
-                Node::Letter(letter) => letter.into(),
-                Node::Text(text) => text.into(),
-                Node::Range(from, to) => Dynamic::from(from..to),
-                Node::RangeThrough(from, to) => Dynamic::from(from..=to),
-                Node::Point(metres, side) => Dynamic::from(Point { metres, side }),
-                Node::Vector(own) => Dynamic::from(Vector { own }),
-                Node::Shown(shown, eye) => self.show(shown, &eye)?,
+                KeptValue::Nothing => Dynamic::UNIT,
+                KeptValue::Truth(truth) => truth.into(),
+                KeptValue::Whole(whole) => Dynamic::from_int(whole),
+                KeptValue::Number(number) => number.into(),
+                KeptValue::Letter(letter) => letter.into(),
+                KeptValue::Text(text) => text.into(),
+                KeptValue::Range(from, to) => Dynamic::from(from..to),
+                KeptValue::RangeThrough(from, to) => Dynamic::from(from..=to),
+                KeptValue::Point(metres, side) => Dynamic::from(Point { metres, side }),
+                KeptValue::Vector(own) => Dynamic::from(Vector { own }),
+                KeptValue::Shown(shown, eye) => self.show(shown, &eye)?,
             };
             open.push((value, depth));
         }
@@ -264,17 +264,17 @@ impl Shelf {
         }
     }
 
-    fn show(&self, shown: Shown, eye: &Eye) -> Result<Dynamic, String> {
+    fn show(&self, shown: ShownKind, eye: &Eye) -> Result<Dynamic, String> {
         let perspective = Perspective { us: eye.us, me: eye.me, agent: eye.agent as usize };
-        let sight = Sight { scene: self.scene(eye.scene)?, perspective, past: eye.past };
+        let sight = ShownState { scene: self.scene(eye.scene)?, perspective, past: eye.past };
         Ok(match shown {
-            Shown::State => Dynamic::from(sight),
-            Shown::Ctx => Dynamic::from(Ctx(sight)),
-            Shown::Ball => Dynamic::from(Ball(sight)),
-            Shown::Player(player) => Dynamic::from(Player(sight, player)),
-            Shown::Side(team) => Dynamic::from(Side(sight, team)),
-            Shown::Score => Dynamic::from(Score(sight)),
-            Shown::Event(event) => Dynamic::from(Happening(sight, event)),
+            ShownKind::State => Dynamic::from(sight),
+            ShownKind::Ctx => Dynamic::from(Ctx(sight)),
+            ShownKind::Ball => Dynamic::from(SeenBall(sight)),
+            ShownKind::Player(player) => Dynamic::from(SeenPlayer(sight, player)),
+            ShownKind::Side(team) => Dynamic::from(SeenTeam(sight, team)),
+            ShownKind::Score => Dynamic::from(SeenScore(sight)),
+            ShownKind::Event(event) => Dynamic::from(SeenEvent(sight, event)),
         })
     }
 }
@@ -291,61 +291,61 @@ impl Unkept {
 }
 
 /// A value that was shown to a hook, and its scene.
-fn shown(value: &Dynamic) -> Option<(Shown, Sight)> {
-    Some(if let Some(sight) = value.read_lock::<Sight>() {
-        (Shown::State, sight.clone())
+fn shown(value: &Dynamic) -> Option<(ShownKind, ShownState)> {
+    Some(if let Some(sight) = value.read_lock::<ShownState>() {
+        (ShownKind::State, sight.clone())
     } else if let Some(ctx) = value.read_lock::<Ctx>() {
-        (Shown::Ctx, ctx.0.clone())
-    } else if let Some(ball) = value.read_lock::<Ball>() {
-        (Shown::Ball, ball.0.clone())
-    } else if let Some(player) = value.read_lock::<Player>() {
-        (Shown::Player(player.1), player.0.clone())
-    } else if let Some(side) = value.read_lock::<Side>() {
-        (Shown::Side(side.1), side.0.clone())
-    } else if let Some(score) = value.read_lock::<Score>() {
-        (Shown::Score, score.0.clone())
-    } else if let Some(happening) = value.read_lock::<Happening>() {
-        (Shown::Event(happening.1), happening.0.clone())
+        (ShownKind::Ctx, ctx.0.clone())
+    } else if let Some(ball) = value.read_lock::<SeenBall>() {
+        (ShownKind::Ball, ball.0.clone())
+    } else if let Some(player) = value.read_lock::<SeenPlayer>() {
+        (ShownKind::Player(player.1), player.0.clone())
+    } else if let Some(side) = value.read_lock::<SeenTeam>() {
+        (ShownKind::Side(side.1), side.0.clone())
+    } else if let Some(score) = value.read_lock::<SeenScore>() {
+        (ShownKind::Score, score.0.clone())
+    } else if let Some(happening) = value.read_lock::<SeenEvent>() {
+        (ShownKind::Event(happening.1), happening.0.clone())
     } else {
         return None;
     })
 }
 
 /// The scene that a value keeps.
-pub(in super::super) fn scene_of(value: &Dynamic) -> Option<*const Scene> {
+pub(in super::super) fn scene_of(value: &Dynamic) -> Option<*const HookScene> {
     shown(value).map(|(_, sight)| Arc::as_ptr(&sight.scene))
 }
 
 /// The node of a self-contained value.
-fn plain(value: &Dynamic) -> Option<Node> {
+fn plain(value: &Dynamic) -> Option<KeptValue> {
     if value.is_unit() {
-        return Some(Node::Nothing);
+        return Some(KeptValue::Nothing);
     }
     if let Ok(truth) = value.as_bool() {
-        return Some(Node::Truth(truth));
+        return Some(KeptValue::Truth(truth));
     }
     if let Ok(whole) = value.as_int() {
-        return Some(Node::Whole(whole));
+        return Some(KeptValue::Whole(whole));
     }
     if let Ok(number) = value.as_float() {
-        return Some(Node::Number(number));
+        return Some(KeptValue::Number(number));
     }
     if let Ok(letter) = value.as_char() {
-        return Some(Node::Letter(letter));
+        return Some(KeptValue::Letter(letter));
     }
     if let Some(text) = value.read_lock::<ImmutableString>() {
-        return Some(Node::Text(text.to_string()));
+        return Some(KeptValue::Text(text.to_string()));
     }
     if let Some(range) = value.read_lock::<Range<i64>>() {
-        return Some(Node::Range(range.start, range.end));
+        return Some(KeptValue::Range(range.start, range.end));
     }
     if let Some(range) = value.read_lock::<RangeInclusive<i64>>() {
-        return Some(Node::RangeThrough(*range.start(), *range.end()));
+        return Some(KeptValue::RangeThrough(*range.start(), *range.end()));
     }
     if let Some(point) = value.read_lock::<Point>() {
-        return Some(Node::Point(point.metres, point.side));
+        return Some(KeptValue::Point(point.metres, point.side));
     }
-    value.read_lock::<Vector>().map(|vector| Node::Vector(vector.own))
+    value.read_lock::<Vector>().map(|vector| KeptValue::Vector(vector.own))
 }
 
 #[cfg(test)]
@@ -359,13 +359,13 @@ mod tests {
             bytes.resize(bytes.len() + length, 0);
             bytes
         };
-        assert_eq!(postcard::from_bytes::<Nodes>(&bytes(NODES_MAX)).unwrap().0.len(), NODES_MAX);
-        assert!(postcard::from_bytes::<Nodes>(&bytes(NODES_MAX + 1)).is_err());
+        assert_eq!(postcard::from_bytes::<KeptValues>(&bytes(NODES_MAX)).unwrap().0.len(), NODES_MAX);
+        assert!(postcard::from_bytes::<KeptValues>(&bytes(NODES_MAX + 1)).is_err());
         let mut shelf = Shelf::default();
-        let nothings = || vec![Node::Nothing; NODES_MAX / 2];
+        let nothings = || vec![KeptValue::Nothing; NODES_MAX / 2];
         let first = shelf.read(nothings()).unwrap_err();
         assert_eq!(first, "is not one value");
         shelf.read(nothings()).unwrap_err();
-        assert!(shelf.read(vec![Node::Nothing]).unwrap_err().contains("all memories"), "they add up");
+        assert!(shelf.read(vec![KeptValue::Nothing]).unwrap_err().contains("all memories"), "they add up");
     }
 }

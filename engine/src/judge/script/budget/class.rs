@@ -109,7 +109,7 @@ const READING: &[&str] = &[
 const EACH: &[&str] = &["all", "filter", "find", "find_map", "for_each", "map", "some"];
 
 /// A function of a script, with its statements.
-pub(super) struct Function {
+pub(super) struct ScriptFunction {
     pub(super) name: String,
     pub(super) params: Vec<String>,
     pub(super) body: Vec<Stmt>,
@@ -117,7 +117,7 @@ pub(super) struct Function {
 
 /// What is known about a script's variables and functions.
 pub(super) struct Classes<'a> {
-    functions: &'a [Function],
+    functions: &'a [ScriptFunction],
     /// The classes of the variables of each function.
     variables: Vec<BTreeMap<String, Class>>,
     /// The class of each function's result.
@@ -151,7 +151,7 @@ const ROUNDS_MAX: usize = 8;
 pub(super) const ANONYMOUS: &str = "anon$";
 
 impl<'a> Classes<'a> {
-    pub(super) fn of(functions: &'a [Function], pointers: Pointers) -> Classes<'a> {
+    pub(super) fn of(functions: &'a [ScriptFunction], pointers: Pointers) -> Classes<'a> {
         let mut classes = Classes {
             functions,
             variables: vec![BTreeMap::new(); functions.len()],

@@ -10,7 +10,7 @@
 //! [`Edits`] maps places in it back to the author's text.
 
 use super::super::host;
-use super::class::{ANONYMOUS, Class, Classes, Function, Link, Pointers, closure, links};
+use super::class::{ANONYMOUS, Class, Classes, Link, Pointers, ScriptFunction, closure, links};
 use super::scan::{closing_bracket, expression_end};
 use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS, COUNTED, WORKED};
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
@@ -65,7 +65,7 @@ pub(in super::super) fn count_copies(source: &str, ast: &AST) -> Result<(String,
     let classes = Classes::of(&functions, pointers);
     let lines = std::iter::once(0).chain(source.match_indices('\n').map(|(at, _)| at + 1)).collect();
     let mut writer =
-        Writer { source, lines, classes, walked: pointers.any, function: 0, insertions: Vec::new(), lost: None };
+        CopyWriter { source, lines, classes, walked: pointers.any, function: 0, insertions: Vec::new(), lost: None };
     for (at, function) in functions.iter().enumerate() {
         writer.function = at;
         writer.statements(&function.body);
@@ -84,8 +84,8 @@ pub(in super::super) fn count_copies(source: &str, ast: &AST) -> Result<(String,
 
 /// The functions of a script, in text order. Functions that differ only in the type of `this` are
 /// one.
-fn functions(ast: &AST) -> Vec<Function> {
-    let mut list: Vec<(Position, Function)> = Vec::new();
+fn functions(ast: &AST) -> Vec<ScriptFunction> {
+    let mut list: Vec<(Position, ScriptFunction)> = Vec::new();
     for found in ast.iter_fn_def() {
         let (name, n_params) = (found.name.as_str(), found.params.len());
         let begins = found.body.start_position();
@@ -103,21 +103,21 @@ fn functions(ast: &AST) -> Vec<Function> {
             true
         });
         let params = found.params.iter().map(ToString::to_string).collect();
-        list.push((begins, Function { name: name.to_owned(), params, body }));
+        list.push((begins, ScriptFunction { name: name.to_owned(), params, body }));
     }
     list.sort_by_key(|(begins, _)| *begins);
     list.into_iter().map(|(_, function)| function).collect()
 }
 
 /// The starts of a function's bodies.
-fn bodies<'a>(ast: &'a AST, function: &'a Function) -> impl Iterator<Item = Position> + 'a {
+fn bodies<'a>(ast: &'a AST, function: &'a ScriptFunction) -> impl Iterator<Item = Position> + 'a {
     let same = |name: &str, n_params: usize| name == function.name && n_params == function.params.len();
     ast.iter_fn_def()
         .filter(move |found| same(&found.name, found.params.len()))
         .map(|found| found.body.start_position())
 }
 
-fn pointers(ast: &AST, functions: &[Function]) -> Pointers {
+fn pointers(ast: &AST, functions: &[ScriptFunction]) -> Pointers {
     let names: BTreeSet<&str> = functions.iter().map(|function| function.name.as_str()).collect();
     let mut pointers = Pointers { any: functions.iter().any(|own| own.name.starts_with(ANONYMOUS)), by_name: false };
     ast.walk(&mut |path: &[ASTNode]| {
@@ -132,7 +132,7 @@ fn pointers(ast: &AST, functions: &[Function]) -> Pointers {
     pointers
 }
 
-struct Writer<'a> {
+struct CopyWriter<'a> {
     source: &'a str,
     /// The starts of its lines.
     lines: Vec<usize>,
@@ -147,7 +147,7 @@ struct Writer<'a> {
     lost: Option<(usize, usize)>,
 }
 
-impl Writer<'_> {
+impl CopyWriter<'_> {
     fn offset(&mut self, position: Position) -> Option<usize> {
         let (line, column) = host::line_column(position)?;
         let start = *self.lines.get(line - 1)?;

@@ -161,7 +161,7 @@ fn a_compiled_file_runs_like_its_source_and_keeps_its_parameters() {
 
     let whole = std::fs::read_to_string(&compiled).unwrap();
     let cut = write(folder.path(), "cut.pitchc", &whole[..whole.len() / 2]);
-    fails(&["run", &cut], 1, &["SP0007", "cut off"]);
+    fails(&["run", &cut], 1, &["SP0007", "is truncated"]);
     let written = format!("\"version\":{}", setpiece::scenario::FORMAT_VERSION);
     for version in ["1", "99"] {
         let other = whole.replacen(&written, &format!("\"version\":{version}"), 1);
